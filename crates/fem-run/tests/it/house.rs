@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Each crate with the `description` of its manifest and the crates that it depends on. A crate follows
 /// those that it depends on.
-const HOUSE: [(&str, &str, &[&str]); 19] = [
+const HOUSE: [(&str, &str, &[&str]); 20] = [
     (
         "fem-material",
         "Isotropic viscoelastic materials: elastic moduli, Prony relaxation, hyperelastic laws",
@@ -31,11 +31,6 @@ const HOUSE: [(&str, &str, &[&str]); 19] = [
         "fem-laws",
         "Closed forms and reduced laws for the collision of two spheres",
         &["fem-material"],
-    ),
-    (
-        "fem-fit",
-        "Parameters of contact laws from measured or computed restitutions, and back",
-        &["fem-laws", "fem-material"],
     ),
     (
         "fem-case",
@@ -63,15 +58,14 @@ const HOUSE: [(&str, &str, &[&str]); 19] = [
         &["fem-collision", "fem-contact", "fem-element", "fem-material", "fem-mesh"],
     ),
     (
-        "fem",
-        "The front door of fem-run: a case, the model that computes it, what comes out of it",
+        "fem-simulation",
+        "One collision: estimate, effects, plan, model, run, results and their error",
         &[
             "fem-case",
             "fem-collision",
             "fem-condensed",
             "fem-contact",
             "fem-explicit",
-            "fem-fit",
             "fem-laws",
             "fem-material",
             "fem-mesh",
@@ -79,9 +73,29 @@ const HOUSE: [(&str, &str, &[&str]); 19] = [
         ],
     ),
     (
+        "fem-study",
+        "Many collisions: sweeps, calibration, contact laws, measured data, accuracy studies",
+        &["fem-case", "fem-collision", "fem-laws", "fem-material", "fem-mesh", "fem-simulation"],
+    ),
+    (
+        "fem",
+        "The library of fem-run: one collision, many collisions, cases and results under one name",
+        &[
+            "fem-case",
+            "fem-collision",
+            "fem-condensed",
+            "fem-explicit",
+            "fem-laws",
+            "fem-material",
+            "fem-mesh",
+            "fem-simulation",
+            "fem-study",
+        ],
+    ),
+    (
         "fem-report",
         "Reports and figures of results: the report page, charts of sweeps and fits, stress in section",
-        &["fem", "fem-case", "fem-collision", "fem-figure", "fem-fit", "fem-laws", "fem-vtk"],
+        &["fem", "fem-case", "fem-collision", "fem-figure", "fem-laws", "fem-vtk"],
     ),
     (
         "fem-validate",
@@ -112,7 +126,6 @@ const HOUSE: [(&str, &str, &[&str]); 19] = [
             "fem-case",
             "fem-collision",
             "fem-figure",
-            "fem-fit",
             "fem-laws",
             "fem-mesh",
             "fem-report",

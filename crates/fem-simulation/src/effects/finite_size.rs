@@ -12,7 +12,7 @@ use super::need::percent;
 use super::transformed::Computed;
 use super::vibration::Vibration;
 use crate::estimate::Estimate;
-use crate::expected::Expected;
+use crate::estimate::ting_prediction::Expected;
 
 /// Second order of the contact's size over the spheres', of contact time and peak force: Ting's with
 /// finite size is within 0.02 % of finite elements at a/R* = 0.05.

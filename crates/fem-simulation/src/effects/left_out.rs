@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::partner_waves::PartnerWaves;
 use super::transformed::Computed;
 use crate::estimate::Estimate;
-use crate::expected::Expected;
+use crate::estimate::ting_prediction::Expected;
 
 /// By how much a collision's numbers change where an effect is left out, as closed forms foretell it;
 /// magnitudes, `None` where they do not.

@@ -61,7 +61,7 @@ pub use partner_waves::PartnerWaves;
 pub use penalty_springs::PenaltySprings;
 pub use plastic_yield::PlasticYield;
 pub use rigid_partner::RigidPartner;
-pub(crate) use speed::QUASI_STATIC_LIMIT;
+pub use speed::QUASI_STATIC_LIMIT;
 pub use surface_slip::SurfaceSlip;
 pub(crate) use transformed::Computed;
 pub use transformed::Transformed;

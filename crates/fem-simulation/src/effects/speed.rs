@@ -7,7 +7,7 @@ use fem_case::engineering;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than
 /// 0.15 %: 0.05 % at 1.5e-3 and 0.45 % at 1.5e-2 were measured on the glass pair.
-pub(crate) const QUASI_STATIC_LIMIT: f64 = 5e-3;
+pub const QUASI_STATIC_LIMIT: f64 = 5e-3;
 /// Above this share of the shear wave speed an impact sends shocks.
 pub(super) const MACH_LIMIT: f64 = 0.02;
 

@@ -19,7 +19,7 @@ use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use crate::estimate::Estimate;
-use crate::softened::left_at;
+use crate::estimate::effective_modulus::left_at;
 
 /// Below this κβR* materials are alike but for the rounding of their moduli.
 const ROUNDING: f64 = 1e-9;

@@ -14,7 +14,7 @@ use super::need::{Need, percent};
 use super::partner_waves::PartnerWaves;
 use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::estimate::Estimate;
-use crate::softened::left_at;
+use crate::estimate::effective_modulus::left_at;
 
 /// Modes that bring it back.
 pub(super) const ENOUGH_MODES: usize = 12;

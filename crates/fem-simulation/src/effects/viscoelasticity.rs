@@ -14,7 +14,7 @@ use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use super::transformed::Transformed;
 use crate::estimate::Estimate;
-use crate::quasi_static::{known_impact, ting_of};
+use crate::estimate::quasi_static::{known_impact, ting_of};
 use crate::refusal::Refusal;
 
 /// What terms that are not followed may change, all together, of restitution (absolute), contact time and

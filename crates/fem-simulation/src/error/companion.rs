@@ -3,12 +3,11 @@
 
 use std::sync::PoisonError;
 
-use fem_case::schema::ContactMethod;
-use fem_case::{CondensedOptions, Quantity};
+use fem_case::schema::{ContactMethod, StopTable};
+use fem_case::{CaseFile, CondensedOptions, Quantity};
 use fem_collision::{Approach, OutputRequest, QuantityOfInterest};
 
 use super::foretold::lengthening;
-use super::ladder::first_contact;
 use super::setting::Setting;
 use crate::estimate::Estimate;
 use crate::plan::Plan;
@@ -327,4 +326,10 @@ fn beside_limit(
 /// What is left of the way to the limit, over the last step of a length that is this many times smaller.
 fn remaining(ratio: f64) -> f64 {
     1.0 / (ratio.powf(ORDER) - 1.0)
+}
+
+/// `[stop]` after the first contact, where there are more.
+pub fn first_contact(file: &CaseFile) -> Option<StopTable> {
+    file.gravity.as_ref()?;
+    Some(StopTable { bounces: Some(Quantity::from_si(1.0)) })
 }

@@ -43,7 +43,7 @@ use super::margins::{
     OF_FEW_CONDENSED, SCATTER, added_share, beside_condensed, fronts, lost_at_once,
     of_few_strained, told,
 };
-use crate::early_pressure::EarlyPressure;
+use crate::error::early_pressure::EarlyPressure;
 use crate::effects::Doubt;
 use crate::simulation::Simulation;
 

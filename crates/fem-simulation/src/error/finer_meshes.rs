@@ -2,8 +2,8 @@
 
 use std::iter::successors;
 
-use crate::method::Cost;
-use crate::refinement::{MOST_ELEMENTS, MOST_LEVELS, MOST_UPDATES};
+use crate::models::method::Cost;
+use crate::error::refinement::{MOST_ELEMENTS, MOST_LEVELS, MOST_UPDATES};
 use crate::simulation::Simulation;
 
 /// Element updates of a finer mesh over those of the one before, at least with the shortest step to it and at most with
@@ -64,7 +64,7 @@ mod tests {
     use fem_case::Case;
 
     use super::*;
-    use crate::refinement::STEPS;
+    use crate::error::refinement::STEPS;
 
     /// By hand: eight times each time, until the most is in sight.
     #[test]

@@ -1,7 +1,7 @@
 //! The mesh that a run ends with, and what it takes, before it begins.
 //!
 //! What explicit elements are off by, condensed companions tell without them (`accuracy/foretold.rs`): the mesh is
-//! made finer by that before the first run ([`crate::refinement`]), and no run is thrown away. At finite strain
+//! made finer by that before the first run ([`crate::error::refinement`]), and no run is thrown away. At finite strain
 //! and beside waves the companions are runs themselves: two of the coarser ones tell what is to be expected, of cheap runs
 //! these themselves, and the run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.
 
@@ -9,10 +9,10 @@ use std::sync::PoisonError;
 
 use fem_collision::{OutputRequest, QuantityOfInterest};
 
-use crate::accuracy::{ByCoarser, ORDER, companion_updates, foretold_lengthening, lengthening};
+use crate::error::{ByCoarser, ORDER, companion_updates, foretold_lengthening, lengthening};
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
-use crate::method::Cost;
+use crate::models::method::Cost;
 use crate::simulation::Simulation;
 
 /// A simulation on the mesh that it is expected to end with.

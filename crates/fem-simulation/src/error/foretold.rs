@@ -8,7 +8,7 @@ use super::margins::{
 };
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
-use crate::method::{Cost, ElementSetup};
+use crate::models::method::{Cost, ElementSetup};
 use crate::simulation::Simulation;
 
 /// The errors, the restitution's absolute, all others relative, that elements are going to make: before a

@@ -9,7 +9,7 @@ use fem_material::finite::HyperelasticLaw;
 use super::companion::{SLOW, companion_updates};
 use crate::effects::{FiniteStrain, MassScaling};
 use crate::estimate::Estimate;
-use crate::method::Cost;
+use crate::models::method::Cost;
 use crate::simulation::Simulation;
 
 /// Errors that are told over those that are estimated, in the order of [`QuantityOfInterest::ALL`]: by condensed

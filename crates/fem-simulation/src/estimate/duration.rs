@@ -8,9 +8,9 @@ use fem_case::Scene;
 use fem_collision::{Approach, FLIGHT_AFTER, RelativeMotion, RestCriterion};
 use fem_laws::Impact;
 
-use crate::approach::frame_of;
+use crate::estimate::approach::frame_of;
 use crate::estimate::Estimate;
-use crate::quasi_static::foretold_impact;
+use crate::estimate::quasi_static::foretold_impact;
 
 /// Time (s) from first touch to the end of a run of a scene of whose approach closed forms say this.
 pub(crate) fn expected_duration(scene: &Scene, estimate: &Estimate, approach: &Approach) -> f64 {

@@ -20,7 +20,7 @@ use fem_laws::{HertzImpact, Impact, LawError};
 use fem_material::{ElasticModuli, Material};
 
 use crate::estimate::{Estimate, pair_at};
-use crate::quasi_static::foretold_on_half_spaces;
+use crate::estimate::quasi_static::foretold_on_half_spaces;
 
 /// Halvings of the logarithm of t_s.
 const HALVINGS: usize = 50;

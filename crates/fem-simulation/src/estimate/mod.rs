@@ -1,5 +1,13 @@
 //! What closed forms say about a scene before anything is computed.
 
+pub(crate) mod approach;
+pub(crate) mod duration;
+pub(crate) mod effective_modulus;
+pub(crate) mod quasi_static;
+pub(crate) mod semi_infinite_partner;
+pub(crate) mod ting_prediction;
+pub(crate) mod viscous_flow;
+
 use fem_case::{Body, Scene, Shape};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, LawError, Pair, Partner};
@@ -7,7 +15,7 @@ use fem_material::engineering::number;
 use fem_material::{ElasticModuli, Material};
 
 use crate::refusal::Refusal;
-use crate::softened::Softened;
+use crate::estimate::effective_modulus::Softened;
 
 /// Least share of a modulus that the estimate counts with: a body that relaxes
 /// within the contact is stopped by its first, stiff response.

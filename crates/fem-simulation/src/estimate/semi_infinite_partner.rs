@@ -17,7 +17,7 @@ use fem_case::{Body, Scene};
 use fem_laws::{Impact, ImpactInstant, LawError, Pair, Ting, restitution_of_mass_centres};
 use fem_material::Material;
 
-use crate::quasi_static::{known_impact, ting_of};
+use crate::estimate::quasi_static::{known_impact, ting_of};
 
 /// Ting's impact at a speed (m/s) of a scene with bodies that radiate, given by their materials; of the
 /// spheres' own compliance and the accuracy that `finish` gives.

@@ -12,10 +12,10 @@ use fem_case::Scene;
 use fem_collision::{Approach, FLIGHT_AFTER, OutputRequest};
 use fem_laws::{Impact, LawError, StaticHertz};
 
-use crate::approach::approach_of;
-use crate::duration::{duration_of, expected_duration};
+use crate::estimate::approach::approach_of;
+use crate::estimate::duration::{duration_of, expected_duration};
 use crate::estimate::Estimate;
-use crate::quasi_static::{foretold_impact, ting_of};
+use crate::estimate::quasi_static::{foretold_impact, ting_of};
 use crate::refusal::Refusal;
 
 /// Bodies that keep more than the rest of their moduli over the contact are stopped by them.

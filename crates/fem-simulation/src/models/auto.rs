@@ -19,9 +19,9 @@ use crate::effects::{
     Viscoelasticity,
 };
 use crate::estimate::Estimate;
-use crate::flow;
-use crate::flow::widest_contact;
-use crate::method::{Method, Model, Shared};
+use crate::estimate::viscous_flow;
+use crate::estimate::viscous_flow::widest_contact;
+use crate::models::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
 /// The cheapest that serves, `[model] auto = {}`.
@@ -97,7 +97,7 @@ pub struct Considered {
 
 /// A scene with the model that computes it.
 #[derive(Clone, Debug)]
-pub(crate) struct Chosen {
+pub struct Chosen {
     /// The scene, of which the model is no longer open.
     pub scene: Scene,
     /// All models, from the cheapest to the dearest; none where the case named its own.
@@ -116,7 +116,7 @@ impl Chosen {
             return Ok(Self { scene: scene.clone(), considered: Vec::new(), warning: None });
         }
         let estimate = Estimate::checked(scene)?;
-        flow::check(scene, &estimate)?;
+        viscous_flow::check(scene, &estimate)?;
         let judged = CANDIDATES.map(|candidate| candidate.judge(scene, &estimate));
         let serves = judged.iter().position(|judged| judged.unfit.is_none());
         let best = serves.unwrap_or_else(|| closest(&judged));

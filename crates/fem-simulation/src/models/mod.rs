@@ -2,37 +2,31 @@
 
 mod auto;
 mod bouncing;
-mod condensed;
-mod condensed_bytes;
+pub(crate) mod condensed;
 mod explicit;
-mod explicit_cost;
-mod hertz;
-mod law;
+pub(crate) mod method;
 mod mirrored;
 mod own_frame;
 mod reduced;
+pub(crate) mod restart_state;
 mod simplified;
-mod ting;
+pub(crate) mod stepper;
 
 use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
 use crate::effects::Computed;
-use crate::method::{Method, Model, Shared};
+use crate::models::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
 pub(crate) use bouncing::Bounces;
 use bouncing::Bouncing;
 use simplified::Simplified;
 
-pub(crate) use auto::Chosen;
-pub use auto::{AutoMethod, Considered, ExpectedError};
+pub use auto::{AutoMethod, Chosen, Considered, ExpectedError};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
-pub use hertz::HertzMethod;
-pub use law::LawMethod;
-pub use reduced::Reduced;
-pub use ting::TingMethod;
+pub use reduced::{HertzMethod, LawMethod, Reduced, TingMethod};
 
 /// All methods, from the cheapest to the dearest, and the one that chooses among them.
 pub const METHODS: [&dyn Method; 6] =
@@ -73,7 +67,7 @@ pub fn model_of(scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusa
 ///
 /// # Errors
 /// What effects refuse; a scene whose closed-form estimates are not finite.
-pub(crate) fn chosen(scene: &Scene) -> Result<Option<Chosen>, Refusal> {
+pub fn chosen(scene: &Scene) -> Result<Option<Chosen>, Refusal> {
     match scene.model() {
         ModelChoice::Auto => Chosen::of(&Computed::of(scene)?.scene).map(Some),
         _ => Ok(None),
@@ -111,9 +105,9 @@ impl Reduced {
     /// contact too large for the finite-size correction; a law that cannot be made of this pair.
     pub fn new(scene: &Scene) -> Result<Self, Refusal> {
         match scene.model() {
-            ModelChoice::Hertz { .. } => hertz::build(scene),
-            ModelChoice::Law { .. } => law::build(scene),
-            ModelChoice::Ting { .. } => ting::build(scene),
+            ModelChoice::Hertz { .. } => reduced::hertz::build(scene),
+            ModelChoice::Law { .. } => reduced::law::build(scene),
+            ModelChoice::Ting { .. } => reduced::ting::build(scene),
             ModelChoice::Condensed(_) | ModelChoice::Fem | ModelChoice::Auto => {
                 Err(Refusal::new("model", "finite elements are no reduced model"))
             }

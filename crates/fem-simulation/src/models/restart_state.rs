@@ -4,7 +4,7 @@ use fem_collision::Approach;
 use serde::{Deserialize, Serialize};
 
 use crate::models::Bounces;
-use crate::refinement::Level;
+use crate::error::refinement::Level;
 
 /// The memory of a [`Course`](crate::Course) between two advances. A course that goes on from it ends
 /// with the same bits.

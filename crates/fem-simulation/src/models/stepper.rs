@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, Progress, Stop};
 
-use crate::memory::Memory;
-use crate::method::Model;
+use crate::models::restart_state::Memory;
+use crate::models::method::Model;
 
 /// A collision under way.
 pub trait Course {

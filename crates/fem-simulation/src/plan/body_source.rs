@@ -4,8 +4,8 @@ use fem_case::{Body, Scene, Shape};
 use fem_collision::BodyInput;
 use fem_material::Material;
 
-use crate::limits::check_size;
-use crate::mesh_source::{MeshSource, half_disc, import, mesh_refusal, quarter_disc};
+use crate::plan::limits::check_size;
+use crate::plan::mesh_source::{MeshSource, half_disc, import, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 

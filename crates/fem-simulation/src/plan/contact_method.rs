@@ -12,7 +12,7 @@ pub(crate) fn asked_for(scene: &Scene) -> ContactMethod {
 
 /// As it is computed at small strain. A boundary without mass is in balance with forces of displacements;
 /// bulk viscosity pulls by velocities. Springs at nodes do not turn with surfaces that slip.
-pub(crate) fn contact_method(scene: &Scene) -> ContactMethod {
+pub fn contact_method(scene: &Scene) -> ContactMethod {
     match asked_for(scene) {
         ContactMethod::Massless if !massless_is_possible(scene) => ContactMethod::Penalty,
         ContactMethod::NodeToSurface if SurfaceSlip::is_on(scene) => ContactMethod::Penalty,
@@ -26,7 +26,7 @@ pub(crate) fn massless_is_possible(scene: &Scene) -> bool {
 }
 
 /// What is said of a method that a case names and its scene does not allow, at large strain or small.
-pub(crate) fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
+pub fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
     if is_at_finite_strain {
         let word = scene.contact_method()?.word();
         return Some(format!(

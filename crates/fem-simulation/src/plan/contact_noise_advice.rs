@@ -6,7 +6,7 @@
 
 use fem_case::Scene;
 
-use crate::contact_method::massless_is_possible;
+use crate::plan::contact_method::massless_is_possible;
 use crate::effects::FiniteStrain;
 use crate::plan::Plan;
 

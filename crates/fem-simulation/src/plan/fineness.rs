@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with μ the share of mass that is moved for a longer step. C₁ is the swing with the place of the contact's
-//! edge between two nodes, at most 3/16 by theory ([`stagger`](crate::stagger)); s is what of it is left: all
+//! edge between two nodes, at most 3/16 by theory ([`stagger`](crate::plan::stagger)); s is what of it is left: all
 //! where the meshes are not staggered, else how much the bodies' shares in the compliance of the
 //! contact differ. All other numbers are off by less: contact time 0.06/k², restitution 0.04/k²,
 //! peak pressure 0.45/k².
@@ -70,7 +70,7 @@ const BOUNDS_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 
 /// How fine a computation is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Fineness {
+pub struct Fineness {
     /// Elements across the contact radius.
     pub across: f64,
     /// Largest moved mass over the lighter body's mass.
@@ -157,9 +157,9 @@ mod tests {
     use fem_case::Case;
 
     use super::*;
-    use crate::stagger::finer_body;
+    use crate::plan::stagger::finer_body;
 
-    const GLASS: &str = include_str!("../../../cases/glass_0.5ms_elastic.toml");
+    const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
     const WALL: &str = "body.0={ name = 'striker', wall = {} }";
     const SMALL_STRAIN: &str = "effects.finite_strain='off'";
 

@@ -7,7 +7,7 @@ use fem_mesh::MeshError;
 
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
-use crate::mesh_source::{half_disc, mesh_refusal, quarter_disc};
+use crate::plan::mesh_source::{half_disc, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 
@@ -215,7 +215,7 @@ mod tests {
 
     use crate::simulation::Simulation;
 
-    const BALL: &str = include_str!("../../../cases/soft_sphere.toml");
+    const BALL: &str = include_str!("../../../../cases/soft_sphere.toml");
 
     /// What the plan counts for a run, and the bytes of what the run knows, late in the contact.
     fn counted_and_kept(switch: &str, terms: usize) -> [f64; 2] {

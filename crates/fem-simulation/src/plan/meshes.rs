@@ -4,7 +4,7 @@ use fem_case::Scene;
 use fem_collision::BodyInput;
 use fem_mesh::SphereMesh;
 
-use crate::body_source::BodySource;
+use crate::plan::body_source::BodySource;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 

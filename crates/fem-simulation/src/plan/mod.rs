@@ -1,5 +1,17 @@
 //! The plan of finite elements: every number that the case leaves open.
 
+pub(crate) mod body_source;
+pub(crate) mod contact_method;
+pub(crate) mod contact_noise_advice;
+pub(crate) mod fineness;
+pub(crate) mod limits;
+pub(crate) mod mesh_source;
+pub(crate) mod meshes;
+pub(crate) mod pair_cache;
+pub(crate) mod penalty_compliance;
+pub(crate) mod probes;
+pub(crate) mod stagger;
+
 use fem_case::schema::{
     ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable, SnapshotsValue,
     StartTable, TimeTable,
@@ -12,13 +24,13 @@ use fem_collision::{
     far_radius_of_waves,
 };
 
-use crate::contact_method::contact_method;
+use crate::plan::contact_method::contact_method;
 use crate::effects::percent;
 use crate::estimate::Estimate;
-use crate::fineness::{Fineness, touches_at_nodes};
-use crate::flow;
+use crate::plan::fineness::{Fineness, touches_at_nodes};
+use crate::estimate::viscous_flow;
 use crate::refusal::Refusal;
-use crate::stagger::{finer_body, staggered};
+use crate::plan::stagger::{finer_body, staggered};
 
 /// Half-width of the fine block over the contact radius.
 const REFINED_OVER_CONTACT: f64 = 1.2;
@@ -97,7 +109,7 @@ impl Plan {
     /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
     pub fn of(scene: &Scene) -> Result<Self, Refusal> {
         let estimate = Estimate::checked(scene)?;
-        flow::check(scene, &estimate)?;
+        viscous_flow::check(scene, &estimate)?;
         let finer_body = finer_body(scene);
         let fineness = Fineness::of(scene, &estimate, finer_body.is_some());
         let is_shared = touches_at_nodes(scene.model());
@@ -174,7 +186,7 @@ impl Plan {
             snapshots: request(scene.snapshots()),
             max_elements: limits.elements.unwrap_or(MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(MAX_ELEMENT_UPDATES),
-            give_up_after: flow::give_up_after(scene, &estimate),
+            give_up_after: viscous_flow::give_up_after(scene, &estimate),
             max_memory: limits.memory.unwrap_or(MAX_MEMORY),
             warnings,
             estimate,
@@ -267,7 +279,7 @@ fn shared_length(length: f64, smallest_radius: f64) -> f64 {
 
 /// The contact radius (m) that elements divide: they are made no larger for a contact that is wider than half
 /// of a body.
-pub(crate) fn divided_radius(estimate: &Estimate) -> f64 {
+pub fn divided_radius(estimate: &Estimate) -> f64 {
     radius_of_elements(estimate).min(0.5 * estimate.smallest_radius)
 }
 

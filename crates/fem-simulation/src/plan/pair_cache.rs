@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use fem_condensed::{CondensedPair, PairSettings};
 
-use crate::body_source::BodySource;
+use crate::plan::body_source::BodySource;
 
 /// Bytes that all pairs of a cache may take.
 const MAX_BYTES: usize = 1_000_000_000;

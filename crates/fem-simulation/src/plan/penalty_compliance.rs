@@ -65,7 +65,7 @@ mod tests {
     /// hard scenes has it.
     #[test]
     fn soft_springs_lengthen_the_contact() {
-        let text = include_str!("../../../cases/glass_0.5ms_elastic.toml");
+        let text = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
         for (factor, measured) in [(1e-3, 1.74), (1e-2, 1.15), (0.1, 1.0), (1.0, 1.0), (1e3, 1.0)] {
             let set = [
                 format!("contact.penalty_factor={factor}"),

@@ -69,7 +69,7 @@ mod tests {
 
     use super::*;
 
-    const GLASS: &str = include_str!("../../../cases/glass_0.5ms_elastic.toml");
+    const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 
     fn finer(set: &[&str]) -> Option<usize> {
         let set: Vec<String> = set.iter().map(ToString::to_string).collect();

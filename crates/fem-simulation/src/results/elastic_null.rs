@@ -21,7 +21,7 @@ use fem_collision::{Account, Approach, Collision, OutputRequest};
 use fem_material::PronySeries;
 use serde::Serialize;
 
-use crate::accuracy::Setting;
+use crate::error::Setting;
 use crate::simulation::Simulation;
 
 /// Since when vibrations relax, over the contact time.

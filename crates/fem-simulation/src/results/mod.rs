@@ -1,6 +1,11 @@
 //! What is kept of a collision: names, order and units of a summary's keys, of a history's columns
 //! and of a snapshot's arrays.
 
+pub(crate) mod diagnostics;
+pub(crate) mod stop_advice;
+pub(crate) mod stress;
+pub(crate) mod warning_kinds;
+
 #[cfg(feature = "files")]
 mod contact;
 mod elastic_null;

@@ -11,7 +11,7 @@ use super::summary::{
 };
 use crate::effects::{FiniteStrain, Verdict};
 use crate::estimate::Estimate;
-use crate::numerics::NUMERICS;
+use crate::simulation::numerics::NUMERICS;
 use crate::simulation::Simulation;
 
 /// What a run took; whoever ran it has the clock.

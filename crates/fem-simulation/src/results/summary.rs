@@ -8,7 +8,7 @@ use super::elastic_null::ElasticNull;
 use super::energy::Energy;
 use crate::effects::{LeftOut, Verdict};
 use crate::models::Considered;
-use crate::refinement::Level;
+use crate::error::refinement::Level;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";

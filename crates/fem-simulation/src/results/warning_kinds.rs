@@ -18,7 +18,7 @@ pub struct WarningKind {
 /// All kinds that were seen, in the order of their first ones.
 ///
 /// ```
-/// let mut kinds = fem::WarningKinds::default();
+/// let mut kinds = fem_simulation::WarningKinds::default();
 /// kinds.see(0, "a step of 12.3 µm is 4 % too long");
 /// kinds.see(1, "a step of 1.1 mm is 12 % too long");
 /// assert_eq!((kinds.all().len(), kinds.all()[0].count), (1, 2));

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use crate::identity::Identity;
-use crate::memory::Memory;
-use crate::numerics::NUMERICS;
+use crate::simulation::identity::Identity;
+use crate::models::restart_state::Memory;
+use crate::simulation::numerics::NUMERICS;
 use crate::results::PROGRAM;
 
 /// Of the bytes; another one is not read.
@@ -60,9 +60,10 @@ pub enum CheckpointError {
 /// The bytes of a memory of a run.
 ///
 /// ```
-/// # use fem::schema::{BodyTable, MaterialTable, MeshTable};
-/// # use fem::{Case, CaseFile, Simulation};
-/// use fem::{Identity, checkpoint, memory_of};
+/// # use fem_case::schema::{BodyTable, MaterialTable, MeshTable};
+/// # use fem_case::{Case, CaseFile};
+/// # use fem_simulation::Simulation;
+/// use fem_simulation::{Identity, checkpoint, memory_of};
 /// # let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
 /// # let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.2 m/s");
 /// # let mut file = CaseFile::of_bodies(ball, BodyTable::wall("floor")).with_material("ice", ice);

@@ -5,7 +5,7 @@ use std::path::Path;
 use fem_case::{Case, CaseError, CaseFile, Shape};
 use sha2::{Digest, Sha256};
 
-use crate::numerics::NUMERICS;
+use crate::simulation::numerics::NUMERICS;
 use crate::simulation::Simulation;
 
 /// Bytes of a digest that go into a name: two of a million cases share one by a chance of 1e-7.
@@ -35,7 +35,7 @@ impl Identity {
 ///
 /// # Errors
 /// As [`Identity::of`].
-pub(crate) fn identified(case: &Case) -> Result<(u64, CaseFile), CaseError> {
+pub fn identified(case: &Case) -> Result<(u64, CaseFile), CaseError> {
     let meshes = mesh_files(case)?;
     let resolved = Simulation::resolve(case)?;
     Ok((of_result(NUMERICS, &resolved, &meshes), resolved))
@@ -66,7 +66,7 @@ pub fn digest_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
 }
 
 /// A digest as it is in names.
-pub(crate) fn name_of(digest: u64) -> String {
+pub fn name_of(digest: u64) -> String {
     format!("{digest:0digits$x}", digits = 2 * BYTES)
 }
 

@@ -1,5 +1,9 @@
 //! A case with the model that computes it, whichever that is.
 
+pub(crate) mod checkpoint;
+pub(crate) mod identity;
+pub(crate) mod numerics;
+
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
@@ -11,20 +15,20 @@ use fem_collision::{
     Approach, Collision, Monitor, OutputRequest, OutputRequestError, SnapshotRequest,
 };
 
-use crate::accuracy::{Beside, Coarser};
-use crate::course::{Course, begun};
+use crate::error::{Beside, Coarser};
+use crate::models::stepper::{Course, begun};
 use crate::effects::{Decisions, Doubt, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::{Estimate, mach};
-use crate::identity::identity_of;
-use crate::memory::Memory;
-use crate::method::{Cost, Model, Setup, Shared};
+use crate::simulation::identity::identity_of;
+use crate::models::restart_state::Memory;
+use crate::models::method::{Cost, Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
-use crate::probes::probes_of;
-use crate::refinement::Level;
+use crate::plan::probes::probes_of;
+use crate::error::refinement::Level;
 use crate::refusal::Refusal;
-use crate::resolution::{Given, Resolution, known_as_fine};
-use crate::soft_springs::softness;
-use crate::uncertainty::Seen;
+use crate::error::resolution::{Given, Resolution, known_as_fine};
+use crate::plan::penalty_compliance::softness;
+use crate::error::uncertainty::Seen;
 
 /// The collision of a case, by the model that it asks for, within its tolerance.
 ///
@@ -32,8 +36,8 @@ use crate::uncertainty::Seen;
 /// What the model refuses, at its place in the case.
 ///
 /// ```
-/// use fem::schema::{BodyTable, MaterialTable, ModelTable};
-/// use fem::{Case, CaseFile};
+/// use fem_case::schema::{BodyTable, MaterialTable, ModelTable};
+/// use fem_case::{Case, CaseFile};
 ///
 /// let steel = MaterialTable::from_youngs_modulus_poissons_ratio("7850 kg/m^3", "210 GPa", 0.3);
 /// let ball = BodyTable::sphere("ball", "1 cm", "steel").approaching("1 m/s");
@@ -42,13 +46,13 @@ use crate::uncertainty::Seen;
 ///         .with_material("steel", steel)
 ///         .with_model(ModelTable::hertz()),
 /// )?;
-/// let collision = fem::collide(&case)?;
+/// let collision = fem_simulation::collide(&case)?;
 /// assert_eq!(collision.restitution, Some(1.0));
 /// // T = 2.943 δ / v with the largest approach δ = (15 m v² / (16 E* √R))^(2/5), at 1 m/s.
 /// let (mass, modulus, radius) = (4.110e-3, 230.8e9, 5e-3_f64);
 /// let hertz = 2.943 * (15.0 * mass / (16.0 * modulus * radius.sqrt())).powf(0.4);
 /// assert!((collision.contact_time.unwrap() / hertz - 1.0).abs() < 1e-3);
-/// # Ok::<(), fem::CaseError>(())
+/// # Ok::<(), fem_case::CaseError>(())
 /// ```
 pub fn collide(case: &Case) -> Result<Collision, CaseError> {
     Ok(Simulation::new(case.clone())?.run_within_tolerance(&mut ()).1)
@@ -398,8 +402,9 @@ impl Simulation {
     /// Begins the collision: the caller decides when it goes on.
     ///
     /// ```
-    /// # use fem::schema::{BodyTable, MaterialTable, MeshTable};
-    /// # use fem::{Case, CaseFile, Simulation};
+    /// # use fem_case::schema::{BodyTable, MaterialTable, MeshTable};
+    /// # use fem_case::{Case, CaseFile};
+    /// # use fem_simulation::Simulation;
     /// # let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
     /// # let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.2 m/s");
     /// # let mut file = CaseFile::of_bodies(ball, BodyTable::wall("floor")).with_material("ice", ice);
@@ -415,7 +420,7 @@ impl Simulation {
     /// let mut resumed = simulation.resume(memory)?;
     /// while resumed.advance(&mut ()) {}
     /// assert_eq!(resumed.finish(), simulation.run(&mut ()));
-    /// # Ok::<(), fem::CaseError>(())
+    /// # Ok::<(), fem_case::CaseError>(())
     /// ```
     pub fn start(&self) -> Box<dyn Course> {
         begun(&self.model, &self.setup().approach, &self.want)

@@ -1,17 +1,17 @@
 //! The ways in which a scene is computed.
 
-use fem_case::schema::{ContactMethod, StopTable};
-use fem_case::{Case, CaseError, CaseFile, Quantity, Scene};
+use fem_case::schema::ContactMethod;
+use fem_case::{Case, CaseError, Scene};
 
 use super::rung::{Rung, Series};
-use super::setting::Setting;
-use crate::contact_method::{contact_method, unread};
-use crate::effects::FiniteStrain;
-use crate::estimate::Estimate;
-use crate::fineness::Fineness;
-use crate::foresight::Foreseen;
-use crate::plan::{Plan, divided_radius};
-use crate::simulation::Simulation;
+use fem_simulation::error::{Setting, first_contact};
+use fem_simulation::{contact_method, unread};
+use fem_simulation::effects::FiniteStrain;
+use fem_simulation::Estimate;
+use fem_simulation::Fineness;
+use fem_simulation::Foreseen;
+use fem_simulation::{Plan, divided_radius};
+use fem_simulation::Simulation;
 
 /// Elements across the contact radius, of condensed bodies.
 const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];
@@ -234,12 +234,6 @@ fn own(settings: &[Setting], across: f64, mass: f64, is_staggered: bool) -> Vec<
         own.push(Setting::Staggered(true));
     }
     own
-}
-
-/// `[stop]` after the first contact, where there are more.
-pub(super) fn first_contact(file: &CaseFile) -> Option<StopTable> {
-    file.gravity.as_ref()?;
-    Some(StopTable { bounces: Some(Quantity::from_si(1.0)) })
 }
 
 /// A length of four digits: as a user would write it.

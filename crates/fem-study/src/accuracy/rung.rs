@@ -3,9 +3,9 @@
 use fem_case::{Case, CaseError, ModelChoice};
 
 use super::ladder::{COMMON, Lengths};
-use super::setting::Setting;
-use crate::models::chosen;
-use crate::simulation::Simulation;
+use fem_simulation::error::Setting;
+use fem_simulation::chosen;
+use fem_simulation::Simulation;
 
 /// Ways that differ in one thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,7 +3,7 @@
 use fem_collision::Snapshot;
 use fem_mesh::SphereMesh;
 
-use crate::simulation::Simulation;
+use fem_simulation::Simulation;
 
 /// Distances from the axis over the contact radius: away from its edge, where no stress is smooth.
 const RADII: [f64; 7] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.3, 1.7];

@@ -1,8 +1,8 @@
 //! A Prony series of a material from measured restitutions.
 
 use fem_case::Case;
-use fem_fit::FitError;
-use fem_fit::spectrum::{
+use crate::fit::FitError;
+use crate::fit::spectrum::{
     SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, root_mean_square, speed_exponent,
 };
 use fem_material::PronyTerm;
@@ -41,8 +41,8 @@ const LEAST_WEIGHT: f64 = 1e-9;
 /// # sphere.diameter = 0.0159
 /// # material = 'glass'";
 /// # let case = fem_case::Case::parse("pair.toml", text, Path::new("."), &[])?;
-/// use fem::calibrate::{Calibration, CalibrationModel, Settings};
-/// use fem::measured::Restitutions;
+/// use fem_study::calibrate::{Calibration, CalibrationModel, Settings};
+/// use fem_study::measured::Restitutions;
 ///
 /// let measured = Restitutions::of("glass", &[(0.1, 0.915), (0.5, 0.925), (1.0, 0.93)]);
 /// let settings =
@@ -58,7 +58,7 @@ const LEAST_WEIGHT: f64 = 1e-9;
 ///     }
 /// })?;
 /// assert!(relaxing.gives("material.glass.relaxation"));
-/// # Ok::<(), fem::calibrate::CalibrationFault>(())
+/// # Ok::<(), fem_study::calibrate::CalibrationFault>(())
 /// ```
 #[derive(Debug)]
 pub struct Calibration {

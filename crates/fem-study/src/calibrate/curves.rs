@@ -1,6 +1,6 @@
 //! Restitutions of the series that was found beside the data, to draw.
 
-use fem_fit::FitError;
+use crate::fit::FitError;
 use fem_material::PronyTerm;
 
 use super::calibration::Calibration;

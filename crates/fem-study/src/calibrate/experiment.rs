@@ -6,7 +6,7 @@
 
 use fem_case::engineering::show;
 use fem_case::{Body, Case, CaseError};
-use fem_fit::FitError;
+use crate::fit::FitError;
 use fem_material::PronyTerm;
 
 use super::fault::CalibrationFault;
@@ -15,8 +15,8 @@ use super::settings::CalibrationModel;
 use super::speed_span::{SpeedDoubt, SpeedSpan};
 use super::target::Target;
 use crate::measured::{MeasuredPair, MeasuredPairs};
-use crate::method::{Model, Shared};
-use crate::models::Condensed;
+use fem_simulation::{Model, Shared};
+use fem_simulation::Condensed;
 
 /// What the size of elements decides on: to blame if there is no mesh.
 const OF_ELEMENT_SIZE: [&str; 3] =

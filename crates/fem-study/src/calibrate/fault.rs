@@ -2,7 +2,7 @@
 
 use fem_case::CaseError;
 use fem_case::engineering::show;
-use fem_fit::FitError;
+use crate::fit::FitError;
 use fem_laws::LawError;
 
 use crate::measured::DataError;

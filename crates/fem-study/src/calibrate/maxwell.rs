@@ -2,8 +2,8 @@
 
 use std::cell::RefCell;
 
-use fem_fit::FitError;
-use fem_fit::spectrum::root_mean_square;
+use crate::fit::FitError;
+use crate::fit::spectrum::root_mean_square;
 use fem_laws::bisection::falling_zero;
 use fem_material::PronyTerm;
 

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The case gives bodies and instantaneous moduli. Each pair of bodies has one model for all of its
-//! speeds; `fem_fit::spectrum` finds the weights.
+//! speeds; `crate::fit::spectrum` finds the weights.
 
 mod calibration;
 mod curves;
@@ -36,4 +36,4 @@ pub use settings::{CalibrationModel, SettingNames, Settings};
 pub use speed_span::SpeedDoubt;
 pub use target::Target;
 
-pub use fem_fit::spectrum::SpectrumFit;
+pub use crate::fit::spectrum::SpectrumFit;

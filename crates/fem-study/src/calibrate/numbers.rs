@@ -1,7 +1,7 @@
 //! `calibrate.json`: a calibration as numbers.
 
 use fem_case::schema::ActsOn;
-use fem_fit::spectrum::{Combination, Range};
+use crate::fit::spectrum::{Combination, Range};
 use serde::Serialize;
 
 use super::calibration::Calibration;

@@ -4,13 +4,13 @@ use std::fmt::Display;
 
 use fem_case::Scene;
 use fem_collision::Stop;
-use fem_fit::FitError;
+use crate::fit::FitError;
 use fem_laws::{FiniteSize, LawError, Pair, PairRelaxation, Ting};
 use fem_material::{Material, PronySeries, PronyTerm};
 use rayon::prelude::*;
 
 use super::target::Target;
-use crate::models::Condensed;
+use fem_simulation::Condensed;
 
 /// Steps over the elastic contact time: restitutions within 2e-5 of 1000 steps'.
 pub(super) const STEPS: usize = 300;

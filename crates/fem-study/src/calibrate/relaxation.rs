@@ -3,7 +3,7 @@
 use fem_case::schema::{ActsOn, RelaxationTable, TermTable};
 
 use super::calibration::Calibration;
-use crate::results::PROGRAM;
+use fem_simulation::results::PROGRAM;
 
 impl Calibration {
     /// The table that gives the material what was found; none where nothing relaxes.

@@ -4,7 +4,7 @@ use fem_case::Scene;
 use fem_laws::{HertzImpact, LawError};
 use fem_material::Material;
 
-use crate::effects::QUASI_STATIC_LIMIT;
+use fem_simulation::effects::QUASI_STATIC_LIMIT;
 
 /// Elements across the largest and the smallest contact radius, at least.
 const ELEMENTS_ACROSS: (f64, f64) = (8.0, 4.0);

@@ -1,13 +1,13 @@
 //! What a reader should know before trusting a series.
 
 use fem_case::engineering::show;
-use fem_fit::spectrum::{SpectrumFit, SpeedExponent};
+use crate::fit::spectrum::{SpectrumFit, SpeedExponent};
 
 use super::calibration::{Calibration, UNUSED_STEPS};
 use super::pair_model::STEPS;
 use super::settings::SettingNames;
-use crate::effects::QUASI_STATIC_LIMIT;
-use crate::warning_kinds::{WarningKind, WarningKinds};
+use fem_simulation::effects::QUASI_STATIC_LIMIT;
+use fem_simulation::{WarningKind, WarningKinds};
 
 /// Fewer elements across a contact radius than this do not follow it.
 const FEWEST_ELEMENTS: f64 = 3.0;

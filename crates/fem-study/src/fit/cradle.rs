@@ -14,7 +14,7 @@
 //! first order (JCGM 100, eq. 10). l and g cancel in e. Limits: light, inextensible threads, no
 //! drag, small balls (r² ≪ l²: a solid ball on one thread swings slower by r²/(5l²)), no spin.
 
-use crate::error::FitError;
+use crate::fit::error::FitError;
 
 /// Standard gravity, m/s² (CGPM 1901).
 pub const STANDARD_GRAVITY: f64 = 9.80665;

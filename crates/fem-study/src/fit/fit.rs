@@ -11,15 +11,15 @@
 //! t the quantile of Student's distribution (Seber & Wild, *Nonlinear Regression*, ch. 5). Data with
 //! uncertainties have s = 1 and the normal quantile: their residuals are known to be of order 1. An
 //! interval of a scale factor is symmetric in its logarithm. Limits: first order in the residuals'
-//! curvature ([`crate::Profile`] is not); residuals independent of each other, which the misfit of
+//! curvature ([`crate::fit::Profile`] is not); residuals independent of each other, which the misfit of
 //! a wrong law is not.
 
 use nalgebra::DMatrix;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use crate::error::FitError;
-use crate::least_squares::jacobian;
-use crate::problem::Problem;
+use crate::fit::error::FitError;
+use crate::fit::least_squares::jacobian;
+use crate::fit::problem::Problem;
 
 /// A fitted law.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,8 +7,8 @@
 use fem_laws::ParameterRole;
 use fem_laws::bisection::falling_zero;
 
-use crate::error::FitError;
-use crate::model::Model;
+use crate::fit::error::FitError;
+use crate::fit::model::Model;
 
 /// What gives a wanted restitution.
 #[derive(Debug, Clone, PartialEq)]

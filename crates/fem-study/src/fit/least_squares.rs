@@ -7,7 +7,7 @@
 use nalgebra::DMatrix;
 use rmpfit::{MPError, MPFitter, MPPar, MPResult, MPSide};
 
-use crate::error::FitError;
+use crate::fit::error::FitError;
 
 /// Step of the differences: parameters are logarithms or numbers of order 1.
 const STEP: f64 = 1e-4;

@@ -12,7 +12,7 @@
 //! Everything is SI.
 //!
 //! ```
-//! use fem_fit::{Model, Point, Problem};
+//! use fem_study::fit::{Model, Point, Problem};
 //! use fem_laws::{EndRule, LawFamily, Pair, Partner};
 //! use fem_material::{ElasticModuli, Material};
 //!
@@ -29,7 +29,7 @@
 //! assert!(fit.rms < 1e-8 && fit.estimates[0].interval.is_none());
 //!
 //! // The same number as an inverse problem.
-//! let found = fem_fit::invert(&model, 0, &fit.values, 0.5, 0.925)?;
+//! let found = fem_study::fit::invert(&model, 0, &fit.values, 0.5, 0.925)?;
 //! assert!((found.solutions[0] / fit.values[0] - 1.0).abs() < 1e-6);
 //! # Ok(())
 //! # }

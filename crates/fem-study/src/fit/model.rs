@@ -10,7 +10,7 @@ use fem_laws::{
 use fem_material::{Material, PronySeries, PronyTerm};
 use statrs::function::gamma::gamma;
 
-use crate::error::FitError;
+use crate::fit::error::FitError;
 
 /// Accuracy of a collision: differences over steps of 1e-4 in a parameter are good to 1e-5.
 const TOLERANCE: f64 = 1e-10;

@@ -2,9 +2,9 @@
 
 use fem_laws::{LawParameter, ParameterRole};
 
-use crate::error::FitError;
-use crate::least_squares::minimise;
-use crate::model::Model;
+use crate::fit::error::FitError;
+use crate::fit::least_squares::minimise;
+use crate::fit::model::Model;
 
 /// A measured or computed collision.
 #[derive(Debug, Clone, Copy, PartialEq)]

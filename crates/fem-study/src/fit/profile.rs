@@ -6,9 +6,9 @@
 
 use fem_laws::bisection::falling_zero;
 
-use crate::error::FitError;
-use crate::fit::Fit;
-use crate::problem::{Free, Problem};
+use crate::fit::error::FitError;
+use crate::fit::fit::Fit;
+use crate::fit::problem::{Free, Problem};
 
 /// A profile over one parameter.
 #[derive(Debug, Clone, PartialEq)]

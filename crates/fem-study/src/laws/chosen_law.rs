@@ -2,12 +2,12 @@
 //! is given.
 
 use fem_case::{Case, ModelChoice, Scene};
-use fem_fit::{FitError, Model, Point, Problem};
+use crate::fit::{FitError, Model, Point, Problem};
 use fem_laws::{EndRule, LawFamily, ParameterRole};
 
 use super::law_fault::LawFault;
 use super::parameter::{check_value, find_parameter, loss_parameter};
-use crate::models::Reduced;
+use fem_simulation::Reduced;
 
 /// The bodies of a scene under a law.
 ///
@@ -47,14 +47,14 @@ pub fn family_of(scene: &Scene) -> Option<LawFamily> {
 /// # material = 'ice'
 /// # approach_speed = 0.1";
 /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-/// use fem::laws::{ChosenLaw, LawFamily, LawFit};
-/// use fem::measured::Restitutions;
+/// use fem_study::laws::{ChosenLaw, LawFamily, LawFit};
+/// use fem_study::measured::Restitutions;
 ///
 /// let ice = Restitutions::of("ice", &[(0.05, 0.7), (0.1, 0.62), (0.2, 0.55), (0.4, 0.45)]);
 /// let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[("n", 0.65)], None)?;
 /// let fit = LawFit::of(&ice, law.problem(&ice.points, &["a"])?, 0.95)?;
 /// assert!(fit.fit.rms < 0.05 && fit.fit.estimates[0].key == "a");
-/// # Ok::<(), fem::laws::LawFault>(())
+/// # Ok::<(), fem_study::laws::LawFault>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChosenLaw {

@@ -1,12 +1,12 @@
 //! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
 
 use fem_case::{Body, Case, Scene};
-use fem_fit::dem::{
+use crate::fit::dem::{
     Dashpot, Elastic, Export, Snippet, Sphere, drake_snippets, fit_dissipation, lammps_snippets,
     lethe_snippets, liggghts_snippets, mercury_snippets, mfix_snippets, mujoco_snippets,
     restitution_of, yade_snippets,
 };
-use fem_fit::{FitError, Model, Outcome, Point, Problem};
+use crate::fit::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawError, LawFamily};
 
@@ -68,8 +68,8 @@ impl DemExport {
     /// # material = 'ice'
     /// # approach_speed = 0.1";
     /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem::laws::{DemExport, ImpactCurve};
-    /// use fem::measured::Restitutions;
+    /// use fem_study::laws::{DemExport, ImpactCurve};
+    /// use fem_study::measured::Restitutions;
     ///
     /// let ice = Restitutions::of("ice", &[(0.1, 0.6), (0.2, 0.6)]);
     /// let curve = ImpactCurve::measured(case.scene(), &ice)?;

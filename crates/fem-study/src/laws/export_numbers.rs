@@ -1,7 +1,7 @@
 //! `export.json`: laws of DEM codes as numbers.
 
-use fem_fit::Point;
-use fem_fit::dem::{Snippet, Sphere, restitution_of};
+use crate::fit::Point;
+use crate::fit::dem::{Snippet, Sphere, restitution_of};
 use fem_laws::LawFamily;
 use serde::{Serialize, Serializer};
 

@@ -2,13 +2,13 @@
 
 use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{Case, ModelChoice, Scene};
-use fem_fit::{FitError, Point};
+use crate::fit::{FitError, Point};
 use fem_laws::{EndRule, HertzImpact, LawFamily, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;
 use crate::measured::{DataError, Restitutions};
-use crate::models::Reduced;
+use fem_simulation::Reduced;
 
 /// Speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;

@@ -1,7 +1,7 @@
 //! What can be wrong with a law of a case.
 
 use fem_case::CaseError;
-use fem_fit::FitError;
+use crate::fit::FitError;
 use fem_laws::LawError;
 
 use super::parameter::ParameterError;

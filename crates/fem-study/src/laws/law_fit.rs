@@ -1,6 +1,6 @@
 //! A law that is fitted to restitutions, and how far the fit can be trusted.
 
-use fem_fit::{Fit, FitError, Free, Model, Problem, Profile};
+use crate::fit::{Fit, FitError, Free, Model, Problem, Profile};
 use fem_laws::{LawFamily, ParameterRole};
 
 use super::law_fault::LawFault;
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_profile_spans_its_interval_within_the_bounds() {
-        let estimate = |key, interval| fem_fit::Estimate {
+        let estimate = |key, interval| crate::fit::Estimate {
             index: 0,
             key,
             value: 1.0,

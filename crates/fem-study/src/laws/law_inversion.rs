@@ -1,6 +1,6 @@
 //! The parameter of a law that gives a wanted restitution at one speed.
 
-use fem_fit::{Inversion, Model, Point, Problem, invert};
+use crate::fit::{Inversion, Model, Point, Problem, invert};
 use fem_laws::{LawFamily, LawParameter, ParameterRole};
 
 use super::chosen_law::ChosenLaw;
@@ -42,7 +42,7 @@ impl LawInversion {
     /// # material = 'ice'
     /// # approach_speed = 0.1";
     /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem::laws::{ChosenLaw, LawFamily, LawInversion};
+    /// use fem_study::laws::{ChosenLaw, LawFamily, LawInversion};
     ///
     /// let law = ChosenLaw::of(&case, LawFamily::Tsuji, &[], None)?;
     /// let found = LawInversion::of(&law, None, 0.1, 0.9)?;

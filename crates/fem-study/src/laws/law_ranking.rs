@@ -13,7 +13,7 @@
 //! evidence among the laws that were fitted; none of them need be right.
 
 use fem_case::Case;
-use fem_fit::{Fit, Model};
+use crate::fit::{Fit, Model};
 use fem_laws::{EndRule, LawFamily};
 
 use super::chosen_law::ChosenLaw;

@@ -35,5 +35,5 @@ pub use law_ranking::{LawRanking, RankedLaw};
 pub use pair_export::{FittedPair, PairExport, PairNumbers};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
 
-pub use fem_fit::FitError;
+pub use crate::fit::FitError;
 pub use fem_laws::{EndRule, LawFamily};

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use fem_case::schema::SphereTable;
 use fem_case::{Case, library, nearest};
-use fem_fit::FitError;
-use fem_fit::dem::{Grain, PairOfGrains, Sphere};
+use crate::fit::FitError;
+use crate::fit::dem::{Grain, PairOfGrains, Sphere};
 use fem_laws::Pair;
 use serde::Serialize;
 
@@ -92,7 +92,7 @@ impl PairExport {
     /// # [model.law.kuwabara_kono]
     /// # a = 1e-6";
     /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem::laws::PairExport;
+    /// use fem_study::laws::PairExport;
     ///
     /// let unknown = PairExport::of(&case, &["lib:glas".into()], &[1e-3, 2e-3], None, 0.01);
     /// assert_eq!(unknown.unwrap_err().to_string(), "there is no material lib:glas");

@@ -99,7 +99,7 @@ pub fn loss_parameter(family: LawFamily) -> Result<usize, ParameterError> {
 /// No number, another dimension, a value without a meaning.
 ///
 /// ```
-/// use fem::laws::{LawFamily, parse_value};
+/// use fem_study::laws::{LawFamily, parse_value};
 ///
 /// let dissipation_time = &LawFamily::KuwabaraKono.parameters()[0];
 /// assert_eq!(parse_value(dissipation_time, "0.2 ms")?, 2e-4);
@@ -107,7 +107,7 @@ pub fn loss_parameter(family: LawFamily) -> Result<usize, ParameterError> {
 /// let error = parse_value(dissipation_time, "1 kg").unwrap_err();
 /// assert_eq!(error.to_string(), "a: \"1 kg\" is of another dimension");
 /// assert_eq!(error.help().unwrap(), "a is in s; bare numbers are SI");
-/// # Ok::<(), fem::laws::ParameterError>(())
+/// # Ok::<(), fem_study::laws::ParameterError>(())
 /// ```
 pub fn parse_value(parameter: &LawParameter, text: &str) -> Result<f64, ParameterError> {
     let LawParameter { key, unit, dimension: [m, kg, s], .. } = *parameter;

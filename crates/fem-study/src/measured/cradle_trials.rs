@@ -1,6 +1,6 @@
 //! Trials of a Newton's cradle from a table of angles.
 
-use fem_fit::cradle::{Measured, Trial};
+use crate::fit::cradle::{Measured, Trial};
 
 use super::data_error::DataError;
 use super::table::Table;
@@ -12,7 +12,7 @@ use super::table::Table;
 /// The first thing that is wrong with the table; columns that do not name their unit.
 ///
 /// ```
-/// use fem::measured::{Table, cradle_trials};
+/// use fem_study::measured::{Table, cradle_trials};
 ///
 /// let table = Table::parse("trials.csv", "alpha_deg,beta_deg\n90,60\n")?;
 /// let trials = cradle_trials(&table)?;
@@ -21,7 +21,7 @@ use super::table::Table;
 /// let table = Table::parse("trials.csv", "alpha,beta\n90,60\n")?;
 /// let error = cradle_trials(&table).unwrap_err();
 /// assert_eq!(error.to_string(), "trials.csv:1: the column alpha does not name its unit");
-/// # Ok::<(), fem::measured::DataError>(())
+/// # Ok::<(), fem_study::measured::DataError>(())
 /// ```
 pub fn cradle_trials(table: &Table) -> Result<Vec<Trial>, DataError> {
     let alpha = table.require(&["alpha"], "alpha_deg")?;

@@ -47,4 +47,4 @@ pub use table::Table;
 #[cfg(feature = "csv")]
 pub use written::decode;
 
-pub use fem_fit::Point;
+pub use crate::fit::Point;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use fem_case::parse_quantity;
-use fem_fit::cradle::Measured;
+use crate::fit::cradle::Measured;
 
 /// Kinds of quantity that a cradle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,11 +68,11 @@ const ANGLES: [(&str, f64); 5] =
 /// What it is not.
 ///
 /// ```
-/// use fem::measured::{Kind, parse_measured};
+/// use fem_study::measured::{Kind, parse_measured};
 ///
 /// let length = parse_measured(Kind::Length, "20 cm ± 1 mm")?;
 /// assert_eq!((length.value, length.uncertainty), (0.2, 0.001));
-/// # Ok::<(), fem::measured::NotMeasured>(())
+/// # Ok::<(), fem_study::measured::NotMeasured>(())
 /// ```
 pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
     let signs = ["±", "+/-", "+-"];

@@ -2,7 +2,7 @@
 
 use fem_case::Scene;
 
-use fem_fit::Point;
+use crate::fit::Point;
 
 use super::data_error::DataError;
 use super::restitution_columns::{CONTACT_TIMES, Columns, Wanted};
@@ -45,7 +45,7 @@ impl Restitutions {
     /// # material = 'ice'
     /// # approach_speed = 0.1";
     /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem::measured::{Restitutions, Table};
+    /// use fem_study::measured::{Restitutions, Table};
     ///
     /// let table = Table::parse("ice.csv", "speed_cm_s,e,sigma\n5,0.6,0.02\n20,0.4,0.02\n")?;
     /// let ice = Restitutions::read(&table, case.scene())?;

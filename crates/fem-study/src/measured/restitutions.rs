@@ -1,6 +1,6 @@
 //! Restitutions over approach speeds: measured, or those of a sweep.
 
-use fem_fit::Point;
+use crate::fit::Point;
 
 use super::data_error::DataError;
 
@@ -10,7 +10,7 @@ pub const LARGEST_UNCERTAINTY: f64 = 1.0;
 /// Restitutions over speeds, each with where it is from.
 ///
 /// ```
-/// use fem::measured::Restitutions;
+/// use fem_study::measured::Restitutions;
 ///
 /// let measured = Restitutions::of("glass", &[(0.2, 0.93), (0.5, 0.925)]);
 /// assert_eq!(measured.points[1].restitution, 0.925);

@@ -16,7 +16,7 @@ use super::written::{column_name, is_missing, separator, tabs_for_blanks, with_p
 /// A table in memory, its cells as they are written.
 ///
 /// ```
-/// use fem::measured::Table;
+/// use fem_study::measured::Table;
 ///
 /// let table = Table::parse("e.csv", "# glass\nspeed_cm_s, e\n50, 0.925\n")?;
 /// let speed = table.require(&["speed"], "speed_m_s")?;
@@ -24,7 +24,7 @@ use super::written::{column_name, is_missing, separator, tabs_for_blanks, with_p
 ///
 /// let error = table.number(0, speed, [0, 0, 1]).unwrap_err();
 /// assert_eq!(error.place(), "e.csv:3");
-/// # Ok::<(), fem::measured::DataError>(())
+/// # Ok::<(), fem_study::measured::DataError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
@@ -121,12 +121,12 @@ impl Table {
     /// A column that the header does not have; a name that nothing is read by.
     ///
     /// ```
-    /// use fem::measured::Table;
+    /// use fem_study::measured::Table;
     ///
     /// let table = Table::parse("e.csv", "v_cm_s;COR\n50;0,925\n")?;
     /// let table = table.renamed(&[("speed", "v_cm_s"), ("restitution", "cor")])?;
     /// assert_eq!(table.header(), ["speed_cm_s", "restitution"]);
-    /// # Ok::<(), fem::measured::DataError>(())
+    /// # Ok::<(), fem_study::measured::DataError>(())
     /// ```
     pub fn renamed(mut self, names: &[(&str, &str)]) -> Result<Self, DataError> {
         let found = self.header.clone();

@@ -14,7 +14,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use super::expense::seconds;
 use super::identity::Member;
 use super::members::Members;
-use crate::simulation::Simulation;
+use fem_simulation::Simulation;
 
 /// Members that are made at the same time.
 const AT_ONCE: usize = 64;

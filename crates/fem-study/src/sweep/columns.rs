@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use fem_collision::{Account, QuantityOfInterest, ShownIn};
 use serde_json::Value;
 
-use crate::results::energy_key;
+use fem_simulation::results::energy_key;
 
 /// Before the accounts of energy.
 const FIRST: [&str; 14] = [

@@ -2,7 +2,7 @@
 
 use fem_case::{Case, CaseError, CaseFile};
 
-use crate::identity::{identified, name_of};
+use fem_simulation::{identified, name_of};
 
 /// A member of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ impl Member {
         Ok((Self { index, digest }, case))
     }
 
-    /// See [`Identity::result`](crate::Identity::result).
+    /// See [`Identity::result`](fem_simulation::Identity::result).
     pub fn identity(&self) -> String {
         name_of(self.digest)
     }

@@ -5,8 +5,8 @@ use fem_case::{Case, CaseError, CaseFile};
 use super::order::dearest_first;
 use super::runner::Runner;
 use super::variations::Variations;
-use crate::method::Shared;
-use crate::results::Summary;
+use fem_simulation::Shared;
+use fem_simulation::results::Summary;
 
 /// Summaries of a case with one value after the other put in, in the order of the values.
 ///
@@ -18,8 +18,8 @@ use crate::results::Summary;
 /// Of each value on its own: what it makes is no valid case, or is refused.
 ///
 /// ```
-/// use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};
-/// use fem::{Case, CaseFile};
+/// use fem_case::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};
+/// use fem_case::{Case, CaseFile};
 ///
 /// let rubber = MaterialTable::from_youngs_modulus_poissons_ratio("1100 kg/m^3", "10 MPa", 0.45)
 ///     .relaxing(ActsOn::Shear, [TermTable::with_relaxation_time(0.5, "1 ms")]);
@@ -31,7 +31,7 @@ use crate::results::Summary;
 /// )?;
 ///
 /// let speeds = [0.25, 0.5, 1.0];
-/// let summaries = fem::sweep(&case, speeds, |file, speed| {
+/// let summaries = fem_study::sweep(&case, speeds, |file, speed| {
 ///     file.body[0].approach_speed = Some(speed.into());
 /// });
 /// let mut restitutions = Vec::new();
@@ -40,7 +40,7 @@ use crate::results::Summary;
 /// }
 /// // The faster, the shorter the contact, and the less of the stress relaxes in it.
 /// assert!(restitutions.len() == 3 && restitutions.is_sorted());
-/// # Ok::<(), fem::CaseError>(())
+/// # Ok::<(), fem_case::CaseError>(())
 /// ```
 pub fn sweep<V: Clone + Sync>(
     case: &Case,

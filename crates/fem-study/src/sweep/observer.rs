@@ -3,8 +3,8 @@
 use fem_case::CaseError;
 use fem_collision::{Collision, Monitor};
 
-use crate::results::Summary;
-use crate::simulation::Simulation;
+use fem_simulation::results::Summary;
+use fem_simulation::Simulation;
 
 /// Looks on from the threads that run the members, several of them at a time.
 ///
@@ -14,8 +14,9 @@ use crate::simulation::Simulation;
 /// ```
 /// use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 ///
-/// use fem::sweep::{Observer, Ran};
-/// use fem::{CaseError, Monitor, Progress};
+/// use fem_study::sweep::{Observer, Ran};
+/// use fem_case::CaseError;
+/// use fem_collision::{Monitor, Progress};
 ///
 /// /// Counts members, and ends all when a button is pressed.
 /// #[derive(Default)]

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 
 use super::members::Members;
-use crate::simulation::Simulation;
+use fem_simulation::Simulation;
 
 /// All members, the dearest first; those that are refused cost nothing.
 pub fn dearest_first(members: &(impl Members + ?Sized)) -> Vec<usize> {

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::columns::value_of;
 use super::identity::Member;
-use crate::results::Summary;
+use fem_simulation::results::Summary;
 
 /// A member that has been computed.
 #[derive(Clone, Debug)]

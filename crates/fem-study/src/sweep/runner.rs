@@ -6,8 +6,8 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::members::Members;
 use super::observer::{Observer, Ran};
-use crate::method::Shared;
-use crate::simulation::Simulation;
+use fem_simulation::Shared;
+use fem_simulation::Simulation;
 
 /// Members and what they are run with.
 #[derive(Clone, Copy, Debug)]

@@ -7,9 +7,9 @@ use super::members::Members;
 /// A case with one value after the other put in.
 ///
 /// ```
-/// use fem::schema::{BodyTable, MaterialTable};
-/// use fem::sweep::{Members, Variations};
-/// use fem::{Case, CaseFile};
+/// use fem_case::schema::{BodyTable, MaterialTable};
+/// use fem_study::sweep::{Members, Variations};
+/// use fem_case::{Case, CaseFile};
 ///
 /// let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
 /// let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("1 m/s");
@@ -25,7 +25,7 @@ use super::members::Members;
 /// });
 /// assert_eq!(members.n_members(), 4);
 /// assert_eq!(members.case(1)?.scene().approach_speed(), 0.1);
-/// # Ok::<(), fem::CaseError>(())
+/// # Ok::<(), fem_case::CaseError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Variations<'c, V, F> {

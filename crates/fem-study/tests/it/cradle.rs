@@ -1,6 +1,6 @@
 //! The cradle against conservation laws, drawing lots, and differences of an independent formula.
 
-use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Trial};
+use fem_study::fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Trial};
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{glass, glass_model};
-use fem_fit::dem::{
+use fem_study::fit::dem::{
     Dashpot, Elastic, Export, Grain, HuntCrossley, PairOfGrains, Sphere, TsujiVersion,
     characteristic_velocity, drake_snippets, grain_snippets, hertz_mindlin_entry, hooke_stiffness,
     lammps_snippets, lethe_snippets, liggghts_snippets, mercury_snippets, mfix_entry, mfix_outcome,
@@ -86,7 +86,7 @@ fn files_say_of_which_materials_no_loss_is_known() {
     }
 }
 
-fn entry(snippets: &[fem_fit::dem::Snippet], name: &str, key: &str) -> f64 {
+fn entry(snippets: &[fem_study::fit::dem::Snippet], name: &str, key: &str) -> f64 {
     let snippet = snippets.iter().find(|snippet| snippet.name == name).unwrap();
     snippet.entries.iter().find(|(found, _)| *found == key).unwrap().1
 }
@@ -226,7 +226,7 @@ fn contact_times_of_the_two_ends_differ() {
     };
     for family in [LawFamily::Tsuji, LawFamily::KuwabaraKono] {
         let model = glass_model(family, None);
-        let found = fem_fit::invert(&model, 0, &[1.0], 0.5, 0.92).unwrap().solutions[0];
+        let found = fem_study::fit::invert(&model, 0, &[1.0], 0.5, 0.92).unwrap().solutions[0];
         let microseconds = 1e6 * difference(model.law(&[found]).unwrap().unwrap());
         // Printed to two digits.
         assert!((1.35..2.65).contains(&microseconds), "{family:?} {microseconds}");

@@ -1,7 +1,7 @@
 //! Fits against published numbers, exact data, closed forms of linear statistics, and refusals.
 
 use crate::common::{bridges, glass_model, ice_model};
-use fem_fit::{FitError, Model, Point, Problem};
+use fem_study::fit::{FitError, Model, Point, Problem};
 use fem_laws::{EndRule, LawFamily};
 
 /// Data that a model makes, e and T.

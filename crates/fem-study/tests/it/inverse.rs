@@ -1,7 +1,7 @@
 //! Inverse problems against published values and the laws themselves.
 
 use crate::common::{glass, glass_model};
-use fem_fit::{FitError, Model, Point, Problem, invert};
+use fem_study::fit::{FitError, Model, Point, Problem, invert};
 use fem_laws::{EndRule, LawFamily};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 

@@ -1,8 +1,8 @@
 //! Prony series from restitutions of Ting's model: a series that is known comes back as far as the
 //! data can tell, and intervals tell how far that is.
 
-use fem_fit::FitError;
-use fem_fit::spectrum::{SpectrumFit, SpectrumProblem};
+use fem_study::fit::FitError;
+use fem_study::fit::spectrum::{SpectrumFit, SpectrumProblem};
 use fem_laws::{Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 

@@ -29,7 +29,6 @@ mod measured;
 mod memory;
 mod mirror_symmetry;
 mod models;
-mod numerics;
 mod own_frame;
 mod paper;
 mod partly_finite;

@@ -4,7 +4,7 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::calibrate::{Calibration, CalibrationModel};
 use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
-use fem_fit::spectrum::Range;
+use fem::fit::spectrum::Range;
 
 use crate::text::tables::{show_value, table};
 

@@ -6,8 +6,8 @@ use fem::case_identity;
 use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
-use fem_fit::FitError;
-use fem_fit::dem::{Snippet, grain_snippets};
+use fem::fit::FitError;
+use fem::fit::dem::{Snippet, grain_snippets};
 use fem_report::law_figures::export_figure;
 use serde_json::Value;
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::{PairExport, PairNumbers};
 use fem_case::engineering::{number, show};
-use fem_fit::dem::{Export, Snippet};
+use fem::fit::dem::{Export, Snippet};
 use serde_json::{Value, json};
 
 use crate::jobs::value_of;

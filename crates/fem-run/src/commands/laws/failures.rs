@@ -2,7 +2,7 @@
 
 use fem::calibrate::CalibrationFault;
 use fem::laws::{LawFault, ParameterError};
-use fem_fit::FitError;
+use fem::fit::FitError;
 use fem_laws::LawError;
 
 use crate::text::failure::Failure;

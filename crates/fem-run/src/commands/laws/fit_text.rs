@@ -4,7 +4,7 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem_case::engineering::show;
 use fem_case::schema::End;
-use fem_fit::{Estimate, Profile};
+use fem::fit::{Estimate, Profile};
 use fem_laws::LawFamily;
 
 use fem_report::law_figures::evidence;

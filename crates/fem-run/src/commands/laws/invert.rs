@@ -4,7 +4,7 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
 use fem_case::engineering::{number, show};
-use fem_fit::FitError;
+use fem::fit::FitError;
 use fem_laws::LawFamily;
 use serde_json::{Value, json};
 

@@ -39,7 +39,7 @@ use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use super::partner_waves::PartnerWaves;
 use crate::estimate::Estimate;
-use crate::expected::Expected;
+use crate::estimate::ting_prediction::Expected;
 use crate::refusal::Refusal;
 
 /// What laws differ by is said from this share of the contact time on.
@@ -74,7 +74,7 @@ impl FiniteStrain {
 
     /// The laws of both bodies of a scene whose strains are those of an estimate; `None` of one that is
     /// computed at small strain.
-    pub(crate) fn laws(scene: &Scene, estimate: &Estimate) -> [Option<HyperelasticLaw>; 2] {
+    pub fn laws(scene: &Scene, estimate: &Estimate) -> [Option<HyperelasticLaw>; 2] {
         let is_called_for = is_called_for(scene, estimate);
         let is_finite = |strained: &Strained| match scene.effects().finite_strain {
             Some(Switch::On) => true,

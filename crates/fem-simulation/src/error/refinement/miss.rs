@@ -2,12 +2,12 @@
 
 use fem_collision::{Collision, QuantityOfInterest};
 
-use crate::accuracy::scatter_of_any_mesh;
-use crate::early_pressure::EarlyPressure;
+use crate::error::scatter_of_any_mesh;
+use crate::error::early_pressure::EarlyPressure;
 use crate::effects::percent;
-use crate::method::ElementSetup;
+use crate::models::method::ElementSetup;
 use crate::simulation::Simulation;
-use crate::soft_springs::softness;
+use crate::plan::penalty_compliance::softness;
 
 /// An error of more than so many times what soft springs change is one of the mesh: what is told has a margin, and
 /// force and pressure change by more than the contact time.

@@ -15,7 +15,7 @@
 //! gives them, are off by more than is allowed, which no mesh mends. Where that does not do, or may not be, a
 //! warning says so. All of it is decided by numbers of the case and of the runs: it is the same on all machines.
 //! Where condensed companions tell it, the first mesh is chosen so before anything is run
-//! ([`foresight`](crate::foresight)).
+//! ([`foresight`](crate::error::foresight)).
 
 mod kept;
 mod miss;
@@ -31,8 +31,8 @@ use serde::{Deserialize, Serialize};
 
 use self::kept::Kept;
 use self::miss::Miss;
-use crate::accuracy::foretold_errors;
-use crate::method::Cost;
+use crate::error::foretold_errors;
+use crate::models::method::Cost;
 use crate::simulation::Simulation;
 
 /// Room beyond the error that is seen.

@@ -5,8 +5,8 @@ use fem_collision::{Collision, QuantityOfInterest};
 use super::kept::{Kept, is_of_noise};
 use super::miss::Miss;
 use super::{ORDER, ROOM, STEPS, length};
-use crate::accuracy::FEW;
-use crate::assess::overlap_warning;
+use crate::error::FEW;
+use crate::results::diagnostics::overlap_warning;
 use crate::simulation::Simulation;
 
 /// The same with fewer elements than [`FEW`] across the contact.

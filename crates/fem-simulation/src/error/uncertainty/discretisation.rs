@@ -5,7 +5,7 @@ use std::sync::PoisonError;
 use fem_collision::{Approach, Collision, QuantityOfInterest};
 
 use super::stated::stated;
-use crate::accuracy::discretisation_errors;
+use crate::error::discretisation_errors;
 use crate::effects::{Doubt, FiniteStrain, Verdict};
 use crate::simulation::Simulation;
 

@@ -35,11 +35,11 @@ use fem_collision::{
 use fem_laws::StaticHertz;
 use fem_mesh::SphereMesh;
 
-use crate::course::{Course, stopped};
+use crate::models::stepper::{Course, stopped};
 use crate::effects::{Answer, Effect};
 use crate::estimate::Estimate;
-use crate::memory::Memory;
-use crate::method::{Cost, Model, Setup, Shared};
+use crate::models::restart_state::Memory;
+use crate::models::method::{Cost, Model, Setup, Shared};
 use crate::models::method_of;
 use crate::refusal::Refusal;
 use bounced::Bounced;

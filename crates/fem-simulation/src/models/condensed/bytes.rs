@@ -13,16 +13,16 @@ const KEPT: u64 = 2_800;
 /// The same with its share of the springs of a relaxing shear.
 const RELAXING: u64 = 7_000;
 /// The most.
-pub(super) const MOST: u64 = 8_000;
+pub(crate) const MOST: u64 = 8_000;
 
 /// Whether condensed bodies have springs for how a body relaxes.
-pub(super) fn relaxes_in_shear(body: &Body) -> bool {
+pub(crate) fn relaxes_in_shear(body: &Body) -> bool {
     let series = body.material().and_then(Material::relaxation);
     series.is_some_and(|series| series.acts_on() == ActsOn::Shear)
 }
 
 /// Bytes of bodies with so many elements.
-pub(super) fn expected(bodies: [(&Body, u64); 2], keeps_factors: bool) -> u64 {
+pub(crate) fn expected(bodies: [(&Body, u64); 2], keeps_factors: bool) -> u64 {
     let has_springs = bodies.map(|(body, _)| relaxes_in_shear(body));
     let plain = if keeps_factors || has_springs.contains(&true) { KEPT } else { ELIMINATED };
     let each = has_springs.map(|has| if has { RELAXING } else { plain });

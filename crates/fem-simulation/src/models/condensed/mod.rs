@@ -1,6 +1,8 @@
 //! Linear finite elements that are condensed to their contact nodes: the meshes and the materials of
 //! the explicit model, milliseconds instead of seconds.
 
+pub(crate) mod bytes;
+
 mod effects;
 mod pace;
 pub(super) mod static_contact;
@@ -20,19 +22,19 @@ use fem_material::engineering::Unit;
 use fem_mesh::SphereMesh;
 
 use self::pace::{Foretold, n_steps};
-use super::condensed_bytes::{self, relaxes_in_shear};
+use self::bytes::relaxes_in_shear;
 use super::mirrored::{Mirrored, plan_of_half};
-use crate::approach::{approach_of, frame_of};
-use crate::body_source::BodySource;
+use crate::estimate::approach::{approach_of, frame_of};
+use crate::plan::body_source::BodySource;
 use crate::effects::{
     Answer, Effect, MirrorSymmetry, PartnerWaves, SurfaceSlip, Vibration, decide,
 };
 use crate::estimate::Estimate;
-use crate::flow::slower;
-use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
-use crate::pair_cache::PairKey;
+use crate::estimate::viscous_flow::slower;
+use crate::models::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
+use crate::plan::pair_cache::PairKey;
 use crate::plan::Plan;
-use crate::quieter::Quieter;
+use crate::plan::contact_noise_advice::Quieter;
 use crate::refusal::Refusal;
 
 /// Growth of the condensed region where the contact needs a larger one.
@@ -362,7 +364,7 @@ fn cost_of(scene: &Scene, pair: &CondensedPair, steps: u64) -> Cost {
         contact_points: pair.n_points() as u64,
         steps,
         factor_bytes: pair.factor_bytes() as u64,
-        memory: condensed_bytes::expected(bodies, pair.settings().keeps_factors),
+        memory: bytes::expected(bodies, pair.settings().keeps_factors),
     }
 }
 
@@ -408,7 +410,7 @@ fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
 
 fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {
     let elements = sources[0].n_elements()? + sources[1].n_elements()?;
-    let bytes = condensed_bytes::MOST.saturating_mul(elements as u64);
+    let bytes = bytes::MOST.saturating_mul(elements as u64);
     if bytes <= plan.max_memory {
         return Ok(());
     }

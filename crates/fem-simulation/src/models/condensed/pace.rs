@@ -3,7 +3,7 @@
 use fem_case::CondensedOptions;
 use fem_collision::{Monitor, Phase, Progress};
 
-use crate::flow::Slower;
+use crate::estimate::viscous_flow::Slower;
 
 /// Steps over the elastic contact time: no fewer of bodies that flow.
 const FEWEST_STEPS: usize = 10;

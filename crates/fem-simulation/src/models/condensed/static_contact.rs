@@ -10,8 +10,8 @@ use fem_condensed::{CondensedError, CondensedPair};
 use fem_laws::StaticHertz;
 
 use super::{CANDIDATE_GROWTH, check_memory, inputs, settings};
-use crate::body_source::BodySource;
-use crate::pair_cache::PairKey;
+use crate::plan::body_source::BodySource;
+use crate::plan::pair_cache::PairKey;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 

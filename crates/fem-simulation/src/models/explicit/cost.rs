@@ -4,16 +4,16 @@ use fem_case::{Body, Scene};
 use fem_explicit::Model as Bodies;
 use fem_material::{Material, PronySeries};
 
-use super::condensed_bytes;
-use crate::accuracy::companion_updates;
-use crate::duration::expected_duration;
+use crate::models::condensed::bytes;
+use crate::error::companion_updates;
+use crate::estimate::duration::expected_duration;
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::{Estimate, mach};
-use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
-use crate::method::Cost;
+use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_memory};
+use crate::models::method::Cost;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
-use crate::soft_springs::lengthening;
+use crate::plan::penalty_compliance::lengthening;
 
 /// Seconds of an update of an element on one core of 3 GHz, as docs/effects.md has them: at small
 /// strain, ...
@@ -76,9 +76,9 @@ fn companion_memory(scene: &Scene, model: &Bodies, plan: &Plan) -> Option<u64> {
     let are_condensed = companion_updates([mach, strain], is_finite).is_none();
     let [lower, upper] = scene.bodies();
     let [of_lower, of_upper] = model.bodies().each_ref().map(|body| 4 * body.n_elements() as u64);
-    let are_allowed = condensed_bytes::MOST * (of_lower + of_upper) <= plan.max_memory;
+    let are_allowed = bytes::MOST * (of_lower + of_upper) <= plan.max_memory;
     (are_condensed && plan.makes_meshes && are_allowed)
-        .then(|| condensed_bytes::expected([(lower, of_lower), (upper, of_upper)], false))
+        .then(|| bytes::expected([(lower, of_lower), (upper, of_upper)], false))
 }
 
 /// Seconds that a step of both bodies takes.

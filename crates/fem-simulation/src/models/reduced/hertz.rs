@@ -5,12 +5,12 @@ use fem_case::schema::{HertzTable, ModelTable};
 use fem_case::{CaseFile, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use super::reduced::effects::{Relaxation, Traits};
-use super::reduced::{Motion, Moving, Reduced, resolve_start};
+use super::effects::{Relaxation, Traits};
+use super::{Motion, Moving, Reduced, resolve_start};
 use super::ting;
 use crate::effects::SurfaceSlip;
 use crate::estimate::Estimate;
-use crate::method::{Method, Model, Shared};
+use crate::models::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
 /// Hertz, `[model] hertz = {}`.
@@ -52,7 +52,7 @@ impl Motion for ClosedForm {
 ///
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
-pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let ModelChoice::Hertz { finite_size } = *scene.model() else {
         return Err(Refusal::chose_another(scene, "hertz"));
     };

@@ -8,10 +8,10 @@ use fem_laws::{
 };
 use fem_material::engineering::number;
 
-use super::reduced::effects::{Relaxation, Traits};
-use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
+use super::effects::{Relaxation, Traits};
+use super::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::estimate::Estimate;
-use crate::method::{Method, Model, Shared};
+use crate::models::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
 /// A contact law, `[model] law = { NAME = { … } }`.
@@ -81,7 +81,7 @@ impl Motion for LawMotion {
 ///
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
-pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let ModelChoice::Law { law, end_rule, tolerance } = scene.model() else {
         return Err(Refusal::chose_another(scene, "law"));
     };

@@ -1,6 +1,14 @@
 //! Models of one degree of freedom, the approach of the mass centres. What is asked of all models comes
 //! from the relative motion and the conservation of momentum.
 
+pub(super) mod hertz;
+pub(super) mod law;
+pub(super) mod ting;
+
+pub use hertz::HertzMethod;
+pub use law::LawMethod;
+pub use ting::TingMethod;
+
 mod collision;
 pub(super) mod effects;
 mod static_contact;
@@ -13,10 +21,10 @@ use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
-use crate::approach::{approach_of, frame_of};
+use crate::estimate::approach::{approach_of, frame_of};
 use crate::effects::{Answer, Effect, decide};
 use crate::estimate::Estimate;
-use crate::method::{Cost, ForceLaw, Model, Setup};
+use crate::models::method::{Cost, ForceLaw, Model, Setup};
 use crate::refusal::Refusal;
 use effects::Traits;
 

@@ -4,14 +4,14 @@ use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::{Impact, LawError, Ting};
 
-use super::reduced::effects::{Relaxation, Traits};
-use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
+use super::effects::{Relaxation, Traits};
+use super::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
-use crate::flow;
-use crate::large_partner::radiating_impact;
-use crate::method::{Method, Model, Shared};
-use crate::quasi_static::ting_of;
+use crate::estimate::viscous_flow;
+use crate::estimate::semi_infinite_partner::radiating_impact;
+use crate::models::method::{Method, Model, Shared};
+use crate::estimate::quasi_static::ting_of;
 use crate::refusal::Refusal;
 
 /// Ting, `[model] ting = {}`.
@@ -94,12 +94,12 @@ fn weighed(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
 ///
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
-pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else {
         return Err(Refusal::chose_another(scene, "ting"));
     };
     let estimate = Estimate::checked(scene)?;
-    flow::check(scene, &estimate)?;
+    viscous_flow::check(scene, &estimate)?;
     let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
     let motion = Box::new(WithWaves { ting, scene: scene.clone(), finite_size, tolerance });
     let traits = Traits {
@@ -136,7 +136,7 @@ pub(super) fn motion(
     let refuse = |error: LawError| refused(scene, &error);
     let size = finite_size.then(|| scene.finite_size()).transpose().map_err(refuse)?;
     if let Some(size) = &size {
-        size.check(flow::widest_contact(scene, estimate)).map_err(|error| {
+        size.check(viscous_flow::widest_contact(scene, estimate)).map_err(|error| {
             Refusal::new(format!("{}.finite_size", scene.model().path()), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
         })?;

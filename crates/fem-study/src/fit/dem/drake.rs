@@ -19,9 +19,9 @@ use fem_laws::EndRule;
 use fem_laws::bisection::last_where;
 
 use super::snippet::{Export, HuntCrossley, Snippet, short, speed, time};
-use crate::error::FitError;
-use crate::least_squares::minimise;
-use crate::problem::Point;
+use crate::fit::error::FitError;
+use crate::fit::least_squares::minimise;
+use crate::fit::problem::Point;
 
 /// Decades around the data's own values within which d is searched.
 const REACH: f64 = 1e6;

@@ -1,6 +1,6 @@
 //! What a series is sought from.
 
-use crate::error::FitError;
+use crate::fit::error::FitError;
 
 /// Restitutions of all data for given weights.
 pub type Restitutions<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;

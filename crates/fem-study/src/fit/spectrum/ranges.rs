@@ -6,7 +6,7 @@
 //! the end that was found. No ridge: that is the user's wish and no knowledge.
 
 use super::bounded::Linear;
-use crate::error::FitError;
+use crate::fit::error::FitError;
 
 /// Corrections of an end by a collision computed there.
 const CHORDS: usize = 4;

@@ -11,7 +11,7 @@ use super::problem::{SpectrumProblem, root_mean_square};
 use super::ranges::{Seeker, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
-use crate::error::FitError;
+use crate::fit::error::FitError;
 
 /// Step of the differences: weights are of order 1, collisions smooth to 1e-7.
 const STEP: f64 = 1e-3;

@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "no test file uses all of it")]
 
-use fem_fit::{Model, Point};
+use fem_study::fit::{Model, Point};
 use fem_laws::{EndRule, LawFamily, Pair, Partner};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 

@@ -10,7 +10,7 @@ mod digest;
 
 use digest::{crates_below, digest};
 
-const ABOVE: [&str; 2] = ["fem-figure", "fem-run"];
+const ABOVE: [&str; 3] = ["fem-figure", "fem-study", "fem-run"];
 
 fn own() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -27,7 +27,7 @@ fn below() -> Vec<String> {
 #[test]
 fn it_is_of_all_that_computes() {
     let below = below();
-    for name in ["fem", "fem-case", "fem-condensed", "fem-explicit", "fem-element", "fem-material"]
+    for name in ["fem-simulation", "fem-case", "fem-condensed", "fem-explicit", "fem-element", "fem-material"]
     {
         assert!(below.iter().any(|found| found == name), "{name}: {below:?}");
     }
@@ -37,9 +37,9 @@ fn it_is_of_all_that_computes() {
 /// A build that had not looked at its sources again would have an older one.
 #[test]
 fn it_is_that_of_the_sources_as_they_are() {
-    assert_eq!(digest(&own(), env!("FEM_NUMERICS_TARGET")).unwrap(), fem::NUMERICS);
-    assert_eq!(fem::NUMERICS.len(), 16);
-    assert_ne!(digest(&own(), "another machine").unwrap(), fem::NUMERICS);
+    assert_eq!(digest(&own(), env!("FEM_NUMERICS_TARGET")).unwrap(), fem_simulation::NUMERICS);
+    assert_eq!(fem_simulation::NUMERICS.len(), 16);
+    assert_ne!(digest(&own(), "another machine").unwrap(), fem_simulation::NUMERICS);
 }
 
 /// A copy of the workspace without what is never looked at: sources, manifests, versions.
@@ -80,10 +80,10 @@ fn change(path: &Path) {
 #[test]
 fn it_moves_with_what_decides_bits() {
     let place = copy();
-    let own = place.path().join("crates/fem");
+    let own = place.path().join("crates/fem-simulation");
     let now = || digest(&own, env!("FEM_NUMERICS_TARGET")).unwrap();
     let mut last = now();
-    assert_eq!(last, fem::NUMERICS);
+    assert_eq!(last, fem_simulation::NUMERICS);
     let mut moves = |path: &str| {
         change(&place.path().join(path));
         let before = std::mem::replace(&mut last, now());
@@ -104,8 +104,8 @@ fn it_moves_with_what_decides_bits() {
 #[test]
 fn a_crate_on_its_own_has_one_too() {
     let place = copy();
-    let alone = place.path().join("fem-0.1.0");
-    fs::rename(place.path().join("crates/fem"), &alone).unwrap();
+    let alone = place.path().join("fem-simulation-0.1.0");
+    fs::rename(place.path().join("crates/fem-simulation"), &alone).unwrap();
     assert_eq!(crates_below(&alone).unwrap().len(), 1);
     assert_eq!(digest(&alone, "any").unwrap().len(), 16);
 }

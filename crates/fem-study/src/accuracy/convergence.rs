@@ -38,7 +38,7 @@ const LEFT: f64 = 0.2;
 /// The limit of a sequence of levels (h, q), h in any unit and q in its own.
 ///
 /// ```
-/// use fem::accuracy::Convergence;
+/// use fem_study::accuracy::Convergence;
 ///
 /// let levels = [4.0, 2.8, 2.0, 1.4].map(|h: f64| (h, 0.9 + 0.01 * h * h));
 /// let found = Convergence::of(&levels).expect("levels");

@@ -13,7 +13,7 @@
 /// What a sequence converges to, and how fast.
 ///
 /// ```
-/// use fem::accuracy::PowerLaw;
+/// use fem_study::accuracy::PowerLaw;
 ///
 /// let levels = [4.0, 2.8, 2.0, 1.4].map(|h: f64| (h, 0.9 + 0.01 * h * h));
 /// let fit = PowerLaw::fit(&levels).expect("four levels");
