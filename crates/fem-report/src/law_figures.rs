@@ -1,12 +1,12 @@
 //! Figures of fits, calibrations, exports and cradle experiments.
 
 use fem::calibrate::{Abscissa, Calibration};
+use fem::fit::cradle::{Swing, Trial};
+use fem::fit::{Fit, FitError, Model};
 use fem::laws::{DemExport, FittedLaw, LawFit, LawRanking};
 use fem_case::Scene;
 use fem_case::engineering::show;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
-use fem::fit::cradle::{Swing, Trial};
-use fem::fit::{Fit, FitError, Model};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawFamily, LawImpact, ParameterRole};
 

@@ -28,8 +28,8 @@ use super::finite_strain::FiniteStrain;
 use super::left_out::LeftOut;
 use super::need::Need;
 use super::speed::{MACH_LIMIT, above, number};
-use crate::plan::contact_method::asked_for;
 use crate::estimate::Estimate;
+use crate::plan::contact_method::asked_for;
 
 /// What it takes of the peak force, over v/c_s to the 3/5: ringing is not in it, which is a mean; of the
 /// largest force of a single step it takes 0.6.

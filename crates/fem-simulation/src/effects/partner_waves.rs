@@ -18,8 +18,8 @@ use super::need::{Need, percent};
 use super::transformed::Computed;
 use super::vibration::ENOUGH_MODES;
 use crate::estimate::Estimate;
-use crate::estimate::ting_prediction::Expected;
 use crate::estimate::effective_modulus::{Softened, left_at};
+use crate::estimate::ting_prediction::Expected;
 
 /// Above this T c_s/D waves come back in time and give back what they took.
 const RETURN_LIMIT: f64 = 2.0;

@@ -43,8 +43,8 @@ use super::margins::{
     OF_FEW_CONDENSED, SCATTER, added_share, beside_condensed, fronts, lost_at_once,
     of_few_strained, told,
 };
-use crate::error::early_pressure::EarlyPressure;
 use crate::effects::Doubt;
+use crate::error::early_pressure::EarlyPressure;
 use crate::simulation::Simulation;
 
 /// Elements of the collision over those of the finer companion of condensed bodies: with half of the length it

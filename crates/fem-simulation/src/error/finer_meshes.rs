@@ -2,8 +2,8 @@
 
 use std::iter::successors;
 
-use crate::models::method::Cost;
 use crate::error::refinement::{MOST_ELEMENTS, MOST_LEVELS, MOST_UPDATES};
+use crate::models::method::Cost;
 use crate::simulation::Simulation;
 
 /// Element updates of a finer mesh over those of the one before, at least with the shortest step to it and at most with

@@ -9,8 +9,8 @@ use std::sync::PoisonError;
 
 use fem_collision::{OutputRequest, QuantityOfInterest};
 
-use crate::error::{ByCoarser, ORDER, companion_updates, foretold_lengthening, lengthening};
 use crate::effects::FiniteStrain;
+use crate::error::{ByCoarser, ORDER, companion_updates, foretold_lengthening, lengthening};
 use crate::estimate::Estimate;
 use crate::models::method::Cost;
 use crate::simulation::Simulation;

@@ -8,8 +8,8 @@ use fem_case::Scene;
 use fem_collision::{Approach, FLIGHT_AFTER, RelativeMotion, RestCriterion};
 use fem_laws::Impact;
 
-use crate::estimate::approach::frame_of;
 use crate::estimate::Estimate;
+use crate::estimate::approach::frame_of;
 use crate::estimate::quasi_static::foretold_impact;
 
 /// Time (s) from first touch to the end of a run of a scene of whose approach closed forms say this.

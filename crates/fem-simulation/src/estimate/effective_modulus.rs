@@ -19,8 +19,8 @@ use fem_collision::Collision;
 use fem_laws::{HertzImpact, Impact, LawError};
 use fem_material::{ElasticModuli, Material};
 
-use crate::estimate::{Estimate, pair_at};
 use crate::estimate::quasi_static::foretold_on_half_spaces;
+use crate::estimate::{Estimate, pair_at};
 
 /// Halvings of the logarithm of t_s.
 const HALVINGS: usize = 50;

@@ -14,8 +14,8 @@ use fem_laws::{HertzImpact, LawError, Pair, Partner};
 use fem_material::engineering::number;
 use fem_material::{ElasticModuli, Material};
 
-use crate::refusal::Refusal;
 use crate::estimate::effective_modulus::Softened;
+use crate::refusal::Refusal;
 
 /// Least share of a modulus that the estimate counts with: a body that relaxes
 /// within the contact is stopped by its first, stiff response.

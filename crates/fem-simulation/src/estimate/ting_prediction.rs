@@ -6,8 +6,8 @@ use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
 use crate::effects::{PartnerWaves, SurfaceSlip};
 use crate::estimate::Estimate;
-use crate::estimate::semi_infinite_partner::radiating_impact;
 use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::estimate::semi_infinite_partner::radiating_impact;
 
 /// Accuracy of the impacts that foretell what effects change.
 const TOLERANCE: f64 = 1e-4;

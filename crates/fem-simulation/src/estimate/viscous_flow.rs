@@ -12,9 +12,9 @@ use fem_case::Scene;
 use fem_collision::{Approach, FLIGHT_AFTER, OutputRequest};
 use fem_laws::{Impact, LawError, StaticHertz};
 
+use crate::estimate::Estimate;
 use crate::estimate::approach::approach_of;
 use crate::estimate::duration::{duration_of, expected_duration};
-use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{foretold_impact, ting_of};
 use crate::refusal::Refusal;
 

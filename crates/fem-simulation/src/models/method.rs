@@ -10,13 +10,13 @@ use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
 use fem_mesh::SphereMesh;
 
-use crate::models::stepper::Course;
 use crate::effects::{Answer, Decisions, Effect};
 use crate::estimate::Estimate;
 use crate::models::restart_state::Memory;
-use crate::plan::pair_cache::PairCache;
+use crate::models::stepper::Course;
 use crate::plan::Plan;
 use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::pair_cache::PairCache;
 use crate::refusal::Refusal;
 
 /// A way to compute collisions.

@@ -9,12 +9,12 @@ use fem_collision::{
 };
 use fem_mesh::{Side, SphereMesh};
 
-use crate::estimate::approach::approach_of;
-use crate::models::stepper::{Course, stopped};
 use crate::effects::{Answer, Effect, MirrorSymmetry, decide};
 use crate::estimate::Estimate;
-use crate::models::restart_state::Memory;
+use crate::estimate::approach::approach_of;
 use crate::models::method::{ElementSetup, Model, Setup};
+use crate::models::restart_state::Memory;
+use crate::models::stepper::{Course, stopped};
 use crate::plan::{Plan, candidate_radius};
 use crate::refusal::Refusal;
 

@@ -3,8 +3,8 @@
 use fem_collision::Approach;
 use serde::{Deserialize, Serialize};
 
-use crate::models::Bounces;
 use crate::error::refinement::Level;
+use crate::models::Bounces;
 
 /// The memory of a [`Course`](crate::Course) between two advances. A course that goes on from it ends
 /// with the same bits.

@@ -5,11 +5,11 @@ use fem_case::Scene;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
 use fem_mesh::SphereMesh;
 
-use crate::models::stepper::Course;
 use crate::effects::{Answer, Effect, decide};
 use crate::estimate::Estimate;
-use crate::models::restart_state::Memory;
 use crate::models::method::{Model, Setup};
+use crate::models::restart_state::Memory;
+use crate::models::stepper::Course;
 use crate::refusal::Refusal;
 
 /// The model of a simplified scene.

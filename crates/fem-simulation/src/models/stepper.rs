@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, Progress, Stop};
 
-use crate::models::restart_state::Memory;
 use crate::models::method::Model;
+use crate::models::restart_state::Memory;
 
 /// A collision under way.
 pub trait Course {

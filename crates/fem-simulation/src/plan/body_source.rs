@@ -4,9 +4,9 @@ use fem_case::{Body, Scene, Shape};
 use fem_collision::BodyInput;
 use fem_material::Material;
 
+use crate::plan::Plan;
 use crate::plan::limits::check_size;
 use crate::plan::mesh_source::{MeshSource, half_disc, import, mesh_refusal, quarter_disc};
-use crate::plan::Plan;
 use crate::refusal::Refusal;
 
 /// What a body is made of; equal ones make equal bodies.

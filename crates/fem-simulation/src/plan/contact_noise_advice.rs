@@ -6,9 +6,9 @@
 
 use fem_case::Scene;
 
-use crate::plan::contact_method::massless_is_possible;
 use crate::effects::FiniteStrain;
 use crate::plan::Plan;
+use crate::plan::contact_method::massless_is_possible;
 
 /// Factor of the usual springs.
 const USUAL: f64 = 1.0;

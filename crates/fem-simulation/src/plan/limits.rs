@@ -7,8 +7,8 @@ use fem_mesh::MeshError;
 
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
-use crate::plan::mesh_source::{half_disc, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
+use crate::plan::mesh_source::{half_disc, mesh_refusal, quarter_disc};
 use crate::refusal::Refusal;
 
 /// Growth from element to element below which it is what makes elements many.

@@ -4,8 +4,8 @@ use fem_case::Scene;
 use fem_collision::BodyInput;
 use fem_mesh::SphereMesh;
 
-use crate::plan::body_source::BodySource;
 use crate::plan::Plan;
+use crate::plan::body_source::BodySource;
 use crate::refusal::Refusal;
 
 /// The meshes of both bodies in their places; a rigid body has none.

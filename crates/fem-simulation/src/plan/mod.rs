@@ -24,13 +24,13 @@ use fem_collision::{
     far_radius_of_waves,
 };
 
-use crate::plan::contact_method::contact_method;
 use crate::effects::percent;
 use crate::estimate::Estimate;
-use crate::plan::fineness::{Fineness, touches_at_nodes};
 use crate::estimate::viscous_flow;
-use crate::refusal::Refusal;
+use crate::plan::contact_method::contact_method;
+use crate::plan::fineness::{Fineness, touches_at_nodes};
 use crate::plan::stagger::{finer_body, staggered};
+use crate::refusal::Refusal;
 
 /// Half-width of the fine block over the contact radius.
 const REFINED_OVER_CONTACT: f64 = 1.2;

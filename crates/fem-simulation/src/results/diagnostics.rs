@@ -6,12 +6,12 @@ use fem_case::engineering::show;
 use fem_collision::{Collision, LARGEST_RESIDUAL, Stop};
 use fem_mesh::SphereMesh;
 
-use crate::error::early_pressure::EarlyPressure;
 use crate::effects::{EFFECTS, Effect, Vibration};
+use crate::error::early_pressure::EarlyPressure;
+use crate::error::resolution::longest_contact_edge;
 use crate::models::method::ElementSetup;
 use crate::plan::Plan;
 use crate::plan::contact_noise_advice::Quieter;
-use crate::error::resolution::longest_contact_edge;
 use crate::simulation::Simulation;
 
 /// Overlap of the surfaces over the approach.

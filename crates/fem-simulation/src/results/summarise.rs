@@ -11,8 +11,8 @@ use super::summary::{
 };
 use crate::effects::{FiniteStrain, Verdict};
 use crate::estimate::Estimate;
-use crate::simulation::numerics::NUMERICS;
 use crate::simulation::Simulation;
+use crate::simulation::numerics::NUMERICS;
 
 /// What a run took; whoever ran it has the clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

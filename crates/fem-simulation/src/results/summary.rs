@@ -7,8 +7,8 @@ use serde::{Serialize, Serializer};
 use super::elastic_null::ElasticNull;
 use super::energy::Energy;
 use crate::effects::{LeftOut, Verdict};
-use crate::models::Considered;
 use crate::error::refinement::Level;
+use crate::models::Considered;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";

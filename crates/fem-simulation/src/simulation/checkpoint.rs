@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use crate::simulation::identity::Identity;
 use crate::models::restart_state::Memory;
-use crate::simulation::numerics::NUMERICS;
 use crate::results::PROGRAM;
+use crate::simulation::identity::Identity;
+use crate::simulation::numerics::NUMERICS;
 
 /// Of the bytes; another one is not read.
 const FORMAT: u32 = 1;

@@ -5,8 +5,8 @@ use std::path::Path;
 use fem_case::{Case, CaseError, CaseFile, Shape};
 use sha2::{Digest, Sha256};
 
-use crate::simulation::numerics::NUMERICS;
 use crate::simulation::Simulation;
+use crate::simulation::numerics::NUMERICS;
 
 /// Bytes of a digest that go into a name: two of a million cases share one by a chance of 1e-7.
 const BYTES: usize = 8;

@@ -15,20 +15,20 @@ use fem_collision::{
     Approach, Collision, Monitor, OutputRequest, OutputRequestError, SnapshotRequest,
 };
 
-use crate::error::{Beside, Coarser};
-use crate::models::stepper::{Course, begun};
 use crate::effects::{Decisions, Doubt, EFFECTS, Effect, LeftOut, Verdict, decide};
-use crate::estimate::{Estimate, mach};
-use crate::simulation::identity::identity_of;
-use crate::models::restart_state::Memory;
-use crate::models::method::{Cost, Model, Setup, Shared};
-use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
-use crate::plan::probes::probes_of;
 use crate::error::refinement::Level;
-use crate::refusal::Refusal;
 use crate::error::resolution::{Given, Resolution, known_as_fine};
-use crate::plan::penalty_compliance::softness;
 use crate::error::uncertainty::Seen;
+use crate::error::{Beside, Coarser};
+use crate::estimate::{Estimate, mach};
+use crate::models::method::{Cost, Model, Setup, Shared};
+use crate::models::restart_state::Memory;
+use crate::models::stepper::{Course, begun};
+use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
+use crate::plan::penalty_compliance::softness;
+use crate::plan::probes::probes_of;
+use crate::refusal::Refusal;
+use crate::simulation::identity::identity_of;
 
 /// The collision of a case, by the model that it asks for, within its tolerance.
 ///

@@ -27,8 +27,14 @@ fn below() -> Vec<String> {
 #[test]
 fn it_is_of_all_that_computes() {
     let below = below();
-    for name in ["fem-simulation", "fem-case", "fem-condensed", "fem-explicit", "fem-element", "fem-material"]
-    {
+    for name in [
+        "fem-simulation",
+        "fem-case",
+        "fem-condensed",
+        "fem-explicit",
+        "fem-element",
+        "fem-material",
+    ] {
         assert!(below.iter().any(|found| found == name), "{name}: {below:?}");
     }
     assert!(ABOVE.iter().all(|name| !below.iter().any(|found| found == name)), "{below:?}");

@@ -4,14 +4,14 @@ use fem_case::schema::ContactMethod;
 use fem_case::{Case, CaseError, Scene};
 
 use super::rung::{Rung, Series};
-use fem_simulation::error::{Setting, first_contact};
-use fem_simulation::{contact_method, unread};
-use fem_simulation::effects::FiniteStrain;
 use fem_simulation::Estimate;
 use fem_simulation::Fineness;
 use fem_simulation::Foreseen;
-use fem_simulation::{Plan, divided_radius};
 use fem_simulation::Simulation;
+use fem_simulation::effects::FiniteStrain;
+use fem_simulation::error::{Setting, first_contact};
+use fem_simulation::{Plan, divided_radius};
+use fem_simulation::{contact_method, unread};
 
 /// Elements across the contact radius, of condensed bodies.
 const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];

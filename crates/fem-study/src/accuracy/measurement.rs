@@ -5,8 +5,8 @@ use fem_collision::{Monitor, OutputRequest, QuantityOfInterest, SnapshotInstant,
 
 use super::rung::Rung;
 use super::stress_places::StressPlaces;
-use fem_simulation::{Cost, Shared};
 use fem_simulation::Simulation;
+use fem_simulation::{Cost, Shared};
 
 /// What a rung gives, SI.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,9 +3,9 @@
 use fem_case::{Case, CaseError, ModelChoice};
 
 use super::ladder::{COMMON, Lengths};
-use fem_simulation::error::Setting;
-use fem_simulation::chosen;
 use fem_simulation::Simulation;
+use fem_simulation::chosen;
+use fem_simulation::error::Setting;
 
 /// Ways that differ in one thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

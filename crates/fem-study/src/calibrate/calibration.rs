@@ -1,10 +1,10 @@
 //! A Prony series of a material from measured restitutions.
 
-use fem_case::Case;
 use crate::fit::FitError;
 use crate::fit::spectrum::{
     SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, root_mean_square, speed_exponent,
 };
+use fem_case::Case;
 use fem_material::PronyTerm;
 use rayon::prelude::*;
 

@@ -4,9 +4,9 @@
 //! condensed region are those of the largest contact (instantaneous moduli), elements are small
 //! enough for the smallest, unless the case gives their size.
 
+use crate::fit::FitError;
 use fem_case::engineering::show;
 use fem_case::{Body, Case, CaseError};
-use crate::fit::FitError;
 use fem_material::PronyTerm;
 
 use super::fault::CalibrationFault;
@@ -15,8 +15,8 @@ use super::settings::CalibrationModel;
 use super::speed_span::{SpeedDoubt, SpeedSpan};
 use super::target::Target;
 use crate::measured::{MeasuredPair, MeasuredPairs};
-use fem_simulation::{Model, Shared};
 use fem_simulation::Condensed;
+use fem_simulation::{Model, Shared};
 
 /// What the size of elements decides on: to blame if there is no mesh.
 const OF_ELEMENT_SIZE: [&str; 3] =

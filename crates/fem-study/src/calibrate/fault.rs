@@ -1,8 +1,8 @@
 //! What can be wrong with a calibration.
 
+use crate::fit::FitError;
 use fem_case::CaseError;
 use fem_case::engineering::show;
-use crate::fit::FitError;
 use fem_laws::LawError;
 
 use crate::measured::DataError;

@@ -1,7 +1,7 @@
 //! `calibrate.json`: a calibration as numbers.
 
-use fem_case::schema::ActsOn;
 use crate::fit::spectrum::{Combination, Range};
+use fem_case::schema::ActsOn;
 use serde::Serialize;
 
 use super::calibration::Calibration;

@@ -2,9 +2,9 @@
 
 use std::fmt::Display;
 
+use crate::fit::FitError;
 use fem_case::Scene;
 use fem_collision::Stop;
-use crate::fit::FitError;
 use fem_laws::{FiniteSize, LawError, Pair, PairRelaxation, Ting};
 use fem_material::{Material, PronySeries, PronyTerm};
 use rayon::prelude::*;

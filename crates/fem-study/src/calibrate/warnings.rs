@@ -1,7 +1,7 @@
 //! What a reader should know before trusting a series.
 
-use fem_case::engineering::show;
 use crate::fit::spectrum::{SpectrumFit, SpeedExponent};
+use fem_case::engineering::show;
 
 use super::calibration::{Calibration, UNUSED_STEPS};
 use super::pair_model::STEPS;

@@ -1,8 +1,8 @@
 //! From a case to a law of its bodies: which one, with which numbers, from `[model]` and from what
 //! is given.
 
-use fem_case::{Case, ModelChoice, Scene};
 use crate::fit::{FitError, Model, Point, Problem};
+use fem_case::{Case, ModelChoice, Scene};
 use fem_laws::{EndRule, LawFamily, ParameterRole};
 
 use super::law_fault::LawFault;

@@ -1,12 +1,12 @@
 //! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
 
-use fem_case::{Body, Case, Scene};
 use crate::fit::dem::{
     Dashpot, Elastic, Export, Snippet, Sphere, drake_snippets, fit_dissipation, lammps_snippets,
     lethe_snippets, liggghts_snippets, mercury_snippets, mfix_snippets, mujoco_snippets,
     restitution_of, yade_snippets,
 };
 use crate::fit::{FitError, Model, Outcome, Point, Problem};
+use fem_case::{Body, Case, Scene};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawError, LawFamily};
 

@@ -1,7 +1,7 @@
 //! `fit.json`: a fitted law as numbers.
 
-use fem_case::schema::End;
 use crate::fit::{Fit, Model, Profile};
+use fem_case::schema::End;
 use fem_laws::LawParameter;
 use serde::Serialize;
 

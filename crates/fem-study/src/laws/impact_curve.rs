@@ -1,8 +1,8 @@
 //! Restitution and contact time over speed: what laws of other codes are fitted to.
 
+use crate::fit::{FitError, Point};
 use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{Case, ModelChoice, Scene};
-use crate::fit::{FitError, Point};
 use fem_laws::{EndRule, HertzImpact, LawFamily, Pair};
 
 use super::chosen_law::model_of;

@@ -1,7 +1,7 @@
 //! What can be wrong with a law of a case.
 
-use fem_case::CaseError;
 use crate::fit::FitError;
+use fem_case::CaseError;
 use fem_laws::LawError;
 
 use super::parameter::ParameterError;

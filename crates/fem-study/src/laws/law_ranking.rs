@@ -12,8 +12,8 @@
 //! q = p + 1, the scatter counting as a parameter, where they have none. Weights w are shares of the
 //! evidence among the laws that were fitted; none of them need be right.
 
-use fem_case::Case;
 use crate::fit::{Fit, Model};
+use fem_case::Case;
 use fem_laws::{EndRule, LawFamily};
 
 use super::chosen_law::ChosenLaw;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use fem_case::schema::SphereTable;
-use fem_case::{Case, library, nearest};
 use crate::fit::FitError;
 use crate::fit::dem::{Grain, PairOfGrains, Sphere};
+use fem_case::schema::SphereTable;
+use fem_case::{Case, library, nearest};
 use fem_laws::Pair;
 use serde::Serialize;
 

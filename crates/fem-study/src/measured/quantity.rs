@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use fem_case::parse_quantity;
 use crate::fit::cradle::Measured;
+use fem_case::parse_quantity;
 
 /// Kinds of quantity that a cradle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Which columns of a table hold speeds and restitutions, and what a row of them says.
 
-use fem_case::Scene;
 use crate::fit::Point;
+use fem_case::Scene;
 
 use super::data_error::DataError;
 use super::restitutions::LARGEST_UNCERTAINTY;

@@ -3,8 +3,8 @@
 use fem_case::CaseError;
 use fem_collision::{Collision, Monitor};
 
-use fem_simulation::results::Summary;
 use fem_simulation::Simulation;
+use fem_simulation::results::Summary;
 
 /// Looks on from the threads that run the members, several of them at a time.
 ///

@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::common::{glass, glass_model};
+use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
+use fem_laws::{EndRule, HertzImpact, LawFamily, LawImpact, Pair, Partner};
 use fem_study::fit::dem::{
     Dashpot, Elastic, Export, Grain, HuntCrossley, PairOfGrains, Sphere, TsujiVersion,
     characteristic_velocity, drake_snippets, grain_snippets, hertz_mindlin_entry, hooke_stiffness,
@@ -10,8 +12,6 @@ use fem_study::fit::dem::{
     mfix_snippets, mujoco_snippets, tsuji_entry, tsuji_outcome, viscel_entry, viscoelastic_damping,
     yade_betan, yade_snippets,
 };
-use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
-use fem_laws::{EndRule, HertzImpact, LawFamily, LawImpact, Pair, Partner};
 
 fn export() -> Export {
     let glass = glass(None);

@@ -1,8 +1,8 @@
 //! Fits against published numbers, exact data, closed forms of linear statistics, and refusals.
 
 use crate::common::{bridges, glass_model, ice_model};
-use fem_study::fit::{FitError, Model, Point, Problem};
 use fem_laws::{EndRule, LawFamily};
+use fem_study::fit::{FitError, Model, Point, Problem};
 
 /// Data that a model makes, e and T.
 fn made_by(model: &Model, values: &[f64], speeds: &[f64]) -> Vec<Point> {

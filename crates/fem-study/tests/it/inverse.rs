@@ -1,9 +1,9 @@
 //! Inverse problems against published values and the laws themselves.
 
 use crate::common::{glass, glass_model};
-use fem_study::fit::{FitError, Model, Point, Problem, invert};
 use fem_laws::{EndRule, LawFamily};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_study::fit::{FitError, Model, Point, Problem, invert};
 
 /// 0.92 at 0.5 m/s: β = 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus (the
 /// project's reference calculation, by another program).

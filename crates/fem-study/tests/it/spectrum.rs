@@ -1,10 +1,10 @@
 //! Prony series from restitutions of Ting's model: a series that is known comes back as far as the
 //! data can tell, and intervals tell how far that is.
 
-use fem_study::fit::FitError;
-use fem_study::fit::spectrum::{SpectrumFit, SpectrumProblem};
 use fem_laws::{Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_study::fit::FitError;
+use fem_study::fit::spectrum::{SpectrumFit, SpectrumProblem};
 
 /// Speeds over two decades: contact times over a factor of 2.5.
 const SPEEDS: [f64; 6] = [0.02, 0.05, 0.12, 0.3, 0.8, 2.0];

@@ -2,9 +2,9 @@
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::calibrate::{Calibration, CalibrationModel};
+use fem::fit::spectrum::Range;
 use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
-use fem::fit::spectrum::Range;
 
 use crate::text::tables::{show_value, table};
 

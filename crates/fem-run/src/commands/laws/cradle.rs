@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
 use fem::fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_of_balls};
+use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
 use fem_report::law_figures::cradle_figure;
 use serde_json::{Value, json};
 

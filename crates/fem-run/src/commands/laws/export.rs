@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use fem::case_identity;
+use fem::fit::FitError;
+use fem::fit::dem::{Snippet, grain_snippets};
 use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
-use fem::fit::FitError;
-use fem::fit::dem::{Snippet, grain_snippets};
 use fem_report::law_figures::export_figure;
 use serde_json::Value;
 

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::fit::dem::{Export, Snippet};
 use fem::laws::{PairExport, PairNumbers};
 use fem_case::engineering::{number, show};
-use fem::fit::dem::{Export, Snippet};
 use serde_json::{Value, json};
 
 use crate::jobs::value_of;

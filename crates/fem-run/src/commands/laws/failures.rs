@@ -1,8 +1,8 @@
 //! Errors of laws, fits and calibrations as failures, with the options that help.
 
 use fem::calibrate::CalibrationFault;
-use fem::laws::{LawFault, ParameterError};
 use fem::fit::FitError;
+use fem::laws::{LawFault, ParameterError};
 use fem_laws::LawError;
 
 use crate::text::failure::Failure;

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use fem::case_identity;
+use fem::fit::{Free, Problem};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
-use fem::fit::{Free, Problem};
 use fem_laws::LawFamily;
 use fem_report::law_figures::{fit_figure, histories_figure};
 use serde_json::Value;

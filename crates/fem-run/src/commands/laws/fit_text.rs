@@ -1,10 +1,10 @@
 //! The texts of a fit and of a ranking of laws.
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::fit::{Estimate, Profile};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem_case::engineering::show;
 use fem_case::schema::End;
-use fem::fit::{Estimate, Profile};
 use fem_laws::LawFamily;
 
 use fem_report::law_figures::evidence;

@@ -1,10 +1,10 @@
 //! `fem-run invert CASE --restitution 0.92`: the parameter of a law that gives a restitution.
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::fit::FitError;
 use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
 use fem_case::engineering::{number, show};
-use fem::fit::FitError;
 use fem_laws::LawFamily;
 use serde_json::{Value, json};
 

@@ -4,9 +4,9 @@ use fem_case::CaseError;
 use fem_collision::Collision;
 
 use super::miss::Miss;
+use crate::error::uncertainty::of_noise;
 use crate::error::{far_mesh_errors, far_mesh_key, of_moved_mass};
 use crate::simulation::Simulation;
-use crate::error::uncertainty::of_noise;
 
 /// Why a mesh stays as it is.
 pub(super) enum Kept {

@@ -2,12 +2,12 @@
 
 use fem_collision::{Collision, QuantityOfInterest};
 
-use crate::error::scatter_of_any_mesh;
-use crate::error::early_pressure::EarlyPressure;
 use crate::effects::percent;
+use crate::error::early_pressure::EarlyPressure;
+use crate::error::scatter_of_any_mesh;
 use crate::models::method::ElementSetup;
-use crate::simulation::Simulation;
 use crate::plan::penalty_compliance::softness;
+use crate::simulation::Simulation;
 
 /// An error of more than so many times what soft springs change is one of the mesh: what is told has a margin, and
 /// force and pressure change by more than the contact time.

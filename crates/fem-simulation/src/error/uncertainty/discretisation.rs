@@ -5,8 +5,8 @@ use std::sync::PoisonError;
 use fem_collision::{Approach, Collision, QuantityOfInterest};
 
 use super::stated::stated;
-use crate::error::discretisation_errors;
 use crate::effects::{Doubt, FiniteStrain, Verdict};
+use crate::error::discretisation_errors;
 use crate::simulation::Simulation;
 
 /// What closed forms are off by: rounding.

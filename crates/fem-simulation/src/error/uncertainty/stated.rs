@@ -2,7 +2,9 @@
 
 use fem_collision::{Collision, QuantityOfInterest};
 
-use crate::results::diagnostics::{excess_of_restitution, noise, overlap_of_approach, unbalanced_energy};
+use crate::results::diagnostics::{
+    excess_of_restitution, noise, overlap_of_approach, unbalanced_energy,
+};
 use crate::simulation::Simulation;
 
 /// Of the energy, what a restitution near 1 is off by.

@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 use super::bounced::Bounced;
 use super::chain::Chain;
 use super::{Ball, fallen, first_want, later_want};
-use crate::models::stepper::{Course, begun};
-use crate::models::restart_state::Memory;
 use crate::models::method::Model;
+use crate::models::restart_state::Memory;
+use crate::models::stepper::{Course, begun};
 use crate::refusal::Refusal;
 
 /// What a ball that bounces knows beside the contact under way.

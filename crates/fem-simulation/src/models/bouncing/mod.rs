@@ -35,12 +35,12 @@ use fem_collision::{
 use fem_laws::StaticHertz;
 use fem_mesh::SphereMesh;
 
-use crate::models::stepper::{Course, stopped};
 use crate::effects::{Answer, Effect};
 use crate::estimate::Estimate;
-use crate::models::restart_state::Memory;
 use crate::models::method::{Cost, Model, Setup, Shared};
 use crate::models::method_of;
+use crate::models::restart_state::Memory;
+use crate::models::stepper::{Course, stopped};
 use crate::refusal::Refusal;
 use bounced::Bounced;
 pub(crate) use course::Bounces;

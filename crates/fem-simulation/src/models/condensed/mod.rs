@@ -21,20 +21,20 @@ use fem_material::PronySeries;
 use fem_material::engineering::Unit;
 use fem_mesh::SphereMesh;
 
-use self::pace::{Foretold, n_steps};
 use self::bytes::relaxes_in_shear;
+use self::pace::{Foretold, n_steps};
 use super::mirrored::{Mirrored, plan_of_half};
-use crate::estimate::approach::{approach_of, frame_of};
-use crate::plan::body_source::BodySource;
 use crate::effects::{
     Answer, Effect, MirrorSymmetry, PartnerWaves, SurfaceSlip, Vibration, decide,
 };
 use crate::estimate::Estimate;
+use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::viscous_flow::slower;
 use crate::models::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
-use crate::plan::pair_cache::PairKey;
 use crate::plan::Plan;
+use crate::plan::body_source::BodySource;
 use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::pair_cache::PairKey;
 use crate::refusal::Refusal;
 
 /// Growth of the condensed region where the contact needs a larger one.

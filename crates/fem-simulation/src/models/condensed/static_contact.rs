@@ -10,9 +10,9 @@ use fem_condensed::{CondensedError, CondensedPair};
 use fem_laws::StaticHertz;
 
 use super::{CANDIDATE_GROWTH, check_memory, inputs, settings};
+use crate::plan::Plan;
 use crate::plan::body_source::BodySource;
 use crate::plan::pair_cache::PairKey;
-use crate::plan::Plan;
 use crate::refusal::Refusal;
 
 /// The contact of a scene's bodies with gravity; `None` of bodies that flow.

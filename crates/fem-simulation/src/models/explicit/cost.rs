@@ -4,16 +4,16 @@ use fem_case::{Body, Scene};
 use fem_explicit::Model as Bodies;
 use fem_material::{Material, PronySeries};
 
-use crate::models::condensed::bytes;
+use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::error::companion_updates;
 use crate::estimate::duration::expected_duration;
-use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::{Estimate, mach};
-use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_memory};
+use crate::models::condensed::bytes;
 use crate::models::method::Cost;
 use crate::plan::Plan;
-use crate::refusal::Refusal;
+use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_memory};
 use crate::plan::penalty_compliance::lengthening;
+use crate::refusal::Refusal;
 
 /// Seconds of an update of an element on one core of 3 GHz, as docs/effects.md has them: at small
 /// strain, ...

@@ -15,25 +15,25 @@ use fem_explicit::{
 };
 use fem_mesh::SphereMesh;
 
-use super::condensed::static_contact::of_elements;
 use self::cost::cost;
+use super::condensed::static_contact::of_elements;
 use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
-use crate::estimate::approach::{approach_of, frame_of};
-use crate::plan::body_source::BodySource;
-use crate::plan::contact_method::unread;
-use crate::models::stepper::{Course, stopped, to_the_end};
-use crate::estimate::duration::expected_duration;
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
     MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, SurfaceSlip,
     Viscoelasticity, decide,
 };
+use crate::estimate::approach::{approach_of, frame_of};
+use crate::estimate::duration::expected_duration;
 use crate::estimate::{Estimate, mach};
-use crate::models::restart_state::Memory;
 use crate::models::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
-use crate::plan::{Plan, candidate_radius};
+use crate::models::restart_state::Memory;
+use crate::models::stepper::{Course, stopped, to_the_end};
+use crate::plan::body_source::BodySource;
+use crate::plan::contact_method::unread;
 use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::{Plan, candidate_radius};
 use crate::refusal::Refusal;
 
 /// Growth of the searched region when the contact leaves it.

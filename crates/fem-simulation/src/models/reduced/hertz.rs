@@ -6,8 +6,8 @@ use fem_case::{CaseFile, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
 use super::effects::{Relaxation, Traits};
-use super::{Motion, Moving, Reduced, resolve_start};
 use super::ting;
+use super::{Motion, Moving, Reduced, resolve_start};
 use crate::effects::SurfaceSlip;
 use crate::estimate::Estimate;
 use crate::models::method::{Method, Model, Shared};

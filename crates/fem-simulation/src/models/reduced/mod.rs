@@ -21,9 +21,9 @@ use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
-use crate::estimate::approach::{approach_of, frame_of};
 use crate::effects::{Answer, Effect, decide};
 use crate::estimate::Estimate;
+use crate::estimate::approach::{approach_of, frame_of};
 use crate::models::method::{Cost, ForceLaw, Model, Setup};
 use crate::refusal::Refusal;
 use effects::Traits;

@@ -8,10 +8,10 @@ use super::effects::{Relaxation, Traits};
 use super::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
-use crate::estimate::viscous_flow;
-use crate::estimate::semi_infinite_partner::radiating_impact;
-use crate::models::method::{Method, Model, Shared};
 use crate::estimate::quasi_static::ting_of;
+use crate::estimate::semi_infinite_partner::radiating_impact;
+use crate::estimate::viscous_flow;
+use crate::models::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
 /// Ting, `[model] ting = {}`.

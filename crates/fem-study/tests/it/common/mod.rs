@@ -2,9 +2,9 @@
 
 #![allow(dead_code, reason = "no test file uses all of it")]
 
-use fem_study::fit::{Model, Point};
 use fem_laws::{EndRule, LawFamily, Pair, Partner};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_study::fit::{Model, Point};
 
 /// Table 1, with a decay rate, 1/s.
 pub fn glass(decay: Option<(f64, ActsOn)>) -> Material {
