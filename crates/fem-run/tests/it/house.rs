@@ -44,7 +44,7 @@ const HOUSE: [(&str, &str, &[&str]); 20] = [
     ),
     (
         "fem-collision",
-        "What a collision is asked for and what comes out of it, the same for every model",
+        "Requests and results of a collision, the same for every model",
         &["fem-element", "fem-material", "fem-mesh"],
     ),
     (
@@ -99,7 +99,7 @@ const HOUSE: [(&str, &str, &[&str]); 20] = [
     ),
     (
         "fem-validate",
-        "Claims about collisions, each held against an independent reference",
+        "Claims about collisions, each checked against independent references",
         &[
             "fem",
             "fem-case",
@@ -115,7 +115,7 @@ const HOUSE: [(&str, &str, &[&str]); 20] = [
     ),
     (
         "fem-page",
-        "A page that computes collisions in the browser: the front door in WebAssembly",
+        "The HTML page that computes collisions in the browser, in WebAssembly",
         &["fem", "fem-case", "fem-figure", "fem-report"],
     ),
     (
@@ -140,7 +140,7 @@ const HOUSE: [(&str, &str, &[&str]); 20] = [
     ),
     (
         "fem-fuzz",
-        "Hostile inputs for everything that reads: cases, meshes, tables, restart files, sweeps, the command",
+        "Hostile input for everything that reads: cases, meshes, tables, restart files, sweeps, the command",
         &["fem", "fem-case", "fem-mesh", "fem-vtk"],
     ),
 ];
