@@ -46,7 +46,7 @@ pub struct Session {
 impl Default for Session {
     fn default() -> Self {
         let pairs = || Arc::new(PairCache::with_max_bytes(MOST_KEPT));
-        let shared = Shared { pairs: pairs(), companions: pairs(), ..Shared::default() };
+        let shared = Shared { pairs: pairs(), reference_pairs: pairs(), ..Shared::default() };
         Self { shared, simulation: None, ask: None, course: None, collision: None }
     }
 }
@@ -103,10 +103,11 @@ impl Session {
         let simulation = self.simulation.as_ref()?;
         let collision = self.course.take()?.finish();
         let spent = Spent { wall: seconds, solve: seconds, threads: 1, ..Spent::default() };
-        let warnings = simulation.warnings(&collision);
+        let errors = simulation.estimate_errors(&collision);
+        let warnings = simulation.warnings_with(&collision, &errors);
         let hertz = self.hertz(simulation, &collision).unwrap_or_default();
         let outcome = RunOutcome {
-            summary: Summary::of(simulation, &collision, spent, warnings, Vec::new()),
+            summary: Summary::of(simulation, &collision, &errors, spent, warnings, Vec::new()),
             sharing: EnergyShares::of(&collision),
             charts: Charts::of(&collision.history, &hertz, common_of(&collision)),
             frames: FrameInfo::all(&collision, simulation.case().scene().first_touch()),

@@ -124,10 +124,10 @@ impl Case {
                 simulation.skip_snapshots();
             }
             let mut timed = Timed::since(started, RunWatch(watch));
-            let (simulation, collision) = simulation.run_within_tolerance(&mut timed);
-            Ok::<_, Failure>((simulation, collision, timed.stop().0))
+            let computed = simulation.run_within_tolerance(&mut timed);
+            Ok::<_, Failure>((computed, timed.stop().0))
         })?;
-        let (simulation, collision, stopwatch) = ran.or_raise(py)?;
-        Ok((Outcome::of(simulation, collision, stopwatch), error))
+        let (computed, stopwatch) = ran.or_raise(py)?;
+        Ok((Outcome::of(computed, stopwatch), error))
     }
 }

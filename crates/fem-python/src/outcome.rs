@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use fem::Simulation;
+use fem::ComputedCollision;
 use fem::results::{Summary, history_csv, write_snapshots};
-use fem_collision::Collision;
 use fem_command::{Stopwatch, save};
 use fem_vtk::{ReadArray, VtuFile};
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray};
@@ -17,19 +16,18 @@ use crate::failure::{OrRaise, raised};
 /// A collision with its simulation.
 #[pyclass(frozen, module = "fem_run._native")]
 pub struct Outcome {
-    simulation: Simulation,
-    collision: Collision,
+    computed: ComputedCollision,
     stopwatch: Stopwatch,
     summary: Summary,
 }
 
 impl Outcome {
     /// Summarises a collision.
-    pub fn of(simulation: Simulation, collision: Collision, stopwatch: Stopwatch) -> Self {
-        let warnings = simulation.warnings(&collision);
-        let spent = stopwatch.spent();
-        let summary = Summary::of(&simulation, &collision, spent, warnings, Vec::new());
-        Self { simulation, collision, stopwatch, summary }
+    pub fn of(computed: ComputedCollision, stopwatch: Stopwatch) -> Self {
+        let ComputedCollision { simulation, collision, errors } = &computed;
+        let (spent, warnings) = (stopwatch.spent(), computed.warnings());
+        let summary = Summary::of(simulation, collision, errors, spent, warnings, Vec::new());
+        Self { computed, stopwatch, summary }
     }
 }
 
@@ -61,19 +59,20 @@ impl Outcome {
     /// Returns why the run stopped early, as an exception.
     fn failure(&self, py: Python<'_>) -> Option<PyErr> {
         let kept = "what was computed so far is the exception's result, marked incomplete";
-        let failure = fem_command::stopped(&self.collision, &self.summary, kept)?;
+        let failure = fem_command::stopped(&self.computed.collision, &self.summary, kept)?;
         Some(raised(py, &failure))
     }
 
     /// Returns the columns of `history.csv`.
     fn history<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyArray1<f64>>)>> {
         let mut bytes = Vec::new();
-        let scene = self.simulation.case().scene();
-        history_csv(&mut bytes, scene, &self.collision.history).map_err(broken)?;
+        let scene = self.computed.simulation.case().scene();
+        history_csv(&mut bytes, scene, &self.computed.collision.history).map_err(broken)?;
         let text = String::from_utf8(bytes).map_err(broken)?;
         let mut lines = text.lines();
         let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-        let mut columns = vec![Vec::with_capacity(self.collision.history.len()); names.len()];
+        let mut columns =
+            vec![Vec::with_capacity(self.computed.collision.history.len()); names.len()];
         for line in lines {
             for (column, cell) in columns.iter_mut().zip(line.split(',')) {
                 // A missing number is an empty cell.
@@ -88,7 +87,8 @@ impl Outcome {
     fn snapshots<'py>(&self, py: Python<'py>) -> PyResult<Vec<SnapshotArrays<'py>>> {
         let folder = tempfile::tempdir()?;
         let path = folder.path();
-        let write = || write_snapshots(path, "s", &self.simulation, &self.collision);
+        let write =
+            || write_snapshots(path, "s", &self.computed.simulation, &self.computed.collision);
         let (files, _) = py.detach(write).map_err(broken)?;
         let is_grid = |name: &&String| name.ends_with(".vtu");
         files.iter().filter(is_grid).map(|name| snapshot(py, path.join(name))).collect()
@@ -96,8 +96,8 @@ impl Outcome {
 
     /// Writes the result folder, as the command does.
     fn save(&self, py: Python<'_>, folder: PathBuf, stem: String, force: bool) -> PyResult<()> {
-        let Self { simulation, collision, stopwatch, .. } = self;
-        let write = || save(&folder, &stem, simulation, collision, stopwatch, force);
+        let Self { computed, stopwatch, .. } = self;
+        let write = || save(&folder, &stem, computed, stopwatch, force);
         py.detach(write).or_raise(py)
     }
 }

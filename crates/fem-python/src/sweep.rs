@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use fem::ComputedCollision;
 use fem::results::Summary;
-use fem::sweep::{Checked, Columns, Member, Observer, Ran, Row, Runner, check};
+use fem::sweep::{Checked, Columns, Member, Observer, Row, Runner, check};
 use fem::{Case as FemCase, CaseError, Shared};
 use fem_collision::{Monitor, Progress};
 use fem_command::{Failure, Stopwatch, Timed};
@@ -55,7 +56,7 @@ impl<'a> Observer for MemberObserver<'a> {
         Timed::since(std::time::Instant::now(), MemberWatch(self.watch))
     }
 
-    fn end(&self, index: usize, watch: Self::Watch, ran: Result<&Ran, &CaseError>) {
+    fn end(&self, index: usize, watch: Self::Watch, ran: Result<&ComputedCollision, &CaseError>) {
         let n_done = self.n_done.fetch_add(1, Ordering::Relaxed) + 1;
         self.watch.set(n_done as f64 / self.n_members as f64);
         let text = match ran {
@@ -80,10 +81,11 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 /// Returns the summary of a member as JSON.
-fn text_of(ran: &Ran, stopwatch: &Stopwatch) -> Result<String, Failure> {
-    let warnings = ran.simulation.warnings(&ran.collision);
+fn text_of(ran: &ComputedCollision, stopwatch: &Stopwatch) -> Result<String, Failure> {
+    let ComputedCollision { simulation, collision, errors } = ran;
+    let warnings = ran.warnings();
     let (spent, files) = (stopwatch.spent(), Vec::new());
-    let summary = Summary::of(&ran.simulation, &ran.collision, spent, warnings, files);
+    let summary = Summary::of(simulation, collision, errors, spent, warnings, files);
     serde_json::to_string(&summary).map_err(|error| Failure::failed(error.to_string()))
 }
 

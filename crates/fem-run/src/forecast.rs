@@ -3,8 +3,8 @@
 
 use std::time::{Duration, Instant};
 
-use fem::accuracy::condensed_companion_time;
-use fem::{Cost, Following, MostFiner, Simulation};
+use fem::accuracy::CONDENSED_REFERENCE_TIME;
+use fem::{Cost, ErrorEstimator, RefinementBound, Simulation};
 use fem_case::engineering::show;
 use fem_collision::{Monitor, OutputRequest, Phase, Progress};
 
@@ -26,126 +26,85 @@ const FILE: f64 = 0.4;
 /// Time to draw the report of a run with snapshots over the time to make the bodies.
 const REPORT: f64 = 0.8;
 
-/// Element updates that `check` may compute to forecast mesh refinement: two or three seconds.
-pub const PATIENCE_OF_CHECK: u64 = 30_000_000;
-
-/// What is known of a run with elements before it begins.
+/// The cost estimate of a run with elements.
 #[derive(Clone, Copy, Debug)]
 pub struct Forecast {
-    /// Run time on this machine, reference runs included, s.
+    /// Seconds here, reference runs included.
     pub seconds: Option<f64>,
-    /// Element updates of the collision over those of its cost estimate.
+    /// Element updates of the collision over those that closed forms announce.
     pub longer: f64,
-    /// Element updates of the collision and of its reference runs; 0 for models without any.
-    element_updates: f64,
-    /// Mesh refinements that may follow.
-    pub finer: Option<Finer>,
+    /// Element updates of the collision and of its reference runs; 0 for models that take none.
+    pub element_updates: f64,
+    /// An upper bound of the finer meshes that may follow.
+    pub finer: Option<FinerMeshes>,
 }
 
-/// Mesh refinements that follow if the result of the run misses its tolerance.
+/// Finer meshes that follow if the tolerance is missed, which only the run shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Finer {
-    /// Refinements forecast from coarser meshes, or from the collision itself if that is quick.
-    foretold: Option<Foretold>,
-    /// Upper bound of the refinements.
-    most: MostFiner,
-    /// Element updates and seconds of the first run with its reference runs.
+pub struct FinerMeshes {
+    bound: RefinementBound,
+    /// Element updates and seconds of the collision with its reference runs.
     first: (f64, f64),
 }
 
-/// Expected mesh refinements.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Foretold {
-    meshes: usize,
-    /// Element updates, reference runs included, over those of the first mesh.
-    over_first: f64,
-}
-
 impl Forecast {
-    /// Forecasts a run whose bodies took `making` seconds to make. `is_open` says whether mesh refinement
-    /// may follow; collisions of at most `patience` element updates are computed to forecast it.
-    pub fn of(simulation: &Simulation, making: f64, is_open: bool, patience: u64) -> Self {
-        let (longer, following) = simulation.following(patience);
+    /// Estimates the cost of a run whose bodies took `making` seconds to make; `is_open` says whether finer meshes may
+    /// follow.
+    pub fn of(
+        simulation: &Simulation,
+        estimator: &mut ErrorEstimator,
+        making: f64,
+        is_open: bool,
+    ) -> Self {
+        let longer = estimator.updates_over_announced(simulation);
         let seconds = seconds(simulation, making, longer);
-        let (companions, announced) = match simulation.setup().cost {
-            Cost::Steps { element_updates, .. } => {
-                (simulation.companion_updates().unwrap_or(0.0), element_updates as f64)
-            }
-            _ => (0.0, 0.0),
+        let announced = match simulation.setup().cost {
+            Cost::Steps { element_updates, .. } => element_updates as f64,
+            _ => 0.0,
         };
-        let element_updates = (1.0 + companions) * longer * announced;
-        let most = is_open.then(|| simulation.most_of_finer_meshes()).flatten();
-        let finer = seconds.zip(most).map(|(seconds, most)| Finer {
-            foretold: following.map(|Following { meshes, element_updates }| Foretold {
-                meshes,
-                over_first: element_updates as f64 / (longer * announced),
-            }),
-            most,
-            first: (element_updates, seconds),
-        });
+        let of_reference_runs = simulation.reference_updates().unwrap_or(0.0);
+        let element_updates = (1.0 + of_reference_runs) * longer * announced;
+        let bound = is_open.then(|| simulation.refinement_bound()).flatten();
+        let finer = seconds
+            .zip(bound)
+            .map(|(seconds, bound)| FinerMeshes { bound, first: (element_updates, seconds) });
         Self { seconds, longer, element_updates, finer }
     }
 
-    /// Returns the expected element updates in all.
-    pub fn all_element_updates(&self) -> f64 {
-        self.element_updates * self.over_first()
-    }
-
-    /// Returns the expected run time in all, s.
-    pub fn all_seconds(&self) -> Option<f64> {
-        Some(self.over_first() * self.seconds?)
-    }
-
-    /// Returns the run time with all mesh refinements that may follow, s.
+    /// Returns the seconds here with all finer meshes that may follow.
     pub fn most_seconds(&self) -> Option<f64> {
-        let most = self.finer.map_or(0.0, |finer| finer.most.over_first);
-        Some(self.over_first().max(1.0 + most) * self.seconds?)
-    }
-
-    /// Returns the expected cost in all, over that of the first mesh.
-    fn over_first(&self) -> f64 {
-        let foretold = self.finer.and_then(|finer| finer.foretold);
-        1.0 + foretold.map_or(0.0, |foretold| foretold.over_first)
+        let most = self.finer.map_or(0.0, |finer| finer.bound.over_first);
+        Some((1.0 + most) * self.seconds?)
     }
 }
 
-impl Finer {
-    /// Returns the expected and the largest cost of refinement, such as "1 expected, about 6.0e6 element
-    /// updates more, 8.1 s; at most 1.7e8 element updates more, 229 s".
+impl FinerMeshes {
+    /// "at most 2, 1.7e8 element updates more, 229 s more".
     pub fn in_words(&self) -> String {
         let (updates, seconds) = self.first;
-        let price = |over_first: f64| {
-            let time = show(over_first * seconds, "s");
-            match updates > 0.0 {
-                true => format!("{:.1e} element updates more, {time}", over_first * updates),
-                false => format!("{time} more"),
-            }
-        };
-        let MostFiner { meshes, over_first: most } = self.most;
-        match self.foretold {
-            Some(Foretold { meshes, over_first }) => {
-                let most = price(most.max(over_first));
-                match meshes {
-                    0 => format!("none is expected; at most {most}"),
-                    _ => format!("{meshes} expected, about {}; at most {most}", price(over_first)),
-                }
-            }
-            None => format!("at most {meshes}, {}", price(most)),
+        let RefinementBound { meshes, over_first } = self.bound;
+        let time = show(over_first * seconds, "s");
+        match updates > 0.0 {
+            true => format!(
+                "at most {meshes}, {:.1e} element updates more, {time}",
+                over_first * updates
+            ),
+            false => format!("at most {meshes}, {time} more"),
         }
     }
 }
 
-/// Returns the run time, reference runs included, s; `None` for models without elements and for a bouncing
-/// ball, whose cost is that of one contact.
+/// Returns the seconds of a run here, reference runs included; `None` for a model without elements, and for a ball that
+/// bounces, whose cost is that of one contact.
 fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
     if simulation.case().scene().gravity().is_some() {
         return None;
     }
     match simulation.setup().cost {
         Cost::Steps { steps, seconds, .. } => {
-            let companions = simulation.companion_updates().unwrap_or(0.0);
-            let timed = (1.0 + companions) * seconds_a_step(simulation)? * steps as f64;
-            // The first steps have little contact, and their data are in the processor's cache.
+            let of_reference_runs = simulation.reference_updates().unwrap_or(0.0);
+            let timed = (1.0 + of_reference_runs) * seconds_a_step(simulation)? * steps as f64;
+            // The first steps have little contact, and are in the processor's cache.
             Some(longer * timed.max(seconds))
         }
         Cost::Factors { .. } => Some(of_condensed(simulation, making)),
@@ -186,11 +145,7 @@ fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     let has_report = simulation.case().scene().wants_report() && n_snapshots > 0;
     let of_report = if has_report { REPORT } else { 0.0 };
     let files = making * ((FIELDS + FILE) * n_snapshots as f64 + of_report);
-    let elements = simulation.setup().elements.as_ref();
-    let across = elements.map_or(f64::INFINITY, |elements| {
-        simulation.setup().estimate.contact_radius / elements.plan.contact_element_size
-    });
-    collision + files + condensed_companion_time(across) * (collision + making)
+    collision + files + CONDENSED_REFERENCE_TIME * (collision + making)
 }
 
 /// A monitor that stops a run as soon as its time can be forecast.

@@ -19,9 +19,7 @@ mod refusal;
 pub mod results;
 mod simulation;
 
-pub use error::finer_meshes::MostFiner;
-pub use error::foresight::{Following, Foreseen};
-pub use error::refinement::Level;
+pub use error::{ErrorEstimate, ErrorEstimator, Level, RefinedBeforeRun, RefinementBound};
 pub use estimate::Estimate;
 pub use estimate::approach::approach_of;
 pub use estimate::quasi_static::ting_impact;
@@ -49,4 +47,4 @@ pub use simulation::checkpoint::{
 };
 pub use simulation::identity::{Identity, case_identity, digest_of, identified, name_of};
 pub use simulation::numerics::NUMERICS;
-pub use simulation::{Simulation, collide};
+pub use simulation::{ComputedCollision, Simulation, collide};

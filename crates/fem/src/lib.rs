@@ -14,13 +14,14 @@
 //! [`Sweep::load`](sweep::Sweep::load) read files then, those that they are given or that these name.
 
 pub use fem_simulation::{
-    AutoMethod, BodyStress, CheckpointError, CheckpointHead, Condensed, CondensedMethod,
-    Considered, Cost, Course, ElementSetup, Estimate, ExpectedError, Explicit, ExplicitMethod,
-    Following, ForceLaw, Foreseen, HertzMethod, Identity, LawMethod, Level, METHODS, Memory,
-    Method, Model, MostFiner, NUMERICS, PairCache, Plan, Quieter, Reduced, Refusal, Remedy, Setup,
-    Shared, Simulation, Summary, TingMethod, WarningKind, WarningKinds, approach_of, assess,
-    build_meshes, case_identity, checkpoint, checkpoint_head, collide, digest_of, effects,
-    memory_of, method_of, model_of, remedy_of, results, ting_impact,
+    AutoMethod, BodyStress, CheckpointError, CheckpointHead, ComputedCollision, Condensed,
+    CondensedMethod, Considered, Cost, Course, ElementSetup, ErrorEstimate, ErrorEstimator,
+    Estimate, ExpectedError, Explicit, ExplicitMethod, ForceLaw, HertzMethod, Identity, LawMethod,
+    Level, METHODS, Memory, Method, Model, NUMERICS, PairCache, Plan, Quieter, Reduced,
+    RefinedBeforeRun, RefinementBound, Refusal, Remedy, Setup, Shared, Simulation, Summary,
+    TingMethod, WarningKind, WarningKinds, approach_of, assess, build_meshes, case_identity,
+    checkpoint, checkpoint_head, collide, digest_of, effects, memory_of, method_of, model_of,
+    remedy_of, results, ting_impact,
 };
 pub use fem_study::sweep::sweep;
 pub use fem_study::{accuracy, calibrate, fit, laws, measured, sweep};

@@ -12,7 +12,7 @@
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 
-use fem::accuracy::{Limit, Setting};
+use fem::accuracy::{BarParts, Limit, Setting};
 use fem_case::{Accuracy, Case, CaseError};
 use fem_collision::QuantityOfInterest;
 use rayon::prelude::*;
@@ -45,8 +45,38 @@ struct Parameters {
 /// One model in one scene.
 struct Trial {
     scene: String,
-    /// Errors and bars over the value, of the restitution as they are, and what is known of the limit.
-    numbers: Vec<(QuantityOfInterest, f64, f64, f64)>,
+    measured: Vec<Measured>,
+}
+
+/// One quantity of a trial: of the restitution absolute, of others relative.
+#[derive(Clone, Copy)]
+struct Measured {
+    headline: QuantityOfInterest,
+    /// With its sign.
+    error: f64,
+    bar: f64,
+    /// Uncertainty of the limit that the error is measured from.
+    limit_uncertainty: f64,
+    parts: BarParts,
+}
+
+impl Measured {
+    /// Returns the error over the bar and the uncertainty of the limit.
+    fn share(&self) -> f64 {
+        self.error.abs() / (self.bar + self.limit_uncertainty)
+    }
+
+    /// Returns the bar over the error, or over the uncertainty of the limit if that is more.
+    fn width(&self) -> f64 {
+        self.bar / self.error.abs().max(self.limit_uncertainty)
+    }
+
+    /// Returns the constant of the edge, times (a/h)², with which the bar would hold.
+    fn edge_needed(&self) -> f64 {
+        let BarParts { reference_error, safety_factor, across, floor, .. } = self.parts;
+        let known = safety_factor * reference_error + floor + self.limit_uncertainty;
+        (self.error.abs() - known).max(0.0) * across * across
+    }
 }
 
 type Numbers = [Option<f64>; 6];
@@ -69,19 +99,26 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         findings.measure(format!("{name}.covered"), covered as f64);
         let met = trials.iter().filter(|trial| trial.is_met()).count();
         findings.measure(format!("{name}.met"), met as f64);
-        let numbers = trials.iter().flat_map(|trial| &trial.numbers);
-        let mut ratios: Vec<f64> =
-            numbers.map(|(_, error, bar, known)| bar / error.abs().max(*known)).collect();
+        let all = trials.iter().flat_map(|trial| &trial.measured);
+        let mut ratios: Vec<f64> = all.map(Measured::width).collect();
         ratios.sort_by(f64::total_cmp);
         findings.measure(
             format!("{name}.bar"),
             ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN),
         );
+        findings.tabulate(
+            format!(
+                "{name}: constants of the error estimate (crates/fem-simulation/src/error/calibration.rs). The edge \
+                 constant needed is that with which the bars of 98 % of these scenes hold."
+            ),
+            ["quantity", "covered", "median bar", "bar over error", "edge constant", "edge constant needed"],
+            QuantityOfInterest::ALL.into_iter().map(|headline| calibration_row(&trials, headline)),
+        );
         trials.sort_by(|a, b| b.share().total_cmp(&a.share()));
         let rows = trials.iter().take(N_SHOWN).map(|trial| {
             let number = |headline: QuantityOfInterest| {
-                let mut numbers = trial.numbers.iter();
-                let (_, error, bar, _) = numbers.find(|(other, ..)| *other == headline)?;
+                let mut all = trial.measured.iter();
+                let Measured { error, bar, .. } = all.find(|it| it.headline == headline)?;
                 Some(format!("{error:+.1e} ± {bar:.1e}"))
             };
             let [e, t, f, approach, a, p] =
@@ -95,6 +132,28 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         );
     }
     Ok(findings)
+}
+
+/// Returns the calibration of one quantity: how often its bars hold, how wide they are, and its edge constant.
+fn calibration_row(trials: &[Trial], headline: QuantityOfInterest) -> [String; 6] {
+    let all =
+        || trials.iter().flat_map(|trial| &trial.measured).filter(|it| it.headline == headline);
+    let quantile = |of: &dyn Fn(&Measured) -> f64, share: f64| {
+        let mut values: Vec<f64> = all().map(of).collect();
+        values.sort_by(f64::total_cmp);
+        let k = (share * values.len() as f64) as usize;
+        values.get(k.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
+    };
+    let covered = all().filter(|it| it.share() <= 1.0).count();
+    let edge = all().map(|it| it.parts.edge * it.parts.across.max(1.0).powi(2)).next();
+    [
+        headline.key().to_string(),
+        format!("{covered} of {}", all().count()),
+        format!("{:.1e}", quantile(&|it| it.bar, 0.5)),
+        format!("{:.1}", quantile(&Measured::width, 0.5)),
+        format!("{:.3}", edge.unwrap_or(f64::NAN)),
+        format!("{:.3}", quantile(&Measured::edge_needed, 0.98)),
+    ]
 }
 
 /// Trials of both models in the scenes of a seed.
@@ -138,19 +197,12 @@ fn try_scene(
     let Ok(case) = laboratory.claim().load_case(&file) else { return Ok(None) };
     laboratory.work(|| {
         let trials = compute(&case, parameters).ok().flatten();
-        Ok((
-            trials.map(|numbers| numbers.map(|numbers| Trial { scene: set.join(" "), numbers })),
-            0,
-        ))
+        Ok((trials.map(|both| both.map(|measured| Trial { scene: set.join(" "), measured })), 0))
     })
 }
 
 /// Errors, bars and what is known of the limits, of explicit elements and of condensed bodies.
-#[allow(clippy::type_complexity, reason = "two of what a trial holds")]
-fn compute(
-    case: &Case,
-    parameters: &Parameters,
-) -> Result<Option<[Vec<(QuantityOfInterest, f64, f64, f64)>; 2]>, CaseError> {
+fn compute(case: &Case, parameters: &Parameters) -> Result<Option<[Vec<Measured>; 2]>, CaseError> {
     let radius = match fem::Estimate::of(case.scene()) {
         Ok(estimate) => estimate.contact_radius,
         Err(_) => return Ok(None),
@@ -192,8 +244,8 @@ fn compute(
     let explicit = levels(&little, &EXPLICIT)?;
     let judge = |settings: &[Setting], has_inertia: bool| {
         let (simulation, collision) = run(settings, None)?;
-        let bars = simulation.summary(&collision).uncertainty;
-        let numbers = QuantityOfInterest::ALL.into_iter().filter_map(|headline| {
+        let errors = simulation.estimate_errors(&collision);
+        let measured = QuantityOfInterest::ALL.into_iter().filter_map(|headline| {
             let pick = |levels: &[(f64, Numbers)]| -> Vec<(f64, f64)> {
                 let level =
                     |(size, values): &(f64, Numbers)| Some((*size, values[headline as usize]?));
@@ -204,17 +256,23 @@ fn compute(
                 if has_inertia { (&springs[..], &explicit[..]) } else { (none, none) };
             let limit = Limit::of(&pick(&bodies), &pick(springs), &pick(explicit))?;
             let value = headline.of(&collision)?;
-            let bar = bars.parts(headline).discretisation?;
+            let bar = errors.discretisation(headline)?;
             let scale = headline.scale(limit.value);
-            Some((headline, (value - limit.value) / scale, bar / scale, limit.uncertainty / scale))
+            Some(Measured {
+                headline,
+                error: (value - limit.value) / scale,
+                bar: bar / scale,
+                limit_uncertainty: limit.uncertainty / scale,
+                parts: errors.parts(headline)?,
+            })
         });
-        Ok::<_, CaseError>(numbers.collect::<Vec<_>>())
+        Ok::<_, CaseError>(measured.collect::<Vec<_>>())
     };
     let judged = [judge(&[Setting::Explicit], true)?, judge(&[condensed(false)], false)?];
     // A contact without an end has neither time nor bars.
     Ok(judged
         .iter()
-        .all(|numbers| numbers.len() == QuantityOfInterest::ALL.len())
+        .all(|measured| measured.len() == QuantityOfInterest::ALL.len())
         .then_some(judged))
 }
 
@@ -223,8 +281,8 @@ impl Trial {
     fn is_met(&self) -> bool {
         let accuracy = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
         let Accuracy { restitution, contact_time, peak_force, peak_pressure } = accuracy;
-        self.numbers.iter().all(|(headline, error, _, known)| {
-            let tolerance = match headline {
+        self.measured.iter().all(|it| {
+            let tolerance = match it.headline {
                 QuantityOfInterest::Restitution => restitution,
                 QuantityOfInterest::ContactTime => contact_time,
                 QuantityOfInterest::PeakForce => peak_force,
@@ -234,13 +292,13 @@ impl Trial {
                     return true;
                 }
             };
-            error.abs() <= tolerance + known
+            it.error.abs() <= tolerance + it.limit_uncertainty
         })
     }
 
     /// The worst error over its bar and what is known of the limit.
     fn share(&self) -> f64 {
-        let shares = self.numbers.iter().map(|(_, error, bar, known)| error.abs() / (bar + known));
+        let shares = self.measured.iter().map(Measured::share);
         shares.fold(0.0, fem_collision::nan_aware_max_abs)
     }
 }

@@ -174,7 +174,8 @@ fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyErro
         return Ok(None);
     }
     let run = |case: Case| Ok::<_, CaseError>(Simulation::new(case)?.run_within_tolerance(&mut ()));
-    let (simulation, collision) = run(case.clone())?;
+    let computed = run(case.clone())?;
+    let fem::ComputedCollision { simulation, collision, .. } = &computed;
     let updates = collision.element_updates.map_or(f64::INFINITY, |updates| updates as f64);
     if updates > element_updates {
         return Ok(None);
@@ -188,21 +189,20 @@ fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyErro
         Setting::ElementSize(size).apply(file);
     })?;
     let small = Simulation::new(small)?.run(&mut ());
-    if ![&collision, &fine].into_iter().all(Collision::is_complete) {
+    if ![collision, &fine].into_iter().all(Collision::is_complete) {
         return Ok(None);
     }
-    let bars = simulation.summary(&collision).uncertainty;
+    let errors = &computed.errors;
     let numbers = QuantityOfInterest::ALL.into_iter().filter_map(|headline| {
-        let (value, fine) = (headline.of(&collision)?, headline.of(&fine)?);
-        let bar = bars.parts(headline).discretisation?;
+        let (value, fine) = (headline.of(collision)?, headline.of(&fine)?);
+        let bar = errors.discretisation(headline)?;
         let scale = headline.scale(fine);
         let error = (value - fine) / (1.0 - FINER.powi(-2));
         Some((headline, error / scale, bar / scale))
     });
     let numbers: Vec<_> = numbers.collect();
-    let has_warned =
-        simulation.warnings(&collision).iter().any(|warning| warning.contains(" is asked"));
-    let is_foretold = is_foretold(&simulation, &collision, &small).unwrap_or(true);
+    let has_warned = computed.warnings().iter().any(|warning| warning.contains(" is asked"));
+    let is_foretold = is_foretold(simulation, collision, &small).unwrap_or(true);
     // A contact without an end has neither time nor bars.
     let is_whole = numbers.len() == QuantityOfInterest::ALL.len();
     let scene = String::new();

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::effects::percent;
-use fem::{Cost, ForceLaw, Foreseen, Simulation};
+use fem::{Cost, ErrorEstimator, ForceLaw, RefinedBeforeRun, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::{number, show};
@@ -12,7 +12,7 @@ use fem_collision::QuantityOfInterest;
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::case::{CaseArguments, ToleranceArguments};
-use crate::forecast::{Forecast, PATIENCE_OF_CHECK};
+use crate::forecast::Forecast;
 use crate::progress::stopwatch::peak_memory_with;
 use crate::text::failure::Failure;
 use crate::text::run_report;
@@ -20,7 +20,7 @@ use crate::text::standard_output;
 use crate::text::tables::{mesh_table, pairs, table};
 
 /// Time for the reference runs that decide whether the mesh is fine enough.
-const PATIENCE_WITH_COMPANIONS: Duration = Duration::from_secs(2);
+const PATIENCE_WITH_REFERENCE_RUNS: Duration = Duration::from_secs(2);
 
 /// Check a case and print it with all defaults filled in
 ///
@@ -59,10 +59,11 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let begin = Instant::now();
     let simulation = Simulation::new(case)?;
     let making = begin.elapsed().as_secs_f64();
-    let Foreseen { simulation, is_open } =
-        simulation.foreseen(|| begin.elapsed() < PATIENCE_WITH_COMPANIONS);
+    let mut estimator = ErrorEstimator::default();
+    let RefinedBeforeRun { simulation, is_open } =
+        estimator.refine_before_run(simulation, || begin.elapsed() < PATIENCE_WITH_REFERENCE_RUNS);
     let setup = begin.elapsed().as_secs_f64();
-    let forecast = Forecast::of(&simulation, making, is_open, PATIENCE_OF_CHECK);
+    let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
@@ -73,14 +74,19 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let expectation = format!(
         "{}\n\n{}",
         standard_output::one_line(&heading),
-        expect(&simulation, setup, &forecast)
+        expect(&simulation, &estimator, setup, &forecast)
     );
     let text = format!("{}\n{resolved}", as_comment(&expectation));
     Ok((simulation, text))
 }
 
 /// Returns the description of the expected run; its setup took `spent` seconds.
-fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
+fn expect(
+    simulation: &Simulation,
+    estimator: &ErrorEstimator,
+    spent: f64,
+    forecast: &Forecast,
+) -> String {
     let setup = simulation.setup();
     let hertz = &setup.estimate.hertz;
     let closed_form = pairs([
@@ -90,7 +96,7 @@ fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
         ("largest contact radius", show(hertz.max_contact_radius(), "m")),
         ("peak pressure", show(hertz.peak_pressure(), "Pa")),
     ]);
-    let costs = costs(simulation, Some(forecast), time(simulation, spent, forecast));
+    let costs = costs(simulation, estimator, Some(forecast), time(simulation, spent, forecast));
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
@@ -140,7 +146,7 @@ fn unforced(simulation: &Simulation) -> String {
     let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
     match planned.and_then(Result::ok).map(Simulation::new) {
         Some(Ok(planned)) if planned.setup().cost != simulation.setup().cost => {
-            let costs = costs(&planned, None, Vec::new());
+            let costs = costs(&planned, &ErrorEstimator::default(), None, Vec::new());
             format!("\nCost with the default [effects]\n{costs}")
         }
         _ => String::new(),
@@ -191,13 +197,7 @@ fn of_contacts(simulation: &Simulation) -> String {
 fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String; 2]> {
     let setup = show(setup, "s");
     let time = match forecast.seconds {
-        Some(run) => {
-            let all = forecast.all_seconds().filter(|all| *all > run);
-            let all =
-                all.map(|all| format!(", {} with the expected mesh refinement", show(all, "s")));
-            let all = all.unwrap_or_default();
-            format!("about {} here{all}, after {setup} of setup", show(run, "s"))
-        }
+        Some(run) => format!("about {} here, after {setup} of setup", show(run, "s")),
         None => format!("{setup} of setup here"),
     };
     let mut rows = Vec::new();
@@ -212,7 +212,12 @@ fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String
     rows
 }
 
-fn costs(simulation: &Simulation, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> String {
+fn costs(
+    simulation: &Simulation,
+    estimator: &ErrorEstimator,
+    forecast: Option<&Forecast>,
+    time: Vec<[String; 2]>,
+) -> String {
     let mut rows: Vec<[String; 2]> = Vec::new();
     let mut row = |name: &str, value: String| rows.push([name.to_string(), value]);
     match simulation.setup().cost {
@@ -223,11 +228,9 @@ fn costs(simulation: &Simulation, forecast: Option<&Forecast>, time: Vec<[String
             let longer = forecast.map_or(1.0, |forecast| forecast.longer);
             row("steps", format!("about {}", HumanCount((longer * steps as f64) as u64)));
             let element_updates = longer * element_updates as f64;
-            let all = forecast.map(Forecast::all_element_updates);
+            let all = forecast.map(|forecast| forecast.element_updates);
             let all = all.filter(|all| *all > 1.05 * element_updates);
-            let all = all.map_or(String::new(), |all| {
-                format!(", {all:.1e} with reference runs and the expected mesh refinement")
-            });
+            let all = all.map_or(String::new(), |all| format!(", {all:.1e} with reference runs"));
             row("element updates", format!("about {element_updates:.1e}{all}"));
         }
         Cost::Factors { contact_points, steps, factor_bytes, .. } => {
@@ -239,7 +242,7 @@ fn costs(simulation: &Simulation, forecast: Option<&Forecast>, time: Vec<[String
         }
         Cost::Little { .. } => {}
     }
-    if let Some(bytes) = peak_memory_with(simulation) {
+    if let Some(bytes) = peak_memory_with(simulation, estimator) {
         row("memory", format!("about {}", DecimalBytes(bytes)));
     }
     rows.extend(time);

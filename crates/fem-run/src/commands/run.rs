@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use fem::results::Summary;
-use fem::{Cost, Foreseen, Identity, Memory, Simulation, remedy_of};
+use fem::{Cost, ErrorEstimator, Identity, Memory, RefinedBeforeRun, Simulation, remedy_of};
 use fem_case::Keep;
 use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
@@ -73,12 +73,14 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         false => None,
     };
     let folder = ResultFolder::claim(&place.out, &longest_name(&stem), replaces)?;
-    let Foreseen { simulation, is_open } = match &memory {
-        Some(memory) => Foreseen { simulation: simulation.as_in(memory)?, is_open: false },
-        None => simulation.foreseen(|| true),
+    let mut estimator = ErrorEstimator::default();
+    let RefinedBeforeRun { simulation, is_open } = match &memory {
+        Some(memory) => RefinedBeforeRun { simulation: simulation.as_in(memory)?, is_open: false },
+        None => estimator.refine_before_run(simulation, || true),
     };
     if !options.quiet {
-        announce(&simulation, making, &input.name(), &place, is_open);
+        let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
+        announce(&simulation, &estimator, &forecast, &input.name(), &place);
         if options.restart.restart {
             announce_restart(memory.as_ref());
         }
@@ -89,9 +91,9 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let mut memory = memory;
     let mut left: &[&str] = &[];
     let mut known = Instant::now();
-    let (simulation, collision) = simulation.within_tolerance(|simulation| {
+    let computed = estimator.within_tolerance(simulation, |estimator, simulation| {
         if memory.is_none() && !options.quiet {
-            tell_finer(simulation, known.elapsed().as_secs_f64());
+            tell_finer(simulation, estimator, known.elapsed().as_secs_f64());
         }
         let (collision, kept) = compute(simulation, memory.take(), &mut writer, &mut watch)?;
         (left, known) = (kept, Instant::now());
@@ -100,8 +102,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let (stopwatch, watch) = watch.stop();
     watch.finish();
 
-    let written =
-        write_result(folder.path(), &stem, &simulation, &collision, &stopwatch, Keep::All, left);
+    let written = write_result(folder.path(), &stem, &computed, &stopwatch, Keep::All, left);
     let WrittenResult { summary, text, fault } = written;
     let published = match summary.files.is_empty() {
         true => Ok(None),
@@ -119,7 +120,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     if let Some(fault) = fault {
         return Err(fault);
     }
-    match (published?, collision.stop()) {
+    match (published?, computed.collision.stop()) {
         (Some(place), Some(stop)) => {
             let place = standard_output::one_line(&place.display().to_string());
             let kept = format!("what was computed so far is in {place}, marked incomplete");
@@ -167,14 +168,19 @@ fn compute(
 }
 
 /// Prints what begins on stderr.
-fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPath, is_open: bool) {
-    let forecast = Forecast::of(simulation, making, is_open, 0);
+fn announce(
+    simulation: &Simulation,
+    estimator: &ErrorEstimator,
+    forecast: &Forecast,
+    case: &str,
+    place: &ResultPath,
+) {
     // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
         format!("; if the mesh has to be refined: {}", finer.in_words())
     });
-    let (price, out) = (price(simulation, &forecast), place.out.display());
+    let (price, out) = (price(simulation, estimator, forecast), place.out.display());
     let large = simulation.case().scene().large_spheres();
     let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
     let mut line = format!("{case}: {large}{price}{more}; result: {out}");
@@ -190,20 +196,24 @@ fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPath
 }
 
 /// Prints on stderr that the mesh is refined; making its bodies took `making` seconds.
-fn tell_finer(simulation: &Simulation, making: f64) {
+fn tell_finer(simulation: &Simulation, estimator: &mut ErrorEstimator, making: f64) {
     if let Some(why) = simulation.refined_because() {
-        let forecast = Forecast::of(simulation, making, false, 0);
-        let _ =
-            writeln!(stderr(), "{}", one_line(&format!("{why}; {}", price(simulation, &forecast))));
+        let forecast = Forecast::of(simulation, estimator, making, false);
+        let price = price(simulation, estimator, &forecast);
+        let _ = writeln!(stderr(), "{}", one_line(&format!("{why}; {price}")));
     }
 }
 
 /// Returns the model and its cost estimate.
-fn price(simulation: &Simulation, &Forecast { seconds, longer, .. }: &Forecast) -> String {
+fn price(
+    simulation: &Simulation,
+    estimator: &ErrorEstimator,
+    &Forecast { seconds, longer, .. }: &Forecast,
+) -> String {
     let time = |seconds: Option<f64>| {
         seconds.map_or(String::new(), |seconds| format!(", about {}", show(seconds, "s")))
     };
-    let memory = peak_memory_with(simulation);
+    let memory = peak_memory_with(simulation, estimator);
     let memory = memory.map_or(String::new(), |bytes| format!(", about {}", DecimalBytes(bytes)));
     match simulation.setup().cost {
         Cost::Steps { elements, steps, seconds: expected, .. } => format!(

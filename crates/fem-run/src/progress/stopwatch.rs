@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use fem::Simulation;
 use fem::results::Spent;
+use fem::{ErrorEstimator, Simulation};
 use fem_collision::{Monitor, Phase, Progress};
 
 /// Threads of a single run.
@@ -77,10 +77,10 @@ impl Stopwatch {
 
 /// Returns the peak memory (bytes) of the process at the end of a run, reference runs before and after it
 /// included; `None` for models without elements.
-pub fn peak_memory_with(simulation: &Simulation) -> Option<u64> {
-    let (run, companions) = simulation.memory_ahead()?;
+pub fn peak_memory_with(simulation: &Simulation, estimator: &ErrorEstimator) -> Option<u64> {
+    let (run, reference_runs) = estimator.memory_ahead(simulation)?;
     let held = peak_memory().unwrap_or(0);
-    Some(run.max(held + companions.unwrap_or(0)))
+    Some(run.max(held + reference_runs.unwrap_or(0)))
 }
 
 /// Returns the peak memory of this process in bytes; `None` if the system does not report it.

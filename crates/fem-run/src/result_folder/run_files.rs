@@ -11,7 +11,7 @@ use fem::results::{
     CONTACT_FILE, HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, contact_csv, has_contact,
     history_csv, probes_csv, write_snapshots,
 };
-use fem::{Identity, Simulation};
+use fem::{ComputedCollision, Identity, Simulation};
 use fem_case::Keep;
 use fem_case::engineering::Unit;
 use fem_collision::{Collision, SnapshotInstant};
@@ -51,16 +51,14 @@ pub struct WrittenResult {
 pub fn save(
     folder: &Path,
     stem: &str,
-    simulation: &Simulation,
-    collision: &Collision,
+    computed: &ComputedCollision,
     stopwatch: &Stopwatch,
     force: bool,
 ) -> Result<(), Failure> {
-    let identity = Identity::of(simulation.case())?;
+    let identity = Identity::of(computed.simulation.case())?;
     let replaces = Replaces::only(&identity.case, force);
     let place = ResultFolder::claim(folder, &longest_name(stem), replaces)?;
-    let written =
-        write_result(place.path(), stem, simulation, collision, stopwatch, Keep::All, &[]);
+    let written = write_result(place.path(), stem, computed, stopwatch, Keep::All, &[]);
     if !written.summary.files.is_empty() {
         place.publish(written.fault.is_none())?;
     }
@@ -71,15 +69,16 @@ pub fn save(
 pub fn write_result(
     folder: &Path,
     stem: &str,
-    simulation: &Simulation,
-    collision: &Collision,
+    computed: &ComputedCollision,
     stopwatch: &Stopwatch,
     keep: Keep,
     others: &[&str],
 ) -> WrittenResult {
-    let warnings = simulation.warnings(collision);
+    let ComputedCollision { simulation, collision, errors } = computed;
+    let warnings = computed.warnings();
     let files = [SUMMARY_FILE].iter().chain(others).map(ToString::to_string).collect();
-    let mut summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, files);
+    let mut summary =
+        Summary::of(simulation, collision, errors, stopwatch.spent(), warnings, files);
     let mut missing = None;
     if keep == Keep::All {
         let written = reserve_space(folder, &summary)

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use fem::sweep::{Checked, Members};
-use fem::{Cost, Foreseen, Simulation};
+use fem::{Cost, ErrorEstimator, RefinedBeforeRun, Simulation};
 use fem_case::{Case, Sweep};
 use rayon::ThreadPool;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -89,12 +89,14 @@ fn seconds_of(case: Case, are_shared: bool) -> Option<[f64; 2]> {
     let begin = Instant::now();
     let simulation = Simulation::new(case).ok()?;
     let making = begin.elapsed().as_secs_f64();
-    let Foreseen { simulation, is_open } = simulation.foreseen(|| begin.elapsed() < PATIENCE);
+    let mut estimator = ErrorEstimator::default();
+    let RefinedBeforeRun { simulation, is_open } =
+        estimator.refine_before_run(simulation, || begin.elapsed() < PATIENCE);
     let setup = begin.elapsed().as_secs_f64();
     let is_made_before = are_shared && matches!(simulation.setup().cost, Cost::Factors { .. });
     let (making, setup) = if is_made_before { (0.0, 0.0) } else { (making, setup) };
-    let forecast = Forecast::of(&simulation, making, is_open, 0);
-    let all = forecast.all_seconds()?;
+    let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
+    let all = forecast.seconds?;
     let most = match simulation.setup().cost {
         Cost::Steps { .. } => forecast.most_seconds()?,
         // Few condensed members are refined, and the finest mesh would cost more than thousands

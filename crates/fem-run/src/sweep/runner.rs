@@ -3,8 +3,9 @@
 use std::sync::Mutex;
 use std::time::Instant;
 
+use fem::ComputedCollision;
 use fem::results::Summary;
-use fem::sweep::{Member, Observer, Ran, Runner};
+use fem::sweep::{Member, Observer, Runner};
 use fem::{CaseError, Shared};
 use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
@@ -91,7 +92,7 @@ impl<'a> Observer for ResultKeeper<'a> {
         Timed::since(Instant::now(), self.progress.begin())
     }
 
-    fn end(&self, index: usize, watch: Self::Watch, ran: Result<&Ran, &CaseError>) {
+    fn end(&self, index: usize, watch: Self::Watch, ran: Result<&ComputedCollision, &CaseError>) {
         let (stopwatch, watch) = watch.stop();
         let kept = match ran {
             Ok(ran) if ran.collision.is_interrupted() => return,
@@ -115,7 +116,12 @@ impl<'a> Observer for ResultKeeper<'a> {
 }
 
 impl ResultKeeper<'_> {
-    fn keep(&self, index: usize, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
+    fn keep(
+        &self,
+        index: usize,
+        ran: &ComputedCollision,
+        stopwatch: &Stopwatch,
+    ) -> Result<Summary, Failure> {
         let SweepJob { sweep, folder, .. } = self.job;
         let stem = &self.job.identity(index);
         if sweep.keep == Keep::Packed {
@@ -124,9 +130,7 @@ impl ResultKeeper<'_> {
         let out = folder.member(stem);
         let place = ResultFolder::claim_recovered(&out, &longest_name(stem), Replaces::Any)
             .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;
-        let Ran { simulation, collision } = ran;
-        let (path, keep) = (place.path(), sweep.keep);
-        let written = write_result(path, stem, simulation, collision, stopwatch, keep, &[]);
+        let written = write_result(place.path(), stem, ran, stopwatch, sweep.keep, &[]);
         if let Some(fault) = written.fault {
             return Err(fault);
         }
@@ -134,10 +138,15 @@ impl ResultKeeper<'_> {
         Ok(written.summary)
     }
 
-    fn append(&self, identity: &str, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
-        let Ran { simulation, collision } = ran;
-        let warnings = simulation.warnings(collision);
-        let summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, Vec::new());
+    fn append(
+        &self,
+        identity: &str,
+        ran: &ComputedCollision,
+        stopwatch: &Stopwatch,
+    ) -> Result<Summary, Failure> {
+        let ComputedCollision { simulation, collision, errors } = ran;
+        let (spent, warnings) = (stopwatch.spent(), ran.warnings());
+        let summary = Summary::of(simulation, collision, errors, spent, warnings, Vec::new());
         self.pack.append(identity, &summary).map_err(|error| {
             Failure::failed(format!("a summary cannot be written: {error}"))
                 .with_help("the members before it are kept; is the disk full?")

@@ -50,17 +50,17 @@ pub trait Method: Sync {
 pub struct Shared {
     /// Condensed pairs of bodies.
     pub pairs: Arc<PairCache>,
-    /// The same of companions, which tell how far results are off.
-    pub companions: Arc<PairCache>,
+    /// Condensed pairs of reference runs, which estimate errors.
+    pub reference_pairs: Arc<PairCache>,
     /// Whether models are asked for quantities alone, and keep no factors for fields.
-    pub is_of_companions: bool,
+    pub is_of_reference_runs: bool,
 }
 
 impl Shared {
-    /// What companions share.
-    pub(crate) fn of_companions(&self) -> Self {
-        let companions = || self.companions.clone();
-        Self { pairs: companions(), companions: companions(), is_of_companions: true }
+    /// Returns what reference runs share.
+    pub(crate) fn for_reference_runs(&self) -> Self {
+        let pairs = || self.reference_pairs.clone();
+        Self { pairs: pairs(), reference_pairs: pairs(), is_of_reference_runs: true }
     }
 }
 
@@ -170,8 +170,8 @@ pub enum Cost {
         seconds: f64,
         /// Memory of the run, bytes.
         memory: u64,
-        /// The same of the condensed bodies that tell what it is off by, where they do.
-        companion_memory: Option<u64>,
+        /// Memory of its condensed reference runs, bytes; `None` if there are none.
+        reference_memory: Option<u64>,
         /// Time step, s.
         time_step: f64,
         /// What it would be without mass scaling, s.

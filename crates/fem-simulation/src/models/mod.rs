@@ -3,7 +3,7 @@
 mod auto;
 mod bouncing;
 pub(crate) mod condensed;
-mod explicit;
+pub(crate) mod explicit;
 pub(crate) mod method;
 mod mirrored;
 mod own_frame;

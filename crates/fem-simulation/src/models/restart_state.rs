@@ -3,7 +3,7 @@
 use fem_collision::Approach;
 use serde::{Deserialize, Serialize};
 
-use crate::error::refinement::Level;
+use crate::error::Level;
 use crate::models::Bounces;
 
 /// The memory of a [`Course`](crate::Course) between two advances. A course that goes on from it ends

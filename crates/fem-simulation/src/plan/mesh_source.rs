@@ -111,3 +111,18 @@ fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
 fn read_sphere(_: f64, path: &Path) -> Result<SphereMesh, String> {
     Err(format!("{}: no files are read here", path.display()))
 }
+
+/// Returns the length of the longest surface edge of both bodies that begins in a contact of this radius; in m.
+pub(crate) fn longest_contact_edge(
+    meshes: [Option<&SphereMesh>; 2],
+    contact_radius: f64,
+) -> Option<f64> {
+    let edges = meshes.into_iter().flatten().flat_map(|mesh| {
+        let ends = mesh.surface().windows(2).map(|ends| [ends[0], ends[1]]);
+        let ends = ends.map(|ends| ends.map(|node| mesh.nodes()[node as usize]));
+        // The first one of each mesh is always in it.
+        let is_in = move |(k, [p, _]): &(usize, [[f64; 2]; 2])| *k == 0 || p[0] < contact_radius;
+        ends.enumerate().take_while(is_in).map(|(_, [p, q])| (q[0] - p[0]).hypot(q[1] - p[1]))
+    });
+    edges.reduce(f64::max)
+}

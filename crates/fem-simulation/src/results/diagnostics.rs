@@ -3,15 +3,18 @@
 use std::f64::consts::PI;
 
 use fem_case::engineering::show;
-use fem_collision::{Collision, LARGEST_RESIDUAL, Stop};
+use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, Stop};
 use fem_mesh::SphereMesh;
 
 use crate::effects::{EFFECTS, Effect, Vibration};
-use crate::error::early_pressure::EarlyPressure;
-use crate::error::resolution::longest_contact_edge;
+use crate::error::{
+    ErrorEstimate, LARGEST_NOISE, early_pressure_warning, excess_of_restitution, is_unresolved,
+    noise, tolerance_warning, unbalanced_energy, unresolved_warning, widest_contact,
+};
 use crate::models::method::ElementSetup;
 use crate::plan::Plan;
 use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
 
 /// Overlap of the surfaces over the approach.
@@ -23,32 +26,16 @@ const USUAL: f64 = 1.0;
 const ROOM_OF_ADVICE: f64 = 1.2;
 /// Power by which elements become shorter for an overlap that is so many times smaller: it falls with their 0.85th.
 const SHORTER: f64 = 1.2;
-/// Scatter of the force over its peak.
-const LARGEST_NOISE: f64 = 0.005;
-/// Restitution above 1 that is no rounding.
-const LARGEST_EXCESS: f64 = 1e-5;
 
-impl Simulation {
-    /// All that the user should know of a collision: what was known before it, what it shows itself
-    /// ([`assess`]), and what its model says.
-    pub fn warnings(&self, collision: &Collision) -> Vec<String> {
-        let mut warnings = self.case().scene().oddities();
-        warnings.extend(self.case().scene().unpublished_loss());
-        warnings.extend(self.choice_warning());
-        warnings.extend(self.decisions(collision).warnings);
-        warnings.extend(self.setup().unread.iter().cloned());
-        warnings.extend(assess(self, collision));
-        warnings.extend(self.miss_warning(collision));
-        warnings.extend(collision.warnings.iter().cloned());
-        warnings
-    }
-}
-
-/// Warnings about a collision: whether its numbers can be those of one, what finite elements add of their
-/// own errors, and effects that show in it.
-pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
+/// Returns warnings about a finished collision: numbers that no collision can have, errors of the elements that exceed
+/// the tolerance, and effects that show in it.
+pub fn assess(
+    simulation: &Simulation,
+    collision: &Collision,
+    errors: &ErrorEstimate,
+) -> Vec<String> {
     let mut warnings = of_numbers(simulation, collision);
-    warnings.extend(of_elements(simulation, collision));
+    warnings.extend(of_elements(simulation, collision, errors));
     if let Some(estimate) = simulation.estimate(collision) {
         let scene = simulation.case().scene();
         let after = |effect: &&dyn Effect| effect.after(scene, &estimate, collision);
@@ -63,44 +50,29 @@ pub(crate) fn overlap_of_approach(simulation: &Simulation, collision: &Collision
     (overlap.of_approach > LARGEST_PENETRATION).then_some(overlap.of_approach)
 }
 
-/// What of the energy does not add up over the initial one, where that is too much.
-pub(crate) fn unbalanced_energy(collision: &Collision) -> Option<f64> {
-    let residual = collision.residual_relative?;
-    // A residual that is no number is above every limit.
-    let is_sound = residual <= LARGEST_RESIDUAL;
-    (!is_sound).then_some(residual)
-}
-
-/// What a restitution is above 1, where that is no rounding.
-pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
-    let restitution = collision.restitution?;
-    // So is one that is no number.
-    let is_sound = restitution <= 1.0 + LARGEST_EXCESS;
-    (!is_sound).then_some(restitution - 1.0)
-}
-
-/// Scatter of the contact force from instant to instant over its peak, where that is too much.
-pub(crate) fn noise(collision: &Collision) -> Option<f64> {
-    let scatter = collision.force_scatter? / collision.peak_force?;
-    (scatter > LARGEST_NOISE).then_some(scatter)
-}
-
-/// That the surfaces overlap by too much.
-pub(crate) fn overlap_warning(simulation: &Simulation, collision: &Collision) -> Option<String> {
-    Run::of(simulation, collision)?.penetration()
-}
-
-fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
+/// Returns warnings about errors of the elements, one per cause.
+fn of_elements(
+    simulation: &Simulation,
+    collision: &Collision,
+    errors: &ErrorEstimate,
+) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
-    let mesh = simulation.mesh_warning_after(collision);
-    // Of a mesh that resolves no contact nothing else is to be known, and where springs are not soft it is the mesh that
-    // lets surfaces overlap.
-    let is_of_mesh =
-        simulation.is_unresolved(collision) || (mesh.is_some() && run.plan.penalty_factor >= USUAL);
+    let coarse = widest_contact(simulation, collision)
+        .and_then(|radius| unresolved_warning(simulation, radius));
+    let is_unresolved = is_unresolved(simulation, collision);
+    // On a coarse mesh the surfaces overlap because of the mesh, unless the springs are soft.
+    let is_of_mesh = is_unresolved || (coarse.is_some() && run.plan.penalty_factor >= USUAL);
     let penetration = run.penetration().filter(|_| !is_of_mesh);
-    let early = EarlyPressure::warning(simulation, collision);
-    let warnings = [mesh, penetration, run.noise(), early];
-    warnings.into_iter().flatten().collect()
+    let is_estimated = errors.discretisation(QuantityOfInterest::PeakForce).is_some();
+    let mesh = match (is_unresolved, penetration.is_some()) {
+        (true, _) => coarse,
+        (false, true) => None,
+        (false, false) => {
+            tolerance_warning(simulation, collision, errors).or(coarse.filter(|_| !is_estimated))
+        }
+    };
+    let early = early_pressure_warning(simulation, collision).filter(|_| !is_unresolved);
+    [mesh, penetration, run.noise(), early].into_iter().flatten().collect()
 }
 
 /// What holds of every model.

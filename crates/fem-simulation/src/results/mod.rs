@@ -8,7 +8,6 @@ pub(crate) mod warning_kinds;
 
 #[cfg(feature = "files")]
 mod contact;
-mod elastic_null;
 mod energy;
 #[cfg(feature = "files")]
 mod history;
@@ -21,9 +20,10 @@ mod snapshots;
 mod summarise;
 mod summary;
 
+pub use crate::error::ElasticNull;
 #[cfg(feature = "files")]
 pub use contact::{CONTACT_FILE, contact_csv, has_contact};
-pub use elastic_null::ElasticNull;
+pub(crate) use diagnostics::overlap_of_approach;
 pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use history::{HISTORY_FILE, history_csv};

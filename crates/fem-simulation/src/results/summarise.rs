@@ -3,13 +3,13 @@
 use fem_collision::{Collision, EnergyLedger, QuantityOfInterest, RestState};
 use fem_laws::HertzImpact;
 
-use super::elastic_null::elastic_null;
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
     Summary,
 };
 use crate::effects::{FiniteStrain, Verdict};
+use crate::error::{ErrorEstimate, uncertainty};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 use crate::simulation::numerics::NUMERICS;
@@ -32,11 +32,12 @@ pub struct Spent {
 }
 
 impl Summary {
-    /// Sums up a collision. `warnings` and `files` are those so far; numbers that are not finite
+    /// Sums up a collision and its estimated errors. `warnings` and `files` are those so far; numbers that are not finite
     /// become `None`, and are told in one more warning.
     pub fn of(
         simulation: &Simulation,
         collision: &Collision,
+        errors: &ErrorEstimate,
         spent: Spent,
         warnings: Vec<String>,
         files: Vec<String>,
@@ -46,11 +47,11 @@ impl Summary {
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision);
         Self {
-            uncertainty: simulation.uncertainty(collision, &quantities, &effects),
+            uncertainty: uncertainty(simulation, collision, errors, &quantities, &effects),
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             radius_and_pressure: radius_and_pressure(&effects),
-            elastic_null: elastic_null(simulation, collision),
+            elastic_null: errors.elastic_null,
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
             energy: energy(collision, &mut numbers),
@@ -68,7 +69,7 @@ impl Summary {
                 trials_s: spent.trials,
                 solve_s: spent.solve,
                 ns_per_element_update: updates.map(|updates| 1e9 * spent.solve / updates as f64),
-                all_element_updates: simulation.all_element_updates(collision),
+                all_element_updates: all_element_updates(simulation, collision, errors),
                 threads: spent.threads,
                 peak_memory_bytes: spent.peak_memory,
                 factor_bytes: collision.factor_bytes,
@@ -90,11 +91,15 @@ impl Summary {
     }
 }
 
-impl Simulation {
-    /// A collision summed up, all warnings in it; what it took is left open, and no file is named.
-    pub fn summary(&self, collision: &Collision) -> Summary {
-        Summary::of(self, collision, Spent::default(), self.warnings(collision), Vec::new())
-    }
+/// Returns the element updates of a collision, of coarser meshes before it, and of the reference runs of all; `None` for
+/// a model that takes none.
+fn all_element_updates(
+    simulation: &Simulation,
+    collision: &Collision,
+    errors: &ErrorEstimate,
+) -> Option<u64> {
+    let before = simulation.levels().iter().filter_map(|level| level.element_updates);
+    Some(collision.element_updates? + before.sum::<u64>() + errors.element_updates)
 }
 
 fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary> {

@@ -4,10 +4,9 @@ use fem_case::CaseFile;
 use fem_collision::QuantityOfInterest;
 use serde::{Serialize, Serializer};
 
-use super::elastic_null::ElasticNull;
 use super::energy::Energy;
 use crate::effects::{LeftOut, Verdict};
-use crate::error::refinement::Level;
+use crate::error::{ElasticNull, Level};
 use crate::models::Considered;
 
 /// The name of the file.
@@ -252,7 +251,7 @@ pub struct CostSummary {
     pub solve_s: f64,
     /// Time of an element and step, of the collision alone.
     pub ns_per_element_update: Option<f64>,
-    /// Of the collision, of coarser meshes that did not do, and of the companions that tell what they are off by.
+    /// Element updates of the collision, of coarser meshes before it, and of the reference runs of all.
     pub all_element_updates: Option<u64>,
     /// Threads that the run used.
     pub threads: usize,

@@ -5,8 +5,8 @@ pub(crate) mod identity;
 pub(crate) mod numerics;
 
 use std::borrow::Cow;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
+use std::convert::Infallible;
+use std::sync::Arc;
 
 use fem_case::engineering::show;
 use fem_case::schema::StartTable;
@@ -15,12 +15,14 @@ use fem_collision::{
     Approach, Collision, Monitor, OutputRequest, OutputRequestError, SnapshotRequest,
 };
 
-use crate::effects::{Decisions, Doubt, EFFECTS, Effect, LeftOut, Verdict, decide};
-use crate::error::refinement::Level;
-use crate::error::resolution::{Given, Resolution, known_as_fine};
-use crate::error::uncertainty::Seen;
-use crate::error::{Beside, Coarser};
+use crate::effects::FiniteStrain;
+use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
+use crate::error::{
+    ErrorEstimate, ErrorEstimator, Level, RefinementBound, refined_because, refinement_bound,
+    unresolved_warning,
+};
 use crate::estimate::{Estimate, mach};
+use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
 use crate::models::method::{Cost, Model, Setup, Shared};
 use crate::models::restart_state::Memory;
 use crate::models::stepper::{Course, begun};
@@ -28,6 +30,8 @@ use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 use crate::plan::penalty_compliance::softness;
 use crate::plan::probes::probes_of;
 use crate::refusal::Refusal;
+use crate::results::diagnostics::assess;
+use crate::results::{Spent, Summary};
 use crate::simulation::identity::identity_of;
 
 /// The collision of a case, by the model that it asks for, within its tolerance.
@@ -55,7 +59,32 @@ use crate::simulation::identity::identity_of;
 /// # Ok::<(), fem_case::CaseError>(())
 /// ```
 pub fn collide(case: &Case) -> Result<Collision, CaseError> {
-    Ok(Simulation::new(case.clone())?.run_within_tolerance(&mut ()).1)
+    Ok(Simulation::new(case.clone())?.run_within_tolerance(&mut ()).collision)
+}
+
+/// A collision within the tolerance of its case, as far as that can be met.
+#[derive(Debug)]
+pub struct ComputedCollision {
+    /// The simulation that computed it, on the last mesh.
+    pub simulation: Simulation,
+    /// Its result.
+    pub collision: Collision,
+    /// Its estimated errors.
+    pub errors: ErrorEstimate,
+}
+
+impl ComputedCollision {
+    /// Returns all warnings about the collision.
+    pub fn warnings(&self) -> Vec<String> {
+        self.simulation.warnings_with(&self.collision, &self.errors)
+    }
+
+    /// Returns the summary with all warnings, without cost and files.
+    pub fn summary(&self) -> Summary {
+        let Self { simulation, collision, errors } = self;
+        let (spent, warnings) = (Spent::default(), self.warnings());
+        Summary::of(simulation, collision, errors, spent, warnings, Vec::new())
+    }
 }
 
 /// A case that is ready to run.
@@ -71,20 +100,6 @@ pub struct Simulation {
     pub(crate) refinement: f64,
     /// Coarser meshes that did not do.
     pub(crate) levels: Vec<Level>,
-    /// Why a finer mesh could not go through the collision.
-    pub(crate) stopped_finer: Option<String>,
-    /// By how much smaller elements were too dear, and the element updates that those would take.
-    pub(crate) too_dear: Mutex<Option<(f64, u64)>>,
-    /// Of the last collision that was looked at.
-    pub(crate) errors: Mutex<Option<(Seen, Doubt)>>,
-    /// Condensed companions of explicit elements that meet like this.
-    pub(crate) condensed: Mutex<Option<(Approach, Option<Beside>)>>,
-    /// Companions of its own model with longer elements.
-    pub(crate) coarser: Mutex<Vec<Coarser>>,
-    /// 1 less the restitution of the companion that does not relax and meets like this, once it is computed.
-    pub(crate) elastic: Mutex<Option<(Approach, Option<f64>)>>,
-    /// Element updates of all companions so far, those of coarser meshes that did not do included.
-    updates_of_companions: Arc<AtomicU64>,
 }
 
 impl Simulation {
@@ -119,29 +134,12 @@ impl Simulation {
         let chosen = chosen(&scene).map_err(of_case)?;
         let mut want = model.setup().want.clone();
         want.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
-        Ok(Self {
-            case,
-            model,
-            chosen,
-            want,
-            resolved,
-            shared: shared.clone(),
-            refinement,
-            levels,
-            stopped_finer: None,
-            too_dear: Mutex::default(),
-            errors: Mutex::default(),
-            condensed: Mutex::default(),
-            coarser: Mutex::default(),
-            elastic: Mutex::default(),
-            updates_of_companions: Arc::default(),
-        })
+        Ok(Self { case, model, chosen, want, resolved, shared: shared.clone(), refinement, levels })
     }
 
     /// The same on a finer mesh, asked for the same.
     pub(crate) fn refined(&self, refinement: f64, levels: Vec<Level>) -> Result<Self, CaseError> {
         let mut finer = Self::at(self.case.clone(), &self.shared, refinement, levels)?;
-        finer.updates_of_companions = Arc::clone(&self.updates_of_companions);
         let probes = std::mem::take(&mut finer.want.probes);
         finer.want = self.want.clone();
         if !self.want.probes.is_empty() {
@@ -183,20 +181,6 @@ impl Simulation {
         price_of(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
-    /// Counts what a collision took that tells about others.
-    pub(crate) fn count_companion(&self, collision: &Collision) {
-        let updates = collision.element_updates.unwrap_or(0);
-        self.updates_of_companions.fetch_add(updates, Ordering::Relaxed);
-    }
-
-    /// Element updates so far of a collision, of coarser meshes that did not do, and of all that told what they are off by;
-    /// none of a model that takes none.
-    pub(crate) fn all_element_updates(&self, collision: &Collision) -> Option<u64> {
-        let before = self.levels.iter().filter_map(|level| level.element_updates);
-        let companions = self.updates_of_companions.load(Ordering::Relaxed);
-        Some(collision.element_updates? + before.sum::<u64>() + companions)
-    }
-
     /// The case.
     pub fn case(&self) -> &Case {
         &self.case
@@ -226,10 +210,9 @@ impl Simulation {
             .collect()
     }
 
-    /// That the meshes cannot carry the contact that is expected, by how much results will be off, and
-    /// what helps.
+    /// Returns a warning that the mesh resolves the expected contact by too few elements.
     pub fn mesh_warning(&self) -> Option<String> {
-        self.resolution_warning(self.setup().estimate.contact_radius, || None)
+        unresolved_warning(self, self.setup().estimate.contact_radius)
     }
 
     /// That explicit elements fold where bodies meet faster than shear waves leave the contact.
@@ -259,51 +242,34 @@ impl Simulation {
         })
     }
 
-    /// That the meshes cannot carry the contact as wide as it came.
-    pub(crate) fn mesh_warning_after(&self, collision: &Collision) -> Option<String> {
-        let radius = self.carried_radius(collision)?;
-        self.resolution_warning(radius, || self.finest_needed(collision))
+    /// Returns all warnings about a collision: those before it, those of its result, and those of its model.
+    pub fn warnings_with(&self, collision: &Collision, errors: &ErrorEstimate) -> Vec<String> {
+        let scene = self.case.scene();
+        let mut warnings = scene.oddities();
+        warnings.extend(scene.unpublished_loss());
+        warnings.extend(self.choice_warning());
+        warnings.extend(self.decisions(collision).warnings);
+        warnings.extend(self.setup().unread.iter().cloned());
+        warnings.extend(assess(self, collision, errors));
+        warnings.extend(collision.warnings.iter().cloned());
+        warnings
     }
 
-    /// What that says contact time and peak force are off by, as shares.
-    pub(crate) fn mesh_error_stated(&self, collision: &Collision) -> Option<[f64; 2]> {
-        self.resolution(self.carried_radius(collision)?)?.stated()
+    /// Estimates the errors of a collision by reference runs, and returns all warnings about it.
+    pub fn warnings(&self, collision: &Collision) -> Vec<String> {
+        self.warnings_with(collision, &self.estimate_errors(collision))
     }
 
-    /// That the meshes cannot carry a contact of this radius, m, whose tolerance needs elements of some length, m.
-    fn resolution_warning(
-        &self,
-        contact_radius: f64,
-        needed: impl FnOnce() -> Option<f64>,
-    ) -> Option<String> {
-        let plan = &self.setup().elements.as_ref()?.plan;
-        let resolution = self.resolution(contact_radius)?;
-        let given = Given { plan, contact_radius, needed: needed() };
-        resolution.warning(self.case.scene(), self.model.meshes(), &given)
+    /// Estimates the errors of a collision by reference runs.
+    pub fn estimate_errors(&self, collision: &Collision) -> ErrorEstimate {
+        ErrorEstimator::default().estimate(self, collision)
     }
 
-    /// What the meshes foretell of a contact of this radius, m; none where it is known to be nothing.
-    fn resolution(&self, contact_radius: f64) -> Option<Resolution> {
-        let (scene, meshes) = (self.case.scene(), self.model.meshes());
-        let plan = self.setup().elements.as_ref().map(|elements| &elements.plan);
-        let is_fine = plan.is_some_and(|plan| known_as_fine(scene, plan, meshes, contact_radius));
-        if is_fine { None } else { Resolution::of(scene, meshes, contact_radius) }
-    }
-
-    /// How wide the contact came, m, where it came to its end. One of the poles alone has no width; it is as wide as
-    /// was expected, and so is one that spans not even an element, whose radius is one of elements.
-    pub(crate) fn carried_radius(&self, collision: &Collision) -> Option<f64> {
-        let radius = collision.max_contact_radius.filter(|_| collision.is_complete())?;
-        let size = self.setup().elements.as_ref()?.plan.contact_element_size;
-        let expected = self.estimate(collision)?.contact_radius;
-        Some(if radius > 0.0 && expected >= size { radius } else { expected })
-    }
-
-    /// Whether the meshes do not resolve the contact of a collision at all.
-    pub(crate) fn is_unresolved(&self, collision: &Collision) -> bool {
-        let radius = self.carried_radius(collision);
-        let resolution = radius.and_then(|radius| self.resolution(radius));
-        resolution.is_some_and(|resolution| resolution.is_none_at_all())
+    /// Returns the summary of a collision, with its errors and all warnings, without its cost and files.
+    pub fn summary(&self, collision: &Collision) -> Summary {
+        let errors = self.estimate_errors(collision);
+        let warnings = self.warnings_with(collision, &errors);
+        Summary::of(self, collision, &errors, Spent::default(), warnings, Vec::new())
     }
 
     /// That the run takes long, and that the condensed model, which has fields too and is expected to serve
@@ -392,6 +358,44 @@ impl Simulation {
     pub fn skip_snapshots(&mut self) {
         self.want.snapshots = SnapshotRequest::none();
         self.want.probes.clear();
+    }
+
+    /// Computes the collision, on finer meshes until its tolerance is met, and estimates its errors.
+    pub fn run_within_tolerance(self, monitor: &mut dyn Monitor) -> ComputedCollision {
+        let mut estimator = ErrorEstimator::default();
+        let simulation = estimator.refine_before_run(self, || true).simulation;
+        let compute = |_: &mut ErrorEstimator, simulation: &Self| {
+            Ok::<_, Infallible>(simulation.run(monitor))
+        };
+        match estimator.within_tolerance(simulation, compute) {
+            Ok(computed) => computed,
+            Err(never) => match never {},
+        }
+    }
+
+    /// Returns the coarser meshes before this one, the first one first.
+    pub fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// Returns why the mesh was made finer.
+    pub fn refined_because(&self) -> Option<String> {
+        refined_because(self)
+    }
+
+    /// Returns an upper bound of the finer meshes that may follow the run; `None` if the mesh stays.
+    pub fn refinement_bound(&self) -> Option<RefinementBound> {
+        refinement_bound(self)
+    }
+
+    /// Returns the element updates of the coarser reference run of explicit elements over those of the run; `None` if
+    /// only condensed bodies are its reference.
+    pub fn reference_updates(&self) -> Option<f64> {
+        let setup = self.setup();
+        let Cost::Steps { .. } = setup.cost else { return None };
+        setup.elements.as_ref().filter(|elements| elements.plan.makes_meshes)?;
+        let is_finite = setup.decisions.is_active(FiniteStrain::NAME);
+        needs_own_reference(&setup.estimate, is_finite).then_some(REFERENCE_UPDATES)
     }
 
     /// Computes the collision.

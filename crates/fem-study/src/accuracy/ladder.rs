@@ -6,10 +6,10 @@ use fem_case::{Case, CaseError, Scene};
 use super::rung::{Rung, Series};
 use fem_simulation::Estimate;
 use fem_simulation::Fineness;
-use fem_simulation::Foreseen;
 use fem_simulation::Simulation;
 use fem_simulation::effects::FiniteStrain;
 use fem_simulation::error::{Setting, first_contact};
+use fem_simulation::{ErrorEstimator, RefinedBeforeRun};
 use fem_simulation::{Plan, divided_radius};
 use fem_simulation::{contact_method, unread};
 
@@ -187,10 +187,12 @@ impl Ladder {
     }
 }
 
-/// A case with the model, the mesh and the settings with which it is run, as far as companions foretell them; and whether
+/// A case with the model, the mesh and the settings with which it is run, as far as reference runs show them before the run; and whether
 /// more may follow.
 fn as_it_runs(case: Case) -> Result<(Case, bool), CaseError> {
-    let Foreseen { simulation, is_open } = Simulation::new(case)?.foreseen(|| true);
+    let mut estimator = ErrorEstimator::default();
+    let RefinedBeforeRun { simulation, is_open } =
+        estimator.refine_before_run(Simulation::new(case)?, || true);
     Ok((Case::of(simulation.resolved().clone())?, is_open))
 }
 

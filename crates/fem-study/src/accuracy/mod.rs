@@ -17,7 +17,7 @@ mod study;
 
 pub use convergence::{Convergence, ObservedOrder};
 pub use error_parts::{ErrorPart, ErrorSource};
-pub use fem_simulation::error::{Setting, condensed_companion_time};
+pub use fem_simulation::error::{BarParts, CONDENSED_REFERENCE_TIME, Setting};
 pub use ladder::{Ladder, Lengths};
 pub use limit::Limit;
 pub use measurement::Measurement;

@@ -36,7 +36,7 @@ pub use key_numbers::{KeyNumbers, NumberColumn};
 #[cfg(feature = "csv")]
 pub use load::load;
 pub use members::Members;
-pub use observer::{Observer, Ran};
+pub use observer::Observer;
 pub use order::dearest_first;
 pub use row::Row;
 pub use runner::Runner;

@@ -1,10 +1,9 @@
 //! Who looks on while the members of a sweep run.
 
 use fem_case::CaseError;
-use fem_collision::{Collision, Monitor};
+use fem_collision::Monitor;
 
-use fem_simulation::Simulation;
-use fem_simulation::results::Summary;
+use fem_simulation::ComputedCollision;
 
 /// Looks on from the threads that run the members, several of them at a time.
 ///
@@ -14,7 +13,8 @@ use fem_simulation::results::Summary;
 /// ```
 /// use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 ///
-/// use fem_study::sweep::{Observer, Ran};
+/// use fem_simulation::ComputedCollision;
+/// use fem_study::sweep::Observer;
 /// use fem_case::CaseError;
 /// use fem_collision::{Monitor, Progress};
 ///
@@ -36,7 +36,7 @@ use fem_simulation::results::Summary;
 ///         Member(self)
 ///     }
 ///
-///     fn end(&self, _: usize, _: Member<'a>, _: Result<&Ran, &CaseError>) {
+///     fn end(&self, _: usize, _: Member<'a>, _: Result<&ComputedCollision, &CaseError>) {
 ///         self.n_done.fetch_add(1, Relaxed);
 ///     }
 /// }
@@ -62,7 +62,13 @@ pub trait Observer: Sync {
     fn begin(&self, index: usize) -> Self::Watch;
 
     /// A member has ended, its collision perhaps interrupted; or it is no valid case, or was refused.
-    fn end(&self, _index: usize, _watch: Self::Watch, _ran: Result<&Ran, &CaseError>) {}
+    fn end(
+        &self,
+        _index: usize,
+        _watch: Self::Watch,
+        _ran: Result<&ComputedCollision, &CaseError>,
+    ) {
+    }
 }
 
 /// Nobody looks on.
@@ -70,20 +76,4 @@ impl Observer for () {
     type Watch = ();
 
     fn begin(&self, _: usize) {}
-}
-
-/// A member that ran.
-#[derive(Debug)]
-pub struct Ran {
-    /// What ran.
-    pub simulation: Simulation,
-    /// What came out.
-    pub collision: Collision,
-}
-
-impl Ran {
-    /// The collision summed up.
-    pub fn summary(&self) -> Summary {
-        self.simulation.summary(&self.collision)
-    }
 }

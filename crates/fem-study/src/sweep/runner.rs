@@ -5,7 +5,8 @@ use fem_collision::Monitor;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::members::Members;
-use super::observer::{Observer, Ran};
+use super::observer::Observer;
+use fem_simulation::ComputedCollision;
 use fem_simulation::Shared;
 use fem_simulation::Simulation;
 
@@ -33,14 +34,17 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
     ///
     /// # Errors
     /// A member that is no valid case or that its model refuses.
-    pub fn run_one(&self, index: usize, monitor: &mut dyn Monitor) -> Result<Ran, CaseError> {
+    pub fn run_one(
+        &self,
+        index: usize,
+        monitor: &mut dyn Monitor,
+    ) -> Result<ComputedCollision, CaseError> {
         let make = |case| Simulation::sharing(case, self.shared);
         let mut simulation = self.members.build(index, make)?;
         if !self.has_fields {
             simulation.skip_snapshots();
         }
-        let (simulation, collision) = simulation.run_within_tolerance(monitor);
-        Ok(Ran { simulation, collision })
+        Ok(simulation.run_within_tolerance(monitor))
     }
 
     /// Runs these members, begun in this order, on the threads of the current rayon pool, each
@@ -53,7 +57,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         &self,
         order: &[usize],
         observer: &impl Observer,
-        keep: impl Fn(Ran) -> T + Sync,
+        keep: impl Fn(ComputedCollision) -> T + Sync,
     ) -> Vec<(usize, Result<T, CaseError>)> {
         let run = |&index: &usize| Some((index, self.observed(index, observer)?.map(&keep)));
         // A bridge hands members out one by one, in order.
@@ -69,7 +73,11 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
     }
 
     /// Runs a member that `observer` admits.
-    fn observed(&self, index: usize, observer: &impl Observer) -> Option<Result<Ran, CaseError>> {
+    fn observed(
+        &self,
+        index: usize,
+        observer: &impl Observer,
+    ) -> Option<Result<ComputedCollision, CaseError>> {
         observer.admits(index).then(|| {
             let mut watch = observer.begin(index);
             let ran = self.run_one(index, &mut watch);

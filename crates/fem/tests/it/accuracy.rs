@@ -1,7 +1,7 @@
 //! What accuracy costs: the ladder of a scene and what is made of it.
 
 use fem::accuracy::{ErrorSource, Ladder, Measurement, Series, Study};
-use fem::{Case, Shared, Simulation};
+use fem::{Case, ErrorEstimator, Shared, Simulation};
 use fem_collision::QuantityOfInterest;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
@@ -171,7 +171,8 @@ fn what_a_scene_does_not_call_for_is_no_rung() {
     assert!(!has(&ladder, Series::Ting) && has(&ladder, Series::AsWritten));
     // The case as written is what a run of it computes.
     let own = ladder.rungs.iter().find(|rung| rung.series == Series::AsWritten).unwrap();
-    let run = Simulation::new(case(BALL)).unwrap().foreseen(|| true).simulation;
+    let simulation = Simulation::new(case(BALL)).unwrap();
+    let run = ErrorEstimator::default().refine_before_run(simulation, || true).simulation;
     assert_eq!(own.case.file().mesh, run.resolved().mesh);
     let relaxing = BALL.replace(
         "poissons_ratio = 0.33 }",

@@ -201,7 +201,7 @@ fn nine_pairings_take_nine_factors_in_any_order() {
 }
 
 /// Elements are chosen from lengths that scenes share: over a third of a decade in speed and a decade in relaxation
-/// thirty members eliminate some bodies, with their companions, and not thirty times; and what is shared changes no bit.
+/// thirty members eliminate some bodies, with those of their reference runs, and not thirty times; and what is shared changes no bit.
 #[test]
 fn speeds_and_relaxations_share_meshes() {
     let members = || {
@@ -228,8 +228,8 @@ fn speeds_and_relaxations_share_meshes() {
         }
     }
     // a ∝ v^(2/5): 3.2 of eight lengths an octave.
-    let (pairs, companions) = (shared.pairs.n_made(), shared.companions.n_made());
-    assert!((4..=8).contains(&pairs) && companions <= 2 * pairs, "{pairs} {companions}");
+    let (pairs, references) = (shared.pairs.n_made(), shared.reference_pairs.n_made());
+    assert!((4..=8).contains(&pairs) && references <= 2 * pairs, "{pairs} {references}");
 }
 
 /// Threads that want the same pair wait for the one that makes it.

@@ -2,13 +2,13 @@
 
 use fem::results::{Energy, Spent, energy_key};
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, SnapshotLabel, TermTable};
-use fem::sweep::{Members, Ran, Variations};
+use fem::sweep::{Members, Variations};
 use fem::{
     Account, Approach, ApproachError, BalanceSide, Body, BodyFields, BodyResult, BodyStress, Case,
-    CaseError, CaseFile, Collision, Cost, Ending, EnergyLedger, HertzImpact, HistoryRow, Material,
-    ModelChoice, Monitor, OutputRequest, Phase, Progress, Quantity, Scene, Setup, Shape, ShownIn,
-    Simulation, Snapshot, SnapshotInstant, SnapshotRequest, SphereMesh, Stop, StressField, Summary,
-    invariants, remedy_of,
+    CaseError, CaseFile, Collision, ComputedCollision, Cost, Ending, EnergyLedger, ErrorEstimate,
+    HertzImpact, HistoryRow, Material, ModelChoice, Monitor, OutputRequest, Phase, Progress,
+    Quantity, Scene, Setup, Shape, ShownIn, Simulation, Snapshot, SnapshotInstant, SnapshotRequest,
+    SphereMesh, Stop, StressField, Summary, invariants, remedy_of,
 };
 
 /// Notes the phases of a run, and ends it after so many reports.
@@ -90,8 +90,9 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     assert!(pressures.fold(0.0, f64::max) > 0.0);
 
     // The summary.
+    let errors: ErrorEstimate = simulation.estimate_errors(&collision);
     let summary: Summary =
-        Summary::of(&simulation, &collision, Spent::default(), Vec::new(), Vec::new());
+        Summary::of(&simulation, &collision, &errors, Spent::default(), Vec::new(), Vec::new());
     let energy: &Energy = &summary.energy;
     assert_eq!(energy.get(Account::Kinetic), book.get(Account::Kinetic));
     assert_eq!(energy_key(Account::Kinetic), "kinetic_j");
@@ -123,7 +124,7 @@ fn members_of_a_sweep_are_run() -> Result<(), CaseError> {
     });
     assert_eq!(members.n_members(), 2);
     let shared = fem::Shared::default();
-    let ran: Ran = fem::sweep::Runner::new(&members, &shared).run_one(1, &mut ())?;
+    let ran: ComputedCollision = fem::sweep::Runner::new(&members, &shared).run_one(1, &mut ())?;
     assert!(ran.summary().complete);
     Ok(())
 }

@@ -40,7 +40,9 @@ fn run(case: &str, overrides: &[&str]) -> (Simulation, Collision) {
 /// What a run says with some word in it.
 fn said(case: &str, overrides: &[&str], word: &str) -> Option<String> {
     let (simulation, collision) = run(case, overrides);
-    assess(&simulation, &collision).into_iter().find(|text| text.contains(word))
+    assess(&simulation, &collision, &simulation.estimate_errors(&collision))
+        .into_iter()
+        .find(|text| text.contains(word))
 }
 
 /// `KEY=VALUE` of `… write KEY = VALUE` in a message.
@@ -147,7 +149,7 @@ fn keeps_its_energy(method: &str, factor: f64, mesh: &str) {
 fn energy_that_does_not_add_up_is_told_with_its_time() {
     let (simulation, mut collision) = run(GLASS, &[COARSE, "contact.method='penalty'"]);
     let about_energy = |collision: &Collision| {
-        let messages = assess(&simulation, collision);
+        let messages = assess(&simulation, collision, &simulation.estimate_errors(collision));
         messages.into_iter().find(|text| text.contains("add up"))
     };
     assert_eq!(about_energy(&collision), None);

@@ -37,7 +37,8 @@ fn simulation(set: &[&str]) -> Simulation {
 }
 
 fn run(set: &[&str]) -> Summary {
-    let (simulation, collision) = simulation(set).run_within_tolerance(&mut ());
+    let computed = simulation(set).run_within_tolerance(&mut ());
+    let (simulation, collision) = (&computed.simulation, &computed.collision);
     simulation.summary(&collision)
 }
 

@@ -4,12 +4,13 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use fem::ComputedCollision;
 use fem::schema::{
     ActsOn, BodyTable, CondensedTable, LimitsTable, MaterialTable, MeshTable, ModelTable, TermTable,
 };
 use fem::sweep::{
-    COLUMNS, Member, Members, Observer, Ran, Row, Runner, Variations, check, column_unit,
-    column_words, columns, dearest_first, load, sweep_csv,
+    COLUMNS, Member, Members, Observer, Row, Runner, Variations, check, column_unit, column_words,
+    columns, dearest_first, load, sweep_csv,
 };
 use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
 
@@ -223,7 +224,7 @@ impl<'a> Observer for &'a Looker {
         Watch { looker: self, index }
     }
 
-    fn end(&self, index: usize, watch: Watch<'a>, ran: Result<&Ran, &CaseError>) {
+    fn end(&self, index: usize, watch: Watch<'a>, ran: Result<&ComputedCollision, &CaseError>) {
         assert_eq!(watch.index, index);
         self.see(
             index,

@@ -122,7 +122,7 @@ impl Condensed {
         let bodies = sources.map(BodySource::without_relaxation);
         let asks_for_fields = !plan.snapshots.is_empty() || !scene.probes().is_empty();
         let settings = PairSettings {
-            keeps_factors: (asks_for_fields && !shared.is_of_companions)
+            keeps_factors: (asks_for_fields && !shared.is_of_reference_runs)
                 || needs_factors(scene, options),
             ..settings(scene, &plan, options)
         };

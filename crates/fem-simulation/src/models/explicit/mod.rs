@@ -1,6 +1,6 @@
 //! Explicit finite elements.
 
-mod cost;
+pub(crate) mod cost;
 
 use std::sync::Arc;
 

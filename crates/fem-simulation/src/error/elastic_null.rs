@@ -1,19 +1,17 @@
-//! What a relaxing run would lose without relaxation, by its mesh and settings.
+//! The restitution that a relaxing run would lose without relaxation, by its mesh and settings.
 //!
-//! Estimated from the run itself: of its energy, what relaxation has not taken and the bodies do not have as
-//! a whole: vibrations, waves, what numerical effects take, and what does not add up. Of vibrations an elastic
-//! run keeps what here has relaxed since they were left, most of it while nodes joined the contact; energy of
-//! oscillations much faster than relaxation falls as
+//! It is estimated from the run itself, from the energy that neither relaxation nor the motion of the bodies as a whole
+//! has taken: vibrations, waves, numerical effects and the residual. An elastic run keeps vibrations that have relaxed
+//! here since they were excited, mostly while nodes joined the contact. The energy of oscillations much faster than
+//! relaxation falls as
 //!
 //! ```math
 //! \exp\Bigl(-t \sum_k \frac{g_k}{\tau_k}\Bigr), \qquad t = 0.8\,T.
 //! ```
 //!
-//! Right to a third: 8.3e-6, 6.7e-6 and 7.9e-6 of the glass pair with βT = 0.17, 0.5 and 1.9, for 9.9e-6 of a
-//! run with relaxation off on the same mesh. Where next to nothing of the vibrations is left that tells of them, a run
-//! with relaxation off on a mesh 1.5 times as coarse tells it: 0.6 to 2.8 times that of the same mesh.
-
-use std::sync::PoisonError;
+//! This is right to a third for the glass pair: 8.3e-6, 6.7e-6 and 7.9e-6 with βT = 0.17, 0.5 and 1.9, against 9.9e-6 of
+//! a run with relaxation off on the same mesh. If next to nothing is left of the vibrations, a run with relaxation off
+//! and elements 1.5 times as long is made instead, which gives 0.6 to 2.8 times the value of the same mesh.
 
 use fem_case::Case;
 use fem_case::schema::{OutputTable, Switch};
@@ -21,7 +19,8 @@ use fem_collision::{Account, Approach, Collision, OutputRequest};
 use fem_material::PronySeries;
 use serde::Serialize;
 
-use crate::error::Setting;
+use super::reference_runs::ReferenceRuns;
+use super::setting::Setting;
 use crate::simulation::Simulation;
 
 /// Since when vibrations relax, over the contact time.
@@ -44,7 +43,11 @@ pub struct ElasticNull {
 
 /// Of a run whose bodies relaxed and have parted, by a model that has elements; nothing where
 /// gravity makes more than one contact.
-pub(super) fn elastic_null(simulation: &Simulation, collision: &Collision) -> Option<ElasticNull> {
+pub(super) fn elastic_null(
+    simulation: &Simulation,
+    collision: &Collision,
+    runs: &mut ReferenceRuns,
+) -> Option<ElasticNull> {
     let scene = simulation.case().scene();
     let relaxed = collision.energies.get(Account::ViscousDissipation)? > 0.0;
     if !relaxed || scene.gravity().is_some() || !collision.is_complete() {
@@ -66,7 +69,7 @@ pub(super) fn elastic_null(simulation: &Simulation, collision: &Collision) -> Op
         lost += vibrations;
     }
     if is_gone {
-        let one_minus_restitution = by_elastic_run(simulation, collision.approach)?;
+        let one_minus_restitution = elastic_run(simulation, &collision.approach, runs)?;
         return Some(ElasticNull { one_minus_restitution, estimated: false });
     }
     for account in [Account::Radiated, Account::BulkViscosity, Account::ContactDamping] {
@@ -79,32 +82,22 @@ pub(super) fn elastic_null(simulation: &Simulation, collision: &Collision) -> Op
     })
 }
 
-/// 1 less the restitution of the same bodies that do not relax, on a coarser mesh; nothing of meshes from files. It is
-/// kept: a result may be asked for again.
-fn by_elastic_run(simulation: &Simulation, approach: Approach) -> Option<f64> {
-    // Who panicked has left nothing half written.
-    let mut known = simulation.elastic.lock().unwrap_or_else(PoisonError::into_inner);
-    match *known {
-        Some((of, lost)) if of == approach => lost,
-        _ => {
-            let lost = elastic_run(simulation, &approach);
-            *known = Some((approach, lost));
-            lost
-        }
-    }
-}
-
-fn elastic_run(simulation: &Simulation, approach: &Approach) -> Option<f64> {
+/// Computes 1 − restitution of the same bodies without relaxation on a coarser mesh; `None` for mesh files.
+fn elastic_run(
+    simulation: &Simulation,
+    approach: &Approach,
+    runs: &mut ReferenceRuns,
+) -> Option<f64> {
     let plan = &simulation.setup().elements.as_ref()?.plan;
     let mut file = simulation.resolved_at(approach);
     file.effects.get_or_insert_default().viscoelasticity = Some(Switch::Off);
     file.output = Some(OutputTable { report: Some(false), ..OutputTable::default() });
     Setting::ElementSize(COARSER * plan.contact_element_size).apply(&mut file);
     let case = Case::of(file).ok().filter(|_| plan.makes_meshes)?;
-    let shared = simulation.shared().of_companions();
+    let shared = simulation.shared().for_reference_runs();
     let elastic = Simulation::sharing(case, &shared).ok()?;
     let elastic = elastic.model().collide(approach, &OutputRequest::quantities(), &mut ());
-    simulation.count_companion(&elastic);
+    runs.count(&elastic);
     let restitution = elastic.restitution.filter(|_| elastic.is_complete())?;
     Some((1.0 - restitution).max(0.0))
 }

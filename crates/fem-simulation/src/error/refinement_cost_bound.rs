@@ -1,50 +1,48 @@
-//! What finer meshes that may follow a collision take, at most.
+//! An upper bound of the cost of the finer meshes that may follow a collision.
 
 use std::iter::successors;
 
-use crate::error::refinement::{MOST_ELEMENTS, MOST_LEVELS, MOST_UPDATES};
+use super::refinement::{MOST_ELEMENTS, MOST_LEVELS, MOST_UPDATES, may_be_refined};
 use crate::models::method::Cost;
 use crate::simulation::Simulation;
 
-/// Element updates of a finer mesh over those of the one before, at least with the shortest step to it and at most with
-/// the longest. They are of third order; but rows of elements are whole, and a short step may add none in some places.
+/// Element updates of a finer mesh over those of the one before: least with the smallest refinement, most with the
+/// largest. They are of third order, but rows of elements are whole, and a small refinement may add none in places.
 const UPDATES: [f64; 2] = [1.35, 9.0];
 /// The same of elements, which are of second order.
 const ELEMENTS: [f64; 2] = [1.2, 4.5];
-/// Time of condensed bodies over that of a coarser mesh: a power of their elements. Of four pairs of bodies with 700 to
-/// 150,000 elements between 0.85 and 1.2.
+/// Power of the number of elements with which the time of condensed bodies grows: 0.85 to 1.2 for four pairs with 700 to
+/// 150,000 elements.
 const OF_ELEMENTS: f64 = 1.2;
 
-/// Finer meshes that may follow a collision where it misses its tolerance.
+/// An upper bound of the finer meshes that may follow a collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MostFiner {
+pub struct RefinementBound {
     /// How many.
     pub meshes: usize,
     /// Element updates of all together over those of the collision; of condensed bodies time.
     pub over_first: f64,
 }
 
-impl Simulation {
-    /// The finer meshes that may follow, at most; none where the elements stay.
-    pub fn most_of_finer_meshes(&self) -> Option<MostFiner> {
-        let (one, most, growth, power) = match self.setup().cost {
-            Cost::Steps { element_updates, .. } => {
-                let most = self.case().scene().limits().element_updates.unwrap_or(MOST_UPDATES);
-                (element_updates, most, UPDATES, 1.0)
-            }
-            Cost::Factors { elements, .. } => (elements, MOST_ELEMENTS, ELEMENTS, OF_ELEMENTS),
-            Cost::Little { .. } => return None,
-        };
-        let left = MOST_LEVELS.saturating_sub(self.levels().len());
-        let of_levels = |n| of_levels(n, most as f64 / one as f64, growth, power);
-        let meshes = (1..=left).rev().find(|n| of_levels(*n) > 0.0)?;
-        let over_first = (1..=meshes).map(of_levels).fold(0.0, f64::max);
-        self.may_be_refined().then_some(MostFiner { meshes, over_first })
-    }
+/// Returns the bound; `None` where the mesh stays.
+pub(crate) fn refinement_bound(simulation: &Simulation) -> Option<RefinementBound> {
+    let (one, most, growth, power) = match simulation.setup().cost {
+        Cost::Steps { element_updates, .. } => {
+            let limit = simulation.case().scene().limits().element_updates;
+            (element_updates, limit.unwrap_or(MOST_UPDATES), UPDATES, 1.0)
+        }
+        Cost::Factors { elements, .. } => (elements, MOST_ELEMENTS, ELEMENTS, OF_ELEMENTS),
+        Cost::Little { .. } => return None,
+    };
+    let left = MOST_LEVELS.saturating_sub(simulation.levels().len());
+    let of_levels = |n| of_levels(n, most as f64 / one as f64, growth, power);
+    let meshes = (1..=left).rev().find(|n| of_levels(*n) > 0.0)?;
+    let over_first = (1..=meshes).map(of_levels).fold(0.0, f64::max);
+    may_be_refined(simulation).then_some(RefinementBound { meshes, over_first })
 }
 
-/// What so many finer meshes take over the first one, the last of which takes no more than `most` and each of which
-/// takes more than that before it by a factor within `growth`; 0 where there are not so many.
+/// Returns the cost of `n` finer meshes over that of the first: the last takes no more than `most`, and each takes more
+/// than the one before by a factor within `growth`; 0 if there are not so many.
 fn of_levels(n: usize, most: f64, growth: [f64; 2], power: f64) -> f64 {
     if most < growth[0].powi(n as i32) {
         return 0.0;
@@ -63,8 +61,8 @@ mod tests {
 
     use fem_case::Case;
 
+    use super::super::refinement::STEPS;
     use super::*;
-    use crate::error::refinement::STEPS;
 
     /// By hand: eight times each time, until the most is in sight.
     #[test]

@@ -1,0 +1,334 @@
+//! Reference runs: cheaper collisions of the same bodies, whose differences estimate the discretisation error.
+
+use fem_case::schema::{ContactMethod, StopTable};
+use fem_case::{CaseFile, CondensedOptions, Quantity};
+use fem_collision::{Approach, Collision, OutputRequest, QuantityOfInterest};
+
+use super::calibration::ORDER;
+use super::setting::Setting;
+use crate::estimate::Estimate;
+use crate::models::method::Cost;
+use crate::plan::Plan;
+use crate::simulation::Simulation;
+
+/// The quantities of interest, in the order of [`QuantityOfInterest::ALL`].
+pub(super) type Values = [Option<f64>; 6];
+
+/// Element sizes of the coarser run of a model itself over those of the collision; the second is tried where the bodies
+/// do not come through the collision on the first.
+const COARSER: [f64; 2] = [2.0, 1.5];
+/// Time of the coarser run of condensed bodies over that of the collision with its factors.
+pub const CONDENSED_REFERENCE_TIME: f64 = 0.25;
+/// Time steps of condensed reference runs of explicit elements over the elastic contact time, which give the
+/// restitution to 4e-5.
+const STEPS: f64 = 120.0;
+/// The same of condensed bodies, which give it to 2e-5.
+const OWN_STEPS: f64 = 160.0;
+/// Elements across the contact of a mesh file below which its limit is taken from finer elements than its own.
+const FEW_ACROSS: f64 = 9.0;
+/// A reference run may take this multiple of the element updates that are expected of it.
+const PATIENCE: f64 = 4.0;
+
+/// Limits a bouncing ball to its first contact.
+pub fn first_contact(file: &CaseFile) -> Option<StopTable> {
+    let bounces = |_| StopTable { bounces: Some(Quantity::from_si(1.0)) };
+    file.gravity.as_ref().map(bounces)
+}
+
+/// How the mesh continues away from the contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum FarMesh {
+    AsGiven,
+    Chosen,
+}
+
+/// A reference run and its result.
+#[derive(Clone, Debug)]
+struct ReferenceRun {
+    approach: Approach,
+    settings: Vec<Setting>,
+    far_mesh: FarMesh,
+    /// `None` if the model rejects the settings or the run does not end by itself.
+    values: Option<Values>,
+    /// Element updates over those that closed forms announce.
+    updates_over_announced: f64,
+}
+
+/// The reference runs of a case so far: each is computed once.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ReferenceRuns {
+    known: Vec<ReferenceRun>,
+    element_updates: u64,
+}
+
+/// The collision that reference runs are compared with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Subject<'a> {
+    pub simulation: &'a Simulation,
+    pub approach: Approach,
+    pub plan: &'a Plan,
+    /// Element size at the contact, m.
+    pub size: f64,
+}
+
+impl<'a> Subject<'a> {
+    /// Returns the planned collision; `None` for models without elements.
+    pub fn planned(simulation: &'a Simulation) -> Option<Self> {
+        let setup = simulation.setup();
+        let plan = &setup.elements.as_ref()?.plan;
+        Some(Self { simulation, approach: setup.approach, plan, size: plan.contact_element_size })
+    }
+
+    /// Returns the key by which the case replaces the chosen mesh away from the contact, if it does.
+    pub fn far_mesh_key(&self) -> Option<&'static str> {
+        let scene = self.simulation.case().scene();
+        let estimate = Estimate::at(scene, self.approach.speed()).ok()?;
+        self.plan.far_mesh_key(scene, estimate.contact_radius)
+    }
+
+    fn staggered(&self) -> Setting {
+        Setting::Staggered(self.plan.finer_body.is_some())
+    }
+}
+
+impl ReferenceRuns {
+    /// Returns the element updates of all reference runs so far.
+    pub fn element_updates(&self) -> u64 {
+        self.element_updates
+    }
+
+    /// Counts a further run.
+    pub fn count(&mut self, collision: &Collision) {
+        self.element_updates += collision.element_updates.unwrap_or(0);
+    }
+
+    /// Returns the errors of condensed bodies on the mesh of explicit elements, and their values there.
+    pub fn condensed(&mut self, subject: &Subject<'_>) -> Option<(Values, Values)> {
+        let settings = [condensed(true), Setting::ElementSize(subject.size), subject.staggered()];
+        let values = self.values(subject, &settings, FarMesh::AsGiven)?;
+        Some((self.error_of(subject, values, subject.size)?, values))
+    }
+
+    /// Returns the errors on a mesh file; `values` are those of condensed bodies on it, computed here for explicit
+    /// elements.
+    pub fn mesh_file(
+        &mut self,
+        subject: &Subject<'_>,
+        values: Option<Values>,
+        across: f64,
+    ) -> Option<Values> {
+        let values = match values {
+            Some(values) => values,
+            None => self.values(subject, &[condensed(true)], FarMesh::AsGiven)?,
+        };
+        let size = if across < FEW_ACROSS { subject.size } else { 2.0 * subject.size };
+        self.error_of(subject, values, size)
+    }
+
+    /// Returns the errors from a run of the model itself with longer elements, and of the mesh away from the contact if
+    /// the case gives it.
+    pub fn coarser(&mut self, subject: &Subject<'_>, values: Values) -> Option<Values> {
+        COARSER.into_iter().find_map(|ratio| {
+            let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
+            let coarse = self.values(subject, &settings, FarMesh::AsGiven)?;
+            let near = errors(values, extrapolated(coarse, values, ratio));
+            let chosen = self.values(subject, &settings, FarMesh::Chosen)?;
+            let (far, of_condensed) = (errors(coarse, chosen), self.far_mesh(subject));
+            Some(std::array::from_fn(|k| {
+                let of_condensed = of_condensed.and_then(|of| of[k]).unwrap_or(0.0);
+                Some(near[k]? + far[k]?.max(of_condensed))
+            }))
+        })
+    }
+
+    /// Returns the change of each quantity by the mesh away from the contact, as the case gives it.
+    pub fn far_mesh(&mut self, subject: &Subject<'_>) -> Option<Values> {
+        subject.far_mesh_key()?;
+        let settings = [condensed(true), Setting::ElementSize(subject.size)];
+        let given = self.values(subject, &settings, FarMesh::AsGiven)?;
+        let chosen = self.values(subject, &settings, FarMesh::Chosen)?;
+        Some(errors(given, chosen))
+    }
+
+    /// Returns the element updates of the collision over those that closed forms announce, from a coarser run of at most
+    /// about `most` element updates.
+    pub fn updates_over_announced(&mut self, subject: &Subject<'_>, most: u64) -> Option<f64> {
+        let Cost::Steps { element_updates, .. } = subject.simulation.setup().cost else {
+            return None;
+        };
+        let ratio = (element_updates as f64 / most as f64).cbrt().max(COARSER[0]);
+        let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
+        let most = (PATIENCE * most as f64) as u64;
+        let run = self.run(subject, &settings, FarMesh::AsGiven, most)?;
+        run.values.map(|_| run.updates_over_announced)
+    }
+
+    /// Returns whether a condensed reference run of a collision has been computed.
+    pub fn has_condensed(&self, approach: &Approach) -> bool {
+        let is_condensed = |run: &ReferenceRun| {
+            run.settings.contains(&condensed(false)) && run.approach == *approach
+        };
+        self.known.iter().any(is_condensed)
+    }
+
+    /// Returns the errors of values against the limit of condensed bodies whose nodes touch exactly, with elements of
+    /// about this size (m) and half of it; the edge of the contact is at a node of both.
+    fn error_of(&mut self, subject: &Subject<'_>, values: Values, size: f64) -> Option<Values> {
+        let size = match values[QuantityOfInterest::MaxContactRadius as usize] {
+            Some(radius) if radius > size => radius / (radius / size).round(),
+            _ => size,
+        };
+        let mut on = |size: f64| {
+            let settings =
+                [condensed(false), Setting::ElementSize(size), Setting::Staggered(false)];
+            self.values(subject, &settings, FarMesh::Chosen)
+        };
+        let (coarse, fine) = (on(size)?, on(0.5 * size)?);
+        Some(errors(values, extrapolated(coarse, fine, 2.0)))
+    }
+
+    fn values(
+        &mut self,
+        subject: &Subject<'_>,
+        settings: &[Setting],
+        far_mesh: FarMesh,
+    ) -> Option<Values> {
+        self.run(subject, settings, far_mesh, u64::MAX)?.values
+    }
+
+    /// Returns a reference run, computed if it is not known; `None` if it takes more element updates than allowed.
+    fn run(
+        &mut self,
+        subject: &Subject<'_>,
+        settings: &[Setting],
+        far_mesh: FarMesh,
+        most_element_updates: u64,
+    ) -> Option<&ReferenceRun> {
+        // Without a key of the case both meshes are the same.
+        let far_mesh = if subject.far_mesh_key().is_some() { far_mesh } else { FarMesh::AsGiven };
+        let is_it = |run: &ReferenceRun| {
+            run.approach == subject.approach && run.settings == settings && run.far_mesh == far_mesh
+        };
+        if let Some(k) = self.known.iter().position(is_it) {
+            return Some(&self.known[k]);
+        }
+        let collided = collide(subject, settings, far_mesh, most_element_updates);
+        let (mut values, mut updates_over_announced) = (None, 1.0);
+        if let Some((reference, collision)) = collided {
+            self.count(&collision);
+            if collision.is_complete() {
+                values = Some(QuantityOfInterest::ALL.map(|headline| headline.of(&collision)));
+                updates_over_announced = over_announced(&reference, &collision).unwrap_or(1.0);
+            } else if most_element_updates < u64::MAX {
+                return None;
+            }
+        }
+        self.known.push(ReferenceRun {
+            approach: subject.approach,
+            settings: settings.to_vec(),
+            far_mesh,
+            values,
+            updates_over_announced,
+        });
+        self.known.last()
+    }
+}
+
+fn condensed(penalty_springs: bool) -> Setting {
+    Setting::Condensed { vibration_modes: 0, penalty_springs }
+}
+
+/// Computes the first contact of the bodies with these settings; `None` if the model rejects them.
+fn collide(
+    subject: &Subject<'_>,
+    settings: &[Setting],
+    far_mesh: FarMesh,
+    most_element_updates: u64,
+) -> Option<(Simulation, Collision)> {
+    let Subject { simulation, approach, .. } = subject;
+    let is_condensed = settings.iter().any(|it| matches!(it, Setting::Condensed { .. }));
+    let case = simulation.case().edited(|file| {
+        file.stop = first_contact(file);
+        // Where the case leaves the model open, the one that was chosen.
+        file.model = simulation.resolved().model.clone();
+        if is_condensed {
+            // Condensed bodies lack these effects and springs.
+            file.effects = None;
+            let contact = file.contact.as_mut();
+            if let Some(method) = contact.and_then(|contact| contact.method.as_mut())
+                && *method == ContactMethod::NodeToSurface
+            {
+                *method = ContactMethod::Massless;
+            }
+        }
+        for setting in settings {
+            setting.apply(file);
+        }
+        if let (FarMesh::Chosen, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
+            (mesh.growth, mesh.refined_radius) = (None, None);
+            // What is chosen goes by the speed.
+            *file = simulation.meeting(file.clone(), approach);
+        }
+        if settings.iter().any(|it| matches!(it, Setting::ElementSize(_))) {
+            let spheres = file.body.iter_mut().filter_map(|body| body.sphere.as_mut());
+            spheres.for_each(|sphere| sphere.mesh = None);
+        }
+        let table = file.model.as_mut().and_then(|model| model.condensed.as_mut());
+        if let Some(table) = table {
+            let own = table.steps.as_ref().and_then(|steps| steps.si().ok());
+            let usual = CondensedOptions::default().steps as f64;
+            let steps = match own {
+                _ if is_condensed => STEPS,
+                Some(own) if own > usual => own,
+                own => own.unwrap_or(OWN_STEPS).min(OWN_STEPS),
+            };
+            table.steps = Some(Quantity::from_si(steps));
+        }
+    });
+    let shared = simulation.shared().for_reference_runs();
+    let reference = Simulation::sharing(case.ok()?, &shared).ok()?;
+    let want = OutputRequest { most_element_updates, ..OutputRequest::quantities() };
+    let collision = reference.model().collide(approach, &want, &mut ());
+    Some((reference, collision))
+}
+
+/// Returns the element updates of a collision over those that closed forms announce. Elements that are pressed flat have
+/// shorter steps, and a body that stiffens as it is strained separates sooner.
+fn over_announced(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let Cost::Steps { element_updates, .. } = simulation.setup().cost else { return None };
+    Some(collision.element_updates? as f64 / element_updates as f64)
+}
+
+/// Returns the Richardson limit of values whose elements differ by this ratio.
+fn extrapolated(coarse: Values, fine: Values, ratio: f64) -> Values {
+    let rest = 1.0 / (ratio.powf(ORDER) - 1.0);
+    std::array::from_fn(|k| Some(fine[k]? + rest * (fine[k]? - coarse[k]?)))
+}
+
+/// Returns the distance of values from a limit, without sign: of the restitution absolute, of others relative.
+fn errors(values: Values, limit: Values) -> Values {
+    QuantityOfInterest::ALL.map(|headline| {
+        let (value, limit) = (values[headline as usize]?, limit[headline as usize]?);
+        Some((value - limit).abs() / headline.scale(limit))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values that fall with the assumed order have no error left after extrapolation, whatever the ratio.
+    #[test]
+    fn the_limit_of_a_power_law_is_exact() {
+        for ratio in [1.5, 2.0] {
+            let on =
+                |size: f64| QuantityOfInterest::ALL.map(|_| Some(3.0 + 0.1 * size.powf(ORDER)));
+            let limit = extrapolated(on(ratio), on(1.0), ratio);
+            assert!(limit.iter().all(|limit| (limit.unwrap() - 3.0).abs() < 1e-12), "{limit:?}");
+            let errors = errors(on(1.0), limit);
+            assert!((errors[0].unwrap() - 0.1).abs() < 1e-12, "absolute for the restitution");
+            assert!((errors[1].unwrap() - 0.1 / 3.0).abs() < 1e-12, "relative for the others");
+        }
+        assert_eq!(extrapolated([None; 6], [Some(1.0); 6], 2.0), [None; 6]);
+    }
+}

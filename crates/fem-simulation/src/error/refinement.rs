@@ -1,0 +1,347 @@
+//! Adaptive refinement: meshes are made finer until the estimated errors are within the tolerance of the case.
+//!
+//! The a-priori mesh rule chooses elements from closed forms ([`crate::Plan`]). If an estimated error exceeds the
+//! tolerance and the case leaves the element size open, the elements are made smaller by
+//!
+//! ```math
+//! \frac{h}{h'} = \Bigl(1.1\,\max_q \frac{|\Delta q|}{\tau_q}\Bigr)^{2/3}, \qquad 1.25 \le \frac h{h'} \le 2,
+//! ```
+//!
+//! between the first order of bulk viscosity and the second of elements, and the collision is computed again; by 2 at
+//! once if condensed reference runs, which know the error before the collision, say that less is not enough. There are at
+//! most [`MOST_LEVELS`] finer meshes, each of at most [`MOST_UPDATES`] element updates or `limits.element_updates`. No
+//! mesh is refined for errors of other settings of the case (added mass, soft springs, a coarse mesh away from the
+//! contact). Otherwise a warning says why the mesh stays. Every decision follows from numbers of the case and of its
+//! runs: it is the same on all machines.
+
+use fem_case::{Body, CaseError, Shape};
+use fem_collision::{Collision, QuantityOfInterest, Stop};
+use fem_material::engineering::Unit;
+use serde::{Deserialize, Serialize};
+
+use super::calibration::ADDED_MASS;
+use super::estimator::{ErrorEstimate, ErrorEstimator};
+use super::noise_floor::of_chatter;
+use super::reference_runs::Subject;
+use super::tolerance_check::{ToleranceMiss, missed, misses};
+use crate::models::method::Cost;
+use crate::simulation::{ComputedCollision, Simulation};
+
+/// Room beyond the estimated error.
+pub(super) const ROOM: f64 = 1.1;
+/// Power of the element size with which errors are expected to fall.
+pub(super) const FALL: f64 = 1.5;
+/// Least and largest ratio of element sizes of one refinement.
+pub(super) const STEPS: [f64; 2] = [1.25, 2.0];
+/// Finer meshes after the first.
+pub(super) const MOST_LEVELS: usize = 4;
+/// Element updates of a finer mesh if the case gives no limit: some seconds.
+pub(super) const MOST_UPDATES: u64 = 150_000_000;
+/// Elements of a finer mesh of condensed bodies: a second.
+pub(super) const MOST_ELEMENTS: u64 = 60_000;
+/// Refinements that differ by a smaller share make the same mesh.
+const SAME_REFINEMENT: f64 = 0.01;
+
+/// A mesh that was too coarse.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Level {
+    /// Edge length of its elements at the contact.
+    pub contact_element_size_m: f64,
+    /// Element updates of its collision; `None` if the collision was not computed on it or takes none.
+    pub element_updates: Option<u64>,
+    /// Key of the quantity that exceeded its tolerance by most.
+    pub quantity: String,
+    /// Its estimated error: the restitution's absolute, others relative.
+    pub error: f64,
+    /// Its tolerance.
+    pub tolerance: f64,
+}
+
+/// A simulation on the mesh that its tolerance needs, as far as that is known before the run.
+#[derive(Debug)]
+pub struct RefinedBeforeRun {
+    /// The case on that mesh.
+    pub simulation: Simulation,
+    /// Whether the run itself may show that a finer mesh is needed.
+    pub is_open: bool,
+}
+
+/// Why a mesh stays although the tolerance is missed.
+#[derive(Debug)]
+pub(super) enum NotRefined {
+    /// The case gives the element size.
+    Given,
+    FromFile,
+    Gravity,
+    /// Another setting of the case is at fault.
+    Setting(FaultySetting),
+    /// The scatter of any mesh exceeds the tolerance.
+    Scatter(f64),
+    TooExpensive {
+        updates: Option<u64>,
+    },
+    Rejected(CaseError),
+    /// The collision failed on a finer mesh.
+    Stopped(String),
+}
+
+/// A setting of the case whose error a finer mesh does not reduce.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum FaultySetting {
+    AddedMass,
+    SoftSprings,
+    ChatteringSprings,
+    /// The key that gives the mesh away from the contact.
+    FarMesh(&'static str),
+}
+
+impl FaultySetting {
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::AddedMass => "the mass that is added",
+            Self::SoftSprings => "soft penalty springs",
+            Self::ChatteringSprings => "contact chatter",
+            Self::FarMesh(_) => "the mesh away from the contact",
+        }
+    }
+
+    /// Returns the key to leave out.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::AddedMass => "time.mass_scaling",
+            Self::SoftSprings | Self::ChatteringSprings => "contact.penalty_factor",
+            Self::FarMesh(key) => key,
+        }
+    }
+}
+
+impl ErrorEstimator {
+    /// Refines the mesh before the run, as far as condensed reference runs show its error, while `goes_on` allows.
+    pub fn refine_before_run(
+        &mut self,
+        simulation: Simulation,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> RefinedBeforeRun {
+        let mut simulation = simulation;
+        loop {
+            if !may_be_refined(&simulation) {
+                return RefinedBeforeRun { simulation, is_open: false };
+            }
+            let Some(miss) = goes_on().then(|| self.expected_miss(&simulation)).flatten() else {
+                let is_open = simulation.setup().elements.is_some();
+                return RefinedBeforeRun { simulation, is_open };
+            };
+            match miss.map(|miss| self.finer(&simulation, &miss, None)) {
+                Some(Ok(finer)) => simulation = finer,
+                _ => return RefinedBeforeRun { simulation, is_open: false },
+            }
+        }
+    }
+
+    /// Computes the collision, again on finer meshes while the tolerance is missed, and estimates its errors. If the
+    /// collision fails on a finer mesh, the one before counts.
+    ///
+    /// # Errors
+    /// Those of `compute`.
+    pub fn within_tolerance<E>(
+        &mut self,
+        simulation: Simulation,
+        mut compute: impl FnMut(&mut Self, &Simulation) -> Result<Collision, E>,
+    ) -> Result<ComputedCollision, E> {
+        let mut collision = compute(self, &simulation)?;
+        let mut simulation = simulation;
+        let errors = loop {
+            let mut errors = self.bars(&simulation, &collision);
+            match self.refined(&simulation, &collision, &errors) {
+                Ok(Some(finer)) => {
+                    let next = compute(self, &finer)?;
+                    if let Some(stop) = next.stop().filter(|stop| !is_interrupt(stop)) {
+                        errors.not_refined = Some(NotRefined::Stopped(stop.to_string()));
+                        break errors;
+                    }
+                    (simulation, collision) = (finer, next);
+                }
+                Ok(None) => break errors,
+                Err(reason) => {
+                    errors.not_refined = reason;
+                    break errors;
+                }
+            }
+        };
+        let errors = self.complete(&simulation, &collision, errors);
+        Ok(ComputedCollision { simulation, collision, errors })
+    }
+
+    /// Returns the case on a finer mesh if its collision misses a tolerance and a finer mesh may be had.
+    pub fn refine(&mut self, simulation: &Simulation, collision: &Collision) -> Option<Simulation> {
+        let errors = self.bars(simulation, collision);
+        self.refined(simulation, collision, &errors).ok().flatten()
+    }
+
+    /// Returns the case on a finer mesh if a tolerance is missed, or why there is none.
+    pub(super) fn refined(
+        &mut self,
+        simulation: &Simulation,
+        collision: &Collision,
+        errors: &ErrorEstimate,
+    ) -> Result<Option<Simulation>, Option<NotRefined>> {
+        match missed(simulation, collision, errors).first() {
+            Some(miss) => self.finer(simulation, miss, Some(collision)).map(Some).map_err(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Returns the largest miss that condensed reference runs expect; `None` if they cannot tell, `Some(None)` if the
+    /// tolerance is met.
+    fn expected_miss(&mut self, simulation: &Simulation) -> Option<Option<ToleranceMiss>> {
+        let errors = self.before_run(simulation)?;
+        Some(misses(simulation, |headline| errors[headline as usize]).into_iter().next())
+    }
+
+    /// Returns the case on a finer mesh, after a collision or before one, or why there is none.
+    fn finer(
+        &mut self,
+        simulation: &Simulation,
+        miss: &ToleranceMiss,
+        met: Option<&Collision>,
+    ) -> Result<Simulation, NotRefined> {
+        let scene = simulation.case().scene();
+        let elements = simulation.setup().elements.as_ref().ok_or(NotRefined::Given)?;
+        if let Some(setting) = self.faulty_setting(simulation, miss, met) {
+            return Err(NotRefined::Setting(setting));
+        }
+        if !miss.is_of_mesh() {
+            return Err(NotRefined::Scatter(miss.scatter));
+        }
+        if has_mesh_file(simulation) {
+            return Err(NotRefined::FromFile);
+        }
+        if scene.mesh().contact_element_size.is_some() {
+            return Err(NotRefined::Given);
+        }
+        let is_other = |collision: &Collision| collision.approach != simulation.setup().approach;
+        if scene.gravity().is_some() || met.is_some_and(is_other) {
+            return Err(NotRefined::Gravity);
+        }
+        if simulation.levels().len() >= MOST_LEVELS {
+            return Err(NotRefined::TooExpensive { updates: None });
+        }
+        let by = (ROOM * miss.excess_of_mesh()).powf(1.0 / FALL).max(STEPS[0]).min(STEPS[1]);
+        let refinement = by * simulation.refinement;
+        if let Some((known, updates)) = self.too_expensive
+            && (refinement / known - 1.0).abs() < SAME_REFINEMENT
+        {
+            return Err(NotRefined::TooExpensive { updates: Some(updates) });
+        }
+        let level = Level {
+            contact_element_size_m: elements.plan.contact_element_size,
+            element_updates: met.and_then(|collision| collision.element_updates),
+            quantity: miss.headline.key().to_string(),
+            error: miss.error,
+            tolerance: miss.tolerance,
+        };
+        let levels: Vec<Level> = simulation.levels().iter().cloned().chain([level]).collect();
+        let on = |by: f64| {
+            let refinement = by * simulation.refinement;
+            simulation.refined(refinement, levels.clone()).map_err(NotRefined::Rejected)
+        };
+        let finer = match (on(by)?, by < STEPS[1]) {
+            (short, true) if self.expected_miss(&short).flatten().is_some() => on(STEPS[1])?,
+            (enough, _) => enough,
+        };
+        match finer.setup().cost {
+            Cost::Steps { element_updates, .. } => {
+                let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);
+                if element_updates > most {
+                    self.too_expensive = Some((refinement, element_updates));
+                    return Err(NotRefined::TooExpensive { updates: Some(element_updates) });
+                }
+                Ok(finer)
+            }
+            Cost::Factors { elements, .. } if elements > MOST_ELEMENTS => {
+                Err(NotRefined::TooExpensive { updates: None })
+            }
+            _ => Ok(finer),
+        }
+    }
+
+    /// Returns the setting of the case whose error exceeds the tolerance on any mesh; after a collision or before one.
+    fn faulty_setting(
+        &mut self,
+        simulation: &Simulation,
+        miss: &ToleranceMiss,
+        met: Option<&Collision>,
+    ) -> Option<FaultySetting> {
+        let scene = simulation.case().scene();
+        let elements = simulation.setup().elements.as_ref()?;
+        if miss.is_of_springs(elements) {
+            return Some(FaultySetting::SoftSprings);
+        }
+        let of_mass = elements.added_share * ADDED_MASS[miss.headline as usize];
+        if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
+            return Some(FaultySetting::AddedMass);
+        }
+        let subject = Subject::planned(simulation)?;
+        if let Some(key) = subject.far_mesh_key() {
+            let error = self.runs.far_mesh(&subject).and_then(|of| of[miss.headline as usize]);
+            if error.is_some_and(|error| error > miss.tolerance) {
+                return Some(FaultySetting::FarMesh(key));
+            }
+        }
+        let collision = met?;
+        if is_of_chatter(miss, collision) {
+            return Some(FaultySetting::ChatteringSprings);
+        }
+        // On average springs overlap by half as much, and the contact lasts longer as the approach grows.
+        let overlap = collision.deepest.map_or(0.0, |deepest| deepest.overlap);
+        let of_springs = 0.5 * overlap / collision.max_approach?;
+        let is_soft = scene.penalty_factor().is_some_and(|factor| factor < 1.0);
+        (is_soft && of_springs > miss.tolerance).then_some(FaultySetting::SoftSprings)
+    }
+}
+
+/// Returns whether contact chatter alone exceeds the tolerance.
+pub(super) fn is_of_chatter(miss: &ToleranceMiss, collision: &Collision) -> bool {
+    of_chatter(collision, miss.headline) > miss.tolerance
+}
+
+/// Returns whether meshes of the case may be made finer for its tolerance.
+pub(super) fn may_be_refined(simulation: &Simulation) -> bool {
+    let scene = simulation.case().scene();
+    let is_given = scene.mesh().contact_element_size.is_some();
+    let has_elements = simulation.setup().elements.is_some();
+    has_elements && !is_given && !has_mesh_file(simulation) && scene.gravity().is_none()
+}
+
+fn has_mesh_file(simulation: &Simulation) -> bool {
+    let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
+    simulation.case().scene().bodies().iter().any(is_file)
+}
+
+/// Returns the reason of the last refinement, for the terminal.
+pub(crate) fn refined_because(simulation: &Simulation) -> Option<String> {
+    let level = simulation.levels().last()?;
+    let headline = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == level.quantity)?;
+    let (error, tolerance) = (level.error, level.tolerance);
+    let miss = ToleranceMiss { headline, error, tolerance, scatter: 0.0 };
+    let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
+    // The collision was not computed on the coarser mesh.
+    let is_before_run =
+        level.element_updates.is_none() && matches!(simulation.setup().cost, Cost::Steps { .. });
+    Some(format!(
+        "{}: {}elements of {} in place of {}",
+        miss.in_words(),
+        if is_before_run { "" } else { "again with " },
+        length(size),
+        length(level.contact_element_size_m)
+    ))
+}
+
+fn is_interrupt(stop: &Stop) -> bool {
+    matches!(stop, Stop::Interrupted { .. })
+}
+
+/// Prints an element size with three digits, as a case takes it.
+pub(super) fn length(size: f64) -> String {
+    Unit::fitting(size, "m").with_digits(3).show(size)
+}
