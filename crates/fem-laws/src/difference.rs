@@ -4,20 +4,20 @@ use crate::hertz::HertzImpact;
 use crate::impact::Impact;
 use crate::pair::{Pair, Partner};
 
-/// Differences of two collisions' results, the first's less the second's; also the error of leaving
-/// something out, estimated.
+/// The differences between the results of two collisions, first less second; also an estimated error of a
+/// neglected effect.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ImpactDifference {
-    /// Of the restitution.
+    /// Difference of the restitution.
     pub restitution: f64,
-    /// Of the contact time, s; `None` if bodies stay together in either.
+    /// Difference of the contact time, s; `None` if bodies stay together in either.
     pub contact_time: Option<f64>,
-    /// Of the largest force, N.
+    /// Difference of the largest force, N.
     pub peak_force: f64,
 }
 
 impl ImpactDifference {
-    /// `found` less `reference`: with `found` left something out, its error.
+    /// Returns `found` less `reference`: the error of `found` if it neglects an effect.
     pub fn of(found: &Impact, reference: &Impact) -> Self {
         let times = found.contact_time.zip(reference.contact_time);
         Self {
@@ -28,20 +28,19 @@ impl ImpactDifference {
     }
 }
 
-/// The error of a result by a closed form: too large by so much, or off by up to so much where the form
-/// says so.
+/// Relative error of a result by a closed form; signed, or a bound where the form says so.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RelativeError {
-    /// Of the restitution, absolute.
+    /// Absolute error of the restitution.
     pub restitution: f64,
-    /// Of the contact time, relative.
+    /// Relative error of the contact time.
     pub contact_time: f64,
-    /// Of the largest force, relative.
+    /// Relative error of the largest force.
     pub peak_force: f64,
 }
 
 impl RelativeError {
-    /// Of the time, s, and the force, N, of an elastic impact.
+    /// Returns the errors of an elastic impact: of its contact time, s, and force, N.
     pub fn of(&self, hertz: &HertzImpact) -> ImpactDifference {
         ImpactDifference {
             restitution: self.restitution,
@@ -50,7 +49,7 @@ impl RelativeError {
         }
     }
 
-    /// Whether none of the three is larger than another's, in size.
+    /// Whether the magnitude of each error is at most that of the tolerance.
     pub fn is_within(&self, tolerance: &Self) -> bool {
         self.restitution.abs() <= tolerance.restitution
             && self.contact_time.abs() <= tolerance.contact_time

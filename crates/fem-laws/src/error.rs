@@ -1,80 +1,80 @@
-//! What can be wrong with the data of a collision.
+//! Errors in the data of a collision.
 
 use fem_material::engineering::number;
 use thiserror::Error;
 
-/// A collision that cannot happen, or that f64 cannot hold.
+/// A collision that is impossible, or whose numbers leave the range of f64.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LawError {
-    /// Zero, negative, infinite or NaN where only a positive number has a meaning.
+    /// A quantity that must be positive and finite is not.
     #[error("{quantity} must be positive and finite, found {value:?}")]
     NotPositive {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Value found.
+        /// The value that was found.
         value: f64,
     },
 
-    /// Two rigid walls.
+    /// Both bodies are rigid walls.
     #[error("a collision needs at least one sphere, found two walls")]
     TwoWalls,
 
-    /// Two half-spaces, or one and a wall.
+    /// Neither body is a sphere: two half-spaces, or a half-space and a wall.
     #[error("a collision needs at least one sphere, found two bodies without a radius")]
     NoSphere,
 
-    /// Two bodies that do not deform.
+    /// Neither body deforms.
     #[error("a collision needs at least one body that deforms, found two rigid ones")]
     TwoRigidBodies,
 
-    /// Two infinite masses.
+    /// Both masses are infinite.
     #[error("a collision needs at least one body that moves, found two of infinite mass")]
     NothingMoves,
 
-    /// A negative, infinite or NaN value where 0 or a positive number has a meaning.
+    /// A quantity that must be at least 0 and finite is not.
     #[error("{quantity} must be at least 0 and finite, found {value:?}")]
     Negative {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Value found.
+        /// The value that was found.
         value: f64,
     },
 
-    /// A value outside the range of its meaning.
+    /// A value is outside its valid range.
     #[error("{quantity} must be in {range}, found {value:?}")]
     OutOfRange {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Value found.
+        /// The value that was found.
         value: f64,
-        /// Values allowed.
+        /// The range of allowed values.
         range: &'static str,
     },
 
-    /// A model asked for what it does not describe.
+    /// A model is used outside its validity.
     #[error("{quantity} must be at most {limit}, found {}: outside the validity of the model", number(*value, 4))]
     OutsideValidity {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Value found.
+        /// The value that was found.
         value: f64,
         /// Largest valid value.
         limit: f64,
     },
 
-    /// An integration in time that did not reach the end of contact.
+    /// The integration in time did not reach the end of contact.
     #[error("{model}: no end of contact within {n_steps} steps; reached {time:?} s")]
     NotFinished {
         /// Name of the model.
         model: &'static str,
-        /// Steps taken.
+        /// The number of steps taken.
         n_steps: usize,
         /// Time reached, s.
         time: f64,
     },
 }
 
-/// `value` if it is positive and finite.
+/// Returns `value` if it is positive and finite.
 pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, LawError> {
     if value > 0.0 && value.is_finite() {
         Ok(value)
@@ -83,12 +83,12 @@ pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, LawErr
     }
 }
 
-/// `value` if it is positive, be it infinite.
+/// Returns `value` if it is positive; it may be infinite.
 pub(crate) fn positive_or_infinite(quantity: &'static str, value: f64) -> Result<f64, LawError> {
     if value > 0.0 { Ok(value) } else { Err(LawError::NotPositive { quantity, value }) }
 }
 
-/// `value` if it is at least 0 and finite.
+/// Returns `value` if it is at least 0 and finite.
 pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64, LawError> {
     if value >= 0.0 && value.is_finite() {
         // Makes −0 a 0.
@@ -98,7 +98,7 @@ pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64, La
     }
 }
 
-/// `value` if it is a restitution that leaves something and gains nothing.
+/// Returns `value` if it is a restitution in (0, 1].
 pub(crate) fn restitution(value: f64) -> Result<f64, LawError> {
     if value > 0.0 && value <= 1.0 {
         Ok(value)
@@ -107,7 +107,7 @@ pub(crate) fn restitution(value: f64) -> Result<f64, LawError> {
     }
 }
 
-/// `value` if an integration can be asked for this accuracy.
+/// Returns `value` if it is a tolerance that the integration supports.
 pub(crate) fn tolerance(value: f64) -> Result<f64, LawError> {
     if (1e-10..=1e-2).contains(&value) {
         Ok(value)

@@ -18,7 +18,7 @@ pub struct LawParameter {
     pub unit: &'static str,
     /// Exponents of metre, kilogram, second.
     pub dimension: [i32; 3],
-    /// What it does to the motion.
+    /// Its effect on the motion.
     pub role: ParameterRole,
     /// Value that it has unless it is given; `None` if it must be given or be free.
     pub default: Option<f64>,
@@ -40,7 +40,7 @@ impl LawParameter {
     }
 }
 
-/// What a parameter does, and so how it is varied.
+/// The effect of a parameter, which decides how a fit varies it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ParameterRole {
     /// A factor of the damping: varied by its logarithm.
@@ -288,7 +288,7 @@ impl LawFamily {
 /// A law as a case gives it: the values of its keys, which one of its [`LawFamily::key_sets`] holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawInput {
-    /// The law.
+    /// The family of the law.
     pub family: LawFamily,
     /// Keys and their values, SI.
     pub values: Vec<(&'static str, f64)>,
@@ -339,9 +339,9 @@ pub enum LawInputError {
     Law(LawError),
     /// The materials do not give what the law needs of them.
     Materials {
-        /// The reason.
+        /// Why the law cannot be made.
         message: &'static str,
-        /// What to do.
+        /// The suggested fix.
         help: &'static str,
     },
 }

@@ -1,8 +1,9 @@
-//! Relaxation that need not be followed in time: terms much faster or slower than a contact.
+//! Fast and slow limits of relaxation: terms much faster or slower than the contact are not integrated in
+//! time.
 //!
-//! A term of relaxation time τ ≪ T has relaxed before the force has risen: its modulus is gone. One of
-//! τ ≫ T has not begun when the contact ends: it is elastic. What each would have changed beside
-//! follows from Ting's model to first order about Hertz' pulse. With the contact's relaxation 1 + φ(t),
+//! A term of relaxation time τ ≪ T has relaxed before the force has risen: its modulus is gone. One of τ ≫
+//! T has not begun when the contact ends: it is elastic. The error of each follows from Ting's model to
+//! first order about Hertz' pulse. With the contact's relaxation 1 + φ(t),
 //!
 //! ```math
 //! F = K\bigl[u^{3/2} + P\bigr], \qquad
@@ -24,8 +25,8 @@
 //! body has of the contact's compliance, times ∂ ln(E/(1−ν²))/∂ ln G: at constant K, or 1 where K relaxes
 //! with G.
 //!
-//! Limits: ε ≪ 1. Of a weak term with τ ≈ T, e and F are estimated too high, T up to
-//! threefold too low. Beside terms that stay and relax strongly the estimate is off by up to a half.
+//! Limits: ε ≪ 1. For a weak term with τ ≈ T, e and F are overestimated and T is underestimated by up to a
+//! factor of three. Beside terms that stay and relax strongly the estimate is off by up to a half.
 
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
@@ -41,18 +42,18 @@ const FAST_LOSS: f64 = 5.567_81;
 /// −∂(e, ln T, ln F)/∂ε of a fast term.
 const FAST: [f64; 3] = [FAST_LOSS, 1.0 - 0.1 * FAST_LOSS, 0.6 * FAST_LOSS];
 
-/// Two bodies of a contact whose materials need follow fewer terms in time.
+/// The materials of a contact without the terms that need not be integrated in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FastSlowLimits {
-    /// Of each body; `None` is a rigid one. The instantaneous moduli lack the fast terms', the weights
-    /// refer to them, and slow terms are part of what does not relax. Without a term left the material
-    /// is elastic; with nothing folded it is as it was.
+    /// Material of each body; `None` is rigid. The instantaneous moduli lack the fast terms', the weights
+    /// refer to them, and slow terms are part of what does not relax. Without a term left the material is
+    /// elastic; with nothing folded it is as it was.
     pub materials: [Option<Material>; 2],
     /// Terms whose modulus is gone, of each body.
     pub n_fast: [usize; 2],
     /// Terms that are taken as elastic, of each body.
     pub n_slow: [usize; 2],
-    /// Of all folded terms together: restitution, time and force are too large by so much.
+    /// Error of all folded terms together: restitution, contact time and force are too large by this.
     pub error: RelativeError,
 }
 
@@ -65,9 +66,8 @@ enum Fate {
 }
 
 impl FastSlowLimits {
-    /// Of the materials of two bodies, `None` for a rigid one, and the contact time, s, of Hertz'
-    /// impact with their instantaneous moduli; as many terms as the tolerance, of all of them
-    /// together, lets go.
+    /// Folds as many terms as a tolerance on their total error allows. The bodies' materials are `None` for
+    /// rigid bodies; the contact time (s) is that of Hertz' impact with instantaneous moduli.
     ///
     /// # Errors
     /// Two rigid bodies; a contact time or a tolerance that is not positive and finite.

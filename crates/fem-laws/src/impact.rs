@@ -1,4 +1,4 @@
-//! The outcome of a collision, the same for every model.
+//! The result of a collision, of the same form for every model, and its interpolation in time.
 
 /// Summary and history of one collision, from first touch to the end of contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,25 +37,24 @@ pub struct ImpactInstant {
     pub centre_pressure: Option<f64>,
     /// ∫F dδ since first touch: what the motion has given to the contact, J.
     pub work: f64,
-    /// What of the work the contact holds, J, from the state; `None` for a model that knows it not.
+    /// Energy stored in the contact, J, from the state; `None` if the model does not compute it.
     pub strain_energy: Option<f64>,
-    /// What of the work is lost in the bodies, J, from the state; `None` for a model that knows it
-    /// not.
+    /// Energy dissipated in the bodies, J, from the state; `None` if the model does not compute it.
     pub dissipated: Option<f64>,
-    /// What of the work has left as waves, J, from the state; `None` for a model without radiation.
-    /// Where all three are known they add up to the work.
+    /// Energy radiated as waves, J, from the state; `None` for a model without radiation. Where all three
+    /// are known they add up to the work.
     pub radiated: Option<f64>,
 }
 
 impl Impact {
-    /// What has left as waves, J; `None` for a model without radiation.
+    /// Returns the energy radiated as waves, J; `None` for a model without radiation.
     pub fn radiated(&self) -> Option<f64> {
         self.history.last()?.radiated
     }
 }
 
 impl ImpactInstant {
-    /// First touch at a relative speed, m/s; `pressure` and `energies` are known to the model.
+    /// First touch at a relative speed, m/s; `pressure` and `energies` say whether the model computes them.
     pub(crate) fn first_touch(speed: f64, pressure: bool, energies: bool) -> Self {
         Self {
             time: 0.0,

@@ -1,10 +1,10 @@
 //! The state of a collision at any time, from the instants that a model has kept.
 //!
-//! Between two instants the approach is the polynomial of degree 5 with their δ, δ̇ and
-//! δ̈ = −F/m*; the rate is its derivative. Work and energies are cubic with their known rates Fδ̇;
-//! a law's force and strain energy follow from the motion. What is known at the instants only,
-//! force, a² and p₀² of the other models, is cubic with the slopes of parabolas through three
-//! instants. After the last instant the bodies fly freely. Gravity adds its acceleration to δ̈.
+//! Between two instants the approach is the polynomial of degree 5 with their δ, δ̇ and δ̈ = −F/m*; the
+//! rate is its derivative. Work and energies are cubic with their known rates Fδ̇; a law's force and strain
+//! energy follow from the motion. Force, a² and p₀² of the other models, known at the instants only, are
+//! cubic with the slopes of parabolas through three instants. After the last instant the bodies fly freely.
+//! Gravity adds its acceleration to δ̈.
 
 use crate::impact::{Impact, ImpactInstant};
 use crate::laws::ContactLaw;
@@ -21,7 +21,7 @@ pub struct ImpactPath<'a> {
 }
 
 impl<'a> ImpactPath<'a> {
-    /// Of a collision of a pair, and the law if it followed one.
+    /// Creates the path of a collision of a pair; `law` is given if the collision followed a contact law.
     pub fn new(impact: &'a Impact, pair: &Pair, law: Option<&'a ContactLaw>) -> Self {
         Self {
             history: &impact.history,
@@ -32,7 +32,7 @@ impl<'a> ImpactPath<'a> {
         }
     }
 
-    /// Of a collision with gravity along the approach, m/s².
+    /// Adds gravity along the approach, m/s².
     pub fn with_gravity(self, acceleration: f64) -> Self {
         Self { gravity: acceleration, ..self }
     }

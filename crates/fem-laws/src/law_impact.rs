@@ -19,10 +19,11 @@
 //! \frac{\mathrm dt}{\mathrm ds} = b\,\frac{x+\varepsilon b}{x+\varepsilon b+b\dot x^2},
 //! ```
 //!
-//! which makes x change by a constant factor a step while ẋ is large, and leaves a creep alone; b ≤ 1 is the overlap at which the dashpot
-//! alone would stop the motion. Gravity adds g ℓ/v² to ẍ; a ball that turns back while it touches, or whose
-//! energy does not lift it to x = 0 any more, stays. What the dashpot takes, ∫c xⁿ ẋ² dt, is integrated along. Limits: a strongly damped creep back to zero overlap is refused when it needs more than
-//! 100 000 steps.
+//! which makes x change by a constant factor a step while ẋ is large, and leaves a creep alone; b ≤ 1 is
+//! the overlap at which the dashpot alone would stop the motion. Gravity adds g ℓ/v² to ẍ; a ball that
+//! turns back while it touches, or whose energy does not lift it to x = 0 any more, stays. The dissipated
+//! energy ∫c xⁿ ẋ² dt is integrated along. Limits: a strongly damped creep back to zero overlap is rejected
+//! when it needs more than 100 000 steps.
 
 use differential_equations::control::ControlFlag;
 use differential_equations::interpolate::Interpolation;
@@ -44,7 +45,7 @@ pub struct LawImpact {
     law: ContactLaw,
     end_rule: EndRule,
     tolerance: f64,
-    /// m/s².
+    /// Gravity along the approach, m/s².
     gravity: f64,
 }
 
@@ -239,7 +240,7 @@ impl ODE<f64, State> for Motion<'_> {
     }
 }
 
-/// What a dimensionless collision leaves.
+/// Result of a dimensionless collision.
 #[derive(Debug, Default)]
 struct Outcome {
     /// At the end of contact.

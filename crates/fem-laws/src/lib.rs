@@ -9,11 +9,11 @@
 //!   takes away;
 //! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
 //!
-//! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. What leaving
-//! something out costs is a [`ImpactDifference`] of two impacts, or a [`RelativeError`] in closed form: of
-//! relaxation that is not followed in time ([`FastSlowLimits`]), of a [`rigid_partner`].
-//! One law a file; [`LawFamily`] lists them by name, with their parameters. Everything is SI; forces and
-//! pressures of a closed contact are positive, stresses are positive in tension.
+//! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. The error of a
+//! neglected effect is an [`ImpactDifference`] of two impacts, or a [`RelativeError`] in closed form: for
+//! relaxation that is not integrated in time ([`FastSlowLimits`]) and for a [`rigid_partner`]. One law a
+//! file; [`LawFamily`] lists them by name, with their parameters. Everything is SI; forces and pressures of
+//! a closed contact are positive, stresses are positive in tension.
 //!
 //! ```
 //! use fem_laws::{HertzImpact, LawImpact, Pair, PairRelaxation, Partner, Ting};

@@ -5,9 +5,9 @@
 //! \frac1{E^*} = \frac{1-\nu_1^2}{E_1}+\frac{1-\nu_2^2}{E_2}
 //! ```
 //!
-//! Bordbar & Hyppänen (2007), eqs. 15–17; moduli are the instantaneous ones. What is infinite drops
-//! out of its sum: radius, mass and modulus of a rigid wall, radius and mass of a half-space, the
-//! modulus of a rigid sphere.
+//! Bordbar & Hyppänen (2007), eqs. 15–17; moduli are the instantaneous ones. Infinite quantities drop out
+//! of their sums: radius, mass and modulus of a rigid wall, radius and mass of a half-space, the modulus of
+//! a rigid sphere.
 
 use std::f64::consts::PI;
 
@@ -18,7 +18,7 @@ use crate::error::{LawError, positive, positive_or_infinite};
 /// One of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Partner {
-    /// A sphere.
+    /// A solid sphere.
     Sphere {
         /// Radius R, m.
         radius: f64,
@@ -104,8 +104,8 @@ pub fn compliance_shares([first, second]: [f64; 2]) -> [f64; 2] {
 /// the body alone, e′.
 ///
 /// Until waves come back the partner is a half-space to the contact: it moves nowhere as a whole, and the
-/// body's collision is that with an infinite mass. Its mass centre has the impulse m v (1+e′) all the
-/// same, so that e = e′ + (1+e′) m/M. What moves it is part of the waves' energy.
+/// body's collision is that with an infinite mass. Its mass centre has the impulse m v (1+e′) all the same,
+/// so that e = e′ + (1+e′) m/M. The energy of its motion is part of the waves' energy.
 pub fn restitution_of_mass_centres(restitution: f64, mass_ratio: f64) -> f64 {
     restitution + (1.0 + restitution) * mass_ratio
 }
@@ -119,7 +119,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Of two bodies in either order, to the same bits.
+    /// Creates a pair of two bodies; either order gives the same bits.
     ///
     /// # Errors
     /// Two walls; no sphere; two rigid bodies; two that cannot move; a radius that is not positive and

@@ -33,7 +33,8 @@ pub struct PairRelaxation {
 }
 
 impl PairRelaxation {
-    /// Of the materials of two bodies in either order; `None` is a rigid body.
+    /// Creates the relaxation function for the materials of two bodies in either order; `None` is a rigid
+    /// body.
     ///
     /// # Errors
     /// Two walls; relaxation times so short or long that a rate leaves the range of f64.
@@ -96,7 +97,7 @@ impl PairRelaxation {
 
 /// M(s) = M∞ + Σ M_k s/(s+b_k).
 struct Element {
-    /// M∞, Pa.
+    /// Equilibrium modulus M∞, Pa.
     equilibrium: f64,
     /// The decaying part: at b_k, 1/s, the weight M_k, Pa.
     terms: Vec<Pole>,

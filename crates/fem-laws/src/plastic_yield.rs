@@ -63,7 +63,7 @@ pub fn largest_von_mises(poissons_ratio: f64) -> f64 {
 }
 
 impl FirstYield {
-    /// Of a body with a yield strength (Pa) and Poisson's ratio in an impact.
+    /// Returns the first yield of a body with a yield strength (Pa) and Poisson's ratio in an impact.
     pub fn new(hertz: &HertzImpact, yield_strength: f64, poissons_ratio: f64) -> Self {
         let pressure = yield_strength / largest_von_mises(poissons_ratio);
         let speed = hertz.approach_speed() * (pressure / hertz.peak_pressure()).powf(2.5);

@@ -1,4 +1,4 @@
-//! What it adds to Hertz' contact that surfaces of unlike materials slip on each other.
+//! Compliance that slip between surfaces of unlike materials adds to Hertz' contact.
 //!
 //! A pressure p moves the surface of a half-space inward by what it encloses (Boussinesq's u_r = −tF/4πr of
 //! a point force, as a field of sources in the plane; of Hertz' pressure Johnson, *Contact Mechanics*, 1985,
@@ -32,7 +32,7 @@
 //! ```
 //!
 //! of an impact, with Dundurs' β. The first follows from ½cF² beside Hertz' energy, the second from the
-//! action ½c∫F²dt. Between like bodies t is the same, on a plane that does not give way κ = 0. Frictionless.
+//! action ½c∫F²dt. Between like bodies t is the same, on a rigid plane κ = 0. Frictionless.
 //!
 //! Relaxing bodies have t of their moduli in Carson's transform: falling as 1/μ with constant ν, and
 //! t = 3/(3K+μ) beside an elastic bulk modulus. κ stays that of the instantaneous moduli.
@@ -47,7 +47,7 @@ use crate::finite_size::correction::{Correction, RelaxingCorrection};
 use crate::pair::compliance_shares;
 use crate::pair_relaxation::PairRelaxation;
 
-/// One of two surfaces, as it bends and gives way.
+/// One of the two surfaces: its curvature and its compliance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlipSurface {
     /// 1/m; 0 of a plane.
@@ -57,7 +57,7 @@ pub struct SlipSurface {
 }
 
 impl SlipSurface {
-    /// Of a curvature, 1/m, and a material; none is rigid.
+    /// Creates a surface of a curvature, 1/m, and a material; `None` is rigid.
     pub fn new(curvature: f64, material: Option<&Material>) -> Self {
         Self { curvature, material: material.cloned() }
     }
@@ -103,14 +103,14 @@ fn tangential_compliance(material: &Material, left: f64) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceSlip {
     faces: [SlipSurface; 2],
-    /// κ, 1/m.
+    /// Curvature κ of the interface, 1/m.
     curvature: f64,
     /// s of both.
     shares: [f64; 2],
 }
 
 impl SurfaceSlip {
-    /// Of two bodies, the lower one first; at most one of them is rigid.
+    /// Creates the slip of two bodies, the lower one first; at most one is rigid.
     pub fn new(faces: [SlipSurface; 2]) -> Self {
         let shares = compliance_shares(faces.each_ref().map(SlipSurface::normal));
         let curvature = shares[0] * faces[1].curvature - shares[1] * faces[0].curvature;
@@ -133,7 +133,7 @@ impl SurfaceSlip {
         self.shares
     }
 
-    /// Of t₂ − t₁, 1/Pa.
+    /// Returns the compliance for t₂ − t₁, 1/Pa.
     fn compliance_of(&self, mismatch: f64) -> f64 {
         self.curvature * mismatch / (4.0 * PI)
     }
@@ -145,7 +145,7 @@ impl SurfaceSlip {
         PI * modulus * self.compliance()
     }
 
-    /// What slip changes of an elastic impact that has grown to a contact radius, m; with its sign.
+    /// Returns the signed changes by slip of an elastic impact whose largest contact radius (m) is given.
     pub fn change(&self, contact_radius: f64) -> RelativeError {
         let share = 4.0 / (3.0 * PI) * contact_radius * self.mismatch();
         RelativeError {

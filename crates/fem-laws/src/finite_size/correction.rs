@@ -17,7 +17,7 @@ pub(crate) struct Correction {
     pub beta: f64,
 }
 
-/// What acts on w, and on each M_k.
+/// The corrections that multiply w and each M_k.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RelaxingCorrection {
     pub equilibrium: Correction,
@@ -79,7 +79,7 @@ impl Correction {
 }
 
 impl RelaxingCorrection {
-    /// Of half-spaces, with a number of elements.
+    /// Returns the correction of half-spaces, which is zero, for a number of elements.
     pub fn none(n_elements: usize) -> Self {
         Self { equilibrium: Correction::NONE, fading: vec![Correction::NONE; n_elements] }
     }

@@ -1,4 +1,4 @@
-//! What a sphere's finite size adds to Hertz' half-space.
+//! Compliance that a sphere's finite size adds to Hertz' half-space.
 //!
 //! A sphere of radius R is pressed over a contact a ≪ R and held by its own inertia, a uniform
 //! body force. Its centre of mass comes nearer to the contact than a half-space's far field, in
@@ -46,8 +46,8 @@ impl FiniteSize {
     /// Largest a/R of either sphere for which the first order is taken to hold.
     pub const MAX_CONTACT_RATIO: f64 = 0.1;
 
-    /// Of the radius, m, and the material of each body; `None` is a body that adds nothing to Hertz'
-    /// half-space: the rigid wall, a half-space, a rigid sphere.
+    /// Creates the correction from the radius, m, and the material of each body; `None` is a body that adds
+    /// nothing to Hertz' half-space: the rigid wall, a half-space, a rigid sphere.
     ///
     /// # Errors
     /// A radius that is not positive and finite; relaxation times that leave the range of f64.
@@ -60,7 +60,7 @@ impl FiniteSize {
         Ok(Self { spheres: spheres.collect::<Result<_, LawError>>()? })
     }
 
-    /// What is added to Hertz' approach, m, at a force, N, and a contact radius, m, before any
+    /// Returns the approach (m) added to Hertz' at a force, N, and a contact radius, m, before any
     /// relaxation.
     pub fn added_approach(&self, force: f64, contact_radius: f64) -> f64 {
         let instantaneous = SphereCompliance::instantaneous;

@@ -11,10 +11,10 @@
 //! P = P_1 + (P_l-P_1)\frac{1-g}{1-l} + d\,\frac{(1-g)(g-l)}{y+g}, \qquad l = \min(g_\infty, 0.9),
 //! ```
 //!
-//! exact before and after relaxation. Its poles in s, where g = 0 or −y, are poles of 1/E* too, so
-//! that E* c/E has the poles of E* only (see [`crate::FiniteSize`]). Where K relaxes with G, P is constant and this is exact; an
-//! elastic sphere has g = 1. For ν = 0.244, R/a = 42 and G∞ = 0 the error is at most 0.4 % of c/E
-//! for all g, for ν = 0.4 0.02 %; for ν = 0 g c/E is off by 4 % of its largest value.
+//! exact before and after relaxation. Its poles in s, where g = 0 or −y, are poles of 1/E* too, so that E*
+//! c/E has the poles of E* only (see [`crate::FiniteSize`]). Where K relaxes with G, P is constant and this
+//! is exact; an elastic sphere has g = 1. For ν = 0.244, R/a = 42 and G∞ = 0 the error is at most 0.4 % of
+//! c/E for all g, for ν = 0.4 0.02 %; for ν = 0 g c/E has an error of 4 % of its largest value.
 
 use fem_material::{ActsOn, Material, PronyTerm};
 

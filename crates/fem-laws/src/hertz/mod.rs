@@ -42,7 +42,7 @@ pub struct HertzImpact {
 }
 
 impl HertzImpact {
-    /// Of a pair that meets at a relative speed, m/s.
+    /// Creates the collision of a pair at an approach speed, m/s.
     ///
     /// # Errors
     /// A speed that is not positive and finite; values so extreme that a result leaves the range
@@ -59,7 +59,7 @@ impl HertzImpact {
         Ok(impact)
     }
 
-    /// The bodies.
+    /// Returns the pair of bodies.
     pub fn pair(&self) -> &Pair {
         &self.pair
     }

@@ -15,16 +15,16 @@ use crate::pair::Pair;
 /// Two bodies pressed together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticHertz {
-    /// δ, m.
+    /// Approach δ, m.
     pub approach: f64,
-    /// a, m.
+    /// Contact radius a, m.
     pub contact_radius: f64,
-    /// p₀, Pa.
+    /// Pressure p₀ on the axis, Pa.
     pub peak_pressure: f64,
 }
 
 impl StaticHertz {
-    /// Of a pair under a force, N.
+    /// Creates the contact of a pair under a constant force, N.
     ///
     /// # Errors
     /// A force that is not positive and finite; values that leave the range of f64.

@@ -33,7 +33,7 @@ pub fn hunt_crossley(
 /// Returns the restitution and the speed at which it is wanted: the approach speed if none is given.
 ///
 /// # Errors
-/// Returns none.
+/// There are none.
 pub fn hunt_crossley_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     let speed = law.get("v").unwrap_or(context.approach_speed);
     Ok((vec![law.get("e").unwrap_or_default(), speed], context.pair))

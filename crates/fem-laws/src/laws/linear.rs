@@ -81,7 +81,7 @@ fn zero_force_phase(ratio: f64) -> f64 {
 /// Returns k and c as given, or those of a restitution and a contact time.
 ///
 /// # Errors
-/// See [`linear_from_restitution`].
+/// Those of [`linear_from_restitution`].
 pub fn linear_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     let pair = context.pair;
     let values = match (law.get("e"), law.get("contact_time")) {

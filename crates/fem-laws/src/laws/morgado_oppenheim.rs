@@ -13,7 +13,7 @@ use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
 use crate::pair::Pair;
 
-/// Of a pair and η₁, Pa s, and η₂, in (−1, 1).
+/// Returns the law of a pair for η₁, Pa s, and η₂, in (−1, 1).
 ///
 /// # Errors
 /// η₁ negative or not finite, η₂ outside (−1, 1).

@@ -19,7 +19,7 @@ use crate::error::{LawError, not_negative, positive};
 use crate::family::{LawContext, LawInput, LawInputError, LawValues};
 use crate::pair::Pair;
 
-/// Of a pair and C_n, s.
+/// Returns the law of a pair for C_n, s.
 ///
 /// # Errors
 /// C_n negative or not finite.

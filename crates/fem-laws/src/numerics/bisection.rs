@@ -1,9 +1,9 @@
 //! The sign change of a function of a positive number.
 //!
-//! To the last bit by bisection: the bit patterns of positive floats are ordered like the floats, so halving the interval of
-//! the patterns needs at most 64 evaluations, whatever the number of decades between the ends,
-//! and the result has full relative accuracy. Or, where a value is dear, by the Illinois method: the
-//! secant, with the value at an end that stays halved (Dowell & Jarratt 1971).
+//! [`last_where`] bisects to the last bit: the bit patterns of positive floats are ordered like the floats,
+//! so halving the interval of the patterns needs at most 64 evaluations for any number of decades between
+//! the ends, and the result has full relative accuracy. [`falling_zero`] needs fewer evaluations. It is the
+//! Illinois method: the secant method, with the value at an end that stays halved (Dowell & Jarratt 1971).
 
 /// The largest float in `low ..= high` at which `is_below` holds, if it holds up to a point and
 /// not beyond; `low` if it never does. Both ends are at least 0.

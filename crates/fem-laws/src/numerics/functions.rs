@@ -5,7 +5,7 @@
 //! much as the steps are off, some 1e-10 and with waves 1e-6. Arithmetic and square roots are the same
 //! everywhere.
 
-/// eˣ.
+/// Returns eˣ.
 pub(crate) fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
@@ -15,7 +15,7 @@ pub(crate) fn exp_m1(x: f64) -> f64 {
     libm::expm1(x)
 }
 
-/// Of x > 0, to the base e.
+/// Returns ln x for x > 0.
 pub(crate) fn ln(x: f64) -> f64 {
     libm::log(x)
 }
@@ -25,7 +25,7 @@ pub(crate) fn power(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
-/// Of an angle in radians.
+/// Returns sine and cosine of an angle in radians.
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     libm::sincos(x)
 }
@@ -34,7 +34,7 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Both are off by less than a unit of the last place each.
+    /// Each has an error below one unit in the last place.
     #[test]
     fn functions_are_those_of_the_system_but_for_the_last_digit() {
         let same = |own: f64, system: f64| {

@@ -12,10 +12,10 @@
 
 use crate::numerics::bisection::last_where;
 
-/// w/(x−d).
+/// The pole w/(x−d).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pole {
-    /// d.
+    /// Position d of the pole.
     pub at: f64,
     /// w > 0.
     pub weight: f64,
@@ -24,15 +24,15 @@ pub(crate) struct Pole {
 /// One zero of f.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Zero {
-    /// x.
+    /// Position x of the zero.
     pub at: f64,
     /// −f′(x) = Σ w_k/(x−d_k)².
     pub slope: f64,
 }
 
-/// Poles closer than this, relatively, are one at their centre of weight, which moves f by the square
-/// of it. A pair left apart costs digits as the inverse of its distance: at 1e-6 the sum of weights
-/// of a series is off by 2e-12.
+/// Poles closer than this, relatively, are one at their centre of weight, which moves f by the square of
+/// it. A pair left apart costs digits as the inverse of its distance: at 1e-6 the sum of weights of a
+/// series has an error of 2e-12.
 const SAME_POLE: f64 = 1e-7;
 
 /// Sorted, without zero weights, coinciding poles as one.

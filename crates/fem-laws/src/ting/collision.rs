@@ -1,4 +1,4 @@
-//! The dimensionless motion of [`crate::Ting`], step by step: loading, unloading, what is gathered.
+//! The dimensionless motion of [`crate::Ting`], step by step: loading, unloading and the results gathered.
 
 use std::f64::consts::PI;
 
@@ -22,8 +22,8 @@ const STUCK: f64 = 1e-8;
 /// Restitution that may come out as none where nothing moves but rounding: beside waves that leave, or
 /// because a force of rounding times a large approach never gets below [`STUCK`].
 const RESTING: f64 = 1e-6;
-/// What rounding leaves of a force, over that of the materials unrelaxed: the terms of which it is the
-/// difference are as large.
+/// Rounding error of a force, relative to the force of the unrelaxed materials: the force is a difference
+/// of terms of that size.
 const OF_ROUNDING: f64 = 1e-13;
 
 /// A ball creeps under its weight if the force is within this share of that, and the energy of its motion
@@ -34,14 +34,14 @@ const SETTLED: f64 = 1e-3;
 /// a step's error does its fifth power. Tens are usual; the most viscous and the most radiating contacts of the tests take more
 /// than 2000. Each step looks back on all before.
 const MAX_STEPS: f64 = 5_000.0;
-/// Steps that a collision may take at any tolerance: the span from the fastest relaxation to the slowest contact. Forecasts
-/// of contacts with ten decades between the two take up to 930.
+/// Steps that a collision may take at any tolerance: the span from the fastest relaxation to the slowest
+/// contact. Estimates of contacts with ten decades between the two take up to 930.
 const FEWEST_STEPS: f64 = 1_000.0;
 
 /// Index of the Gauss point at θ = 1/2.
 const MIDDLE: usize = N / 2;
 
-/// What a dimensionless 1 stands for.
+/// Units of the dimensionless quantities.
 pub(crate) struct Units {
     pub time: f64,
     pub length: f64,
@@ -83,13 +83,13 @@ pub(crate) struct Collision<'a> {
     n_steps: usize,
     peak_force: f64,
     peak_pressure: f64,
-    /// Of unloading, where waves leave.
+    /// Largest approach in unloading, where the bodies radiate.
     max_approach: f64,
     history: Vec<ImpactInstant>,
 }
 
 impl<'a> Collision<'a> {
-    /// Of bodies that touch at a rate of the approach.
+    /// Creates the collision of bodies that touch at a rate of the approach.
     pub fn new(
         contact: &'a Contact,
         finite_size: Option<&'a FiniteSize>,

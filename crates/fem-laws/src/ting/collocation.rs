@@ -1,7 +1,7 @@
 //! Polynomials through Gauss points, and their fading memory.
 //!
-//! A quantity is known at the N Gauss–Legendre points of a step, 0 < θ < 1, and taken as the
-//! polynomial f(θ) = Σ f_m θ^m through them. What a Maxwell element remembers of it,
+//! A quantity is known at the N Gauss–Legendre points of a step, 0 < θ < 1, and taken as the polynomial
+//! f(θ) = Σ f_m θ^m through them. The memory of a Maxwell element,
 //!
 //! ```math
 //! \int_0^\theta e^{-z(\theta-\sigma)}f(\sigma)\,\mathrm d\sigma = \sum_m f_m\,\mu_m(\theta, z),
@@ -69,27 +69,27 @@ impl Interpolation {
     }
 }
 
-/// f(θ).
+/// Returns f(θ).
 pub(crate) fn evaluate(coefficients: &Vector, theta: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * theta + coefficient)
 }
 
-/// ∫₀^θ f.
+/// Returns ∫₀^θ f.
 pub(crate) fn integral(coefficients: &Vector, theta: f64) -> f64 {
     dot(coefficients, &integral_moments(theta))
 }
 
-/// ∫₀^θ ∫₀^σ f.
+/// Returns ∫₀^θ ∫₀^σ f.
 pub(crate) fn double_integral(coefficients: &Vector, theta: f64) -> f64 {
     dot(coefficients, &double_integral_moments(theta))
 }
 
-/// θ^(m+1)/(m+1).
+/// Returns θ^(m+1)/(m+1) for each m.
 pub(crate) fn integral_moments(theta: f64) -> Vector {
     std::array::from_fn(|m| theta.powi(m as i32 + 1) / (m as f64 + 1.0))
 }
 
-/// θ^(m+2)/((m+1)(m+2)).
+/// Returns θ^(m+2)/((m+1)(m+2)) for each m.
 pub(crate) fn double_integral_moments(theta: f64) -> Vector {
     std::array::from_fn(|m| {
         let m = m as f64;
@@ -97,7 +97,7 @@ pub(crate) fn double_integral_moments(theta: f64) -> Vector {
     })
 }
 
-/// f′(θ).
+/// Returns f′(θ).
 pub(crate) fn derivative(coefficients: &Vector, theta: f64) -> f64 {
     (1..N).rev().fold(0.0, |sum, m| sum * theta + m as f64 * coefficients[m])
 }

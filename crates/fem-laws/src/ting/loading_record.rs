@@ -12,7 +12,7 @@ use crate::ting::collocation::{
 };
 use crate::ting::radiation_compliance::Radiation;
 
-/// What a Maxwell element remembers of d(u^(3/2)), du and d√u.
+/// Memory of a Maxwell element for d(u^(3/2)), du and d√u.
 pub(crate) type Memory = [f64; 3];
 
 /// Indices into [`Memory`].
@@ -23,9 +23,9 @@ pub(crate) const PRESSURE: usize = 2;
 /// One Maxwell element of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Element {
-    /// g_k.
+    /// Weight g_k.
     pub weight: f64,
-    /// b_k.
+    /// Rate b_k.
     pub rate: f64,
     /// Finite size: of the memory of the force, without its weight.
     pub correction: Correction,
@@ -34,20 +34,20 @@ pub(crate) struct Element {
 /// The constants of one collision.
 #[derive(Debug, Clone)]
 pub(crate) struct Contact {
-    /// g∞.
+    /// Equilibrium weight g∞.
     pub equilibrium: f64,
     pub elements: Vec<Element>,
     /// Finite size: of u^(3/2) itself.
     pub correction: Correction,
     /// Waves that leave, if they do.
     pub radiation: Option<Radiation>,
-    /// What gravity adds to the acceleration of the approach; 0 without.
+    /// Acceleration of the approach by gravity; 0 without gravity.
     pub gravity: f64,
-    /// How far iterations go.
+    /// Accuracy of the iterations.
     pub settling: Settling,
 }
 
-/// How far the iterations of a collision go.
+/// Accuracy of the iterations of a collision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Settling {
     /// Change of the rate, of 1, at which those of a step end.
@@ -62,7 +62,7 @@ impl Settling {
     /// To rounding: the force has an error of its slope 1.5 √u u̇ ≤ 2 times that of t₁.
     pub const FULL: Self = Self { rate: 1e-14, n_newton: 4, equivalent_time: 1e-13 };
 
-    /// Of a collision that is a forecast.
+    /// Accuracy for a collision that only estimates an effect.
     pub const FORECAST: Self = Self { rate: 1e-8, n_newton: 3, equivalent_time: 1e-9 };
 }
 
@@ -77,7 +77,7 @@ impl Contact {
         self.correction.hertz_approach_after(self.settling.n_newton, approach, remembered)
     }
 
-    /// What the finite size does with what the elements remember.
+    /// Returns the finite-size correction for the memories of the elements.
     pub fn remembered(&self, memory: &[Memory]) -> Correction {
         let mut remembered = Correction::NONE;
         for (element, memory) in self.elements.iter().zip(memory) {
@@ -95,7 +95,7 @@ pub(crate) struct Step {
     /// δ and δ̇ at the start.
     pub approach: f64,
     pub rate: f64,
-    /// Of the contact.
+    /// Force of the contact.
     pub gravity: f64,
     /// At the start, of each element.
     pub memory: Vec<Memory>,
@@ -117,7 +117,7 @@ impl Step {
         self.rate - self.length * (integral(&self.force, theta) - self.gravity * theta)
     }
 
-    /// What of δ is the contact's own.
+    /// Returns the share of δ that is the contact's own.
     pub fn contact_approach_at(&self, contact: &Contact, theta: f64) -> f64 {
         let approach = self.approach_at(theta);
         match &contact.radiation {
@@ -212,7 +212,7 @@ pub(crate) struct Shrunk {
     /// t₁, when the growing contact was as large.
     pub equivalent_time: f64,
     pub force: f64,
-    /// u(t₁).
+    /// Returns u(t₁).
     pub hertz_approach: f64,
     /// On the axis.
     pub pressure: f64,

@@ -65,7 +65,7 @@ use crate::ting::collision::{Collision, Units};
 use crate::ting::loading_record::{Contact, Element, Settling};
 use crate::ting::radiation_compliance::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
 
-/// Faster relaxation leaves a force of 1e-15.
+/// Rates above this are cut off: they leave a force of 1e-15.
 const MAX_RATE: f64 = 1e15;
 
 /// A viscoelastic pair.
@@ -77,10 +77,10 @@ pub struct Ting {
     surface_slip: Option<SurfaceSlip>,
     /// γ of all bodies that radiate, m s/N.
     radiation_damping: Option<f64>,
-    /// See [`Ting::with_coarse_waves`].
+    /// Set by [`Ting::with_coarse_waves`].
     has_coarse_waves: bool,
     tolerance: f64,
-    /// m/s².
+    /// Gravity along the approach, m/s².
     gravity: f64,
 }
 
@@ -88,11 +88,11 @@ impl Ting {
     /// Accuracy of restitution, time and force that [`Ting::new`] asks for.
     pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 
-    /// Largest share of the energy, as [`crate::radiated_share`] foretells it, for which the first
-    /// order of low frequencies is taken to hold.
+    /// Largest radiated share of the energy, as [`crate::radiated_share`] estimates it, for which the first
+    /// order in frequency is accepted.
     pub const MAX_RADIATED_SHARE: f64 = 0.2;
 
-    /// Of a pair, whose modulus is the instantaneous one, and its relaxation.
+    /// Creates the model of a pair, whose modulus is the instantaneous one, and its relaxation.
     pub fn new(pair: &Pair, relaxation: PairRelaxation) -> Self {
         Self {
             pair: *pair,
@@ -153,10 +153,10 @@ impl Ting {
         self.relaxation.equilibrium_weight()
     }
 
-    /// For a forecast: iterations that end at 1e-8 of the speed, and waves that are smoothed over four times the usual share of the contact time,
-    /// which takes a fifth of the time. Of a loss of 0.6 % it finds 0.3 % less, of what that takes of the
-    /// peak force 5 % less, of what it adds to the contact time 30 % less. It answers beyond
-    /// [`Ting::MAX_RADIATED_SHARE`] too.
+    /// Makes the model coarser and five times faster, for estimates: iterations end at 1e-8 of the speed,
+    /// and waves are smoothed over four times the usual share of the contact time. For a loss of 0.6 % the
+    /// loss itself comes out 0.3 % too small, its effect on the peak force 5 % and on the contact time 30 %
+    /// too small. Results are given beyond [`Ting::MAX_RADIATED_SHARE`] too.
     pub fn with_coarse_waves(self) -> Self {
         Self { has_coarse_waves: true, ..self }
     }

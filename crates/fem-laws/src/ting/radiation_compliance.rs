@@ -45,32 +45,32 @@ pub(crate) const COARSE_SHARE_OF_CONTACT: f64 = 0.01;
 /// The constants of waves that leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Radiation {
-    /// γ/τ.
+    /// The ratio γ/τ.
     pub compliance: f64,
-    /// 1/τ.
+    /// The rate 1/τ.
     pub rate: f64,
 }
 
 impl Radiation {
-    /// Of γ, the largest Hertz approach u and the contact time of the same collision without waves, and the
-    /// share of it that τ is at least.
+    /// Creates the compliance from γ, the largest Hertz approach u and the contact time of the same
+    /// collision without waves, and the smallest τ as a share of that contact time.
     pub fn new(damping: f64, largest: f64, contact_time: f64, share: f64) -> Self {
         let stiffness = 1.5 * largest.sqrt();
         let time = (STIFFNESS_TIMES * damping * stiffness).max(share * contact_time);
         Self { compliance: damping / time, rate: time.recip() }
     }
 
-    /// What the approach has beside the contact's, at a force and a slow force.
+    /// Returns the approach that radiation adds, at a force and a slow force.
     pub fn approach(&self, force: f64, slow_force: f64) -> f64 {
         self.compliance * (slow_force - force)
     }
 
-    /// ḟ.
+    /// Returns the rate ḟ.
     pub fn slow_rate(&self, force: f64, slow_force: f64) -> f64 {
         self.rate * (force - slow_force)
     }
 
-    /// γ ḟ².
+    /// Returns the radiated power γ ḟ².
     pub fn power(&self, force: f64, slow_force: f64) -> f64 {
         self.compliance * self.rate * (force - slow_force).powi(2)
     }
@@ -81,7 +81,7 @@ impl Radiation {
     }
 }
 
-/// What a step of a length knows of the slow force before it knows the force.
+/// The slow force of a step as far as it is known before the force is.
 pub(crate) struct SlowForce {
     radiation: Radiation,
     /// At the points, of the past.
@@ -91,9 +91,9 @@ pub(crate) struct SlowForce {
     response: f64,
 }
 
-/// What waves do at the points of a step, by the last iteration of its force.
+/// Effect of the waves at the points of a step, by the last iteration of its force.
 pub(crate) struct Waves {
-    /// Of the force that follows u at once.
+    /// Effect of the force that follows u at once.
     correction: Correction,
     /// Part of the approach, and of its rate, by the slow force and by what of the force lags behind.
     approach: Vector,

@@ -42,14 +42,14 @@ pub(crate) struct Solved {
 /// The step sizes' share of the memory: what fades of the past, and weights of the present.
 struct Kernel {
     force: Fading,
-    /// Of α_k and β_k of the finite size.
+    /// Memories weighted by α_k and β_k of the finite size.
     creep: [Fading; 2],
-    /// Of α_k b_k and β_k b_k.
+    /// Memories weighted by α_k b_k and β_k b_k.
     creep_decay: [Fading; 2],
     radiation: Option<SlowForce>,
 }
 
-/// Of one combination of the elements.
+/// Memory of one combination of the elements.
 #[derive(Clone, Copy)]
 struct Fading {
     faded: [Vector; 3],
