@@ -22,7 +22,7 @@ pub const STANDARD_GRAVITY: f64 = 9.80665;
 /// A number with its standard uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Best value.
+    /// The best value.
     pub value: f64,
     /// Standard uncertainty, at least 0.
     pub uncertainty: f64,
@@ -35,7 +35,7 @@ impl Measured {
     }
 }
 
-/// The apparatus.
+/// Dimensions of the apparatus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cradle {
     /// Acceleration of gravity g, m/s².
@@ -64,7 +64,7 @@ pub struct Swing {
     pub first_after: Measured,
     /// Velocity v₂ of the second ball after, m/s.
     pub second_after: Measured,
-    /// Restitution e.
+    /// The restitution e.
     pub restitution: Measured,
     /// Shares of the variance of e that come from α, β, m₁, m₂; 0 if there is none.
     pub shares: [f64; 4],
@@ -82,7 +82,7 @@ pub fn masses_of_balls(diameters: [Measured; 2]) -> [Measured; 2] {
 }
 
 impl Cradle {
-    /// What a trial shows.
+    /// Returns the result of one trial.
     ///
     /// # Errors
     /// Values without a meaning.
@@ -134,7 +134,7 @@ impl Cradle {
         (sine <= (0.5 * RIGHT_ANGLE).sin()).then(|| 2.0 * sine.asin())
     }
 
-    /// What energy and momentum do not allow of a swing, in words.
+    /// Says why energy and momentum forbid a swing.
     pub fn doubt(&self, trial: &Trial, swing: &Swing) -> Option<String> {
         let e = swing.restitution;
         let by = |excess: f64| match e.uncertainty > 0.0 {

@@ -1,4 +1,4 @@
-//! What can be wrong with a fit, an inverse problem or a cradle.
+//! Errors of fits, inverse problems and cradle trials.
 
 use fem_laws::LawError;
 use fem_material::engineering::number;
@@ -17,18 +17,18 @@ pub enum FitError {
         if *n_values == 1 { "value" } else { "values" }
     )]
     TooFewData {
-        /// Measured numbers.
+        /// Number of measured values.
         n_values: usize,
-        /// Free parameters.
+        /// Number of free parameters.
         n_free: usize,
-        /// Their keys.
+        /// Keys of the free parameters.
         free: String,
     },
 
     /// A parameter that changes nothing in the data.
     #[error("the data do not depend on {key}: there every value of it fits as well")]
     Insensitive {
-        /// The parameter.
+        /// Key of the parameter.
         key: &'static str,
     },
 
@@ -40,7 +40,7 @@ pub enum FitError {
     Degenerate {
         /// The parameters that take part.
         keys: String,
-        /// Of the Jacobian with its columns scaled to length 1.
+        /// Condition number of the Jacobian with its columns scaled to length 1.
         condition: f64,
     },
 
@@ -51,7 +51,7 @@ pub enum FitError {
     /// The minimum was not reached.
     #[error("the fit did not converge: {reason}")]
     NotConverged {
-        /// What the least-squares library says.
+        /// Message of the least-squares library.
         reason: String,
     },
 
@@ -61,9 +61,9 @@ pub enum FitError {
          {} to {}", number(*speed, 4), number(range.0, 4), number(range.1, 4), near_one(*least), near_one(*most)
     )]
     NoSolution {
-        /// The parameter.
+        /// Key of the parameter.
         key: &'static str,
-        /// Restitution wanted.
+        /// The wanted restitution.
         wanted: f64,
         /// Approach speed, m/s.
         speed: f64,
@@ -80,23 +80,23 @@ pub enum FitError {
     OutOfRange {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Value found.
+        /// The value that was found.
         value: f64,
-        /// Values allowed.
+        /// The range of allowed values.
         allowed: &'static str,
     },
 
     /// Another end than the law's own.
     #[error("{law} ends at zero force by its definition")]
     OwnEnd {
-        /// Its name.
+        /// Name of the quantity.
         law: &'static str,
     },
 
     /// A collision of a model outside of this crate.
     #[error("a collision cannot be computed: {reason}")]
     Collision {
-        /// What the model says.
+        /// Message of the model.
         reason: String,
     },
 
@@ -105,7 +105,7 @@ pub enum FitError {
     NoRelaxation,
 }
 
-/// A restitution in words that tell it from 0 and 1.
+/// Formats a restitution with enough digits to distinguish it from 0 and 1.
 fn near_one(restitution: f64) -> String {
     match restitution {
         e if e > 0.9999 => format!("1 - {:.1e}", 1.0 - e),

@@ -24,7 +24,7 @@ use crate::fit::problem::Problem;
 /// A fitted law.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// Of all parameters, free or not, in the order of the law.
+    /// Values of all parameters, free or not, in the order of the law.
     pub values: Vec<f64>,
     /// Estimates of the free parameters.
     pub estimates: Vec<Estimate>,
@@ -38,12 +38,12 @@ pub struct Fit {
     pub rms: f64,
     /// Degrees of freedom, N − p.
     pub degrees_of_freedom: usize,
-    /// How many standard errors the interval reaches; `None` without degrees of freedom.
+    /// Half-width of the interval in standard errors; `None` without degrees of freedom.
     pub quantile: Option<f64>,
     /// Σ r² by which a profile may rise inside its interval; `None` without degrees of
     /// freedom.
     pub allowed_rise: Option<f64>,
-    /// Of the Jacobian with columns scaled to 1.
+    /// Condition number of the Jacobian with columns scaled to 1.
     pub condition: f64,
 }
 
@@ -52,7 +52,7 @@ pub struct Fit {
 pub struct Estimate {
     /// Its place among the law's parameters.
     pub index: usize,
-    /// Its key.
+    /// Key of the parameter.
     pub key: &'static str,
     /// Best value, SI.
     pub value: f64,

@@ -10,7 +10,7 @@ use fem_laws::bisection::falling_zero;
 use crate::fit::error::FitError;
 use crate::fit::model::Model;
 
-/// What gives a wanted restitution.
+/// The values of a parameter that give a wanted restitution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inversion {
     /// Values of the parameter, SI, ascending; at least one.
@@ -21,7 +21,7 @@ pub struct Inversion {
 
 /// Decades around the natural size that are scanned: from next to no loss to next to nothing left.
 const DECADES: f64 = 8.0;
-/// Of a rate, where a loss of Ting's falls on both sides.
+/// Decades of a rate that are searched; the loss of Ting's model falls on both sides.
 const DECADES_OF_A_RATE: f64 = 5.0;
 const STEPS_PER_DECADE: f64 = 4.0;
 /// Restitution that is none.

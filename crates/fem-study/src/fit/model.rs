@@ -25,17 +25,17 @@ pub struct Model {
     finite_size: Option<FiniteSize>,
 }
 
-/// What a collision is compared by.
+/// The results by which collisions are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
-    /// Restitution e.
+    /// The restitution e.
     pub restitution: f64,
     /// T, s; `None` if the bodies stay together.
     pub contact_time: Option<f64>,
 }
 
 impl Model {
-    /// Of a pair and the materials of its bodies (`None` is a rigid wall), which only
+    /// Creates the model of a pair and the materials of its bodies (`None` is a rigid wall), which only
     /// [`LawFamily::Ting`] looks at.
     ///
     /// # Errors
@@ -64,19 +64,19 @@ impl Model {
     /// The same bodies under another law, with its own end if it has one.
     ///
     /// # Errors
-    /// As [`Model::new`].
+    /// Those of [`Model::new`].
     pub fn with_family(&self, family: LawFamily) -> Result<Self, FitError> {
         let end_rule = family.end_rule().unwrap_or(self.end_rule);
         let model = Self::new(&self.pair, self.materials.clone(), family, end_rule)?;
         Ok(Self { finite_size: self.finite_size.clone(), ..model })
     }
 
-    /// The bodies.
+    /// Returns the pair of bodies.
     pub fn pair(&self) -> &Pair {
         &self.pair
     }
 
-    /// The law.
+    /// Returns the family of the law.
     pub fn family(&self) -> LawFamily {
         self.family
     }

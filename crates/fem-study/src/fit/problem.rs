@@ -1,4 +1,4 @@
-//! What is fitted: data, the free parameters of a law, and the residuals between them.
+//! A least-squares problem: data, the free parameters of a law, and the residuals between them.
 
 use fem_laws::{LawParameter, ParameterRole};
 
@@ -11,7 +11,7 @@ use crate::fit::model::Model;
 pub struct Point {
     /// Approach speed, m/s.
     pub speed: f64,
-    /// Restitution e.
+    /// The restitution e.
     pub restitution: f64,
     /// Its standard uncertainty.
     pub restitution_uncertainty: Option<f64>,
@@ -45,7 +45,7 @@ pub struct Free {
 pub struct Problem<'a> {
     /// The bodies and the law.
     pub model: &'a Model,
-    /// The data.
+    /// Returns the data.
     pub points: &'a [Point],
     /// Values of all parameters; of the free ones only a guess.
     pub values: Vec<f64>,
@@ -53,7 +53,7 @@ pub struct Problem<'a> {
     pub free: Vec<Free>,
 }
 
-/// How far around its natural size a logarithmic parameter may go.
+/// Factor by which a logarithmic parameter may differ from its natural size.
 const WIDEST: f64 = 1e8;
 
 impl<'a> Problem<'a> {

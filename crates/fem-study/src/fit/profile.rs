@@ -25,7 +25,7 @@ pub struct Profile {
 /// The best fit with one parameter held.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfilePoint {
-    /// Of the parameter that is held, SI.
+    /// Value of the parameter that is held, SI.
     pub value: f64,
     /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,

@@ -4,8 +4,8 @@
 //! F = k\,\xi\,(1 + d\,\dot\xi)_+
 //! ```
 //!
-//! (*Drake documentation*, Compliant point contact). The restitution depends on a = d v alone, whatever
-//! the spring is: from v dv/(1 + d v) = −(k/m*) ξ dξ, the same ξ on the way in and out,
+//! (*Drake documentation*, Compliant point contact). The restitution depends on a = d v alone, for any
+//! spring: from v dv/(1 + d v) = −(k/m*) ξ dξ, the same ξ on the way in and out,
 //!
 //! ```math
 //! (1+e)\,a = \ln\frac{1+a}{1-e\,a} .
@@ -26,14 +26,14 @@ use crate::fit::problem::Point;
 /// Decades around the data's own values within which d is searched.
 const REACH: f64 = 1e6;
 
-/// a = d v of a restitution between 0 and 1.
+/// Returns a = d v of a restitution between 0 and 1.
 pub fn dissipation_of(restitution: f64) -> f64 {
     let e = restitution;
     // The root is above 3/2 (1 − e).
     last_where(0.5 * (1.0 - e), e.recip(), |a| surplus(e, a) >= 0.0)
 }
 
-/// The restitution at a = d v > 0.
+/// Returns the restitution at a = d v > 0.
 pub fn restitution_of(a: f64) -> f64 {
     last_where(0.0, a.recip().min(1.0), |e| surplus(e, a) >= 0.0)
 }
@@ -43,8 +43,8 @@ fn surplus(e: f64, a: f64) -> f64 {
     (1.0 + e) * a - a.ln_1p() + (-e * a).ln_1p()
 }
 
-/// d, s/m, by least squares of e(v), and how far it is off; `None` of data without a loss or without
-/// anything but loss.
+/// Returns d, s/m, by least squares of e(v), and its error; `None` for data without a loss or with nothing
+/// but loss.
 ///
 /// # Errors
 /// A fit that does not converge.
@@ -149,7 +149,7 @@ mod tests {
         }
     }
 
-    /// What makes the data is found, and of data with another slope the best: no neighbour is better.
+    /// The dissipation that made the data is found; for data with another slope, no neighbour is better.
     #[test]
     fn the_dissipation_is_the_one_that_fits_best() {
         let of = |e: &dyn Fn(f64) -> f64| -> Vec<Point> {

@@ -16,7 +16,7 @@ const LONGEST_LIST: usize = 40;
 pub struct Grain {
     /// Name of the material.
     pub material: String,
-    /// The sphere.
+    /// Size and material of the grain.
     pub sphere: Sphere,
 }
 
@@ -25,7 +25,7 @@ pub struct Grain {
 pub struct PairOfGrains {
     /// Places of the grains, the first not above the second.
     pub grains: [usize; 2],
-    /// The pair.
+    /// The two grains as a pair.
     pub pair: Pair,
     /// One e for all speeds.
     pub restitution: f64,

@@ -37,7 +37,7 @@ pub enum TsujiVersion {
     RootTwo,
 }
 
-/// Marshall's polynomial.
+/// Returns Marshall's polynomial at e.
 fn polynomial(e: f64) -> f64 {
     let coefficients = [1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218];
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * e + coefficient)
@@ -51,21 +51,20 @@ fn tsuji_alpha(entered: f64, version: TsujiVersion) -> f64 {
     }
 }
 
-/// The restitution that `damping tsuji` makes of an entered one, at zero overlap.
+/// Returns the restitution that `damping tsuji` makes of an entered one, at zero overlap.
 pub fn tsuji_outcome(entered: f64, version: TsujiVersion) -> f64 {
     let ratio = tsuji_alpha(entered, version).max(0.0) / 5f64.sqrt();
     (-PI * ratio / (1.0 - ratio * ratio).max(0.0).sqrt()).exp()
 }
 
-/// What to enter so that `damping tsuji` makes this restitution; `None` if nothing from 0 to 1
-/// does.
+/// Returns the entry for which `damping tsuji` makes this restitution; `None` if no value from 0 to 1 does.
 pub fn tsuji_entry(wanted: f64, version: TsujiVersion) -> Option<f64> {
     let reach = tsuji_outcome(0.0, version)..=tsuji_outcome(1.0, version);
     let entry = || last_where(0.0, 1.0, |entered| tsuji_outcome(entered, version) <= wanted);
     reach.contains(&wanted).then(entry)
 }
 
-/// η, 1/(m s), of a pair with A, s.
+/// Returns η, 1/(m s), of a pair with A, s.
 ///
 /// # Errors
 /// A negative or not finite.
@@ -74,10 +73,10 @@ pub fn viscoelastic_damping(pair: &Pair, dissipation_time: f64) -> Result<f64, L
     Ok(law.damping() / (pair.effective_mass() * pair.effective_radius().sqrt()))
 }
 
-/// The three dampings.
+/// Returns the snippets of the three dampings.
 ///
 /// # Errors
-/// A dissipation time without a meaning.
+/// The dissipation time is out of its range.
 pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     let code = "LAMMPS";
     let e = export.hertz.restitution;

@@ -11,7 +11,7 @@
 
 use super::snippet::{Export, Snippet, short};
 
-/// Sections of a parameter file.
+/// Returns the sections of a parameter file.
 pub fn lethe_snippets(export: &Export) -> Vec<Snippet> {
     let e = export.hertz.restitution;
     let mut text = export.heading(

@@ -15,22 +15,22 @@ use fem_laws::{EndRule, LawError, Pair};
 
 use super::snippet::{Export, Snippet, short, time};
 
-/// k_n, N/m, of `hooke` for a characteristic velocity, m/s.
+/// Returns k_n, N/m, of `hooke` for a characteristic velocity, m/s.
 pub fn hooke_stiffness(pair: &Pair, velocity: f64) -> f64 {
     let unit = 16.0 / 15.0 * pair.effective_radius().sqrt() * pair.contact_modulus();
     unit * (pair.effective_mass() * velocity * velocity / unit).powf(0.2)
 }
 
-/// V, m/s, at which [`hooke_stiffness`] is this, N/m.
+/// Returns V, m/s, at which [`hooke_stiffness`] is this, N/m.
 pub fn characteristic_velocity(pair: &Pair, stiffness: f64) -> f64 {
     let unit = 16.0 / 15.0 * pair.effective_radius().sqrt() * pair.contact_modulus();
     ((stiffness / unit).powi(5) * unit / pair.effective_mass()).sqrt()
 }
 
-/// Both models, of two spheres; of a wall none.
+/// Returns both models for two spheres, and none for a wall.
 ///
 /// # Errors
-/// A linear law without a meaning.
+/// The linear law cannot be made.
 pub fn liggghts_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     let [first, second] = &export.spheres[..] else { return Ok(Vec::new()) };
     let stiffness = export.linear_law(EndRule::ZeroOverlap)?.stiffness();

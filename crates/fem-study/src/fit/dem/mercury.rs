@@ -10,11 +10,11 @@
 //! (`HertzianViscoelasticNormalSpecies.cc`, `HertzianViscoelasticInteraction.cc`): Tsuji's dashpot with
 //! Antypov & Elliott's exact coefficient. `setCollisionTimeAndRestitutionCoefficient` takes T, e and the
 //! mass of two equal particles, 2m*, of the linear law. Both end at zero overlap: what is entered is made.
-//! Of two species Mercury would take harmonic means, so the pair's own are set. Read, not run.
+//! Mercury would take harmonic means of two species, so the pair's own values are set. Read, not run.
 
 use super::snippet::{Export, Snippet, short, time};
 
-/// Both species of the pair.
+/// Returns both species of the pair.
 pub fn mercury_snippets(export: &Export) -> Vec<Snippet> {
     let (e, linear) = (export.hertz.restitution, &export.linear);
     let hertz_call = format!(

@@ -18,12 +18,12 @@ use fem_laws::{EndRule, LawError};
 
 use super::snippet::{Export, Snippet, short, time};
 
-/// The restitution that `HERTZIAN` makes of an e_n in (0, 1].
+/// Returns the restitution that `HERTZIAN` makes of an e_n in (0, 1].
 pub fn mfix_outcome(entered: f64) -> f64 {
     of_sine(2.0 / 5f64.sqrt() * sine(entered))
 }
 
-/// e_n to enter so that `HERTZIAN` makes this restitution; `None` if nothing does.
+/// Returns the e_n for which `HERTZIAN` makes this restitution; `None` if there is none.
 pub fn mfix_entry(wanted: f64) -> Option<f64> {
     let sine = 5f64.sqrt() / 2.0 * sine(wanted);
     (sine < 1.0).then(|| of_sine(sine)).filter(|entry| *entry > 0.0)
@@ -39,10 +39,10 @@ fn of_sine(sine: f64) -> f64 {
     (-PI * sine / ((1.0 - sine) * (1.0 + sine)).sqrt()).exp()
 }
 
-/// Keywords of `mfix.dat`.
+/// Returns the keywords of `mfix.dat`.
 ///
 /// # Errors
-/// A linear law without a meaning.
+/// The linear law cannot be made.
 pub fn mfix_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     let (e, linear) = (export.hertz.restitution, &export.linear);
     let stiffness = export.linear_law(EndRule::ZeroOverlap)?.stiffness();

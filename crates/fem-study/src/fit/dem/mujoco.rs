@@ -16,7 +16,7 @@ use fem_laws::EndRule;
 
 use super::snippet::{Export, Snippet, short, time};
 
-/// A contact with e and T of the linear law.
+/// Returns a contact with e and T of the linear law.
 pub fn mujoco_snippets(export: &Export) -> Vec<Snippet> {
     // What cannot be entered is left out.
     let Ok(law) = export.linear_law(EndRule::ZeroForce) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! What a snippet is made from, and its heading.
+//! The content of DEM snippets, and their heading.
 
 use fem_laws::laws::{ContactLaw, linear_from_restitution};
 use fem_laws::{EndRule, LawError, Pair};
@@ -33,38 +33,38 @@ impl Sphere {
 /// A Hertzian contact whose restitution is the same at every speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
-    /// Restitution e.
+    /// The restitution e.
     pub restitution: f64,
-    /// Where e is good: from, to, m/s, and its largest error over all data.
+    /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
     pub validity: [f64; 3],
 }
 
 /// A linear spring and dashpot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dashpot {
-    /// Restitution e.
+    /// The restitution e.
     pub restitution: f64,
     /// Contact time T, s.
     pub contact_time: f64,
-    /// Where e is good: from, to, m/s, and its largest error over all data.
+    /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
     pub validity: [f64; 3],
 }
 
 /// A dashpot of Hunt & Crossley on a linear spring, as Drake has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HuntCrossley {
-    /// d, s/m.
+    /// Dissipation d, s/m.
     pub dissipation: f64,
     /// √(Σ (e − e_i)²/N) over all data.
     pub rms: f64,
-    /// Where e is good: from, to, m/s, and its largest error over all data.
+    /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
     pub validity: [f64; 3],
 }
 
-/// What a law was fitted to, and the laws: the content of all snippets.
+/// The fitted laws and the data they were fitted to: the content of all snippets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Export {
-    /// Where it comes from, one line.
+    /// The origin of the laws, one line.
     pub title: String,
     /// The two spheres, or the one that strikes a rigid wall.
     pub spheres: Vec<Sphere>,
@@ -78,18 +78,18 @@ pub struct Export {
     pub hertz: Elastic,
     /// A of Kuwabara & Kono, s, for a contact that ends at zero force, and its validity.
     pub dissipation_time: (f64, [f64; 3]),
-    /// Linear, for all speeds.
+    /// The linear law, for all speeds.
     pub linear: Dashpot,
-    /// Falling with speed; none of a loss that it cannot make.
+    /// The law whose restitution falls with speed; `None` if it cannot make the loss.
     pub hunt_crossley: Option<HuntCrossley>,
-    /// Materials whose loss counts as nothing, since it is not published: e is too high.
+    /// Materials whose loss is taken as 0 because none is published: e is too high.
     pub unpublished_loss: Vec<String>,
 }
 
 /// A file for a DEM code.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snippet {
-    /// Its name.
+    /// Name of the file.
     pub name: &'static str,
     /// The code it is for.
     pub code: &'static str,
@@ -106,7 +106,7 @@ pub struct Snippet {
 }
 
 impl Export {
-    /// Comment lines that open each snippet: what it is, for which spheres, where it is good.
+    /// Returns the comment lines that open each snippet: its law, its spheres and its validity.
     pub(crate) fn heading(&self, model: &str, validity: [f64; 3], notes: &[String]) -> String {
         let [from, to, worst] = validity;
         let diameters: Vec<_> = self.spheres.iter().map(|sphere| short(sphere.diameter)).collect();
@@ -139,8 +139,8 @@ impl Export {
         text
     }
 
-    /// A comment for codes whose entries of 1 and 2 are taken for 1 with 1 and 2 with 2 as well: which
-    /// pair they are for; empty of equal spheres.
+    /// Returns a comment, for codes that use the entries of 1 and 2 for 1 with 1 and 2 with 2 too, that
+    /// names the pair; it is empty for equal spheres.
     pub(crate) fn unlike_note(&self) -> &'static str {
         if self.spheres.first() == self.spheres.last() {
             return "";
@@ -149,12 +149,12 @@ impl Export {
          # export each; all at once: fem-run export CASE --diameters D1,D2.\n"
     }
 
-    /// What a single sphere strikes, in words.
+    /// Names the body that a single sphere strikes.
     pub(crate) fn wall(&self) -> &'static str {
         if self.has_rigid_wall() { "rigid wall" } else { "block without an end" }
     }
 
-    /// Whether a single sphere strikes what does not give way: E* is then its own E/(1 − ν²).
+    /// Whether a single sphere strikes a rigid wall: E* is then its own E/(1 − ν²).
     pub(crate) fn has_rigid_wall(&self) -> bool {
         match &self.spheres[..] {
             [sphere] => self.wall_compliance(sphere) <= 1e-9 / self.pair.contact_modulus(),
@@ -162,8 +162,8 @@ impl Export {
         }
     }
 
-    /// Young's modulus, Pa, of a wall with Poisson's ratio 0 that makes E* of a sphere's contact with it;
-    /// of a rigid one a million times the sphere's.
+    /// Returns Young's modulus, Pa, of a wall with Poisson's ratio 0 that gives the contact's E*; for a
+    /// rigid wall a million times the sphere's.
     pub(crate) fn wall_modulus(&self, sphere: &Sphere) -> f64 {
         if self.has_rigid_wall() {
             1e6 * sphere.youngs_modulus
@@ -172,20 +172,20 @@ impl Export {
         }
     }
 
-    /// 1/E* less the sphere's share, 1/Pa.
+    /// Returns 1/E* less the sphere's share, 1/Pa.
     fn wall_compliance(&self, sphere: &Sphere) -> f64 {
         let own = (1.0 - sphere.poissons_ratio.powi(2)) / sphere.youngs_modulus;
         self.pair.contact_modulus().recip() - own
     }
 
-    /// The linear law that ends under a rule with the wanted e and T.
+    /// Returns the linear law that has the wanted e and T under an end rule.
     pub(crate) fn linear_law(&self, end_rule: EndRule) -> Result<ContactLaw, LawError> {
         let Dashpot { restitution, contact_time, .. } = self.linear;
         linear_from_restitution(&self.pair, restitution, contact_time, end_rule)
     }
 }
 
-/// A comment that what some materials lose is not in the restitutions named.
+/// Returns a comment that the loss of some materials is missing in the restitutions named.
 pub(crate) fn unpublished_loss(restitutions: &str, materials: &[String]) -> String {
     let materials = materials.join(" and ").replace(char::is_control, " ");
     format!(
@@ -194,7 +194,7 @@ pub(crate) fn unpublished_loss(restitutions: &str, materials: &[String]) -> Stri
     )
 }
 
-/// A number in ten digits, as short as it can be said.
+/// Formats a number with up to ten digits, as short as possible.
 pub(crate) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     if (1e-4..1e6).contains(&rounded.abs()) || rounded == 0.0 {
@@ -204,12 +204,12 @@ pub(crate) fn short(value: f64) -> String {
     }
 }
 
-/// A speed as comments say it.
+/// Formats a speed for a comment.
 pub(crate) fn speed(value: f64) -> String {
     format!("{} m/s", number(value, 4))
 }
 
-/// A time as comments say it.
+/// Formats a time for a comment.
 pub(crate) fn time(value: f64) -> String {
     format!("{} s", number(value, 4))
 }

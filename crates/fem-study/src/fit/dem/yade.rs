@@ -19,7 +19,7 @@ use fem_laws::{EndRule, LawError, LawImpact, Pair};
 
 use super::snippet::{Export, Snippet, short, time};
 
-/// β_n of an en from 0 to 1 (not included).
+/// Returns β_n of an en from 0 to 1 (not included).
 pub fn yade_betan(en: f64) -> f64 {
     const H: [f64; 10] = [
         -6.918798, -16.41105, 146.8049, -796.4559, 2928.711, -7206.864, 11494.29, -11342.18,
@@ -30,10 +30,10 @@ pub fn yade_betan(en: f64) -> f64 {
     (share.recip() - 1.0).max(0.0).sqrt()
 }
 
-/// en to enter, so that Hertz–Mindlin makes this restitution.
+/// Returns the en for which Hertz–Mindlin makes this restitution.
 ///
 /// # Errors
-/// A pair without a collision.
+/// The pair has no collision.
 pub fn hertz_mindlin_entry(pair: &Pair, restitution: f64) -> Result<f64, LawError> {
     let stiffness = 2.0 * pair.contact_modulus() * pair.effective_radius().sqrt();
     let unit = 2.0 * (pair.effective_mass() * stiffness).sqrt();
@@ -51,10 +51,10 @@ pub fn hertz_mindlin_entry(pair: &Pair, restitution: f64) -> Result<f64, LawErro
     Ok(falling_zero(low, high, |en| made(en).map_or(0.0, |made| restitution - made)))
 }
 
-/// tc, s, and en to enter, so that ViscEl's cut-off contact has the wanted e and T.
+/// Returns the tc, s, and en for which ViscEl's cut-off contact has the wanted e and T.
 ///
 /// # Errors
-/// A linear law without a meaning; a restitution so small that tc and en cannot make it.
+/// The linear law cannot be made; the restitution is too small for tc and en to make it.
 pub fn viscel_entry(export: &Export) -> Result<(f64, f64), LawError> {
     let law = export.linear_law(EndRule::ZeroForce)?;
     let mass = export.pair.effective_mass();
@@ -68,10 +68,11 @@ pub fn viscel_entry(export: &Export) -> Result<(f64, f64), LawError> {
     Ok((time, (-rate * time).exp()))
 }
 
-/// Both laws, of two spheres; of a wall, which YADE takes for a sphere of the same radius, none.
+/// Returns both laws for two spheres, and none for a wall, which YADE takes for a sphere of the same
+/// radius.
 ///
 /// # Errors
-/// A linear law without a meaning.
+/// The linear law cannot be made.
 pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     if export.spheres.len() != 2 {
         return Ok(Vec::new());

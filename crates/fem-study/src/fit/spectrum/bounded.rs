@@ -17,7 +17,7 @@ const LEAST_RIDGE: f64 = 1e-8;
 pub(super) struct Linear {
     /// ∂e_i/∂w_k / ρ_i.
     pub a: DMatrix<f64>,
-    /// What a w should be.
+    /// Right-hand side b of the linear problem.
     pub b: DVector<f64>,
 }
 

@@ -21,7 +21,7 @@ pub struct SpectrumFit {
     pub error: f64,
     /// Data less weights that are neither 0 nor spare, of which no more count than collisions.
     pub degrees_of_freedom: usize,
-    /// How many errors an interval reaches.
+    /// Half-width of an interval in standard errors.
     pub quantile: f64,
     /// Weighted misfit over the uncertainties, √(χ²/freedom), freedom at least 1; without
     /// uncertainties over the repeats' scatter, which is left out of it; `None` without either.

@@ -1,4 +1,4 @@
-//! What a series is sought from.
+//! The data and settings from which a Prony series is computed.
 
 use crate::fit::error::FitError;
 
@@ -9,7 +9,7 @@ pub type Restitutions<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;
 pub struct SpectrumProblem<'a> {
     /// Weights to restitutions, in the order of the data.
     pub restitutions: &'a Restitutions<'a>,
-    /// Measured restitutions.
+    /// The measured restitutions.
     pub measured: &'a [f64],
     /// Which collision each is of, any number: those of one number are repeats.
     pub collisions: &'a [usize],
@@ -27,13 +27,13 @@ impl SpectrumProblem<'_> {
         self.uncertainties.map_or(1.0, root_mean_square)
     }
 
-    /// ρ_i.
+    /// Returns the residuals ρ_i.
     pub(super) fn ratio(&self, i: usize) -> f64 {
         self.uncertainties.map_or(1.0, |u| u[i] / self.unit())
     }
 }
 
-/// √(Σ x²/N).
+/// Returns √(Σ x²/N).
 pub fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }

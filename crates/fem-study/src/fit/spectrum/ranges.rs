@@ -1,4 +1,4 @@
-//! How far a combination of weights can go with all others free.
+//! Range of a combination of weights with all others free.
 //!
 //! An end of c·w is where Σ r², least over all admissible weights with c·w held there, has risen by
 //! (tσ)² (a profile: Bates & Watts, *Nonlinear Regression Analysis*, ch. 6), or where the weights end:
@@ -16,11 +16,11 @@ const HALVINGS: usize = 26;
 /// Where a combination of weights can lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// Of the best weights.
+    /// Value at the best weights.
     pub value: f64,
     /// Least value that the data allow.
     pub low: f64,
-    /// Largest value.
+    /// The largest value.
     pub high: f64,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Seeker<'a> {
     pub restitutions: &'a Evaluate<'a>,
     /// Weights and restitutions to the problem linear about them.
     pub linear: &'a Linearise<'a>,
-    /// Best weights.
+    /// The best weights.
     pub best: &'a [f64],
     /// Σ r² of them.
     pub best_misfit: f64,

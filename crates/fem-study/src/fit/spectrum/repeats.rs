@@ -3,7 +3,7 @@
 //! The pure error of Box & Draper, *Empirical Model-Building and Response Surfaces*, ch. 3: the sum
 //! of squares about the means of repeats, over the number of measurements less that of collisions.
 
-/// Fewer degrees of freedom than this do not tell a misfit from luck.
+/// With fewer degrees of freedom than this a misfit cannot be distinguished from chance.
 const FEWEST: usize = 3;
 
 /// How repeats scatter.
@@ -16,7 +16,7 @@ pub struct PureError {
 }
 
 impl PureError {
-    /// Of measurements and the collision that each is of; `None` if none is repeated.
+    /// Creates it from measurements and the collision that each belongs to; `None` if none is repeated.
     pub(super) fn of(measured: &[f64], collisions: &[usize]) -> Option<Self> {
         let degrees_of_freedom = measured.len().checked_sub(n_distinct(collisions))?;
         let mean = |collision: usize| {
@@ -30,8 +30,8 @@ impl PureError {
         (degrees_of_freedom > 0).then_some(Self { error, degrees_of_freedom })
     }
 
-    /// What a fit leaves beyond the repeats' scatter, over that scatter; `None` if too few repeats
-    /// tell it. The fit's sum of squares, and how many collisions it has more than free weights.
+    /// Returns the misfit of a fit relative to the repeats' scatter; `None` if there are too few repeats.
+    /// The fit's sum of squares, and how many collisions it has more than free weights.
     pub(super) fn misfit(&self, sum: f64, freedom: usize) -> Option<f64> {
         let own = self.error.powi(2) * self.degrees_of_freedom as f64;
         let lack = ((sum - own).max(0.0) / freedom.max(1) as f64).sqrt();
@@ -39,7 +39,7 @@ impl PureError {
     }
 }
 
-/// How many collisions there are.
+/// Number of collisions.
 pub(super) fn n_distinct(collisions: &[usize]) -> usize {
     let mut known = collisions.to_vec();
     known.sort_unstable();

@@ -1,11 +1,11 @@
 //! Which combinations of weights the data determine.
 //!
-//! With the singular values of the Jacobian, J/ρ = U S Vᵀ, the combination v_i·w is known to σ/s_i.
-//! Weights are at least 0 and at most 1 in all whatever the data say, so v_i·w is between its least and its
-//! largest coefficient, 0 among them. It is determined where two standard errors on either side are less than
-//! half of that. The ridge keeps s²/(s² + λ²) of it, and R = V S²/(S² + λ²) Vᵀ says how much
-//! of each weight is the data's (its diagonal) and how many weights' worth in all (its trace;
-//! Menke, *Geophysical Data Analysis*, ch. 4).
+//! With the singular values of the Jacobian, J/ρ = U S Vᵀ, the combination v_i·w is known to σ/s_i. Weights
+//! are at least 0 and their sum is at most 1 for any data, so v_i·w is between its least and its largest
+//! coefficient, 0 among them. It is determined where two standard errors on either side are less than half
+//! of that. The ridge keeps s²/(s² + λ²) of it, and R = V S²/(S² + λ²) Vᵀ says how much of each weight is
+//! the data's (its diagonal) and how many weights' worth in all (its trace; Menke, *Geophysical Data
+//! Analysis*, ch. 4).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -30,18 +30,18 @@ pub struct Combination {
 }
 
 impl Combination {
-    /// Whether the value is zero as far as its error tells.
+    /// Whether the value is zero within its error.
     pub fn may_be_zero(&self) -> bool {
         self.value.abs() < 2.0 * self.standard_error
     }
 }
 
-/// What the data determine.
+/// The combinations of weights that the data determine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolution {
     /// Best determined first; as many as weights.
     pub combinations: Vec<Combination>,
-    /// How much of each weight is the data's and not the ridge's, 0 to 1.
+    /// Share of each weight that the data determine and not the regularisation, 0 to 1.
     pub shares: Vec<f64>,
 }
 
@@ -78,7 +78,7 @@ impl Resolution {
         Self { combinations, shares }
     }
 
-    /// How many combinations are determined.
+    /// Number of determined combinations.
     pub fn n_determined(&self) -> usize {
         self.combinations.iter().filter(|combination| combination.is_determined).count()
     }

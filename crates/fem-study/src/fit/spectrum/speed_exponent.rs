@@ -1,19 +1,20 @@
-//! The power of the speed in the loss, 1 − e ∝ v^p: what tells whether a Prony series can be it.
+//! The power of the speed in the loss, 1 − e ∝ v^p, which shows whether a Prony series can explain the
+//! data.
 //!
-//! A quasi-static collision of given bodies depends on speed by its duration alone, T ∝ v^(−1/5)
-//! (Hertz). A mild loss is 1 − e = Σ w_k φ(T/τ_k), and φ(x) rises no faster than x and falls no
-//! faster than 1/x: p lies within ±1/5 whatever the spectrum. −1/5 is that of terms slower than the
-//! collision (the loss is β T, a Maxwell fluid's), +1/5 of faster ones (a Kelvin solid's, Ramírez et
-//! al., *Phys. Rev. E* 60 (1999) 4465). A strong loss saturates and its |p| is smaller.
+//! A quasi-static collision of given bodies depends on speed by its duration alone, T ∝ v^(−1/5) (Hertz). A
+//! mild loss is 1 − e = Σ w_k φ(T/τ_k), and φ(x) rises no faster than x and falls no faster than 1/x: p
+//! lies within ±1/5 for any spectrum. −1/5 is that of terms slower than the collision (the loss is β T, a
+//! Maxwell fluid's), +1/5 of faster ones (a Kelvin solid's, Ramírez et al., *Phys. Rev. E* 60 (1999) 4465).
+//! A strong loss saturates and its |p| is smaller.
 
-/// One measurement.
+/// One measured collision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedPoint {
     /// Which pair of bodies.
     pub pair: usize,
     /// Approach speed, m/s.
     pub speed: f64,
-    /// Restitution e.
+    /// The restitution e.
     pub restitution: f64,
 }
 
@@ -24,7 +25,7 @@ pub struct SpeedExponent {
     pub value: f64,
     /// From the scatter about the line; `None` without degrees of freedom.
     pub standard_error: Option<f64>,
-    /// Of the range of speeds, m/s.
+    /// Ends of the range of speeds, m/s.
     pub speeds: (f64, f64),
 }
 
