@@ -16,12 +16,12 @@ use super::speed_span::ends;
 use super::target::Target;
 use crate::measured::{DataError, MeasuredPairs};
 
-/// How far the relaxation times reach beyond the contact times: a term ten times slower or faster
-/// loses a tenth, and one beyond is told from it by its weight only.
+/// Factor by which the relaxation times reach beyond the contact times: a term ten times slower or faster
+/// loses a tenth, and one beyond differs from it by its weight only.
 const REACH: f64 = 10.0;
 /// λ without uncertainties.
 const REGULARISATION: f64 = 1e-3;
-/// Of a case's condensed model: a calibration takes its own.
+/// Keys of a case's condensed model that a calibration replaces.
 pub(super) const UNUSED_STEPS: &str = "model.condensed.steps";
 /// Weights this small are rounding.
 const LEAST_WEIGHT: f64 = 1e-9;
@@ -62,13 +62,13 @@ const LEAST_WEIGHT: f64 = 1e-9;
 /// ```
 #[derive(Debug)]
 pub struct Calibration {
-    /// The data.
+    /// The measured data.
     pub measured: MeasuredPairs,
     /// One a pair of bodies, in their order.
     pub experiments: Vec<Experiment>,
-    /// Whose series it is.
+    /// The material whose series it is.
     pub target: Target,
-    /// What computed the restitutions.
+    /// The model that computed the restitutions.
     pub model: CalibrationModel,
     /// λ, in units of e.
     pub regularisation: f64,
@@ -166,7 +166,7 @@ impl Calibration {
         speed_exponent(&points.collect::<Vec<_>>())
     }
 
-    /// Data, restitutions of the best series and their differences, a row a point; SI.
+    /// Data, restitutions of the best series and their differences, one row per point; SI.
     pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
         let points = self.measured.data.points.iter().zip(&self.fit.restitutions).enumerate();
         points.map(|(k, (point, fitted))| {
@@ -211,7 +211,7 @@ fn check(
     Ok(())
 }
 
-/// What of the case's own model is not looked at: all of it, or the steps of the chosen one.
+/// Returns the keys of the case's own model that are ignored: all of it, or the steps of the chosen one.
 fn unused_key(case: &Case, chosen: CalibrationModel) -> Option<String> {
     let model = case.scene().model().path();
     let is_own = chosen == CalibrationModel::Condensed && model == "model.condensed";

@@ -12,7 +12,7 @@ const N: usize = 33;
 /// Space beside a single speed.
 const BESIDE: f64 = 2.0;
 
-/// What restitutions are drawn over.
+/// The quantity over which restitutions are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Abscissa {
     /// The approach speed, m/s, of one pair of bodies.
@@ -35,15 +35,15 @@ impl Abscissa {
 /// Restitutions over speed or contact time, SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RestitutionCurves {
-    /// What they are drawn over.
+    /// The quantity over which they are drawn.
     pub over: Abscissa,
     /// From, to; around a place that is the only one.
     pub range: (f64, f64),
     /// In the order of the data.
     pub data: Vec<(f64, f64)>,
-    /// Of the best series, ascending: over a range of speeds, or where the data are.
+    /// Restitutions of the best series, ascending: over a range of speeds, or at the data.
     pub best: Vec<(f64, f64)>,
-    /// Of the single Maxwell term, at the same places.
+    /// Restitutions of the single Maxwell term, at the same places.
     pub maxwell: Vec<(f64, f64)>,
 }
 

@@ -18,7 +18,7 @@ use crate::measured::{MeasuredPair, MeasuredPairs};
 use fem_simulation::Condensed;
 use fem_simulation::{Model, Shared};
 
-/// What the size of elements decides on: to blame if there is no mesh.
+/// The key that decides on the element size: it is named in the error if there is no mesh.
 const OF_ELEMENT_SIZE: [&str; 3] =
     ["mesh.contact_element_size", "limits.memory", "output.snapshots"];
 
@@ -37,7 +37,7 @@ pub struct Experiment {
     pub elements_across: Option<(f64, f64)>,
     /// Why its fastest point is perhaps a slip.
     pub doubt: Option<SpeedDoubt>,
-    /// What the user should know of the model's limits.
+    /// Warnings on the limits of the model.
     pub warnings: Vec<String>,
     model: PairModel,
 }
@@ -109,7 +109,7 @@ impl Experiment {
     }
 }
 
-/// What is made for a pair and its speeds.
+/// The model of a pair and its speeds.
 struct Made {
     evaluator: Evaluator,
     elements_across: Option<(f64, f64)>,

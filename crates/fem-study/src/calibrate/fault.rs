@@ -1,4 +1,4 @@
-//! What can be wrong with a calibration.
+//! Errors of a calibration.
 
 use crate::fit::FitError;
 use fem_case::CaseError;
@@ -7,16 +7,16 @@ use fem_laws::LawError;
 
 use crate::measured::DataError;
 
-/// What is wrong with case, data or settings of a calibration, or a collision that fails.
+/// An error in the case, data or settings of a calibration, or a collision that fails.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrationFault {
     /// The case, with the sizes and the speeds of the data in it.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// The data.
+    /// The data are faulty.
     #[error(transparent)]
     Data(#[from] DataError),
-    /// What data and settings determine; a collision that cannot be computed.
+    /// The data and settings do not determine a series, or a collision cannot be computed.
     #[error(transparent)]
     Fit(#[from] FitError),
     /// A material that no body is made of.
@@ -24,13 +24,13 @@ pub enum CalibrationFault {
     OtherMaterial {
         /// The material that was asked for.
         name: String,
-        /// What the bodies are made of.
+        /// The materials of the bodies.
         materials: Vec<String>,
     },
     /// Two materials, and none is named.
     #[error("the bodies are made of {}", materials.join(" and "))]
     TwoMaterials {
-        /// What the bodies are made of.
+        /// The materials of the bodies.
         materials: Vec<String>,
     },
     /// Elements that are small enough for the slowest collision are too many.

@@ -10,7 +10,7 @@ use fem_material::PronyTerm;
 /// Where the search begins and ends, over the shortest and the longest contact time: from a loss
 /// that leaves little to one that nobody sees.
 const SEARCH: (f64, f64) = (0.2, 1e4);
-/// How far down it may go on, in steps, where that is not little enough. There contacts are deeper.
+/// Number of further steps down if that is not small enough. There contacts are deeper.
 const STEP_DOWN: f64 = 4.0;
 const MOST_STEPS_DOWN: usize = 4;
 /// Means of e this near are the same.

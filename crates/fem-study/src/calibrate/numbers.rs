@@ -15,9 +15,9 @@ pub struct CalibrationNumbers {
     pub case: String,
     /// Name of the data.
     pub data: String,
-    /// What computed the restitutions.
+    /// The model that computed the restitutions.
     pub model: &'static str,
-    /// Whose series it is.
+    /// The material whose series it is.
     pub material: String,
     /// Which of its moduli relax.
     pub acts_on: ActsOn,
@@ -27,7 +27,7 @@ pub struct CalibrationNumbers {
     pub pairs: Vec<PairNumbers>,
     /// Without relaxation, shortest and longest.
     pub contact_times_s: (f64, f64),
-    /// Regularisation λ.
+    /// The regularisation λ.
     pub regularisation: f64,
     /// Level of the ranges.
     pub confidence: f64,
@@ -39,13 +39,13 @@ pub struct CalibrationNumbers {
     pub initial_decay_rate_1_s: RangeNumbers,
     /// Viscous time Σ g τ.
     pub viscous_time_s: RangeNumbers,
-    /// Of weights, by how well they are seen.
+    /// Combinations of weights, the best determined first.
     pub combinations: Vec<CombinationNumbers>,
-    /// How many of them the data determine.
+    /// Number of combinations that the data determine.
     pub combinations_determined: usize,
     /// Root mean square error, √(Σ (e − ê)²/N).
     pub rms: f64,
-    /// Of a restitution, as the ranges assume it.
+    /// Standard error of a restitution, as the ranges assume it.
     pub error: f64,
     /// Misfit over the uncertainties.
     pub misfit: Option<f64>,
@@ -59,14 +59,14 @@ pub struct CalibrationNumbers {
     pub pure_error: Option<f64>,
     /// p of 1 − e ∝ v^p of the data.
     pub loss_exponent_of_speed: Option<ExponentNumbers>,
-    /// What a reader should know.
+    /// Warnings for the reader.
     pub warnings: Vec<String>,
 }
 
 /// One pair of bodies.
 #[derive(Clone, Debug, Serialize)]
 pub struct PairNumbers {
-    /// Of the lower and the upper body; a wall has none.
+    /// Diameters of the lower and the upper body; a wall has none.
     pub diameters_m: [Option<f64>; 2],
     /// Number of measured points.
     pub points: usize,
@@ -81,11 +81,11 @@ pub struct PairNumbers {
 pub struct TermNumbers {
     /// Relaxation time τ.
     pub relaxation_time_s: f64,
-    /// Weight g.
+    /// The weight g.
     pub weight: f64,
     /// Least and largest, all others free.
     pub range: (f64, f64),
-    /// How much of the weight the data determine.
+    /// Share of the weight that the data determine.
     pub share_of_data: f64,
 }
 
@@ -103,7 +103,7 @@ pub struct RangeNumbers {
 pub struct CombinationNumbers {
     /// Coefficients of the weights.
     pub coefficients: Vec<f64>,
-    /// How much the data see of it.
+    /// Singular value of the combination: the sensitivity of the data to it.
     pub singular_value: f64,
     /// The best value.
     pub value: f64,
@@ -134,7 +134,7 @@ pub struct ExponentNumbers {
 }
 
 impl Calibration {
-    /// What is kept of it; `case` is what the case is called, `warnings` are those of
+    /// Returns the stored form of it; `case` is what the case is called, `warnings` are those of
     /// [`Calibration::warnings`].
     pub fn numbers(&self, case: &str, warnings: Vec<String>) -> CalibrationNumbers {
         let fit = &self.fit;

@@ -28,17 +28,17 @@ pub(super) struct PairModel {
     evaluator: Evaluator,
 }
 
-/// What computes a collision.
+/// The model that computes a collision.
 #[derive(Debug)]
 pub(super) enum Evaluator {
-    /// Factored once.
+    /// The bodies, factored once.
     Condensed(Box<Condensed>),
     /// With the spheres' finite size.
     Ting(Pair),
 }
 
 impl PairModel {
-    /// Of the bodies of a scene.
+    /// Creates the model of the bodies of a scene.
     pub fn new(scene: &Scene, target: &Target, evaluator: Evaluator) -> Self {
         Self {
             target: target.clone(),

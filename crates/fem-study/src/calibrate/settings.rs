@@ -1,15 +1,15 @@
-//! What is asked of a calibration.
+//! Settings of a calibration.
 
 use fem_case::schema::ActsOn;
 
-/// What is asked of a calibration; what is `None` follows from the data or the case.
+/// Settings of a calibration; a setting that is `None` follows from the data or the case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// What computes a collision.
+    /// The model that computes a collision.
     pub model: CalibrationModel,
     /// The material that is calibrated, where the bodies' differ; the other keeps its relaxation.
     pub material: Option<String>,
-    /// What relaxes: as in the case, or all moduli.
+    /// The moduli that relax: as in the case, or all.
     pub acts_on: Option<ActsOn>,
     /// Terms of the series, at least 1.
     pub n_terms: usize,
@@ -57,7 +57,7 @@ impl CalibrationModel {
     }
 }
 
-/// What a caller calls the settings that texts advise to change.
+/// The caller's names of the settings that messages advise to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SettingNames {
     /// Name of [`Settings::n_terms`].
@@ -71,7 +71,7 @@ pub struct SettingNames {
 }
 
 impl Default for SettingNames {
-    /// As the fields are called.
+    /// The names of the fields.
     fn default() -> Self {
         Self { terms: "n_terms", times: "times", uncertainty: "an uncertainty", model: "model" }
     }

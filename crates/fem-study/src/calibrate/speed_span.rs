@@ -28,7 +28,7 @@ pub struct SpeedDoubt {
 }
 
 impl SpeedSpan {
-    /// Of the bodies of a scene at these speeds, m/s.
+    /// Creates it for the bodies of a scene at these speeds, m/s.
     ///
     /// # Errors
     /// Numbers without a Hertz impact.

@@ -1,4 +1,4 @@
-//! What a reader should know before trusting a series.
+//! Warnings to read before trusting a series.
 
 use crate::fit::spectrum::{SpectrumFit, SpeedExponent};
 use fem_case::engineering::show;
@@ -11,14 +11,13 @@ use fem_simulation::{WarningKind, WarningKinds};
 
 /// Fewer elements across a contact radius than this do not follow it.
 const FEWEST_ELEMENTS: f64 = 3.0;
-/// A misfit of so many times the uncertainties is no scatter.
+/// A misfit of this multiple of the uncertainties is not explained by scatter.
 const LARGE_MISFIT: f64 = 2.0;
 /// An rms error of e above this is more than a model's or a mesh's own.
 const LARGE_ERROR: f64 = 0.02;
 
 impl Calibration {
-    /// What a reader should know, in the order of its weight; `names` are those of the settings that
-    /// may help.
+    /// Returns the warnings, the most important first; `names` are those of the settings that may help.
     pub fn warnings(&self, names: &SettingNames) -> Vec<String> {
         let mut warnings: Vec<String> = self.doubt(names).into_iter().collect();
         warnings.extend(self.loss_exponent().and_then(|found| falling(&found, &self.fit)));

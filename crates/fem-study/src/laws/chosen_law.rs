@@ -62,19 +62,19 @@ pub struct ChosenLaw {
     known: Vec<Known>,
 }
 
-/// What stands for a parameter that data do not determine and nobody gives.
+/// The substitute for a parameter that the data do not determine and that is not given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StandIn {
     /// The stiffness with which the spring alone makes Hertz' contact time at the middle speed of the data.
     HertzTime,
-    /// The middle speed of the data: the law's loss is told at it.
+    /// The middle speed of the data, at which the law's loss is stated.
     MiddleSpeed,
     /// Poisson's ratio: the material dissipates in the form of its elasticity.
     PoissonsRatio,
 }
 
 impl StandIn {
-    /// Where it comes from, in words.
+    /// Returns the origin of the value as text.
     pub fn words(self) -> &'static str {
         match self {
             Self::HertzTime => "of Hertz' contact time",
@@ -128,7 +128,7 @@ impl ChosenLaw {
         &self.model
     }
 
-    /// Which law.
+    /// Returns the family of the law.
     pub fn family(&self) -> LawFamily {
         self.model.family()
     }
@@ -185,8 +185,8 @@ impl ChosenLaw {
         }
     }
 
-    /// What stands for a parameter in a fit that has neither a value nor a default, and that restitutions do
-    /// not determine beside the loss.
+    /// Returns the substitute for a parameter of a fit that has neither a value nor a default, and that
+    /// restitutions do not determine beside the loss.
     pub fn stand_in(&self, index: usize) -> Option<StandIn> {
         let parameter = &self.family().parameters()[index];
         if self.known[index] != Known::Nowhere || parameter.default.is_some() {
@@ -200,7 +200,7 @@ impl ChosenLaw {
         }
     }
 
-    /// What is known in place of `guesses`, in the order of the parameters.
+    /// Substitute values for `guesses`, in the order of the parameters.
     pub(super) fn values(&self, guesses: &[f64]) -> Vec<f64> {
         let value = |(known, guess): (&Known, &f64)| match known {
             Known::Nowhere => *guess,

@@ -22,9 +22,9 @@ const LOSSLESS: f64 = 1e-7;
 /// The laws of DEM codes on one curve.
 #[derive(Clone, Debug)]
 pub struct DemExport {
-    /// What they are fitted to.
+    /// The computed collisions that the laws are fitted to.
     pub curve: ImpactCurve,
-    /// What snippets are written from.
+    /// The content of the snippets.
     pub export: Export,
     /// One e at all speeds on Hertz' spring, viscoelastic damping, linear.
     pub laws: [FittedLaw; 3],
@@ -33,7 +33,7 @@ pub struct DemExport {
 /// A law and its values.
 #[derive(Clone, Debug)]
 pub struct FittedLaw {
-    /// Its name in words.
+    /// Returns the name of the law as text.
     pub name: &'static str,
     /// The bodies under it.
     pub model: Model,

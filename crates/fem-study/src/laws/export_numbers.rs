@@ -34,20 +34,20 @@ pub struct ExportNumbers {
     pub has_hertz_times: bool,
     /// Materials whose loss counts as nothing, since it is not published: e is too high.
     pub unpublished_loss: Vec<String>,
-    /// What the laws are fitted to.
+    /// The collisions that the laws are fitted to.
     pub data: Vec<PointNumbers>,
-    /// The files.
+    /// The snippets.
     pub snippets: Vec<SnippetNumbers>,
 }
 
-/// A sphere.
+/// One of the spheres.
 #[derive(Clone, Debug, Serialize)]
 pub struct SphereNumbers {
-    /// Diameter D.
+    /// The diameter D, m.
     pub diameter_m: f64,
-    /// Density ρ.
+    /// The density ρ, kg/m³.
     pub density_kg_m3: f64,
-    /// E, instantaneous.
+    /// The instantaneous Young's modulus E, Pa.
     pub youngs_modulus_pa: f64,
     /// Poisson's ratio ν.
     pub poissons_ratio: f64,
@@ -58,7 +58,7 @@ pub struct SphereNumbers {
 pub struct PointNumbers {
     /// Approach speed v.
     pub speed_m_s: f64,
-    /// Restitution e.
+    /// The restitution e.
     pub restitution: f64,
     /// Contact time T.
     pub contact_time_s: Option<f64>,
@@ -73,10 +73,10 @@ pub struct SnippetNumbers {
     pub code: &'static str,
     /// In the code's own words.
     pub model: &'static str,
-    /// What the code is told, by name.
+    /// The entries of the code, by name.
     #[serde(serialize_with = "by_name")]
     pub entries: Vec<(&'static str, f64)>,
-    /// What it makes; none if that depends on speed.
+    /// The restitution that it makes; `None` if that depends on speed.
     pub restitution: Option<f64>,
     /// None if it is good nowhere.
     pub valid_from_m_s: Option<f64>,
@@ -89,7 +89,7 @@ pub struct SnippetNumbers {
 }
 
 impl DemExport {
-    /// What is kept of it; `case` is what the case is called.
+    /// Returns the stored form of it; `case` is what the case is called.
     pub fn numbers(&self, case: &str, snippets: &[Snippet]) -> ExportNumbers {
         let (export, points) = (&self.export, &self.curve.points);
         ExportNumbers {

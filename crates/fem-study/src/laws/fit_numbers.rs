@@ -40,7 +40,7 @@ pub struct FitNumbers {
     pub profile: Option<ProfileNumbers>,
     /// Other laws on the same data.
     pub compared: Vec<ComparedNumbers>,
-    /// What a reader should know.
+    /// Warnings for the reader.
     pub warnings: Vec<String>,
 }
 
@@ -88,16 +88,16 @@ pub struct ProfilePointNumbers {
 /// Another law on the same data.
 #[derive(Clone, Debug, Serialize)]
 pub struct ComparedNumbers {
-    /// Its name.
+    /// The name of the law.
     pub law: &'static str,
-    /// Of its parameters, in the order of the law.
+    /// Values of its parameters, in the order of the law.
     pub values: Vec<f64>,
     /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,
 }
 
 impl LawFit<'_> {
-    /// What is kept of it; `case` is what the case is called.
+    /// Returns the stored form of it; `case` is what the case is called.
     pub fn numbers(&self, case: &str) -> FitNumbers {
         let (fit, problem) = (&self.fit, &self.problem);
         let family = problem.model.family();

@@ -1,4 +1,4 @@
-//! What can be wrong with a law of a case.
+//! Errors of the laws of a case.
 
 use crate::fit::FitError;
 use fem_case::CaseError;
@@ -7,7 +7,7 @@ use fem_laws::LawError;
 use super::parameter::ParameterError;
 use crate::measured::DataError;
 
-/// What is wrong with a law, with its data, or with what is asked of it.
+/// An error in a law, in its data, or in a request.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LawFault {
     /// The law of the case itself, at its place.
@@ -16,10 +16,10 @@ pub enum LawFault {
     /// A parameter that is named or given.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// The data.
+    /// The data are faulty.
     #[error(transparent)]
     Data(#[from] DataError),
-    /// What the data determine.
+    /// The data do not determine the law.
     #[error(transparent)]
     Fit(#[from] FitError),
     /// A parameter that has neither a value nor a default.
@@ -29,13 +29,13 @@ pub enum LawFault {
         law: &'static str,
         /// Key of the parameter.
         key: &'static str,
-        /// What is searched for; empty if nothing more can be.
+        /// The values that were searched for; empty if nothing more can be searched.
         free: Vec<&'static str>,
     },
     /// A law that is compared with another one.
     #[error("{law}: {error}")]
     Compared {
-        /// Its name.
+        /// The name of the law.
         law: &'static str,
         /// Why it cannot be fitted.
         error: FitError,

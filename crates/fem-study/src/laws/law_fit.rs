@@ -14,15 +14,15 @@ const GRID: usize = 25;
 const GRID_REACH: f64 = 2.5;
 /// A plain number's grid reaches at least over these: damping exponents of all laws.
 const EXPONENTS: (f64, f64) = (0.4, 1.1);
-/// A misfit of so many times the variances is no scatter.
+/// A misfit of this multiple of the variances is not explained by scatter.
 const LARGE_CHI_SQUARE: f64 = 2.0;
 
 /// A fitted law, its data, and the laws that are compared with it.
 #[derive(Clone, Debug)]
 pub struct LawFit<'a> {
-    /// What was fitted to.
+    /// The data.
     pub data: &'a Restitutions,
-    /// What was fitted.
+    /// The law that was fitted.
     pub problem: Problem<'a>,
     /// The best values.
     pub fit: Fit,
@@ -97,7 +97,7 @@ impl<'a> LawFit<'a> {
         self
     }
 
-    /// Data, fitted values and their differences, a row a point; SI.
+    /// Data, fitted values and their differences, one row per point; SI.
     pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
         self.problem.points.iter().map(|point| {
             let fitted = self.problem.model.outcome(&self.fit.values, point.speed).ok();
@@ -114,7 +114,7 @@ impl<'a> LawFit<'a> {
         })
     }
 
-    /// What a reader should know before trusting the numbers.
+    /// Returns warnings to read before trusting the numbers.
     pub fn warnings(&self) -> Vec<String> {
         let (fit, problem) = (&self.fit, &self.problem);
         let mut warnings = self.data.warnings();

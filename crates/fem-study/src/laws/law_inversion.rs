@@ -14,7 +14,7 @@ pub struct LawInversion {
     pub model: Model,
     /// The place of the parameter that is found.
     pub index: usize,
-    /// What gives the restitution.
+    /// The parameter values that give the restitution.
     pub inversion: Inversion,
     /// Approach speed, m/s.
     pub speed: f64,

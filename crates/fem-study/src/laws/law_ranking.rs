@@ -43,7 +43,7 @@ pub struct RankedLaw {
 }
 
 impl RankedLaw {
-    /// Its family.
+    /// Returns the family of the law.
     pub fn family(&self) -> LawFamily {
         self.model.family()
     }

@@ -16,7 +16,7 @@ use super::law_fault::LawFault;
 /// Pairs that are more than a table should hold: 45 grains.
 const MOST_GRAINS: usize = 45;
 
-/// What has no value in a table.
+/// The text of a missing value in a table.
 type Cell = Option<f64>;
 
 /// All pairs of some grains, each with laws of its own.
@@ -35,7 +35,7 @@ pub struct PairExport {
 pub struct FittedPair {
     /// Places of the grains.
     pub grains: [usize; 2],
-    /// The pair.
+    /// The two bodies.
     pub pair: Pair,
     /// Its laws; none of a pair that loses nothing.
     pub export: Option<DemExport>,
@@ -48,11 +48,11 @@ pub struct FittedPair {
 pub struct PairNumbers {
     /// Name of the first material.
     pub first_material: String,
-    /// Its diameter.
+    /// Diameter of the first sphere.
     pub first_diameter_m: f64,
     /// Name of the second material.
     pub second_material: String,
-    /// Its diameter.
+    /// Diameter of the second sphere.
     pub second_diameter_m: f64,
     /// Slowest speed of the fit; none where nothing is lost.
     pub slowest_m_s: Cell,
@@ -68,7 +68,7 @@ pub struct PairNumbers {
     pub worst_error: Cell,
     /// Materials whose loss counts as nothing, since none is known: the restitution is too high.
     pub unpublished_loss: Vec<String>,
-    /// What each code is told: `lammps_viscoelastic_eta`, ….
+    /// The entries of each code: `lammps_viscoelastic_eta`, ….
     pub entries: BTreeMap<String, f64>,
 }
 
@@ -135,7 +135,7 @@ impl PairExport {
         Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
     }
 
-    /// What a reader should know: of which materials no loss is known.
+    /// Warnings: the materials of which no loss is known.
     pub fn warnings(&self) -> Vec<String> {
         let mut names: Vec<&str> = Vec::new();
         for name in self.pairs.iter().flat_map(|pair| &pair.unpublished_loss) {
@@ -166,7 +166,7 @@ impl PairExport {
         self.pairs.iter().map(of).collect()
     }
 
-    /// The table, a row a pair; what a code's formula does not take is left out.
+    /// Returns the table, one row per pair; values that a code's formula does not accept are left out.
     pub fn numbers(&self) -> Vec<PairNumbers> {
         self.pairs.iter().map(|fitted| self.row(fitted)).collect()
     }

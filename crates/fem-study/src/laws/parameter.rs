@@ -3,7 +3,7 @@
 use fem_case::{UnitError, parse_quantity};
 use fem_laws::{LawFamily, LawParameter, ParameterRole};
 
-/// What is wrong with a parameter that a caller names or gives a value.
+/// An error in the name or the value of a parameter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ParameterError {
     /// The law has no such key.
@@ -29,7 +29,7 @@ pub enum ParameterError {
         key: &'static str,
         /// The value as it was written.
         text: String,
-        /// What is wrong with it.
+        /// Description of the fault.
         error: UnitError,
     },
     /// A unit of another dimension.
@@ -49,13 +49,13 @@ pub enum ParameterError {
         key: &'static str,
         /// Value of the parameter, SI.
         value: f64,
-        /// What it must be.
+        /// Description of a valid value.
         allowed: String,
     },
 }
 
 impl ParameterError {
-    /// What is allowed.
+    /// Description of the allowed values.
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Unknown { known, .. } => Some(format!("its parameters are {}", known.join(", "))),

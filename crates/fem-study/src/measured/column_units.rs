@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 pub(super) struct Ending {
     /// The ending with its underscore.
     pub text: &'static str,
-    /// How many SI units it is.
+    /// Factor from this unit to SI.
     pub scale: f64,
     /// Exponents of metre, kilogram, second.
     pub dimension: [i32; 3],
@@ -17,7 +17,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> Ending {
     Ending { text, scale, dimension }
 }
 
-/// Of two that end the same name the longer one is first.
+/// If two endings fit the same name, the longer one comes first.
 const ENDINGS: [Ending; 14] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),

@@ -1,18 +1,18 @@
-//! What is wrong with data, and where.
+//! An error in measured data, with its place.
 
 /// A fault of data: what was found, in which line of which text, and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}: {message}", self.place())]
 pub struct DataError {
-    /// What the data are called, such as the name of their file.
+    /// The name of the data, such as their file's name.
     pub source_name: String,
     /// Line of the text, from 1.
     pub line: Option<u64>,
     /// Name of the column.
     pub column: Option<String>,
-    /// What was found.
+    /// The fault that was found.
     pub message: String,
-    /// What is allowed, or what to do.
+    /// The allowed values, or the suggested fix.
     pub help: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Restitutions of several pairs of bodies from a table that tells their diameters.
+//! Restitutions of several pairs of bodies from a table that names their diameters.
 
 use fem_case::Scene;
 
@@ -8,7 +8,7 @@ use super::restitution_columns::Wanted;
 use super::restitution_table::read_rows;
 use super::table::Table;
 
-/// Columns that tell bodies apart, for the lower and the upper one; a sweep's own names last.
+/// Columns that identify the lower and the upper body; a sweep's own names come last.
 pub(super) const DIAMETERS: [[&str; 2]; 2] =
     [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
 const SIDES: [&str; 2] = ["first", "second"];

@@ -26,7 +26,7 @@ pub enum NotMeasured {
     OtherKind {
         /// The text as it was found.
         text: String,
-        /// What it should be.
+        /// The kind of quantity that is expected.
         kind: Kind,
     },
     /// More than half a turn, if it is in radians.
@@ -65,7 +65,7 @@ const ANGLES: [(&str, f64); 5] =
 /// A value with or without its uncertainty, SI.
 ///
 /// # Errors
-/// What it is not.
+/// The kind of quantity that the text is not.
 ///
 /// ```
 /// use fem_study::measured::{Kind, parse_measured};

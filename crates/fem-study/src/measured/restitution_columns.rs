@@ -30,7 +30,7 @@ const NUMBER: [i32; 3] = [0; 3];
 /// Restitutions above it are no scatter of a measurement.
 const LARGEST: f64 = 1.2;
 
-/// What a reader takes beside speeds and restitutions.
+/// The columns that are read beside speeds and restitutions.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Wanted<'a> {
     /// Contact times, if there are any.
@@ -45,7 +45,7 @@ pub(super) struct Wanted<'a> {
 pub(super) struct Columns {
     /// Speeds that add up.
     speeds: Vec<usize>,
-    /// Of bodies that have no column, m/s.
+    /// Speeds of bodies that have no column, m/s.
     other_speed: f64,
     restitution: usize,
     uncertainty: Option<usize>,

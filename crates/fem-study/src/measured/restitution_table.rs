@@ -13,7 +13,7 @@ use crate::sweep::COLUMNS;
 /// Names that need not be there, of which a near miss is no other name.
 const OPTIONAL: [&str; 5] =
     ["restitution_uncertainty", "uncertainty", "standard_error", "sigma", "contact_time"];
-/// What stands beside them in tables that are made of trials, fits and sweeps.
+/// Columns that tables of trials, fits and sweeps have beside them.
 const WRITTEN: [&str; 9] = [
     "speed_uncertainty",
     "first_after",
@@ -26,9 +26,8 @@ const WRITTEN: [&str; 9] = [
     "member",
 ];
 impl Restitutions {
-    /// Of a table with columns like `speed_m_s` and `restitution`, perhaps
-    /// `restitution_uncertainty`, or of a sweep over speeds. The scene has the speed of a body that
-    /// the sweep does not vary.
+    /// Reads a table with columns like `speed_m_s` and `restitution`, perhaps `restitution_uncertainty`, or
+    /// of a sweep over speeds. The scene has the speed of a body that the sweep does not vary.
     ///
     /// # Errors
     /// The first thing that is wrong with the table.
@@ -64,7 +63,7 @@ impl Restitutions {
     /// Restitutions, and contact times if the table has them.
     ///
     /// # Errors
-    /// As [`Restitutions::read`].
+    /// Those of [`Restitutions::read`].
     pub fn read_with_contact_times(table: &Table, scene: &Scene) -> Result<Self, DataError> {
         let wanted = Wanted { contact_times: true, ..Wanted::default() };
         Ok(read_rows(table, scene, wanted)?.0)
@@ -74,7 +73,7 @@ impl Restitutions {
 /// The restitutions of a table, and the row that each is from.
 ///
 /// # Errors
-/// As [`Restitutions::read`].
+/// Those of [`Restitutions::read`].
 pub(super) fn read_rows(
     table: &Table,
     scene: &Scene,

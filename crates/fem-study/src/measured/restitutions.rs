@@ -4,7 +4,7 @@ use crate::fit::Point;
 
 use super::data_error::DataError;
 
-/// Uncertainties above it tell nothing of a number between 0 and 1.
+/// Larger uncertainties carry no information about a number between 0 and 1.
 pub const LARGEST_UNCERTAINTY: f64 = 1.0;
 
 /// Restitutions over speeds, each with where it is from.
@@ -18,7 +18,7 @@ pub const LARGEST_UNCERTAINTY: f64 = 1.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Restitutions {
-    /// What the data are called, such as the name of their file.
+    /// The name of the data, such as their file's name.
     pub name: String,
     /// Speed, m/s, and restitution, in the order of the data.
     pub points: Vec<Point>,
@@ -26,23 +26,23 @@ pub struct Restitutions {
     pub lines: Vec<u64>,
     /// Rows of a sweep's members that failed, and rows without a speed or a restitution.
     pub n_left_out: usize,
-    /// What became of an uncertainty that some rows have.
+    /// The treatment of an uncertainty that only some rows have.
     pub uneven: Option<UnevenUncertainties>,
     /// Columns that nobody reads.
     pub unread: Vec<String>,
 }
 
-/// What became of an uncertainty that some rows have and others lack.
+/// The treatment of an uncertainty that some rows have and others lack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnevenUncertainties {
     /// So few rows lacked it that they were left out.
     LeftOut {
-        /// Those.
+        /// The lines of those rows.
         n_without: usize,
     },
     /// So few rows had it that no row is weighed by it.
     NotUsed {
-        /// Those.
+        /// The lines of those rows.
         n_with: usize,
     },
 }
@@ -89,7 +89,7 @@ impl Restitutions {
         (speeds().fold(f64::INFINITY, f64::min), speeds().fold(0.0, f64::max))
     }
 
-    /// What was not looked at.
+    /// The columns that were ignored.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         let rows = |n: usize| if n == 1 { "1 row".to_string() } else { format!("{n} rows") };

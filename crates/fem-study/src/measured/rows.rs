@@ -7,11 +7,11 @@ use super::data_error::DataError;
 use super::table::Table;
 use super::written::{column_name, decode, with_point};
 
-/// Of each row of a table the cells below these names, as a case takes them: a cell whose unit stands in the name
-/// of its column is a number in SI.
+/// Returns, for each row of a table, the cells below these names, as a case accepts them: a cell whose unit
+/// stands in the name of its column is a number in SI.
 ///
 /// # Errors
-/// What is no table, lacks a column, or has a cell without a value.
+/// The text is no table, lacks a column, or has a cell without a value.
 pub fn rows_below(
     source: &str,
     bytes: &[u8],

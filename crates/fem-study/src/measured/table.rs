@@ -159,12 +159,12 @@ impl Table {
         Ok(self)
     }
 
-    /// What the table is called, in one line.
+    /// Returns the name of the table, in one line.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// How many rows.
+    /// Returns the number of rows.
     pub fn n_rows(&self) -> usize {
         self.rows.len()
     }
@@ -274,7 +274,7 @@ impl Table {
     /// A cell as a number of a dimension (exponents of metre, kilogram, second), SI.
     ///
     /// # Errors
-    /// Something else.
+    /// Any other text.
     pub fn number(&self, row: usize, column: usize, dimension: [i32; 3]) -> Result<f64, DataError> {
         let (text, header) = (self.text(row, column), &self.header[column]);
         let fault = |found: String| {

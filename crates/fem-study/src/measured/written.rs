@@ -45,8 +45,9 @@ pub(super) fn tabs_for_blanks(text: &str) -> Cow<'_, str> {
     text.lines().map(|line| tabs(line) + "\n").collect::<String>().into()
 }
 
-/// What parts the cells of a table by its header: semicolons, tabs or commas, whichever it has most
-/// of; of as many the first of these. A line `sep=;`, which spreadsheets write, is not the header.
+/// Returns the separator of the cells of a table, from its header: the most frequent of semicolons, tabs
+/// and commas; the first of these if counts are equal. A line `sep=;`, which spreadsheets write, is not the
+/// header.
 pub(super) fn separator(text: &str) -> (u8, &str) {
     let text = text.trim_start_matches('\u{feff}');
     if let Some((first, rest)) = text.split_once('\n')

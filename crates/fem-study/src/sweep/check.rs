@@ -19,19 +19,20 @@ use fem_simulation::Simulation;
 /// Members that are made at the same time.
 const AT_ONCE: usize = 64;
 
-/// What is known of the members of a sweep before the first one runs.
+/// The members of a sweep as far as they are known before the first one runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
     /// Those that were looked at, in order.
     pub members: Vec<Member>,
-    /// Places of those that are to run, each identity once, the dearest first: so that none of them is left
-    /// alone at the end.
+    /// Places of the members to run, each identity once, the most expensive first, so that no long run is
+    /// left at the end.
     pub left: Vec<usize>,
-    /// What each of those takes by its element updates alone, on one core of 3 GHz, s; an order of magnitude.
+    /// Estimated cost of each of those by its element updates alone, s on one core of 3 GHz; an order of
+    /// magnitude.
     pub seconds: Vec<f64>,
-    /// What is odd about scenes, such as a size that no ball has; each once.
+    /// Implausible values of the scenes, such as a size that no ball has; each once.
     pub oddities: BTreeSet<String>,
-    /// What would make it cheaper.
+    /// Suggestions that make the sweep cheaper.
     pub advice: Option<&'static str>,
 }
 
@@ -39,12 +40,12 @@ pub struct Checked {
 struct Seen {
     member: Member,
     case: CaseFile,
-    /// Of one that is left to do.
+    /// Cost estimate of a member that is still to run.
     price: Option<u64>,
     oddities: Vec<String>,
 }
 
-/// Checks all members. To run are those that `is_own` and not `is_done`; `see` is told of each member in
+/// Checks all members. To run are those that `is_own` and not `is_done`; `see` is called for each member in
 /// order.
 ///
 /// # Errors
@@ -62,7 +63,7 @@ pub fn check(
 /// As [`check`], of the members at these places alone, in this order.
 ///
 /// # Errors
-/// As [`check`].
+/// Those of [`check`].
 pub fn check_some(
     members: &(impl Members + ?Sized),
     places: &[usize],

@@ -43,8 +43,8 @@ const UNCERTAINTIES: [(&str, &str); 2] =
     [("uncertainty_discretisation_", "discretisation"), ("uncertainty_model_", "model")];
 
 /// Names and order of all columns that a table can have; `hertz_`, `energy_` and `uncertainty_` are the
-/// summary's objects of that name, the last with its part before the quantity. What the run took (`cost`) differs from run to run and stays in the member's
-/// summary.
+/// summary's objects of that name, the last with its part before the quantity. The cost of the run (`cost`)
+/// differs from run to run and stays in the member's summary.
 pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
     let accounts = Account::all().map(|account| column_of(&energy_key(account)));
@@ -150,7 +150,7 @@ pub fn column_unit(column: &str) -> &'static str {
     ending(column).map_or("", |(_, unit)| unit)
 }
 
-/// A column's name in words, without its unit.
+/// Returns a column's name as text, without its unit.
 pub fn column_words(column: &str) -> String {
     let bare = ending(column).map_or(column, |(ending, _)| &column[..column.len() - ending.len()]);
     bare.replace('_', " ")

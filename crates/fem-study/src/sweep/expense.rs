@@ -1,16 +1,16 @@
-//! What a member takes, before it runs: an order of magnitude, by which members are shared out.
+//! Cost estimate of a member before it runs: an order of magnitude, by which members are distributed.
 
 use fem_case::CaseFile;
 
-/// Seconds of an update of an element on one core of 3 GHz, a Prony term or two with it.
+/// Seconds per element update on one core of 3 GHz, with one or two Prony terms.
 const SECONDS_AN_UPDATE: f64 = 8e-9;
-/// Seconds of a member of condensed bodies, which shares its factor with others.
+/// Seconds per member with condensed bodies, which share their factors with others.
 const SECONDS_OF_CONDENSED: f64 = 0.1;
-/// Seconds of a member without a mesh.
+/// Seconds per member without a mesh.
 const SECONDS_WITHOUT_MESH: f64 = 2e-3;
 
-/// Seconds that a member takes on one core of 3 GHz; `updates` of elements are to come, of a case that is
-/// resolved.
+/// Returns the estimated seconds of a member on one core of 3 GHz, for a resolved case and its number of
+/// element updates.
 pub(super) fn seconds(case: &CaseFile, updates: u64) -> f64 {
     let is_condensed = case.model.as_ref().is_some_and(|model| model.condensed.is_some());
     let least = if is_condensed { SECONDS_OF_CONDENSED } else { SECONDS_WITHOUT_MESH };

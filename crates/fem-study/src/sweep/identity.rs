@@ -1,4 +1,4 @@
-//! What a member is known by: equal for members that compute the same.
+//! The identity of a member: equal for members that compute the same.
 
 use fem_case::{Case, CaseError, CaseFile};
 
@@ -9,7 +9,7 @@ use fem_simulation::{identified, name_of};
 pub struct Member {
     /// Its place in the sweep.
     pub index: usize,
-    /// What it is known by, as a number.
+    /// Its identity as a number.
     pub(super) digest: u64,
 }
 
@@ -17,7 +17,7 @@ impl Member {
     /// The member of a sweep that is this case.
     ///
     /// # Errors
-    /// What the case's method refuses before it makes anything; a mesh file that cannot be read.
+    /// The case's method does not support the case, or a mesh file cannot be read.
     pub fn of(index: usize, case: &Case) -> Result<Self, CaseError> {
         Ok(Self::resolved(index, case)?.0)
     }
@@ -25,13 +25,13 @@ impl Member {
     /// With the resolved case.
     ///
     /// # Errors
-    /// As [`Member::of`].
+    /// Those of [`Member::of`].
     pub(super) fn resolved(index: usize, case: &Case) -> Result<(Self, CaseFile), CaseError> {
         let (digest, case) = identified(case)?;
         Ok((Self { index, digest }, case))
     }
 
-    /// See [`Identity::result`](fem_simulation::Identity::result).
+    /// Returns the identity as text; see [`Identity::result`](fem_simulation::Identity::result).
     pub fn identity(&self) -> String {
         name_of(self.digest)
     }

@@ -8,14 +8,14 @@ use super::variations::Variations;
 use fem_simulation::Shared;
 use fem_simulation::results::Summary;
 
-/// Summaries of a case with one value after the other put in, in the order of the values.
+/// Returns the summaries of a case with one value after the other put in, in the order of the values.
 ///
 /// The members run on all threads of the current rayon pool, and equal bodies share their factors.
 /// Fields are not computed. Who wants histories or fields, or to look on and end all of it, uses a
 /// [`Runner`].
 ///
 /// # Errors
-/// Of each value on its own: what it makes is no valid case, or is refused.
+/// Each value on its own may make no valid case, or one that its model does not support.
 ///
 /// ```
 /// use fem_case::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};

@@ -1,10 +1,10 @@
-//! What the values of varied keys are as numbers in SI, found as the members are looked at.
+//! The values of varied keys as numbers in SI, collected while the members are checked.
 
 use fem_case::{CaseFile, Sweep};
 
 use super::columns::key_column;
 
-/// Of each value of each varied key, its number in SI.
+/// The number in SI of each value of each varied key.
 #[derive(Clone, Debug)]
 pub struct KeyNumbers(Vec<OfKey>);
 
@@ -29,14 +29,14 @@ enum Found {
 /// A column with the values of a varied key in SI.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NumberColumn {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
-    /// Which key's.
+    /// Index of the key.
     key: usize,
 }
 
 impl KeyNumbers {
-    /// Of a sweep of which no member has been seen.
+    /// Creates the numbers of a sweep of which no member has been checked.
     pub fn new(sweep: &Sweep) -> Self {
         let of_key = |(axis, _): (usize, usize)| OfKey {
             axis,
@@ -88,7 +88,7 @@ impl KeyNumbers {
         self.0.iter().enumerate().zip(sweep.keys()).filter_map(column).collect()
     }
 
-    /// What a member has in these columns.
+    /// Returns the numbers of a member in these columns.
     pub fn row(&self, sweep: &Sweep, columns: &[NumberColumn], member: usize) -> Vec<Option<f64>> {
         let choice = sweep.choice(member);
         let number = |column: &NumberColumn| {

@@ -9,7 +9,7 @@ use crate::measured::rows_below;
 /// Reads a sweep file, the tables that it names and its base case; `overrides` are those of the base case.
 ///
 /// # Errors
-/// As [`Sweep::load`].
+/// Those of [`Sweep::load`].
 pub fn load(path: &Path, overrides: &[String]) -> Result<Sweep, CaseError> {
     Sweep::load(path, overrides, &rows_below)
 }

@@ -2,15 +2,15 @@
 
 use fem_case::{Case, CaseError, Sweep};
 
-/// So many cases, each made when it is asked for.
+/// A number of cases, each made when it is needed.
 ///
 /// A sweep file is one such source, [`Variations`](super::Variations) made in code another, and
 /// cases at hand are a third.
 pub trait Members: Sync {
-    /// How many there are.
+    /// Returns the number of members.
     fn n_members(&self) -> usize;
 
-    /// What `make` makes of a member's case.
+    /// Returns the result of `make` for a member's case.
     ///
     /// # Errors
     /// A member that is no valid case, or of which `make` can make nothing. A sweep file points at

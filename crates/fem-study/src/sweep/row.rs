@@ -1,4 +1,4 @@
-//! What comes out of a member, as a row of a table.
+//! The results of a member as a row of a table, and the table of a sweep.
 
 use serde_json::Value;
 
@@ -11,13 +11,14 @@ use fem_simulation::results::Summary;
 pub struct Row {
     /// Its place in the sweep.
     pub index: usize,
-    /// Of each varied key, as written.
+    /// Value of each varied key, as written.
     pub values: Vec<String>,
-    /// Of those that are quantities, in SI; see [`KeyNumbers::columns`](super::KeyNumbers::columns).
+    /// Values of the keys that are quantities, in SI; see
+    /// [`KeyNumbers::columns`](super::KeyNumbers::columns).
     pub numbers: Vec<Option<f64>>,
-    /// What the member is known by.
+    /// Identity of the member.
     pub identity: String,
-    /// Its summary.
+    /// The member's summary.
     pub summary: Value,
 }
 

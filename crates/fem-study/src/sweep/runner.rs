@@ -50,9 +50,8 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
     /// Runs these members, begun in this order, on the threads of the current rayon pool, each
     /// member on one.
     ///
-    /// Returns what `keep` keeps of each and its place in the sweep, in the order of the sweep
-    /// whatever that of running; `observer` may leave members out. Where there are no threads, as in
-    /// a browser, one runs after the other.
+    /// Returns what `keep` keeps of each and its place in the sweep, in the order of the sweep; `observer`
+    /// may leave members out. Where there are no threads, as in a browser, one runs after the other.
     pub fn run<T: Send>(
         &self,
         order: &[usize],

@@ -9,9 +9,9 @@ use super::row::Row;
 /// The name of the file.
 pub const SWEEP_FILE: &str = "sweep.csv";
 
-/// Writes a table of these columns, a row a member, after those of the swept `keys`, as written and in SI;
-/// numbers are the shortest that read back as the same,
-/// a cell without a value is empty. A row is let go when it is written.
+/// Writes a table of these columns, one row per member, after those of the swept `keys`, as written and in
+/// SI; numbers are the shortest that read back as the same, a cell without a value is empty. A row is let
+/// go when it is written.
 ///
 /// # Errors
 /// `to` cannot be written to.
