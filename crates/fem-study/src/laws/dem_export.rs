@@ -33,7 +33,7 @@ pub struct DemExport {
 /// A law and its values.
 #[derive(Clone, Debug)]
 pub struct FittedLaw {
-    /// Returns the name of the law as text.
+    /// The name of the law as text.
     pub name: &'static str,
     /// The bodies under it.
     pub model: Model,

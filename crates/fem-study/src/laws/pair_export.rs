@@ -16,7 +16,7 @@ use super::law_fault::LawFault;
 /// Pairs that are more than a table should hold: 45 grains.
 const MOST_GRAINS: usize = 45;
 
-/// The text of a missing value in a table.
+/// A cell of the table; `None` is empty.
 type Cell = Option<f64>;
 
 /// All pairs of some grains, each with laws of its own.

@@ -29,7 +29,7 @@ pub enum ParameterError {
         key: &'static str,
         /// The value as it was written.
         text: String,
-        /// Description of the fault.
+        /// The fault.
         error: UnitError,
     },
     /// A unit of another dimension.
@@ -55,7 +55,7 @@ pub enum ParameterError {
 }
 
 impl ParameterError {
-    /// Description of the allowed values.
+    /// Returns a description of the allowed values.
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Unknown { known, .. } => Some(format!("its parameters are {}", known.join(", "))),

@@ -4,7 +4,7 @@
 //! quantity          20 cm ± 1 mm
 //! data_error ─┬─ restitutions ─ pairs ──────── e(v) of one pair of bodies, or of several
 //!             │
-//!             └─ column_units ─ table ─┬────── restitution_columns ─ restitution_table ─ pair_table
+//!             └─ column_roles ─ table ─┬────── restitution_table ─ pair_table
 //!                speed_cm_s     CSV    └────── cradle_trials
 //! ```
 //!
@@ -12,18 +12,16 @@
 //! the feature `csv`.
 
 #[cfg(feature = "csv")]
-mod column_units;
+mod column_roles;
 #[cfg(feature = "csv")]
 mod cradle_trials;
-mod data_error;
 #[cfg(feature = "csv")]
-mod meanings;
+mod csv_dialect;
+mod data_error;
 #[cfg(feature = "csv")]
 mod pair_table;
 mod pairs;
 mod quantity;
-#[cfg(feature = "csv")]
-mod restitution_columns;
 #[cfg(feature = "csv")]
 mod restitution_table;
 mod restitutions;
@@ -31,11 +29,11 @@ mod restitutions;
 mod rows;
 #[cfg(feature = "csv")]
 mod table;
-#[cfg(feature = "csv")]
-mod written;
 
 #[cfg(feature = "csv")]
 pub use cradle_trials::cradle_trials;
+#[cfg(feature = "csv")]
+pub use csv_dialect::decode;
 pub use data_error::DataError;
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
@@ -44,7 +42,5 @@ pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError, Unev
 pub use rows::rows_below;
 #[cfg(feature = "csv")]
 pub use table::Table;
-#[cfg(feature = "csv")]
-pub use written::decode;
 
 pub use crate::fit::Point;

@@ -2,15 +2,12 @@
 
 use fem_case::Scene;
 
+use super::column_roles::DIAMETERS;
 use super::data_error::DataError;
 use super::pairs::MeasuredPairs;
-use super::restitution_columns::Wanted;
-use super::restitution_table::read_rows;
+use super::restitution_table::{Wanted, read_rows};
 use super::table::Table;
 
-/// Columns that identify the lower and the upper body; a sweep's own names come last.
-pub(super) const DIAMETERS: [[&str; 2]; 2] =
-    [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
 const SIDES: [&str; 2] = ["first", "second"];
 const LENGTH: [i32; 3] = [1, 0, 0];
 

@@ -65,7 +65,7 @@ const ANGLES: [(&str, f64); 5] =
 /// A value with or without its uncertainty, SI.
 ///
 /// # Errors
-/// The kind of quantity that the text is not.
+/// A text that is no quantity of the wanted kind.
 ///
 /// ```
 /// use fem_study::measured::{Kind, parse_measured};

@@ -37,12 +37,12 @@ pub struct Restitutions {
 pub enum UnevenUncertainties {
     /// So few rows lacked it that they were left out.
     LeftOut {
-        /// The lines of those rows.
+        /// Number of rows without an uncertainty.
         n_without: usize,
     },
     /// So few rows had it that no row is weighed by it.
     NotUsed {
-        /// The lines of those rows.
+        /// Number of rows with an uncertainty.
         n_with: usize,
     },
 }

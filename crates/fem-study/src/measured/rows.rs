@@ -2,10 +2,10 @@
 
 use fem_case::RowsFault;
 
-use super::column_units::{bare, ending_of};
+use super::column_roles::{bare, ending_of};
+use super::csv_dialect::{column_name, decode, with_point};
 use super::data_error::DataError;
 use super::table::Table;
-use super::written::{column_name, decode, with_point};
 
 /// Returns, for each row of a table, the cells below these names, as a case accepts them: a cell whose unit
 /// stands in the name of its column is a number in SI.

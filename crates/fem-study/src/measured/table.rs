@@ -8,10 +8,11 @@ use std::fmt::Display;
 
 use fem_case::{nearest, parse_quantity};
 
-use super::column_units::{bare, ending_of, readings};
+use super::column_roles::{bare, column_names, ending_of, readings};
+use super::csv_dialect::{
+    column_name, is_missing, separator, tabs_for_blanks, with_point, with_units,
+};
 use super::data_error::{DataError, one_line};
-use super::meanings::meanings;
-use super::written::{column_name, is_missing, separator, tabs_for_blanks, with_point, with_units};
 
 /// A table in memory, its cells as they are written.
 ///
@@ -144,7 +145,7 @@ impl Table {
                 return Err(self.header_fault(message).with_help(help));
             };
             let name = column_name(name);
-            let known = meanings();
+            let known = column_names();
             if !readings(&name).any(|reading| known.contains(&reading) || reading.contains('.')) {
                 let near = nearest(bare(&name), &known, 0.8);
                 let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));

@@ -75,3 +75,12 @@ impl Members for [Case] {
         make(self[index].clone())
     }
 }
+
+/// Reads a sweep file, the tables that it names and its base case; `overrides` are those of the base case.
+///
+/// # Errors
+/// Those of [`Sweep::load`].
+#[cfg(feature = "csv")]
+pub fn load(path: &std::path::Path, overrides: &[String]) -> Result<Sweep, CaseError> {
+    Sweep::load(path, overrides, &crate::measured::rows_below)
+}

@@ -4,7 +4,7 @@
 //! Members ──────── check ─────────── Runner ─────────────── Row
 //! a sweep file's,  a Member each,    one, or many on all    a Summary's columns,
 //! Variations in    who is left,      threads; Observer      sweep.csv
-//! code             dearest first     looks on, ends them
+//! code             in which order    reports, stops them
 //! ```
 //!
 //! [`sweep()`] is all of it for a case and values in code. A member is a place in a source of
@@ -13,35 +13,26 @@
 
 mod check;
 mod columns;
-mod expense;
 mod identity;
-mod in_code;
 mod key_numbers;
-#[cfg(feature = "csv")]
-mod load;
 mod members;
 mod observer;
-mod order;
 mod row;
 mod runner;
-#[cfg(feature = "files")]
-mod table;
 mod variations;
 
 pub use check::{Checked, check, check_some};
 pub use columns::{COLUMNS, Columns, column_unit, column_words, columns, key_column};
 pub use identity::Member;
-pub use in_code::sweep;
 pub use key_numbers::{KeyNumbers, NumberColumn};
-#[cfg(feature = "csv")]
-pub use load::load;
 pub use members::Members;
+#[cfg(feature = "csv")]
+pub use members::load;
 pub use observer::Observer;
-pub use order::dearest_first;
 pub use row::Row;
-pub use runner::Runner;
 #[cfg(feature = "files")]
-pub use table::{SWEEP_FILE, sweep_csv};
-pub use variations::Variations;
+pub use row::{SWEEP_FILE, sweep_csv};
+pub use runner::{Runner, most_expensive_first};
+pub use variations::{Variations, sweep};
 
 pub use fem_case::Sweep;

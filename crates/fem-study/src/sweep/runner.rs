@@ -1,14 +1,15 @@
 //! Runs one member, or many side by side.
 
-use fem_case::CaseError;
-use fem_collision::Monitor;
-use rayon::iter::{ParallelBridge, ParallelIterator};
+use std::cmp::Reverse;
 
 use super::members::Members;
 use super::observer::Observer;
+use fem_case::CaseError;
+use fem_collision::Monitor;
 use fem_simulation::ComputedCollision;
 use fem_simulation::Shared;
 use fem_simulation::Simulation;
+use rayon::iter::{ParallelBridge, ParallelIterator};
 
 /// Members and what they are run with.
 #[derive(Clone, Copy, Debug)]
@@ -84,4 +85,12 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
             ran
         })
     }
+}
+
+/// Returns all members, the most expensive first; rejected ones cost nothing.
+pub fn most_expensive_first(members: &(impl Members + ?Sized)) -> Vec<usize> {
+    let price = |index| members.build(index, |case| Simulation::price(&case)).unwrap_or(0);
+    let mut order: Vec<usize> = (0..members.n_members()).collect();
+    order.sort_by_cached_key(|index| Reverse(price(*index)));
+    order
 }

@@ -10,7 +10,7 @@ use fem::schema::{
 };
 use fem::sweep::{
     COLUMNS, Member, Members, Observer, Row, Runner, Variations, check, column_unit, column_words,
-    columns, dearest_first, load, sweep_csv,
+    columns, load, most_expensive_first, sweep_csv,
 };
 use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
 
@@ -127,7 +127,7 @@ fn a_member_is_known_by_what_it_computes() {
 }
 
 #[test]
-fn the_dearest_are_left_to_do_first_each_once() {
+fn the_most_expensive_run_first_each_once() {
     let case = pair(ModelTable::fem());
     let ting = ModelTable::ting;
     // The finer the mesh, the dearer; the cheap ones keep their order.
@@ -137,7 +137,7 @@ fn the_dearest_are_left_to_do_first_each_once() {
         mesh.contact_element_size = Some((factor * 0.2e-3).into());
         file.model = Some(model);
     });
-    assert_eq!(dearest_first(&members), [2, 1, 0, 3]);
+    assert_eq!(most_expensive_first(&members), [2, 1, 0, 3]);
     let mut seen = Vec::new();
     let mut see = |member: &Member, _: &CaseFile| seen.push(*member);
     let all = check(&members, |_| true, |_| false, &mut see).unwrap();

@@ -1,4 +1,4 @@
-//! Units in the names of columns: `speed_cm_s`, `alpha_deg`.
+//! The roles and the units of columns by their names: `speed_cm_s`, `alpha_deg`.
 
 use std::f64::consts::PI;
 
@@ -59,6 +59,37 @@ pub(super) fn bare(header: &str) -> &str {
 pub(super) fn readings(header: &str) -> impl Iterator<Item = &str> {
     let bare = ENDINGS.iter().filter_map(|ending| header.strip_suffix(ending.text));
     std::iter::once(header).chain(bare)
+}
+
+pub(super) const SPEEDS: [&str; 10] = [
+    "speed",
+    "approach_speed",
+    "impact_speed",
+    "relative_speed",
+    "incident_speed",
+    "velocity",
+    "impact_velocity",
+    "relative_velocity",
+    "incident_velocity",
+    "v",
+];
+pub(super) const RESTITUTIONS: [&str; 5] =
+    ["restitution", "coefficient_of_restitution", "restitution_coefficient", "cor", "e"];
+pub(super) const UNCERTAINTIES: [&str; 5] =
+    ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
+pub(super) const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];
+/// Columns that identify the lower and the upper body; a sweep's own names come last.
+pub(super) const DIAMETERS: [[&str; 2]; 2] =
+    [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
+/// Columns of the trials of a cradle.
+const ANGLES: [&str; 4] = ["alpha", "beta", "alpha_uncertainty", "beta_uncertainty"];
+
+/// Returns all names that a column may have, without units; among synonyms the preferred name comes first.
+pub(super) fn column_names() -> Vec<&'static str> {
+    let diameters = DIAMETERS.map(|[name, _]| name);
+    let all: [&[&str]; 6] =
+        [&SPEEDS, &RESTITUTIONS, &UNCERTAINTIES, &CONTACT_TIMES, &diameters, &ANGLES];
+    all.concat()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use fem_case::parse_quantity;
 
-use super::column_units::ending_like;
+use super::column_roles::ending_like;
 
 /// The text of a file: UTF-16 by its mark or by its zeros, UTF-8, or else Latin-1, of which every byte is a
 /// letter.
