@@ -278,6 +278,25 @@ fn only_the_command_knows_a_terminal() {
     assert!(TERMINAL.iter().all(|name| command.contains(*name)), "a name that nobody has");
 }
 
+/// `cargo test` and `cargo build` take every crate but two.
+#[test]
+fn every_crate_but_two_is_a_default_member() {
+    let manifest: toml::Table =
+        fs::read_to_string(root().join("Cargo.toml")).expect("a manifest").parse().expect("TOML");
+    let patterns = manifest["workspace"]["default-members"].as_array().expect("default members");
+    let is_default = |name: &str| {
+        let folder = if name == "fem-validate" { "validation" } else { &format!("crates/{name}") };
+        patterns.iter().filter_map(|pattern| pattern.as_str()).any(|pattern| {
+            let others = pattern.strip_suffix("[!p]*");
+            others.map_or(pattern == folder, |before| {
+                folder.strip_prefix(before).is_some_and(|rest| !rest.starts_with('p'))
+            })
+        })
+    };
+    let others: Vec<String> = workspace().into_keys().filter(|name| !is_default(name)).collect();
+    assert_eq!(others, ["fem-fuzz", PYTHON]);
+}
+
 #[test]
 fn every_crate_has_the_lints_of_the_workspace() {
     for (name, own) in workspace() {
