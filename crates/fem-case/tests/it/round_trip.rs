@@ -173,7 +173,7 @@ fn truncated_and_mutated_cases_never_panic() {
         "\r",
         "\u{feff}",
     ];
-    for _ in 0..20_000 {
+    for _ in 0..2_000 {
         let mut text: Vec<char> = FULL.chars().collect();
         for _ in 0..=random(3) {
             let start = random(text.len());
@@ -185,7 +185,7 @@ fn truncated_and_mutated_cases_never_panic() {
     }
     let overrides =
         ["body.0.sphere.diameter='1 mm'", "material.\"my glass\".density=1", "a.b=[{}]"];
-    for _ in 0..20_000 {
+    for _ in 0..2_000 {
         let mut text: Vec<char> = overrides[random(overrides.len())].chars().collect();
         for _ in 0..=random(3) {
             let start = random(text.len());
@@ -201,7 +201,7 @@ fn truncated_and_mutated_cases_never_panic() {
     read(FULL, &[format!("{}a=1", "a.".repeat(100_000))]);
     read(FULL, &[format!("model.law={}", "[".repeat(100_000))]);
     read(&FULL.replace("1.2345 km/h", &"(".repeat(100_000)), &[]);
-    assert!(n_valid > 100 && n_faults > 10_000, "{n_valid} valid, {n_faults} faults");
+    assert!(n_valid > 10 && n_faults > 1_000, "{n_valid} valid, {n_faults} faults");
 }
 
 fn repository_case(name: &str) -> Case {

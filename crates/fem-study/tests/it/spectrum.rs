@@ -95,7 +95,7 @@ fn intervals_are_honest_under_noise() {
         (random >> 11) as f64 / (1u64 << 53) as f64
     };
     let mut held = 0;
-    const TRIALS: usize = 12;
+    const TRIALS: usize = 6;
     for _ in 0..TRIALS {
         let mut noise = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
         let measured: Vec<f64> = exact.iter().map(|e| e + size * noise()).collect();
@@ -106,8 +106,8 @@ fn intervals_are_honest_under_noise() {
         };
         held += usize::from(holds(0)) + usize::from(holds(1));
     }
-    // 22.8 of 24 expected; the two of a trial are correlated, so 19 is 2.5 deviations below.
-    assert!(held >= 19, "{held} of {}", 2 * TRIALS);
+    // 11.4 of 12 are expected; the two of a trial are correlated.
+    assert!(held >= 9, "{held} of {}", 2 * TRIALS);
     let narrow = fit(&exact, Some(&[size; SPEEDS.len()]), &times, 0.0).unwrap();
     // An interval that holds everything would be honest, too.
     assert!(narrow.weight_ranges[1].high - narrow.weight_ranges[1].low < 0.2, "{narrow:?}");

@@ -92,6 +92,7 @@ fn a_mesh_that_does_not_do_is_made_finer() {
 /// Soft spheres as they come, a ball that is pressed by half at half of its shear wave speed among them: within
 /// the tolerance of this program's own finest meshes, which have two to three times as short elements.
 #[test]
+#[ignore = "41 s; .ci/run runs it"]
 fn soft_spheres_are_within_the_tolerance_of_recorded_ones() {
     let ten = ["material.rubber.density=1000", "body.1.approach_speed='10 m/s'"];
     for (text, set, recorded) in [

@@ -236,7 +236,7 @@ fn no_case_file_panics_and_each_is_as_its_text() {
     let base = parsed(&[]);
     let mut random = Random(1);
     let is_named = |error: &CaseError| error.key() == Some(error.source_name());
-    for _ in 0..20_000 {
+    for _ in 0..2_000 {
         let file = random.file();
         let text = file.to_toml().unwrap();
         let read = Case::parse("made.toml", &text, Path::new("."), &[]);
@@ -266,5 +266,5 @@ fn no_case_file_panics_and_each_is_as_its_text() {
             }
         }
     }
-    assert!(n_valid > 1000 && n_faults > 1000, "{n_valid} valid, {n_faults} faults");
+    assert!(n_valid > 100 && n_faults > 100, "{n_valid} valid, {n_faults} faults");
 }
