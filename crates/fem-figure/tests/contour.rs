@@ -1,4 +1,4 @@
-//! Bands of known fields: their areas, whatever the levels.
+//! Contour bands of known fields cover the known areas for any choice of levels.
 
 use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
 
@@ -8,7 +8,7 @@ fn square(n: usize, field: impl Fn([f64; 2]) -> f64) -> Section {
     for j in 0..=n {
         for i in 0..=n {
             let [x, y] = [i, j].map(|k| k as f64 / n as f64);
-            // Points inside are moved about; those of the outline stay on it.
+            // Interior points are displaced; points of the outline stay on it.
             let shift = 0.1 * (3.1 * (i * 7 + j * 5) as f64).sin() / n as f64;
             let inside = |k: usize| if k.is_multiple_of(n) { 0.0 } else { shift };
             points.push([x + inside(i), y + inside(j)]);
@@ -24,7 +24,7 @@ fn square(n: usize, field: impl Fn([f64; 2]) -> f64) -> Section {
     Section { points, values, quads, outline }
 }
 
-/// Rounding of some hundred sums of terms of order one.
+/// Rounding error of a few hundred sums of terms of order one.
 const ROUNDING: f64 = 1e-13;
 
 #[test]
@@ -118,7 +118,7 @@ fn the_picture_has_bands_numbers_and_outlines() {
     };
     let svg = contour.svg();
     assert_eq!(svg, contour.svg());
-    // Four bands below the neutral one, which is drawn too, and one outline.
+    // Four bands below the neutral one, which is drawn as well, and one outline.
     assert_eq!(svg.matches("<path fill=\"#").count(), 5);
     assert_eq!(svg.matches("fill=\"none\" stroke=").count(), 2);
     for expected in ["stress &lt;GPa&gt;", "\u{2212}0.8", "r [mm]", "(a)"] {
@@ -126,7 +126,8 @@ fn the_picture_has_bands_numbers_and_outlines() {
     }
 }
 
-/// What touches the axis is one polygon with its image, a hole stays one, and what does not is two.
+/// A region that touches the axis forms one polygon with its mirror image, a hole stays one, and a region
+/// away from the axis forms two.
 #[test]
 fn a_half_region_and_its_image_have_no_seam() {
     let half = square(16, |[x, y]| x.hypot(y - 0.5));
@@ -139,12 +140,12 @@ fn a_half_region_and_its_image_have_no_seam() {
     assert!((ring.area() - 2.0 * around.area()).abs() < ROUNDING);
     let aside = Region::at_least(&half, 0.9);
     assert_eq!(aside.mirrored().loops.len(), 2 * aside.loops.len());
-    // The same as the region of the section with its image.
+    // It equals the region of the section together with its image.
     let whole = Region::at_most(&half.mirrored(), 0.3);
     assert!((disc.area() - whole.area()).abs() < ROUNDING);
 }
 
-/// A frame shows what the picture of all panels shows, from half of the section.
+/// A frame made from half of the section shows what the picture of all panels shows.
 #[test]
 fn frames_have_classes_for_a_page_to_restyle() {
     let half = square(8, |[x, y]| 0.3 * y - x * y);
@@ -164,7 +165,7 @@ fn frames_have_classes_for_a_page_to_restyle() {
         for class in ["b0", "n1", "n3", "p1"] {
             assert!(frame.contains(&format!("class=\"{class}\" fill=\"#")), "{class}");
         }
-        // Nothing that two pictures of a page could both be called.
+        // The frame has no identifiers, which two pictures on one page could share.
         assert!(!frame.contains(" id=") && frame.matches("<svg").count() == 2);
     }
     let (bar, rules) = (contour.bar(), contour.dark_rules());

@@ -21,7 +21,7 @@ fn force() -> Chart {
 fn a_panel_is_small_and_names_its_curves() {
     let svg = panel(&force()).unwrap();
     assert_eq!(svg, panel(&force()).unwrap());
-    // A thousand points of a smooth curve are some dozens of a picture.
+    // A picture keeps a few dozen of the thousand points of a smooth curve.
     assert!(svg.len() < 6000, "{}", svg.len());
     for expected in [">this run<", ">Hertz<", ">force F [N]<", ">time t [µs]<", ">100<"] {
         assert!(svg.contains(expected), "{expected}");
@@ -32,7 +32,7 @@ fn a_panel_is_small_and_names_its_curves() {
     }
 }
 
-/// The peak of 98 N is drawn where the axis has 98: between the lines of 80 and 100.
+/// The peak of 98 N is drawn at 98 on the axis, between the lines of 80 and 100.
 #[test]
 fn a_curve_lies_where_its_axis_says() {
     let svg = panel(&force()).unwrap();
@@ -45,7 +45,7 @@ fn a_curve_lies_where_its_axis_says() {
     };
     let dot = svg.split("cy=\"").nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap();
     let expected = line("80") + (line("100") - line("80")) * 0.9;
-    // Places are written to a tenth of a pixel.
+    // Coordinates are written to a tenth of a pixel.
     assert!((dot - expected).abs() < 0.2, "{dot} {expected}");
 }
 
@@ -65,7 +65,7 @@ fn names_are_text_and_nothing_else() {
     assert!(svg.contains("&lt;script&gt;&amp;") && !svg.contains("<script"));
 }
 
-/// A picture by itself is XML: no attribute twice, every element closed.
+/// A stand-alone picture is valid XML: no attribute is repeated, every element is closed.
 #[test]
 fn pictures_are_well_formed() {
     let band = force().with_band("range", vec![(0.0, 1.0, 2.0), (60.0, 3.0, 5.0)], GREY);

@@ -17,7 +17,7 @@ pub struct Charts {
     pub force: Option<String>,
     /// The approach of the mass centres.
     pub approach: Option<String>,
-    /// The energies.
+    /// The energies, by account.
     pub energy: Option<String>,
 }
 

@@ -6,9 +6,9 @@ use serde::Serialize;
 /// An error of a case, its position, and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CaseFault {
-    /// The error.
+    /// The error, in one sentence.
     pub message: String,
-    /// What is allowed, or what to do.
+    /// The allowed values, or what to do.
     pub help: Option<String>,
     /// The dotted path of the key.
     pub key: Option<String>,

@@ -8,7 +8,7 @@ use serde::Serialize;
 pub struct LibraryEntry {
     /// Name, without `lib:`.
     pub name: &'static str,
-    /// Title.
+    /// Title for the list of materials.
     pub title: &'static str,
     /// Source of the numbers.
     pub source: &'static str,

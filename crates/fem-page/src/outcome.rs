@@ -1,4 +1,4 @@
-//! What the page receives before and after a run.
+//! Everything that the page receives before and after a run.
 
 use fem::{CaseFile, Collision, Cost, HistoryRow, Summary};
 use serde::Serialize;

@@ -25,7 +25,7 @@ const MOST_KEPT: usize = 200_000_000;
 /// Largest progress of an unfinished run.
 const MOST_UNDER_WAY: f64 = 0.999;
 
-/// How much a run records.
+/// The amount that a run records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordedAmount {
     /// Rows of the history over the expected contact.

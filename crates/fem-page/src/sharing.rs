@@ -8,7 +8,7 @@
 //! \qquad \frac1{m^*} = \frac1{m_1}+\frac1{m_2}
 //! ```
 //!
-//! (König's theorem). Of the relative part, e² is returned as rebound. If a body of infinite mass is at rest, the
+//! (König's theorem). The rebound returns e² of the relative part. If a body of infinite mass is at rest, the
 //! whole motion is relative to it. Energies of the bodies are those of the summary.
 
 use fem::{Account, Collision, HistoryRow};
@@ -21,7 +21,7 @@ pub struct EnergyShares {
     pub common_j: f64,
     /// Energy of the relative motion before the collision, J: the most that a collision can dissipate.
     pub relative_j: f64,
-    /// What it has become, J: `rebound` first, then the remaining motion, `ringing`, then the other
+    /// The parts into which it has turned, J: `rebound` first, then the remaining motion, `ringing`, then the other
     /// accounts by name.
     pub parts: Vec<(&'static str, f64)>,
 }

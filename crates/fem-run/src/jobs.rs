@@ -17,11 +17,11 @@ use crate::text::failure::Failure;
 /// The input of a job.
 #[derive(Clone, Debug, Default)]
 pub struct Given {
-    /// The case.
+    /// The case that the job starts from.
     pub case: Option<Case>,
     /// The name of the case in messages.
     pub name: String,
-    /// Measured data.
+    /// Measured data points.
     pub table: Option<Table>,
 }
 

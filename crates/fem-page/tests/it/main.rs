@@ -1,4 +1,4 @@
-//! The page's module, run where tests run.
+//! Tests of the browser page's module, run natively.
 
 mod pictures;
 mod session;

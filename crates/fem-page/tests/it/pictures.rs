@@ -1,4 +1,4 @@
-//! Pictures: of what the bodies do, and of what a page asks for.
+//! Pictures of a collision, and charts that a page requests.
 
 use fem_page::{ChartSpec, RecordedAmount, Session};
 
@@ -6,8 +6,8 @@ use crate::session::{CONDENSED, GLASS, run};
 
 const ASK: RecordedAmount = RecordedAmount { rows: 300, frames: 3 };
 
-/// The middle of three instants is within a step of the largest approach: its stress is the largest
-/// pressure, recovered from elements of a twelfth of the contact, and its force the largest force.
+/// The middle of three recorded times is within one step of the largest approach: its stress is the largest
+/// pressure, recovered from elements of a twelfth of the contact radius, and its force the largest force.
 #[test]
 fn the_picture_of_the_middle_has_the_largest_pressure() {
     let mut session = Session::default();
@@ -17,9 +17,9 @@ fn the_picture_of_the_middle_has_the_largest_pressure() {
     let pressure = outcome.summary.collision.peak_pressure_pa.unwrap();
     assert!((-middle.range_pa.0 / pressure - 1.0).abs() < 0.06, "{:?}", middle.range_pa);
     let force = outcome.summary.collision.peak_force_n.unwrap();
-    // An elastic pulse falls by a hundredth within a twentieth of its length from the top.
+    // An elastic pulse falls by a hundredth within a twentieth of its length from its peak.
     assert!((outcome.frames[1].contact_force_n.unwrap() / force - 1.0).abs() < 0.01);
-    // All instants have one scale, and every band a colour on both grounds.
+    // All times have one scale, and every band has a colour on light and on dark backgrounds.
     assert_eq!(
         (first.bar.as_str(), first.dark_rules.as_str()),
         (&*middle.bar, &*middle.dark_rules)
@@ -27,7 +27,7 @@ fn the_picture_of_the_middle_has_the_largest_pressure() {
     assert!(middle.svg.contains("in striker (below) and target (above)"));
     assert!(middle.svg.contains("class=\"n9\"") && !first.svg.contains("class=\"n9\""));
     assert!(session.picture(3, 2.5).is_none());
-    // No window is larger than the larger sphere to each side, 22.2 mm.
+    // No window reaches farther than the larger sphere to each side, 22.2 mm.
     let [whole, beyond] = [200.0, 1e9].map(|width| session.picture(0, width).unwrap().svg);
     assert_eq!(whole, beyond);
 }
@@ -43,7 +43,8 @@ fn a_model_without_elements_has_no_picture_but_curves() {
     }
 }
 
-/// What is nothing next to the rest has no curve: glass without relaxation loses no energy to it.
+/// An energy that is negligible next to the others has no curve: glass without relaxation loses no energy
+/// to it.
 #[test]
 fn energy_has_a_curve_where_there_is_some() {
     let of = |text: &str| {
@@ -55,8 +56,8 @@ fn energy_has_a_curve_where_there_is_some() {
     assert!(!of(elastic).contains("dissipation") && of(elastic).contains(">relative motion<"));
 }
 
-/// Ting's model knows what is stored and what is heat only in the end: until then the two are one curve, from first
-/// touch on.
+/// Ting's model separates stored energy from heat only at the end: until then they are one curve, from
+/// first touch on.
 #[test]
 fn what_a_model_does_not_tell_apart_is_one_curve() {
     let ting = GLASS.to_string() + "\n[model]\nting = {}\n";
@@ -104,7 +105,7 @@ fn a_page_asks_for_charts_of_its_own() {
              {"label": "measured", "mark": "points", "points": [[0.5, 66.0]]}]}"#,
     );
     let svg = chart.unwrap().svg().expect("points");
-    // Points, and the mark of each curve in the legend.
+    // Points, and one mark per curve in the legend.
     assert_eq!(svg.matches("<circle").count(), 2 + 1 + 2);
     assert!(spec(r#"{"x": "", "y": "", "curves": []}"#).unwrap().svg().is_none());
     assert!(spec(r#"{"x": "", "y": "", "curves": [], "z": 1}"#).is_err());

@@ -1,4 +1,5 @@
-//! A session gives what the front door gives, whatever came before, and says what is wrong.
+//! A session gives the same results as `fem::Simulation`, whatever it computed before, and its messages say
+//! what is wrong.
 
 use std::path::Path;
 
@@ -21,10 +22,9 @@ fn fault(text: &str) -> CaseFault {
     Session::default().begin(text, ASK).expect_err("a fault").into()
 }
 
-/// The same bits as the command's, after other cases too: what sliders ask for on the way leaves no
-/// trace.
+/// The results have the same bits as the command's, also after other cases and after unfinished ones.
 #[test]
-fn numbers_are_those_of_the_front_door_whatever_came_before() {
+fn numbers_are_those_of_a_simulation_whatever_came_before() {
     let mut session = Session::default();
     let text = GLASS.to_string() + CONDENSED;
     for other in [&text.replace("22.2 mm", "10 mm"), &text.replace("0.5 m/s\"", "3 m/s\""), &text] {
@@ -45,8 +45,9 @@ fn numbers_are_those_of_the_front_door_whatever_came_before() {
     }
 }
 
-/// By König's theorem the rebound is e² of the motion towards each other, and the common motion is what the
-/// mass centre has: of unequal spheres by hand, of a wall none. All that was there is somewhere.
+/// By König's theorem the rebound keeps e² of the energy of the relative motion, and the energy of the
+/// common motion is that of the mass centre: checked by hand for unequal spheres and for a wall. The shares
+/// sum to the initial energy.
 #[test]
 fn the_rebound_is_the_square_of_the_restitution() {
     for (text, common) in [(GLASS, 13.691_639 / 18.721_870), (WALL, 0.0)] {
@@ -59,17 +60,17 @@ fn the_rebound_is_the_square_of_the_restitution() {
             let restitution = summary.collision.restitution.unwrap();
             let whole = sharing.common_j + sharing.relative_j;
             assert!((rebound / sharing.relative_j / restitution.powi(2) - 1.0).abs() < 1e-9);
-            // Masses as written, of seven digits.
+            // The masses are written with seven digits.
             assert!((sharing.common_j / whole - common).abs() < 1e-7, "{sharing:?}");
             let parts: f64 = sharing.parts.iter().map(|(_, energy)| energy).sum();
-            // What balances leave of contacts by penalty, explicit: 1e-4.
+            // Explicit runs with penalty contacts leave 1e-4 of the energy unaccounted for.
             assert!((parts / sharing.relative_j - 1.0).abs() < 1e-3, "{model}: {sharing:?}");
         }
     }
 }
 
-/// Glass that relaxes within a microsecond does not come back. All that could be lost is heat, and nothing is said of
-/// a contact time that there is not.
+/// Glass that relaxes within a microsecond does not rebound. All energy that could be lost is heat, and no
+/// contact time is reported.
 #[test]
 fn bodies_that_stay_together_have_no_contact_time() {
     let text = GLASS.replace("2708 1/s", "1e6 1/s") + CONDENSED;
@@ -107,7 +108,7 @@ fn faults_say_where_and_what_is_allowed() {
     assert!(!fault("title = [").text.is_empty());
 }
 
-/// A browser has less memory than the plan allows; who knows better says so in the case.
+/// A browser has less memory than the plan allows; the case can set a higher limit.
 #[test]
 fn what_a_browser_has_no_memory_for_is_refused() {
     let fine = GLASS.to_string() + "[mesh]\ncontact_element_size = \"2 um\"\n" + CONDENSED;
@@ -117,7 +118,7 @@ fn what_a_browser_has_no_memory_for_is_refused() {
     assert!(Session::default().begin(&own, ASK).is_err());
 }
 
-/// A run that the reader ends is told as far as it got; nothing runs after it.
+/// A run that the reader ends is reported as far as it got; nothing is computed afterwards.
 #[test]
 fn a_run_can_be_ended_before_it_is_over() {
     let mut session = Session::default();
@@ -130,7 +131,7 @@ fn a_run_can_be_ended_before_it_is_over() {
     assert!(session.finish(1.0).is_none() && session.advance(1) == 1.0);
 }
 
-/// A fault leaves nothing of the case before.
+/// An invalid case discards the case before it.
 #[test]
 fn a_fault_leaves_nothing_to_run() {
     let mut session = Session::default();
@@ -139,7 +140,7 @@ fn a_fault_leaves_nothing_to_run() {
     assert!(session.finish(0.0).is_none() && session.picture(0, 2.0).is_none());
 }
 
-/// More than a run keeps is refused in words.
+/// A request for more frames than a run keeps is rejected with a message.
 #[test]
 fn more_frames_than_a_run_keeps_are_refused() {
     let ask = RecordedAmount { frames: 100_000_000, ..ASK };

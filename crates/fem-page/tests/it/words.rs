@@ -1,4 +1,4 @@
-//! What the page says in words of its own is said of everything that results name.
+//! The page has a text of its own for everything that results name.
 
 use fem::Account;
 use fem::effects::EFFECTS;
@@ -12,7 +12,7 @@ fn every_effect_and_account_has_plain_words() {
     for effect in EFFECTS {
         assert!(WORDS.contains(&format!("  '{}': '", effect.name())), "{}", effect.name());
     }
-    // The work of a wall is given, not held: what there was at first.
+    // The work of a wall is supplied during the collision; the others are present from the start.
     for account in Account::all().filter(|account| *account != Account::WallWork) {
         assert!(WORDS.contains(&format!("  {}: '", account.name())), "{}", account.name());
     }
@@ -21,7 +21,7 @@ fn every_effect_and_account_has_plain_words() {
     }
 }
 
-/// The page cuts a relaxation off at its table, and begins with a material of the library.
+/// The page cuts a relaxation off at its table, and starts with a material of the library.
 #[test]
 fn materials_have_their_relaxation_last() {
     let all = LibraryEntry::all();

@@ -16,7 +16,7 @@ pub struct Findings<'a> {
     pub default: CaseFile,
     /// The tolerances of the case.
     pub accuracy: Accuracy,
-    /// The variants.
+    /// The variants that were run.
     pub ladder: &'a Ladder,
     /// Result and run time of each variant.
     pub measured: &'a [Option<(Measurement, f64)>],
@@ -30,15 +30,15 @@ pub struct Findings<'a> {
 
 /// A variant that ran.
 pub struct Line<'a> {
-    /// Its index.
+    /// Its index among the variants.
     pub index: usize,
-    /// The variant.
+    /// The setting of the variant.
     pub rung: &'a Rung,
-    /// Its result.
+    /// Its numbers.
     pub measurement: &'a Measurement,
     /// Its run time, s.
     pub seconds: f64,
-    /// Its errors.
+    /// Its errors and whether they are small enough.
     pub judged: Judged,
 }
 

@@ -84,7 +84,7 @@ pub struct PlotArguments {
     quiet: bool,
 }
 
-/// A figure.
+/// The figures of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Figure {
     /// Axial stress around the contact at the snapshots

@@ -1,4 +1,4 @@
-//! `fem-run schema`.
+//! `fem-run schema`: the JSON schema of case and sweep files.
 
 use fem_case::json_schema;
 use serde_json::Value;
@@ -21,9 +21,9 @@ pub struct Arguments {
 
 #[derive(clap::ValueEnum, Clone, Copy, Debug)]
 enum Of {
-    /// Case files
+    /// Schema of case files
     Case,
-    /// Sweep files
+    /// Schema of sweep files
     Sweep,
 }
 

@@ -12,7 +12,7 @@ use crate::text::standard_output;
 /// For bash: fem-run completions bash > ~/.local/share/bash-completion/completions/fem-run
 #[derive(clap::Args, Debug)]
 pub struct CompletionArguments {
-    /// The shell
+    /// Shell for which to write completions
     shell: Shell,
 }
 

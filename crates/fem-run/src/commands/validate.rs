@@ -70,7 +70,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Evaluates claims.
+/// Evaluates claims and prints their state.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let claims = load_claims(&arguments.claims, &arguments.names).map_err(refused)?;
     if claims.is_empty() {

@@ -9,7 +9,7 @@ use serde_json::json;
 use crate::text::failure::Failure;
 use fem::results::{PROGRAM, SUMMARY_FILE};
 
-/// The page.
+/// File name of the page.
 pub const PAGE_FILE: &str = "index.html";
 /// The table, one row per check.
 const TABLE_FILE: &str = "checks.csv";

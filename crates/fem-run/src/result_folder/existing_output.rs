@@ -21,10 +21,10 @@ const HEAD_BYTES: u64 = 1024;
 /// The file that the process writing a hidden folder keeps locked.
 pub const LOCK_FILE: &str = ".fem-run-lock";
 
-/// What exists at a path.
+/// The kind of file that exists at a path.
 #[derive(Debug)]
 pub enum ExistingOutput {
-    /// Nothing.
+    /// Nothing exists there.
     Absent,
     /// An empty folder.
     Empty,
@@ -32,7 +32,7 @@ pub enum ExistingOutput {
     Result(ExistingResult),
     /// A folder that is no result of this program.
     Foreign,
-    /// A file.
+    /// A file, not a folder.
     File,
 }
 

@@ -139,7 +139,7 @@ fn lock_last(path: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// Recovers what killed processes left in a folder: finished results are moved to their places, files of the
-/// user go back to their result, everything else is removed. What cannot be removed stays.
+/// user go back to their result, everything else is removed. Files that cannot be removed stay.
 pub fn recover_leftovers(parent: &Path) {
     let Ok(entries) = fs::read_dir(parent) else { return };
     let names = entries.filter_map(Result::ok).map(|entry| entry.file_name());

@@ -20,7 +20,7 @@ const MOST_SHOWN: usize = 40;
 /// Most failed members that are named.
 const MOST_NAMED: usize = 40;
 
-/// What is known of a sweep's members.
+/// The known results of a sweep's members.
 #[derive(Clone, Debug, Default)]
 pub struct SweepOutcome {
     /// Members that are done.
@@ -49,15 +49,15 @@ struct MemberScan {
 
 /// A sweep and the place of its results.
 pub struct Collector<'a> {
-    /// The sweep.
+    /// The sweep as its file describes it.
     pub sweep: &'a Sweep,
-    /// All members.
+    /// All members of the sweep.
     pub members: &'a [Member],
     /// The folder of the results.
     pub folder: &'a mut SweepFolder,
     /// The values of the varied keys.
     pub numbers: &'a KeyNumbers,
-    /// What the figure shows.
+    /// The quantities that the figure shows.
     pub choice: &'a FigureChoice,
 }
 

@@ -21,7 +21,7 @@ use crate::text::standard_output::one_line;
 
 /// The manifest: the varied keys, and the values and identities of the members.
 pub const MANIFEST_FILE: &str = "sweep.json";
-/// The figure.
+/// The figure of the sweep.
 pub const FIGURE_FILE: &str = "sweep.svg";
 const MEMBERS: &str = "members";
 /// Summaries that are in memory at the same time.

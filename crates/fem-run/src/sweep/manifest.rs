@@ -9,9 +9,9 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// The content of the manifest.
 pub struct Manifest<'a> {
-    /// The sweep.
+    /// The sweep as its file describes it.
     pub sweep: &'a Sweep,
-    /// All members.
+    /// All members of the sweep.
     pub members: &'a [Member],
     /// Overrides of the base case.
     pub set: &'a [String],

@@ -24,7 +24,7 @@ const ENDING: &str = ".jsonl";
 /// Which member files are read.
 #[derive(Clone, Copy, Debug)]
 pub enum ShardFilter {
-    /// All files.
+    /// The files of all shards.
     All,
     /// The files of this shard, and those of shardings into another number, which had other members. The
     /// other shards of the same sharding hold none of its members.

@@ -24,7 +24,7 @@ use crate::text::failure::Failure;
 
 /// The members to run and their environment.
 pub struct SweepJob<'a> {
-    /// The sweep.
+    /// The sweep as its file describes it.
     pub sweep: &'a Sweep,
     /// The members in order, those to run among them.
     pub members: &'a [Member],

@@ -10,15 +10,15 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All members.
+    /// All members of the sweep.
     pub const WHOLE: Self = Self { first: 0, step: 1 };
 
-    /// Returns K.
+    /// Returns K of `K/N`, from 1.
     pub fn number(&self) -> usize {
         self.first + 1
     }
 
-    /// Returns N.
+    /// Returns N of `K/N`.
     pub fn step(&self) -> usize {
         self.step
     }

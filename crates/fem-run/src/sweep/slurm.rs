@@ -21,7 +21,7 @@ use crate::arguments::case::{parse_count, stem_of};
 use crate::text::failure::Failure;
 use crate::text::standard_output::one_line;
 
-/// The script.
+/// File name of the script for `sbatch`.
 const SCRIPT_FILE: &str = "sweep.sbatch";
 /// Target time of a task, s: long for a scheduler, short enough to be lost.
 const TASK_SECONDS: f64 = 300.0;

@@ -126,7 +126,7 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
     writer.into_inner().map_err(|error| Failure::failed(error.to_string()))
 }
 
-/// Returns `export.json`.
+/// Returns the text of `export.json`.
 ///
 /// # Errors
 /// The numbers cannot be written as JSON.

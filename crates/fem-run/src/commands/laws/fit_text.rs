@@ -129,7 +129,7 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
     text + "\n"
 }
 
-/// Returns `ranking.csv`.
+/// Returns the text of `ranking.csv`.
 pub fn ranking_csv(ranking: &LawRanking) -> String {
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
     let mut text = "law,free,rms_error,aicc_difference,evidence\n".to_string();

@@ -44,7 +44,7 @@ pub struct Arguments {
 
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq)]
 enum Partner {
-    /// Another sphere
+    /// The target is another sphere
     Sphere,
     /// A rigid plane
     Wall,
