@@ -8,15 +8,15 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::body::Shape;
-use crate::document::{Document, Insertions};
 use crate::error::CaseError;
-use crate::explain::{explain, listed};
-use crate::faults::{self, Repair};
 use crate::library;
 use crate::quantity::Quantity;
 use crate::scene::Scene;
+use crate::scene::body::Shape;
 use crate::schema::{CaseFile, is_list};
+use crate::source::document::{Document, Insertions};
+use crate::source::error_recovery::{self, Repair};
+use crate::source::explain::{explain, listed};
 use crate::validate::validate;
 
 /// Larger than any case, smaller than what hurts.
@@ -165,7 +165,7 @@ impl Case {
             let document = Document::parse(name, text, overrides, None, repairs)?;
             Case::of_document(document, stem, folder)
         };
-        read(&[]).map_err(|first| faults::all(first, |repairs| read(repairs).err()))
+        read(&[]).map_err(|first| error_recovery::all(first, |repairs| read(repairs).err()))
     }
 
     /// The case of a text with insertions, or its first fault.
@@ -195,7 +195,7 @@ impl Case {
             let document = Document::parse(name, text, overrides, Some(insertions()), repairs);
             document.and_then(|document| Case::of_document(document, name, folder)).err()
         };
-        read(&[]).map_or_else(Vec::new, |first| faults::all(first, read).each().collect())
+        read(&[]).map_or_else(Vec::new, |first| error_recovery::all(first, read).each().collect())
     }
 
     fn of_document(

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::key_path::join;
+use crate::source::key_path::join;
 
 /// Something wrong with a case file, with an override of it, or with a case made in code.
 ///

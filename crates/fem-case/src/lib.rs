@@ -51,62 +51,33 @@
 //! # Ok::<(), fem_case::CaseError>(())
 //! ```
 
-mod accuracy_table;
-mod body;
-mod body_tables;
 mod case;
-mod document;
-mod empty_table;
 mod error;
-mod explain;
-mod faults;
-mod gravity;
-mod gravity_tables;
-#[cfg(feature = "schema")]
-mod json_rules;
 #[cfg(feature = "schema")]
 pub mod json_schema;
-mod key_path;
-mod keyword;
 pub mod library;
-mod material_tables;
-mod model;
-mod model_tables;
-mod number_at;
-mod oddities;
-mod overrides;
-mod positions;
-mod probe_table;
 mod quantity;
-#[cfg(feature = "schema")]
-mod quantity_pattern;
 mod scene;
 pub mod schema;
+mod source;
 mod sweep;
-mod sweep_axes;
-mod sweep_faults;
-mod sweep_file;
-mod sweep_values;
-mod toml_text;
-mod unit_table;
-mod units;
 mod validate;
 
-pub use body::{Body, Shape};
 pub use case::{Case, text_at};
 pub use error::CaseError;
-pub use explain::nearest;
 pub use fem_material::engineering;
-pub use gravity::{Gravity, impact_speed};
-pub use model::{CondensedOptions, ModelChoice};
+pub use quantity::units::{Dimension, UnitError, parse_quantity};
 pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
+pub use scene::body::{Body, Shape};
+pub use scene::gravity::{Gravity, impact_speed};
+pub use scene::model::{CondensedOptions, ModelChoice};
 pub use scene::{Accuracy, Limits, MeshSettings, Probe, Scene, Snapshots};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
+pub use source::explain::nearest;
 pub use sweep::Sweep;
-pub use sweep_axes::{Axis, Element, SweptKey};
-pub use sweep_file::{Combine, Keep, PlotTable};
-pub use sweep_values::{ReadRows, RowsFault};
-pub use units::{Dimension, UnitError, parse_quantity};
+pub use sweep::axes::{Axis, Element, SweptKey};
+pub use sweep::file::{Combine, Keep, PlotTable};
+pub use sweep::values::{ReadRows, RowsFault};

@@ -4,12 +4,12 @@ use fem_collision::{
     Collision, Ending, Frame, Monitor, OutputRequest, Phase, SnapshotRequest, Stop,
 };
 
-use crate::damping::Damping;
 use crate::error::CondensedError;
-use crate::motion::Motion;
+use crate::motion::ImpactMotion;
 use crate::pair::CondensedPair;
-use crate::run::Run;
+use crate::run::ImpactRun;
 use crate::settings::ContactModel;
+use crate::settings::Damping;
 
 /// Reach of the points that are followed over the elastic contact radius; a collision that needs
 /// more is run again with all points.
@@ -74,10 +74,10 @@ impl CondensedPair {
         let n_near = self.n_near(elastic.n_closed - 1);
         let time_step = self.time_step(elastic.contact_time / n_steps as f64);
         let mut run = |n_points: usize| {
-            let motion =
-                Motion::new(self, speed, damping, time_step, n_points)?.with_gravity(frame.gravity);
+            let motion = ImpactMotion::new(self, speed, damping, time_step, n_points)?
+                .with_gravity(frame.gravity);
             Ok::<_, CondensedError>(
-                Run::new(self, motion, frame, want, n_steps, elastic.contact_time)
+                ImpactRun::new(self, motion, frame, want, n_steps, elastic.contact_time)
                     .until_parted(monitor),
             )
         };
@@ -133,7 +133,7 @@ impl CondensedPair {
         let time_step = self.time_step(elastic.contact_time / Self::N_STEPS as f64);
         let damping = damping.into();
         damping.check()?;
-        let mut motion = Motion::new(self, speed, damping, time_step, self.points.len())?;
+        let mut motion = ImpactMotion::new(self, speed, damping, time_step, self.points.len())?;
         while motion.time() + 0.5 * time_step < time {
             motion.advance()?;
         }

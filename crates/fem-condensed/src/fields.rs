@@ -14,12 +14,12 @@ use fem_collision::{
 };
 use fem_material::{ActsOn, Material, PronySeries};
 
-use crate::damping::Damping;
 use crate::error::CondensedError;
-use crate::instants::{Instant, Trace, choose};
-use crate::motion::{Motion, SideState};
+use crate::motion::{BodyState, ImpactMotion};
+use crate::operators::body_operator::BodyOperator;
 use crate::pair::CondensedPair;
-use crate::side::PairSide;
+use crate::run::instants::{RunTrace, TraceInstant, choose};
+use crate::settings::Damping;
 
 /// Instants of which probes tell, at least where there are so many steps.
 const PROBED_INSTANTS: usize = 200;
@@ -30,7 +30,7 @@ const FIELDS_AT_ONCE: usize = 24;
 
 /// A body's deformation in coordinates.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Coordinates {
+pub(crate) struct FieldCoordinates {
     /// Forces at the contact nodes of an elastic body, displacements of a relaxing one's springs.
     springs: Vec<f64>,
     /// What the relaxing stress sees; empty for an elastic body.
@@ -44,7 +44,7 @@ pub(crate) struct Coordinates {
 #[derive(Debug, Clone)]
 struct State {
     approach: f64,
-    sides: [Coordinates; 2],
+    sides: [FieldCoordinates; 2],
     contact: Contact,
 }
 
@@ -76,13 +76,13 @@ impl CondensedPair {
         frame: &Frame,
         damping: Damping<'_>,
         time_step: f64,
-        trace: &[Trace],
+        trace: &[RunTrace],
         ending: &Ending,
         request: &SnapshotRequest,
     ) -> Result<(Vec<Snapshot>, Vec<String>), CondensedError> {
         let first_touch = frame.approach.first_touch();
         let (chosen, missing) = choose(trace, time_step, request, first_touch, ending);
-        let instants: Vec<Instant> = chosen.iter().map(|(instant, _)| *instant).collect();
+        let instants: Vec<TraceInstant> = chosen.iter().map(|(instant, _)| *instant).collect();
         let steps = Steps { time_step, last: trace.len() - 1 };
         let states = self.states(frame, damping, steps, &instants)?;
         let mut snapshots = self.pictures(frame, damping, time_step, &instants, &states)?;
@@ -102,11 +102,11 @@ impl CondensedPair {
         frame: &Frame,
         damping: Damping<'_>,
         time_step: f64,
-        instants: &[Instant],
+        instants: &[TraceInstant],
         states: &[[State; 2]],
     ) -> Result<Vec<Snapshot>, CondensedError> {
         let (approach, relaxations) = (&frame.approach, damping.relaxations);
-        let time = |instant: Instant| approach.first_touch() + instant.position() * time_step;
+        let time = |instant: TraceInstant| approach.first_touch() + instant.position() * time_step;
         let mut snapshots: Vec<Snapshot> = instants
             .iter()
             .zip(states)
@@ -173,8 +173,8 @@ impl CondensedPair {
         });
         let materials = materials.each_ref().map(Option::as_ref);
         let stride = last.div_ceil(PROBED_INSTANTS).max(1);
-        let instants: Vec<Instant> =
-            (0..last).step_by(stride).chain([last]).map(Instant::at).collect();
+        let instants: Vec<TraceInstant> =
+            (0..last).step_by(stride).chain([last]).map(TraceInstant::at).collect();
         let states = self.states(frame, damping, Steps { time_step, last }, &instants)?;
         let mut seen = Vec::with_capacity(instants.len());
         for (instants, states) in
@@ -192,16 +192,16 @@ impl CondensedPair {
         frame: &Frame,
         damping: Damping<'_>,
         steps: Steps,
-        instants: &[Instant],
+        instants: &[TraceInstant],
     ) -> Result<Vec<[State; 2]>, CondensedError> {
-        let around = |instant: Instant| match instant.part {
+        let around = |instant: TraceInstant| match instant.part {
             0.0 => [instant.step.saturating_sub(1), (instant.step + 1).min(steps.last)],
             _ => [instant.step, instant.step + 1],
         };
         let needed: BTreeSet<usize> =
             instants.iter().flat_map(|&i| [around(i)[0], i.step, around(i)[1]]).collect();
         let (time_step, n_points) = (steps.time_step, self.points.len());
-        let mut motion = Motion::new(self, frame.speed(), damping, time_step, n_points)?
+        let mut motion = ImpactMotion::new(self, frame.speed(), damping, time_step, n_points)?
             .with_gravity(frame.gravity);
         let mut kept: BTreeMap<usize, (State, f64)> = BTreeMap::new();
         for step in needed {
@@ -227,10 +227,10 @@ impl CondensedPair {
         Ok(states.collect())
     }
 
-    fn state(&self, motion: &Motion<'_>) -> State {
+    fn state(&self, motion: &ImpactMotion<'_>) -> State {
         let sides = [0, 1].map(|s: usize| match &self.sides[s] {
             Some(side) => coordinates(side, &motion.sides[s], &motion.forces),
-            None => Coordinates::default(),
+            None => FieldCoordinates::default(),
         });
         let contact = Contact { forces: motion.forces.clone(), moved: motion.slipped() };
         State { approach: motion.approach, sides, contact }
@@ -240,10 +240,10 @@ impl CondensedPair {
     /// where none are wanted.
     fn fields(
         &self,
-        side: &PairSide,
+        side: &BodyOperator,
         relaxation: Option<&PronySeries>,
         shear_blocks: usize,
-        wanted: &[Option<(Coordinates, f64)>],
+        wanted: &[Option<(FieldCoordinates, f64)>],
     ) -> Result<Vec<Vec<[f64; 2]>>, CondensedError> {
         let body = &side.body;
         let all = || wanted.iter().flatten();
@@ -295,7 +295,7 @@ impl State {
     }
 }
 
-impl Coordinates {
+impl FieldCoordinates {
     fn combine(&self, other: &Self, weights: [f64; 2]) -> Self {
         let sum = |get: fn(&Self) -> &[f64]| combined(get(self), get(other), weights);
         Self {
@@ -316,7 +316,7 @@ impl Coordinates {
     }
 }
 
-fn coordinates(side: &PairSide, state: &SideState, forces: &[f64]) -> Coordinates {
+fn coordinates(side: &BodyOperator, state: &BodyState, forces: &[f64]) -> FieldCoordinates {
     let difference = |values: [Vec<f64>; 2]| {
         let [fixed, moving] = values;
         moving.into_iter().zip(fixed).map(|(m, f)| m - f).collect()
@@ -326,7 +326,7 @@ fn coordinates(side: &PairSide, state: &SideState, forces: &[f64]) -> Coordinate
         Some(springs) => (springs.displacement.clone(), springs.effective()),
         None => (side.nodal_forces(forces), Vec::new()),
     };
-    Coordinates {
+    FieldCoordinates {
         springs,
         effective,
         vibration: vibration

@@ -55,43 +55,21 @@
 //! # }
 //! ```
 
-mod between_steps;
-mod body;
-mod chain;
 mod collision;
-mod complementarity;
-mod curve;
-mod damping;
-mod dense;
-mod deviatoric;
-mod disc;
-mod dissection;
-mod elements;
+mod condensation;
+mod contact;
 mod error;
-mod factor;
 mod fields;
-mod instants;
 mod motion;
-mod numbering;
+mod operators;
 mod pair;
-mod peak;
-mod points;
-mod press;
-mod pressure;
-mod profile;
-mod radiation;
 mod run;
-mod sample;
 mod settings;
-mod shear;
-mod side;
-mod slip;
-mod vibration;
 
 pub use collision::ContactState;
-pub use curve::ElasticImpact;
-pub use damping::Damping;
+pub use contact::elastic_impact::ElasticImpact;
 pub use error::CondensedError;
+pub use operators::slip::Slip;
 pub use pair::CondensedPair;
+pub use settings::Damping;
 pub use settings::{ContactModel, PairSettings};
-pub use slip::Slip;

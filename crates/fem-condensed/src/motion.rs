@@ -7,38 +7,38 @@
 //!
 //! Newmark's formulas with γ = 1/2, β = 1/12 ([`BETA`]): the approach at the end of a step depends
 //! on the force there, which adds β Δt²/m* to every entry of the compliance. So do the relaxing
-//! springs and the masses of vibration modes ([`Chain`]); one contact problem with a constant
+//! springs and the masses of vibration modes ([`ViscoelasticModes`]); one contact problem with a constant
 //! matrix is solved a step.
 
 use fem_collision::Stop;
 use fem_material::{ActsOn, PronySeries};
 
-use crate::chain::{BETA, Chain, Memory};
-use crate::damping::Damping;
-use crate::disc::{Disc, DiscSolver};
+use crate::contact::disc_contact::{ContactDisc, DiscContactSolver};
 use crate::error::CondensedError;
+use crate::operators::body_operator::BodyOperator;
+use crate::operators::radiation::WaveRadiation;
+use crate::operators::viscoelastic_modes::{BETA, ViscoelasticModes, ViscoelasticState};
 use crate::pair::CondensedPair;
-use crate::radiation::Waves;
 use crate::settings::ContactModel;
-use crate::side::PairSide;
+use crate::settings::Damping;
 
 /// Share of the kinetic energy up to which work is given back at once.
 const SMALL_SHARE: f64 = 1e-2;
 
 /// What acts on one body beside its elastic compliance.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct SideState {
+pub(crate) struct BodyState {
     /// Relaxing springs, if the body relaxes.
-    pub springs: Option<Chain>,
+    pub springs: Option<ViscoelasticModes>,
     /// What its surface slips, if it does.
-    pub slip: Option<Chain>,
+    pub slip: Option<ViscoelasticModes>,
     /// The static response of the modes of vibration, taken away, and their dynamic response.
-    pub vibration: Option<[Chain; 2]>,
+    pub vibration: Option<[ViscoelasticModes; 2]>,
 }
 
 /// Relative motion and contact at an instant.
 #[derive(Debug, Clone)]
-pub(crate) struct Motion<'a> {
+pub(crate) struct ImpactMotion<'a> {
     pair: &'a CondensedPair,
     pub time_step: f64,
     pub step: usize,
@@ -47,7 +47,7 @@ pub(crate) struct Motion<'a> {
     acceleration: f64,
     /// m/s²; 0 without.
     gravity: f64,
-    pub sides: [SideState; 2],
+    pub sides: [BodyState; 2],
     /// Work of points that join and leave that was not given back yet, J.
     excess_work: f64,
     /// What of it came back in the last step, N s.
@@ -55,18 +55,18 @@ pub(crate) struct Motion<'a> {
     /// What points that joined in it add to the change of the force a step at its end, N.
     pub missed_slope: f64,
     /// What leaves the bodies as waves, if anything does.
-    waves: Option<Waves>,
-    solver: DiscSolver,
+    waves: Option<WaveRadiation>,
+    solver: DiscContactSolver,
     /// With more points closed the contact may reach beyond the last one.
     most_closed: usize,
     overlap: Vec<f64>,
     /// Forces at the points, N.
     pub forces: Vec<f64>,
     pub force: f64,
-    pub contact: Disc,
+    pub contact: ContactDisc,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> ImpactMotion<'a> {
     /// First touch at a relative speed (m/s), the first `n_points` points followed.
     ///
     /// # Errors
@@ -87,11 +87,11 @@ impl<'a> Motion<'a> {
                 compliance[(i, j)] += inertia;
             }
         }
-        let mut sides = [SideState::default(), SideState::default()];
+        let mut sides = [BodyState::default(), BodyState::default()];
         for (which, state) in sides.iter_mut().enumerate() {
             let (Some(side), series) = (&pair.sides[which], relaxations[which]) else { continue };
             let shear_blocks = pair.shear_blocks(series, speed)?;
-            *state = SideState::new(side, series, shear_blocks, time_step, n_points)?;
+            *state = BodyState::new(side, series, shear_blocks, time_step, n_points)?;
             match &state.springs {
                 Some(springs) => springs.add_compliance(&mut compliance),
                 None => compliance += side.compliance.as_ref().submatrix(0, 0, n_points, n_points),
@@ -108,7 +108,7 @@ impl<'a> Motion<'a> {
                 state.slip = Some(chain);
             }
         }
-        let waves = Waves::new(damping.radiation, pair.curve.punch_stiffness(), time_step);
+        let waves = WaveRadiation::new(damping.radiation, pair.curve.punch_stiffness(), time_step);
         if let Some(waves) = &waves {
             for i in 0..n_points {
                 for j in 0..n_points {
@@ -130,12 +130,12 @@ impl<'a> Motion<'a> {
             acceleration: 0.0,
             gravity: 0.0,
             sides,
-            solver: DiscSolver::new(compliance).opened(open),
+            solver: DiscContactSolver::new(compliance).opened(open),
             most_closed: pair.most_closed(n_points),
             overlap: vec![0.0; n_points],
             forces: vec![0.0; n_points],
             force: 0.0,
-            contact: Disc { n_closed: 0 },
+            contact: ContactDisc { n_closed: 0 },
         })
     }
 
@@ -170,7 +170,7 @@ impl<'a> Motion<'a> {
         if self.contact.n_closed == 0 || self.pair.settings().contact != ContactModel::Exact {
             return 0.0;
         }
-        let of_waves = self.waves.as_ref().map_or(0.0, Waves::displacement);
+        let of_waves = self.waves.as_ref().map_or(0.0, WaveRadiation::displacement);
         let approach = self.approach - of_waves;
         let elastic = self.pair.curve.force(approach);
         let lasting = if elastic > self.force { self.force / elastic } else { 1.0 };
@@ -265,10 +265,10 @@ impl<'a> Motion<'a> {
 
     /// Energy stored in the bodies (J), in penalty springs (J), power that relaxation takes (W),
     /// kinetic energy of the vibrations of each body (J), and what waves take.
-    pub fn energies(&self) -> Energies {
+    pub fn energies(&self) -> MotionEnergies {
         let n = self.contact.n_closed;
         let forces = &self.forces[..n];
-        let mut energies = Energies::default();
+        let mut energies = MotionEnergies::default();
         for ((state, side), vibration) in
             self.sides.iter().zip(&self.pair.sides).zip(&mut energies.vibration)
         {
@@ -301,7 +301,7 @@ impl<'a> Motion<'a> {
 
 /// Energies of an instant.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Energies {
+pub(crate) struct MotionEnergies {
     pub stored: f64,
     pub contact: f64,
     pub power: f64,
@@ -310,9 +310,9 @@ pub(crate) struct Energies {
     pub radiated_power: Option<[f64; 2]>,
 }
 
-impl SideState {
+impl BodyState {
     fn new(
-        side: &PairSide,
+        side: &BodyOperator,
         series: Option<&PronySeries>,
         shear_blocks: usize,
         time_step: f64,
@@ -331,37 +331,45 @@ impl SideState {
                     .map_or(0, |j| j + 1);
                 let shapes = all.as_ref().subcols(0, n_modes).to_owned();
                 let share = vec![1.0; n_modes];
-                Some(Chain::new(Memory::new(series, time_step), shapes, &share))
+                Some(ViscoelasticModes::new(
+                    ViscoelasticState::new(series, time_step),
+                    shapes,
+                    &share,
+                ))
             }
             Some(series) => {
                 let shear = side.shear(shear_blocks)?;
                 let share = &shear.springs.deviatoric_share;
-                Some(Chain::new(Memory::new(series, time_step), rows(&shear.at_points), share))
+                Some(ViscoelasticModes::new(
+                    ViscoelasticState::new(series, time_step),
+                    rows(&shear.at_points),
+                    share,
+                ))
             }
         };
         let vibration = side.vibrations.as_ref().map(|vibrations| {
             let (memory, ones) = match series {
-                None => (Memory::elastic(), None),
+                None => (ViscoelasticState::elastic(), None),
                 Some(series) => {
                     let uniform = series.acts_on() == ActsOn::All;
-                    (Memory::new(series, time_step), uniform.then_some(1.0))
+                    (ViscoelasticState::new(series, time_step), uniform.then_some(1.0))
                 }
             };
             let modes = &vibrations.modes;
             let share: Vec<f64> =
                 modes.deviatoric_share.iter().map(|&share| ones.unwrap_or(share)).collect();
-            let springs = Chain::new(memory, rows(&vibrations.at_points), &share);
+            let springs = ViscoelasticModes::new(memory, rows(&vibrations.at_points), &share);
             let dynamic = springs.clone().with_inertia(&modes.squared_frequency, time_step);
             [springs.removed(), dynamic]
         });
         Ok(Self { springs, slip: None, vibration })
     }
 
-    pub fn chains(&self) -> impl Iterator<Item = &Chain> {
+    pub fn chains(&self) -> impl Iterator<Item = &ViscoelasticModes> {
         self.springs.iter().chain(&self.slip).chain(self.vibration.iter().flatten())
     }
 
-    fn chains_mut(&mut self) -> impl Iterator<Item = &mut Chain> {
+    fn chains_mut(&mut self) -> impl Iterator<Item = &mut ViscoelasticModes> {
         self.springs.iter_mut().chain(&mut self.slip).chain(self.vibration.iter_mut().flatten())
     }
 }

@@ -5,11 +5,13 @@ use fem_collision::{Approach, ApproachError, BodyInput, BodyResult, CandidateReg
 use fem_contact::{ContactError, ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
-use crate::curve::{ElasticCurve, ElasticImpact};
+use crate::contact::elastic_impact::{ElasticCurve, ElasticImpact};
 use crate::error::CondensedError;
-use crate::points::Points;
+use crate::operators::body_operator::{
+    BodyOperator, PressureNode, Staggered, coarser, pressure_nodes,
+};
+use crate::operators::points::ContactPoints;
 use crate::settings::{ContactModel, PairSettings};
-use crate::side::{PairSide, PressureNode, Staggered, coarser, pressure_nodes};
 
 /// A shear modulus that falls below this share within the elastic contact time is strongly relaxed: two blocks
 /// are 2e-5 off in the restitution of glass at 0.4 and 8e-4 at 0.06, and leave a spring that pushes bodies apart
@@ -31,7 +33,7 @@ pub struct CondensedPair {
     inputs: [BodyInput; 2],
     settings: PairSettings,
     /// None of a rigid body.
-    pub(crate) sides: [Option<PairSide>; 2],
+    pub(crate) sides: [Option<BodyOperator>; 2],
     /// None of a wall, kg.
     masses: [Option<f64>; 2],
     pub(crate) points: Vec<ContactPoint>,
@@ -62,13 +64,13 @@ impl CondensedPair {
         }
         let [lower, upper] = &inputs;
         let surfaces = [surface(lower)?, surface(upper)?];
-        let Points { points, nodal_side, feet } = Points::new(&surfaces, &settings)?;
+        let ContactPoints { points, nodal_side, feet } = ContactPoints::new(&surfaces, &settings)?;
         let (mut sides, mut masses) = ([None, None], [None, None]);
         for (side, (input, feet)) in inputs.iter().zip(feet).enumerate() {
             match input {
                 BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
                     let nodes = surfaces[side].nodes_within(f64::INFINITY);
-                    let side_made = PairSide::new(mesh, material, nodes, feet, &settings)?;
+                    let side_made = BodyOperator::new(mesh, material, nodes, feet, &settings)?;
                     masses[side] = (!mesh.is_half_space()).then_some(side_made.body.mass);
                     sides[side] = Some(side_made);
                 }

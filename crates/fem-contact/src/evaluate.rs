@@ -1,7 +1,7 @@
 //! Contact forces of a configuration.
 
 use crate::interface::{ContactInterface, ContactPoint};
-use crate::surface::Foot;
+use crate::surface::SurfaceProjection;
 
 /// What the contact does in one configuration.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -20,12 +20,12 @@ pub struct ContactForces {
     pub at_limit: bool,
     /// Where a surface turns over that the other one touches there, so that it is not a graph over the
     /// radius any more; only of moved surfaces.
-    pub turn: Option<Turn>,
+    pub turn: Option<SurfaceFold>,
 }
 
 /// Where a surface turns over.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turn {
+pub struct SurfaceFold {
     /// 0 of the lower body, 1 of the upper.
     pub side: usize,
     /// Node of that body that has come as near to the axis as the one before it.
@@ -43,7 +43,7 @@ impl ContactForces {
     }
 }
 
-impl Foot {
+impl SurfaceProjection {
     fn displacement(&self, u: &[[f64; 2]]) -> f64 {
         self.shape[0] * u[self.nodes[0] as usize][1] + self.shape[1] * u[self.nodes[1] as usize][1]
     }

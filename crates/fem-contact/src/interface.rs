@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::error::ContactError;
-use crate::surface::{Foot, Surface};
+use crate::surface::{Surface, SurfaceProjection};
 
 /// A point at which the bodies can touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,7 @@ pub struct ContactPoint {
     /// Penalty stiffness per area, Pa/m; infinite where no overlap is allowed.
     pub stiffness: f64,
     /// Lower and upper body.
-    pub feet: [Foot; 2],
+    pub feet: [SurfaceProjection; 2],
 }
 
 impl ContactPoint {
@@ -279,7 +279,7 @@ mod tests {
             assert!((point.initial_gap - (0.3 + arcs)).abs() < 2e-15);
             for side in 0..2 {
                 // Both feet stand at the point.
-                let Foot { nodes, shape } = point.feet[side];
+                let SurfaceProjection { nodes, shape } = point.feet[side];
                 let surface = &surfaces[side];
                 let at = |node: u32| {
                     surface.radii[surface.nodes.iter().position(|&n| n == node).unwrap()]

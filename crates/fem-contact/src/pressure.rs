@@ -1,7 +1,7 @@
 //! Contact radius and pressure, recovered from a configuration.
 
 use crate::interface::ContactInterface;
-use crate::read_out::{self, Barrier, Reading};
+use crate::pressure_recovery::{self, ContactEnforcement, Reading};
 use crate::surface::Surface;
 
 impl ContactInterface {
@@ -18,7 +18,7 @@ impl ContactInterface {
     ) -> f64 {
         reading(&self.surfaces, self.candidate_radius).radius(|side| {
             let nodes = self.at_nodes(side, signed_pressure.clone());
-            read_out::contact_radius(nodes, Barrier::Springs)
+            pressure_recovery::contact_radius(nodes, ContactEnforcement::Springs)
         })
     }
 
@@ -127,12 +127,16 @@ pub(crate) fn radius_and_pressure<I: Iterator<Item = (f64, f64)> + Clone>(
     });
     let nodes = |side: usize| kept[side].map(|n| room[side][..n].iter().copied());
     let radius = reading.radius(|side| match nodes(side) {
-        Some(nodes) => read_out::contact_radius(nodes, Barrier::Springs),
-        None => read_out::contact_radius(at_nodes(side), Barrier::Springs),
+        Some(nodes) => pressure_recovery::contact_radius(nodes, ContactEnforcement::Springs),
+        None => pressure_recovery::contact_radius(at_nodes(side), ContactEnforcement::Springs),
     });
     let pressure = reading.pressure(|side| match nodes(side) {
-        Some(nodes) => read_out::centre_pressure(nodes, radius, Barrier::Springs),
-        None => read_out::centre_pressure(at_nodes(side), radius, Barrier::Springs),
+        Some(nodes) => {
+            pressure_recovery::centre_pressure(nodes, radius, ContactEnforcement::Springs)
+        }
+        None => {
+            pressure_recovery::centre_pressure(at_nodes(side), radius, ContactEnforcement::Springs)
+        }
     });
     (radius, pressure)
 }
@@ -175,10 +179,16 @@ mod tests {
             for reading in
                 [Reading::Single(0), Reading::Single(1), Reading::of(lengths.map(Some), 0)]
             {
-                let radius =
-                    reading.radius(|side| read_out::contact_radius(at(side), Barrier::Springs));
-                let pressure = reading
-                    .pressure(|side| read_out::centre_pressure(at(side), radius, Barrier::Springs));
+                let radius = reading.radius(|side| {
+                    pressure_recovery::contact_radius(at(side), ContactEnforcement::Springs)
+                });
+                let pressure = reading.pressure(|side| {
+                    pressure_recovery::centre_pressure(
+                        at(side),
+                        radius,
+                        ContactEnforcement::Springs,
+                    )
+                });
                 assert!((0.7..0.9).contains(&(radius / n as f64)), "{n} {reading:?}: {radius}");
                 let n_made = Cell::new(0);
                 let counted = |side: usize| {

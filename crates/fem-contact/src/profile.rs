@@ -8,7 +8,9 @@
 
 use crate::interface::ContactInterface;
 use crate::pressure::coarser;
-use crate::read_out::{Barrier, PressureCurve, carried_force, places_inside, pressure_profile};
+use crate::pressure_recovery::{
+    ContactEnforcement, PressureCurve, carried_force, places_inside, pressure_profile,
+};
 use crate::slip::SlippingInterface;
 use crate::surface::Surface;
 
@@ -52,7 +54,7 @@ impl Profile {
     pub fn new(
         nodes: impl Iterator<Item = (f64, f64)> + Clone,
         contact_radius: f64,
-        barrier: Barrier,
+        barrier: ContactEnforcement,
         facing: impl Iterator<Item = Option<(f64, [f64; 2])>>,
     ) -> Self {
         let pressures = pressure_profile(nodes.clone(), contact_radius, barrier);
@@ -164,7 +166,10 @@ impl ContactInterface {
         let gaps = (0..self.n_points()).map(|k| self.gap(k, u));
         let facing = self.facing(gaps, u);
         let radius = self.contact_radius(u);
-        self.extended(Profile::new(self.nodal_pressure(u), radius, Barrier::Springs, facing), u)
+        self.extended(
+            Profile::new(self.nodal_pressure(u), radius, ContactEnforcement::Springs, facing),
+            u,
+        )
     }
 
     /// With nodes beyond its own.
@@ -194,7 +199,7 @@ impl SlippingInterface {
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
         let facing = self.interface().facing(self.gaps(u), u);
         let radius = self.contact_radius(u);
-        let own = Profile::new(self.nodal_pressure(u), radius, Barrier::Springs, facing);
+        let own = Profile::new(self.nodal_pressure(u), radius, ContactEnforcement::Springs, facing);
         self.interface().extended(own, u)
     }
 }

@@ -20,7 +20,7 @@
 
 use crate::evaluate::ContactForces;
 use crate::interface::{ContactInterface, ContactPoint};
-use crate::surface::Foot;
+use crate::surface::SurfaceProjection;
 
 /// Displacement (u_r, u_y) of a node, m.
 pub type Displacement = [f64; 2];
@@ -61,7 +61,7 @@ pub struct SlippingInterface {
     slopes: Vec<Slope>,
 }
 
-impl Foot {
+impl SurfaceProjection {
     fn at(&self, u: [Displacement; 2]) -> Displacement {
         [0, 1].map(|i: usize| self.shape[0] * u[0][i] + self.shape[1] * u[1][i])
     }
@@ -128,7 +128,7 @@ impl SlippingInterface {
             if gap < 0.0 {
                 let force = -point.stiffness * point.area * gap;
                 for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-                    let Foot { nodes, shape } = point.feet[side];
+                    let SurfaceProjection { nodes, shape } = point.feet[side];
                     let turning = force * relative * slope.per_difference[side];
                     for (end, outward) in [-1.0, 1.0].into_iter().enumerate() {
                         let own = sign * shape[end] * force;

@@ -9,7 +9,7 @@ pub(crate) const STEEPEST: f64 = 1.0;
 
 /// One body's end of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foot {
+pub struct SurfaceProjection {
     /// Nodes at the inner and the outer end of the segment.
     pub nodes: [u32; 2],
     /// Their shape functions at the point; they sum to 1.
@@ -88,8 +88,11 @@ impl Surface {
     }
 
     /// Where a segment carries a point, given as [`Surface::locate`] finds it.
-    pub(crate) fn foot(&self, (segment, share): (usize, f64)) -> Foot {
-        Foot { nodes: [self.nodes[segment], self.nodes[segment + 1]], shape: [1.0 - share, share] }
+    pub(crate) fn foot(&self, (segment, share): (usize, f64)) -> SurfaceProjection {
+        SurfaceProjection {
+            nodes: [self.nodes[segment], self.nodes[segment + 1]],
+            shape: [1.0 - share, share],
+        }
     }
 
     /// Sine and cosine of the arc's angle where it is r (m) from the axis.

@@ -12,10 +12,10 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use crate::explain::nearest;
 use crate::quantity::{Quantity, QuantityKind};
 use crate::schema::{CaseFile, MaterialTable, TermTable};
-use crate::toml_text::shift;
+use crate::source::explain::nearest;
+use crate::source::toml_text::shift;
 
 /// Begins the name of a material of the library.
 pub(crate) const PREFIX: &str = "lib:";

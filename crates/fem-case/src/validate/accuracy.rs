@@ -1,9 +1,9 @@
 //! `[accuracy]`: how far results may be off.
 
 use super::{Allowed, Check, allowed};
-use crate::accuracy_table::{AccuracyTable, ToleranceValue};
 use crate::error::CaseError;
 use crate::scene::Accuracy;
+use crate::schema::accuracy_table::{AccuracyTable, ToleranceValue};
 
 const SHARE: Allowed = allowed("greater than 0 and at most 0.5", |x| x > 0.0 && x <= 0.5);
 

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use fem_material::Material;
 
 use super::{ANY, Check, NOT_NEGATIVE, POSITIVE};
-use crate::body::{Body, Shape};
 use crate::error::CaseError;
-use crate::explain::{listed, near};
-use crate::key_path::{is_bare, join, quote_key};
 use crate::library;
+use crate::scene::body::{Body, Shape};
 use crate::schema::{BodyTable, CaseFile, SphereTable};
+use crate::source::explain::{listed, near};
+use crate::source::key_path::{is_bare, join, quote_key};
 
 /// The name of a body's material where the library has it, knows no loss of it, and the case gives none.
 fn unpublished_loss(file: &CaseFile, body: &BodyTable) -> Option<String> {

@@ -1,11 +1,11 @@
 //! Weight, what bears it, and how often the ball bounces on that.
 
 use super::{Allowed, Check, POSITIVE, allowed};
-use crate::body::{Body, Shape};
 use crate::error::CaseError;
-use crate::gravity::{Gravity, impact_speed};
-use crate::key_path::join;
+use crate::scene::body::{Body, Shape};
+use crate::scene::gravity::{Gravity, impact_speed};
 use crate::schema::{CaseFile, GravityTable};
+use crate::source::key_path::join;
 
 /// More contacts than any ball needs to come to rest.
 const BOUNCES: Allowed =

@@ -4,8 +4,8 @@ use fem_material::{ElasticModuli, Material, MaterialError, ModuliInput, PronySer
 
 use super::{ANY, Check, POSITIVE};
 use crate::error::CaseError;
-use crate::key_path::join;
 use crate::schema::{MaterialTable, RelaxationTable};
+use crate::source::key_path::join;
 
 impl Check<'_> {
     /// The material of the table at `path`.

@@ -11,11 +11,11 @@ mod snapshots;
 
 use std::path::Path;
 
-use crate::document::Document;
 use crate::error::CaseError;
 use crate::quantity::{Quantity, QuantityKind};
 use crate::scene::{Limits, MeshSettings, Scene};
 use crate::schema::CaseFile;
+use crate::source::document::Document;
 
 /// Numbers that a key allows.
 pub(crate) struct Allowed {

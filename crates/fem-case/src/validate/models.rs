@@ -4,11 +4,11 @@ use fem_laws::{EndRule, KeyNeed, KeyRange, KeySet, LawFamily, LawImpact, LawInpu
 
 use super::{Allowed, Check, NOT_NEGATIVE, POSITIVE, allowed};
 use crate::error::CaseError;
-use crate::explain::listed;
-use crate::key_path::join;
-use crate::model::{CondensedOptions, ModelChoice};
-use crate::model_tables::{CondensedTable, End, LawKey, LawTable, ModelTable};
 use crate::quantity::{Count, Number, Quantity};
+use crate::scene::model::{CondensedOptions, ModelChoice};
+use crate::schema::model_tables::{CondensedTable, End, LawKey, LawTable, ModelTable};
+use crate::source::explain::listed;
+use crate::source::key_path::join;
 
 const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));

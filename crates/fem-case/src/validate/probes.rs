@@ -1,12 +1,12 @@
 //! The places that probes tell of.
 
 use super::{ANY, Check, NOT_NEGATIVE};
-use crate::body::{Body, Shape};
 use crate::error::CaseError;
-use crate::explain::near;
-use crate::key_path::join;
 use crate::scene::Probe;
+use crate::scene::body::{Body, Shape};
 use crate::schema::ProbeTable;
+use crate::source::explain::near;
+use crate::source::key_path::join;
 
 /// The most probes: each keeps some thousand instants.
 const MOST_PROBES: usize = 100;

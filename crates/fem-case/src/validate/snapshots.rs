@@ -2,11 +2,11 @@
 
 use super::{Allowed, Check, NOT_NEGATIVE, allowed};
 use crate::error::CaseError;
-use crate::explain::near;
-use crate::key_path::join;
 use crate::quantity::{Count, Quantity};
 use crate::scene::Snapshots;
 use crate::schema::{SnapshotLabel, SnapshotsValue};
+use crate::source::explain::near;
+use crate::source::key_path::join;
 
 const SNAPSHOT_COUNT: Allowed =
     allowed("a whole number from 1 to 100000", |x| (1.0..=1e5).contains(&x) && x.fract() == 0.0);

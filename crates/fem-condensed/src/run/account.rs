@@ -1,26 +1,26 @@
 //! What a collision integrates over its steps, and what it tells of the instants between them.
 
-use super::Run;
-use crate::between_steps::OverStep;
-use crate::sample::Sample;
+use super::ImpactRun;
+use crate::run::between_steps::StepParabola;
+use crate::run::sample::MotionSample;
 
-impl Run<'_> {
+impl ImpactRun<'_> {
     /// The end of a step with what was lost and gained until then. `before` is the step before `begin` if nothing
     /// has happened since.
     pub(super) fn integrated(
         &mut self,
-        before: Option<&Sample>,
-        begin: Option<&Sample>,
-        end: Sample,
-    ) -> Sample {
+        before: Option<&MotionSample>,
+        begin: Option<&MotionSample>,
+        end: MotionSample,
+    ) -> MotionSample {
         let time_step = self.motion.time_step;
         if end.radiated_power.is_some() {
             self.radiated.get_or_insert([0.0; 2]);
         }
         let mut rate = end.rate;
         if let Some(begin) = begin {
-            let over = |get: &dyn Fn(&Sample) -> f64| {
-                OverStep::new(before.map(get), get(begin), get(&end)).integral(1.0) * time_step
+            let over = |get: &dyn Fn(&MotionSample) -> f64| {
+                StepParabola::new(before.map(get), get(begin), get(&end)).integral(1.0) * time_step
             };
             self.dissipated += over(&|sample| sample.power);
             for (side, gone) in self.radiated.iter_mut().flatten().enumerate() {
@@ -35,30 +35,40 @@ impl Run<'_> {
         }
         self.missed_slope = self.motion.missed_slope;
         let radiated = self.radiated.map(|[lower, upper]| lower + upper);
-        self.with_residual(Sample { rate, dissipated: self.dissipated, radiated, ..end })
+        self.with_residual(MotionSample { rate, dissipated: self.dissipated, radiated, ..end })
     }
 
     /// What the rate is more than that of Newmark's γ = 1/2, which is the trapezoidal rule: Δt Ḟ Δt/12 m*, m/s. A
     /// point that has joined is no bend of what is smooth.
-    fn rate_of_third_order(&self, before: Option<&Sample>, begin: &Sample, end: &Sample) -> f64 {
+    fn rate_of_third_order(
+        &self,
+        before: Option<&MotionSample>,
+        begin: &MotionSample,
+        end: &MotionSample,
+    ) -> f64 {
         let missed = self.motion.missed_slope;
         let before = before.filter(|_| missed == 0.0 && self.missed_slope == 0.0);
-        let force = |sample: &Sample| sample.contact_force;
-        let change = OverStep::new(before.map(force), force(begin), force(end));
+        let force = |sample: &MotionSample| sample.contact_force;
+        let change = StepParabola::new(before.map(force), force(begin), force(end));
         self.motion.time_step / 12.0 * (change.slope() + missed) / self.pair.reduced_mass
     }
 
     /// Tells pulse and history of the instants of a step, its end the last of them.
-    pub(super) fn tell(&mut self, before: Option<Sample>, begin: Option<Sample>, end: Sample) {
+    pub(super) fn tell(
+        &mut self,
+        before: Option<MotionSample>,
+        begin: Option<MotionSample>,
+        end: MotionSample,
+    ) {
         let (step, per_step) = (self.motion.step as u64, self.per_step);
         if let Some(begin) = begin {
             let opens = (begin.touches && !end.touches)
                 .then(|| (self.last_contact - begin.time) / self.motion.time_step);
-            let force = |sample: &Sample| sample.even_force;
-            let even = OverStep::new(before.as_ref().map(force), force(&begin), force(&end));
+            let force = |sample: &MotionSample| sample.even_force;
+            let even = StepParabola::new(before.as_ref().map(force), force(&begin), force(&end));
             for k in 1..per_step {
                 let theta = k as f64 / per_step as f64;
-                let within = Sample::within(before.as_ref(), &begin, &end, opens, theta);
+                let within = MotionSample::within(before.as_ref(), &begin, &end, opens, theta);
                 let impulse = self.even_impulse + self.motion.time_step * even.integral(theta);
                 // Read at the end: a first facet is no part of the contact that follows.
                 self.pulse.observe(within.time, impulse, end.contact_radius, end.centre_pressure);
@@ -78,12 +88,13 @@ impl Run<'_> {
     }
 
     /// The same with what its energies do not add up to.
-    pub(super) fn with_residual(&self, sample: Sample) -> Sample {
-        let Sample { rate, vibration: [lower, upper], strain, contact, dissipated, .. } = sample;
+    pub(super) fn with_residual(&self, sample: MotionSample) -> MotionSample {
+        let MotionSample { rate, vibration: [lower, upper], strain, contact, dissipated, .. } =
+            sample;
         let kinetic = 0.5 * self.pair.reduced_mass * rate * rate + lower + upper;
         let lost = dissipated + sample.radiated.unwrap_or(0.0);
         let potential = self.frame.potential(sample.approach).unwrap_or(0.0);
         let residual = kinetic + strain + contact + lost + potential - self.initial_energy;
-        Sample { residual, ..sample }
+        MotionSample { residual, ..sample }
     }
 }

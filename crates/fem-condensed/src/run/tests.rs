@@ -27,14 +27,15 @@ fn pair() -> CondensedPair {
 }
 
 /// A collision of which something is disturbed after a third of the contact.
-fn disturbed(disturb: impl FnOnce(&mut Motion<'_>)) -> Collision {
+fn disturbed(disturb: impl FnOnce(&mut ImpactMotion<'_>)) -> Collision {
     let (pair, want) = (pair(), OutputRequest::history());
     let frame = pair.frame(0.5).unwrap();
     pair.prepare(0.5, pair.relaxations()).unwrap();
     let n_points = pair.points.len();
     let time_step = CONTACT_TIME / N_STEPS as f64;
-    let motion = Motion::new(&pair, 0.5, pair.relaxations().into(), time_step, n_points).unwrap();
-    let mut run = Run::new(&pair, motion, &frame, &want, N_STEPS, CONTACT_TIME);
+    let motion =
+        ImpactMotion::new(&pair, 0.5, pair.relaxations().into(), time_step, n_points).unwrap();
+    let mut run = ImpactRun::new(&pair, motion, &frame, &want, N_STEPS, CONTACT_TIME);
     run.record();
     for _ in 0..N_STEPS / 3 {
         assert_eq!(run.advance(&mut ()), Ok(None));

@@ -1,7 +1,7 @@
 //! A bound of the springs' stiffness for the critical time step.
 
 use super::MovedInterface;
-use super::pieces::{Piece, Point};
+use super::common_refinement::{Piece, Point};
 use super::segment::Segment;
 use crate::interface::OPENING_SAFETY;
 use crate::surface::STEEPEST;

@@ -15,7 +15,7 @@
 //! which vanishes with the elements.
 
 use super::MovedInterface;
-use super::pieces::GAUSS;
+use super::common_refinement::GAUSS;
 
 impl MovedInterface {
     /// With dashpots of an impedance c ≥ 0, Pa s/m; without, there are none. The bound of the stiffness

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::MovedInterface;
-use super::pieces::{GAUSS, Piece, Point};
+use super::common_refinement::{GAUSS, Piece, Point};
 use crate::evaluate::ContactForces;
 
 impl MovedInterface {

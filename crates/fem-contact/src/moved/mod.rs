@@ -48,10 +48,10 @@
 //! [`ContactForces`]: crate::ContactForces
 
 mod bound;
+mod common_refinement;
 mod damping;
 mod forces;
-mod pieces;
-mod read_out;
+mod pressure_recovery;
 mod segment;
 
 use crate::error::ContactError;

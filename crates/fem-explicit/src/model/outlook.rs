@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use fem_collision::Stop;
-use fem_contact::Turn;
+use fem_contact::SurfaceFold;
 use fem_material::Material;
 
 use super::Model;
@@ -156,8 +156,8 @@ impl Model {
     }
 
     /// Why a run ends of which a surface has turned over.
-    pub(crate) fn stop_of_turn(&self, turn: Turn, state: &State) -> Stop {
-        let Turn { side, node, radius } = turn;
+    pub(crate) fn stop_of_turn(&self, turn: SurfaceFold, state: &State) -> Stop {
+        let SurfaceFold { side, node, radius } = turn;
         let (time, step, node) = (state.time, state.step, node as usize);
         let place = self.place(side, node);
         Stop::SurfaceTurnsOver { time, step, radius, body: side, node, place }

@@ -18,7 +18,7 @@
 //! (docs/accuracy.md). The claim `error_bars` tries the rule on random scenes.
 //!
 //! Of nodes that touch exactly the swing is known and taken off the peak force
-//! (`fem-condensed/src/curve.rs`). What is left of it, C = 0.05, is no more than what contact time (0.05/k²) and
+//! (`fem-condensed/src/contact/elastic_impact.rs`). What is left of it, C = 0.05, is no more than what contact time (0.05/k²) and
 //! restitution (0.01/k²) are off by; peak pressure by 0.12/k². Of the glass pair, elastic and relaxing, at 90 sizes of elements,
 //! k = 4 to 17: force 0.03/k², time 0.047, restitution 0.005, pressure 0.11.
 //!

@@ -1,0 +1,133 @@
+//! JSON schemas of case and sweep files, of the very structs that read them: for editors that complete
+//! keys and mark faults as they are typed.
+//!
+//! A schema knows keys, types, words, units, most ranges and which keys exclude each other. What spans the
+//! case, such as bodies that do not meet, only the reader knows: what a schema takes may still be refused.
+
+pub(crate) mod quantity_pattern;
+pub(crate) mod rules;
+
+use std::borrow::Cow;
+
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Value, json};
+
+use crate::json_schema::quantity_pattern::pattern;
+use crate::quantity::{Kind, Number, Quantity, QuantityKind, Time};
+use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
+use crate::schema::{CaseFile, LawTable, ModelTable, SnapshotLabel, SnapshotsValue};
+use crate::sweep::file::SweepFile;
+
+/// Of a case file.
+pub fn of_cases() -> Value {
+    let mut schema = schema_of::<CaseFile>("A case of fem-run");
+    rules::add_to(&mut schema, LawTable::NAMES);
+    or_name(&mut schema, "/properties/model", ModelTable::NAMES);
+    or_name(&mut schema, "/definitions/ModelTable/properties/law", LawTable::NAMES);
+    schema
+}
+
+/// In place of the table a name will do.
+fn or_name(schema: &mut Value, pointer: &str, names: &[&str]) {
+    if let Some(place) = schema.pointer_mut(pointer) {
+        *place = json!({ "anyOf": [{ "enum": names }, place.take()] });
+    }
+}
+
+/// Of a sweep file.
+pub fn of_sweeps() -> Value {
+    schema_of::<SweepFile>("A sweep of fem-run")
+}
+
+/// Draft 7: what the editors' TOML plugins know.
+fn schema_of<T: JsonSchema>(title: &str) -> Value {
+    let settings = SchemaSettings::draft07().with_transform(Present);
+    let mut schema = settings.into_generator().into_root_schema_for::<T>();
+    schema.insert("title".to_string(), json!(title));
+    schema.to_value()
+}
+
+/// TOML has no null: what may be absent is not null where it is there.
+#[derive(Clone)]
+struct Present;
+
+impl Transform for Present {
+    fn transform(&mut self, schema: &mut Schema) {
+        transform_subschemas(self, schema);
+        let Some(keys) = schema.as_object_mut() else { return };
+        // `format` is of Rust's numbers; defaults are what is absent.
+        keys.remove("format");
+        keys.remove("default");
+        if let Some(Value::Array(types)) = keys.get_mut("type") {
+            types.retain(|name| name != "null");
+            if let [one] = types.as_slice() {
+                let one = one.clone();
+                keys.insert("type".to_string(), one);
+            }
+        }
+        if let Some(Value::Array(choices)) = keys.get_mut("anyOf") {
+            choices.retain(|choice| choice.get("type") != Some(&json!("null")));
+            // A reference with a description beside it is what draft 7 ignores, all but the reference.
+            if let [Value::Object(_)] = choices.as_slice() {
+                let one = keys.remove("anyOf");
+                keys.insert("allOf".to_string(), one.unwrap_or_default());
+            }
+        }
+    }
+}
+
+/// A table `[material."lib:NAME"]` gives what it likes.
+pub(crate) fn library_tables() -> Value {
+    json!({ "^lib:": { "type": "object" } })
+}
+
+impl<K: QuantityKind> JsonSchema for Quantity<K> {
+    /// "length" of "a length".
+    fn schema_name() -> Cow<'static, str> {
+        let name = K::KIND.name;
+        name.split_once(' ').map_or(name, |(_, noun)| noun).replace(' ', "_").into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let Kind { name, si, example, .. } = K::KIND;
+        let bare = match si {
+            "" => format!("{name}, such as {example}"),
+            si => format!("{name}: a number in {si}, or a string with its unit, {example}"),
+        };
+        json_schema!({
+            "description": bare,
+            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern(K::KIND.dimension.0) }],
+        })
+    }
+}
+
+impl JsonSchema for SnapshotsValue {
+    fn schema_name() -> Cow<'static, str> {
+        "Snapshots".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let label = generator.subschema_for::<SnapshotLabel>();
+        let time = generator.subschema_for::<Quantity<Time>>();
+        json_schema!({
+            "anyOf": [
+                { "type": "number", "description": "so many, evenly over the contact" },
+                { "type": "array", "items": { "anyOf": [label, time] } },
+            ],
+        })
+    }
+}
+
+impl JsonSchema for ToleranceValue {
+    fn schema_name() -> Cow<'static, str> {
+        "Tolerance".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let share = generator.subschema_for::<Quantity<Number>>();
+        let table = generator.subschema_for::<ToleranceTable>();
+        json_schema!({ "anyOf": [share, table] })
+    }
+}

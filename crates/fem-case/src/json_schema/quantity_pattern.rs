@@ -1,0 +1,65 @@
+//! Regular expressions of quantities as strings: `22.2 mm` for a length, and no `22.2 s`.
+//!
+//! A unit is one symbol, or a quotient of two or three, as it is usually written for the dimension:
+//! `m/s`, `kg/m^3`, `N/mm²`. Of products, negative powers and parentheses no dimension can be told by
+//! an expression: with symbols that there are, they are let through. No look-around, so that every validator
+//! has them.
+
+use crate::quantity::unit_table::symbols;
+
+/// A number; its sign is a minus of either kind.
+const NUMBER: &str = r"\s*[-+−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
+
+const LENGTH: [i32; 4] = [1, 0, 0, 0];
+const MASS: [i32; 4] = [0, 1, 0, 0];
+const TIME: [i32; 4] = [0, 0, 1, 0];
+const FORCE: [i32; 4] = [1, 1, -2, 0];
+const VOLUME: [i32; 4] = [3, 0, 0, 0];
+
+/// What a string of a dimension (metre, kilogram, second, byte) looks like.
+pub(crate) fn pattern(dimension: [i32; 4]) -> String {
+    let of = |dimension| symbols(|found| found == dimension);
+    let (length, mass, time) = (of(LENGTH), of(MASS), of(TIME));
+    let per = |above: &str, below: &str| format!(r"{above}\s*/\s*{below}");
+    let (square, cube) = (power("2"), power("3"));
+    let mut forms = vec![of(dimension)];
+    match dimension {
+        [0, 0, 0, 0] => forms.push(String::new()),
+        [1, 0, -1, 0] => forms.push(per(&length, &time)),
+        [1, 0, -2, 0] => {
+            forms.push(per(&length, &format!("{time}{square}")));
+            forms.push(per(&per(&length, &time), &time));
+        }
+        [-3, 1, 0, 0] => {
+            forms.push(per(&mass, &format!("{length}{cube}")));
+            forms.push(per(&mass, &of(VOLUME)));
+        }
+        [-1, 1, -2, 0] => forms.push(per(&of(FORCE), &format!("{length}{square}"))),
+        [0, 1, -2, 0] => forms.push(per(&of(FORCE), &length)),
+        [0, 1, -1, 0] => forms.push(per(&mass, &time)),
+        [0, 0, -1, 0] => forms.push(per("1?", &time)),
+        _ => {}
+    }
+    forms.retain(|form| !form.is_empty() || dimension == [0; 4]);
+    format!(r"^{NUMBER}(\s*({})|{})\s*$", forms.join("|"), entangled())
+}
+
+/// A power after a symbol.
+fn power(digit: &str) -> String {
+    let raised = if digit == "2" { "²" } else { "³" };
+    format!(r"((\^|\*\*)?{digit}|{raised})")
+}
+
+/// Units that an expression cannot weigh: with a product, a negative power or a parenthesis somewhere.
+fn entangled() -> String {
+    let symbol = symbols(|_| true);
+    let positive = format!(r"{symbol}((\^|\*\*)?[0-9]+|[²³])?");
+    let negative = format!(r"{symbol}(\^|\*\*)?[-⁻−][0-9¹²³]+");
+    let closed = r"(\s*\)((\^|\*\*)?[-⁻−]?[0-9¹²³]+)?)*";
+    let any = format!(r"[\s(]*(1|{positive}|{negative}){closed}");
+    // A 1 that is no digit of the number has a blank before it.
+    let first = format!(r"(\s*/?\s*{positive}|\s+1)");
+    let product = format!(r"((\s*[*·⋅×]\s*|\s+){any}|\s*/?\s*{negative}|\s*/\s*\({any})");
+    let bare = format!(r"\s*/?\s*({negative}|\({any})");
+    format!(r"({first}(\s*/\s*{any})*{product}|{bare})(\s*[/*·⋅×]?\s*{any})*")
+}

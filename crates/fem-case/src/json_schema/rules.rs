@@ -1,0 +1,156 @@
+//! What keys ask of their values and of each other, added to a schema: ranges, shapes of which one is
+//! wanted, names of the library.
+//!
+//! The reader has all of it in [`crate::validate`], which is right where the two differ; a test holds every
+//! faulty case of a list against both.
+
+use fem_laws::{KeyNeed, KeyRange, KeySet};
+use serde_json::{Value, json};
+
+use crate::library;
+use crate::schema::model_tables::{LawKey, LawTable};
+
+/// Keys of a definition that are greater than 0 as a bare number, and begin with no minus as a string.
+const POSITIVE: &[(&str, &[&str])] = &[
+    (
+        "MaterialTable",
+        &["density", "youngs_modulus", "shear_modulus", "bulk_modulus", "yield_strength"],
+    ),
+    ("TermTable", &["decay_rate", "relaxation_time"]),
+    ("SphereTable", &["diameter"]),
+    ("GravityTable", &["acceleration"]),
+    ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"]),
+    ("ContactTable", &["penalty_factor"]),
+];
+
+/// Keys of a definition and what a bare number of theirs is.
+const RANGES: &[(&str, &str, &str, f64, &str, f64)] = &[
+    ("MaterialTable", "poissons_ratio", "exclusiveMinimum", -1.0, "exclusiveMaximum", 0.5),
+    ("TermTable", "weight", "minimum", 0.0, "maximum", 1.0),
+    ("MeshTable", "growth", "exclusiveMinimum", 1.0, "maximum", f64::MAX),
+    ("TimeTable", "step_factor", "exclusiveMinimum", 0.0, "maximum", 1.0),
+    ("TimeTable", "mass_scaling", "minimum", 0.0, "maximum", 0.1),
+    ("StopTable", "bounces", "minimum", 1.0, "maximum", 1e4),
+    ("StartTable", "gap", "minimum", 0.0, "maximum", f64::MAX),
+    ("CondensedTable", "vibration_modes", "minimum", 0.0, "maximum", 100.0),
+    ("CondensedTable", "steps", "minimum", 50.0, "maximum", 1e5),
+    ("ToleranceTable", "restitution", "exclusiveMinimum", 0.0, "maximum", 0.5),
+    ("ToleranceTable", "contact_time", "exclusiveMinimum", 0.0, "maximum", 0.5),
+    ("ToleranceTable", "peak_force", "exclusiveMinimum", 0.0, "maximum", 0.5),
+    ("ToleranceTable", "peak_pressure", "exclusiveMinimum", 0.0, "maximum", 0.5),
+];
+
+const MODULI: [&str; 4] = ["youngs_modulus", "shear_modulus", "bulk_modulus", "poissons_ratio"];
+const SHAPES: [&str; 3] = ["sphere", "wall", "half_space"];
+
+/// Adds the rules to the schema of cases; `laws` are the names of laws.
+pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
+    for (table, keys) in POSITIVE {
+        for key in *keys {
+            add(schema, &format!("/definitions/{table}/properties/{key}"), [above_zero()]);
+        }
+    }
+    for (table, key, low, least, high, most) in RANGES {
+        let range = match *most {
+            f64::MAX => json!({ *low: least }),
+            most => json!({ *low: least, *high: most }),
+        };
+        add(schema, &format!("/definitions/{table}/properties/{key}"), [range]);
+    }
+    add(schema, "/definitions/MaterialTable", [two_of(&MODULI)]);
+    let needs_material = json!({
+        "if": { "required": ["wall"] },
+        "then": { "not": { "required": ["material"] } },
+        "else": { "required": ["material"] },
+    });
+    add(schema, "/definitions/BodyTable", [one_of(&SHAPES), needs_material]);
+    let names: Vec<String> = library::names();
+    let of_library = json!({
+        "if": { "pattern": "^lib:" },
+        "then": { "enum": names },
+        "examples": names,
+    });
+    add(schema, "/definitions/BodyTable/properties/material", [of_library]);
+    add(schema, "/definitions/TermTable", [one_of(&["decay_rate", "relaxation_time"])]);
+    add(schema, "/definitions/ModelTable", [json!({ "minProperties": 1, "maxProperties": 1 })]);
+    add(schema, "/definitions/LawTable", [one_of(laws)]);
+    add_laws(schema);
+}
+
+/// Adds the ranges of the laws' keys, and which of them must be given.
+fn add_laws(schema: &mut Value) {
+    for LawKey { table, key, range, .. } in LawTable::KEYS {
+        let rule = match range {
+            KeyRange::Positive => above_zero(),
+            KeyRange::NotNegative => continue,
+            KeyRange::Restitution => json!({ "exclusiveMinimum": 0.0, "maximum": 1.0 }),
+            KeyRange::LikePoissonsRatio => {
+                json!({ "exclusiveMinimum": -1.0, "exclusiveMaximum": 1.0 })
+            }
+        };
+        add(schema, &format!("/definitions/{table}/properties/{key}"), [rule]);
+    }
+    let mut tables: Vec<_> = LawTable::KEYS.iter().map(|key| (key.table, key.family)).collect();
+    tables.dedup();
+    for (table, family) in tables {
+        let required = |set: &KeySet| {
+            let keys = set.iter().filter(|(_, need)| *need == KeyNeed::Required);
+            keys.map(|(key, _)| *key).collect::<Vec<_>>()
+        };
+        let sets = family.key_sets();
+        let rule = match sets {
+            [set] => json!({ "required": required(set) }),
+            // Without any key the materials give them.
+            _ if sets.iter().any(|set| set.is_empty()) => continue,
+            _ if sets.iter().all(|set| set.len() == 1) => {
+                one_of(&sets.iter().flat_map(required).collect::<Vec<_>>())
+            }
+            _ => {
+                let alone = sets.iter().map(|set| {
+                    let others = sets.iter().filter(|other| *other != set).copied().flatten();
+                    let others: Vec<_> =
+                        others.map(|(key, _)| json!({ "required": [key] })).collect();
+                    json!({ "required": required(set), "not": { "anyOf": others } })
+                });
+                json!({ "oneOf": alone.collect::<Vec<_>>() })
+            }
+        };
+        add(schema, &format!("/definitions/{table}"), [rule]);
+    }
+}
+
+/// Greater than 0 as a bare number, and no minus at the start of a string.
+fn above_zero() -> Value {
+    json!({ "exclusiveMinimum": 0, "pattern": "^\\s*[^-−\\s]" })
+}
+
+/// Puts rules beside what a place says already.
+fn add<const N: usize>(schema: &mut Value, pointer: &str, rules: [Value; N]) {
+    let Some(Value::Object(place)) = schema.pointer_mut(pointer) else { return };
+    // Beside a reference draft 7 reads nothing else.
+    if let Some(reference) = place.remove("$ref") {
+        place.insert("allOf".to_string(), json!([{ "$ref": reference }]));
+    }
+    let all = place.entry("allOf").or_insert_with(|| json!([]));
+    if let Value::Array(all) = all {
+        all.extend(rules);
+    }
+}
+
+/// Exactly one of some keys.
+fn one_of(keys: &[&str]) -> Value {
+    json!({ "oneOf": keys.iter().map(|key| json!({ "required": [key] })).collect::<Vec<_>>() })
+}
+
+/// Exactly two of some keys.
+fn two_of(keys: &[&str]) -> Value {
+    let mut pairs = Vec::new();
+    for (k, first) in keys.iter().enumerate() {
+        for second in &keys[k + 1..] {
+            let others = keys.iter().filter(|key| *key != first && *key != second);
+            let others: Vec<_> = others.map(|key| json!({ "required": [key] })).collect();
+            pairs.push(json!({ "required": [first, second], "not": { "anyOf": others } }));
+        }
+    }
+    json!({ "oneOf": pairs })
+}

@@ -1,0 +1,367 @@
+//! A number of a known kind (a length, a rate, …) as a case file gives it: a bare SI number or a
+//! string with a unit. The kind is a type parameter here, at the border; inside, numbers are `f64`.
+
+pub(crate) mod unit_table;
+pub(crate) mod units;
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{Deserialize, Deserializer, Visitor};
+use serde::{Serialize, Serializer};
+
+use crate::quantity::units::{Dimension, UnitError, parse_quantity};
+
+/// What a kind of quantity is called and how it is written.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// With its article: "a length".
+    pub name: &'static str,
+    /// Exponents of metre, kilogram, second, byte.
+    pub dimension: Dimension,
+    /// The unit of a bare number: "m".
+    pub si: &'static str,
+    /// How a user may write it: `"22.2 mm"`, quotes included where it needs them.
+    pub example: &'static str,
+    /// Whether it counts things: a whole value is shown and written without a point.
+    pub is_count: bool,
+}
+
+/// A type that stands for a kind of quantity.
+pub trait QuantityKind {
+    /// Its name, dimension and example.
+    const KIND: Kind;
+}
+
+macro_rules! kinds {
+    ($($marker:ident, $name:literal, $dimension:expr, $si:literal, $example:literal;)+) => {
+        $(
+            #[doc = concat!("Marks ", $name, ", such as ", $example, ".")]
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub enum $marker {}
+
+            impl QuantityKind for $marker {
+                const KIND: Kind = Kind {
+                    name: $name,
+                    dimension: Dimension($dimension),
+                    si: $si,
+                    example: $example,
+                    is_count: false,
+                };
+            }
+        )+
+
+        /// Dimensions that have a name: those that a case file can hold come first.
+        const NAMED: &[(&str, [i32; 4])] = &[
+            $(($name, $dimension),)+
+            ("a mass", [0, 1, 0, 0]),
+            ("an area", [2, 0, 0, 0]),
+            ("a volume", [3, 0, 0, 0]),
+            ("a force", [1, 1, -2, 0]),
+            ("an energy", [2, 1, -2, 0]),
+            ("a power", [2, 1, -3, 0]),
+        ];
+    };
+}
+
+kinds! {
+    Number, "a plain number", [0, 0, 0, 0], "", "0.2";
+    Length, "a length", [1, 0, 0, 0], "m", "\"22.2 mm\"";
+    Speed, "a speed", [1, 0, -1, 0], "m/s", "\"0.5 m/s\"";
+    Acceleration, "an acceleration", [1, 0, -2, 0], "m/s^2", "\"9.81 m/s^2\"";
+    Density, "a density", [-3, 1, 0, 0], "kg/m^3", "\"2390 kg/m^3\"";
+    Stress, "a pressure", [-1, 1, -2, 0], "Pa", "\"63 GPa\"";
+    Time, "a time", [0, 0, 1, 0], "s", "\"10 us\"";
+    Stiffness, "a stiffness", [0, 1, -2, 0], "N/m", "\"1e7 N/m\"";
+    Damping, "a damping coefficient", [0, 1, -1, 0], "N s/m", "\"30 N s/m\"";
+    Viscosity, "a viscosity", [-1, 1, -1, 0], "Pa s", "\"1e4 Pa s\"";
+    Rate, "a rate", [0, 0, -1, 0], "1/s", "\"2708 1/s\"";
+    Bytes, "an amount of memory", [0, 0, 0, 1], "bytes", "\"8 GB\"";
+}
+
+/// Marks a whole number, such as 12.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {}
+
+impl QuantityKind for Count {
+    const KIND: Kind =
+        Kind { name: "a whole number", example: "12", is_count: true, ..Number::KIND };
+}
+
+/// Counts above it are no whole numbers of f64 for sure.
+const LARGEST_COUNT: f64 = 9e15;
+
+/// The name of a dimension: "a length", or "in kg m^2" where it has none.
+fn name_dimension(dimension: Dimension) -> String {
+    if let Some((name, _)) = NAMED.iter().find(|(_, known)| *known == dimension.0) {
+        return name.to_string();
+    }
+    let symbols = ["m", "kg", "s", "B"].into_iter().zip(dimension.0);
+    let factors = symbols.filter(|(_, exponent)| *exponent != 0).map(|(symbol, exponent)| {
+        if exponent == 1 { symbol.to_string() } else { format!("{symbol}^{exponent}") }
+    });
+    format!("in {}", factors.collect::<Vec<_>>().join(" "))
+}
+
+/// Why a quantity has no SI value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum QuantityError {
+    /// `nan`, `inf` or `-inf`.
+    NotFinite(f64),
+    /// The text is no number with a known unit.
+    Unit(UnitError),
+    /// The unit is known but of another dimension.
+    WrongDimension(Dimension),
+}
+
+/// A number as written, its kind known.
+#[derive(Clone, Debug, PartialEq)]
+enum Written {
+    Si(f64),
+    Text(String),
+}
+
+/// A quantity of kind `K` as a case file holds it. It is converted by [`Quantity::si`] and
+/// serializes as a bare SI number (or as its text if that has no SI value).
+///
+/// ```
+/// use fem_case::{Count, Length, Quantity};
+///
+/// assert_eq!(Quantity::<Length>::from("22.2 mm").si(), Ok(0.0222));
+/// assert_eq!(Quantity::<Length>::from(0.0222).si(), Ok(0.0222));
+/// assert_eq!(Quantity::<Count>::from(12).si(), Ok(12.0));
+/// ```
+#[derive(Clone, PartialEq)]
+pub struct Quantity<K> {
+    written: Written,
+    kind: PhantomData<K>,
+}
+
+impl<K: QuantityKind> Quantity<K> {
+    /// From a value in SI units.
+    pub fn from_si(value: f64) -> Self {
+        Quantity { written: Written::Si(value), kind: PhantomData }
+    }
+
+    /// From a number with its unit, as a case file may hold it; nothing is checked before
+    /// [`Quantity::si`].
+    pub fn from_text(text: &str) -> Self {
+        Quantity { written: Written::Text(text.to_string()), kind: PhantomData }
+    }
+
+    /// The value in SI units, always finite.
+    ///
+    /// # Errors
+    /// Not finite, not a number with a unit, or a unit of another dimension.
+    pub fn si(&self) -> Result<f64, QuantityError> {
+        match &self.written {
+            Written::Si(value) if value.is_finite() => Ok(*value),
+            Written::Si(value) => Err(QuantityError::NotFinite(*value)),
+            Written::Text(text) => match parse_quantity(text) {
+                Ok((value, dimension)) if dimension == K::KIND.dimension => Ok(value),
+                Ok((_, dimension)) => Err(QuantityError::WrongDimension(dimension)),
+                Err(error) => Err(QuantityError::Unit(error)),
+            },
+        }
+    }
+
+    /// A count that is whole.
+    fn whole(value: f64) -> Option<i64> {
+        let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST_COUNT;
+        (K::KIND.is_count && is_whole).then_some(value as i64)
+    }
+
+    /// The text, if it was written as a string.
+    pub fn text(&self) -> Option<&str> {
+        match &self.written {
+            Written::Si(_) => None,
+            Written::Text(text) => Some(text),
+        }
+    }
+
+    /// Message and help for `error`, which [`Quantity::si`] gave, of the key `key`.
+    pub(crate) fn explain(&self, error: &QuantityError, key: &str) -> (String, String) {
+        let Kind { name, si, example, is_count, .. } = K::KIND;
+        let bare = match si {
+            _ if is_count => format!("write {name}, such as {example}"),
+            "" => format!("write a number, such as {example} or \"20 %\""),
+            si => format!("write {name} with its unit, {example}, or a bare number in {si}"),
+        };
+        match error {
+            QuantityError::NotFinite(_) => (format!("{key} is {self}, which is not finite"), bare),
+            QuantityError::WrongDimension(found) => {
+                let found = match found.0 {
+                    [0, 0, 0, 0] => "has no unit".to_string(),
+                    _ => format!("is {}", name_dimension(*found)),
+                };
+                let message = format!("{self} {found}; {key} wants {name}, such as {example}");
+                (message, bare)
+            }
+            QuantityError::Unit(UnitError::UnknownUnit { symbol, suggestion }) => {
+                let message = format!("unknown unit `{symbol}` in {self}; {key} wants {name}");
+                match suggestion {
+                    Some(near) => (message, format!("did you mean `{near}`? {bare}")),
+                    None => (message, bare),
+                }
+            }
+            QuantityError::Unit(error) => {
+                (format!("{self} is not {name} for {key}: {error}"), bare)
+            }
+        }
+    }
+}
+
+/// A value in SI units: `0.0222`.
+impl<K: QuantityKind> From<f64> for Quantity<K> {
+    fn from(value: f64) -> Self {
+        Self::from_si(value)
+    }
+}
+
+/// A number with its unit: `"22.2 mm"`.
+impl<K: QuantityKind> From<&str> for Quantity<K> {
+    fn from(text: &str) -> Self {
+        Self::from_text(text)
+    }
+}
+
+/// A whole number: `12`.
+impl From<u32> for Quantity<Count> {
+    fn from(count: u32) -> Self {
+        Self::from_si(f64::from(count))
+    }
+}
+
+impl<K: QuantityKind> fmt::Display for Quantity<K> {
+    /// As written: `"22.2 mm"` with its quotes, or the number with its SI unit.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.written {
+            Written::Text(text) => write!(f, "\"{text}\""),
+            Written::Si(value) => match (Self::whole(*value), K::KIND.si) {
+                (Some(count), _) => write!(f, "{count}"),
+                (None, "") => write!(f, "{value:?}"),
+                (None, si) => write!(f, "{value:?} {si}"),
+            },
+        }
+    }
+}
+
+impl<K: QuantityKind> fmt::Debug for Quantity<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// A new type of the name of its SI unit, so that a serializer can know it; most look through it.
+impl<K: QuantityKind> Serialize for Quantity<K> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match (self.si(), &self.written) {
+            (Ok(value), _) | (Err(_), &Written::Si(value)) => match Self::whole(value) {
+                Some(count) => serializer.serialize_newtype_struct(K::KIND.si, &count),
+                None => serializer.serialize_newtype_struct(K::KIND.si, &value),
+            },
+            (Err(_), Written::Text(text)) => serializer.serialize_str(text),
+        }
+    }
+}
+
+impl<'de, K: QuantityKind> Deserialize<'de> for Quantity<K> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct WrittenVisitor<K>(PhantomData<K>);
+        impl<K: QuantityKind> Visitor<'_> for WrittenVisitor<K> {
+            type Value = Written;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{}, such as {}", K::KIND.name, K::KIND.example)
+            }
+
+            fn visit_i64<E>(self, value: i64) -> Result<Written, E> {
+                Ok(Written::Si(value as f64))
+            }
+
+            fn visit_u64<E>(self, value: u64) -> Result<Written, E> {
+                Ok(Written::Si(value as f64))
+            }
+
+            fn visit_f64<E>(self, value: f64) -> Result<Written, E> {
+                Ok(Written::Si(value))
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<Written, E> {
+                Ok(Written::Text(text.to_string()))
+            }
+        }
+        let written = deserializer.deserialize_any(WrittenVisitor::<K>(PhantomData))?;
+        Ok(Quantity { written, kind: PhantomData })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quantity<K: QuantityKind>(toml: &str) -> Quantity<K> {
+        Quantity::deserialize(toml::de::ValueDeserializer::parse(toml).unwrap()).unwrap()
+    }
+
+    fn explained<K: QuantityKind>(toml: &str, key: &str) -> String {
+        let quantity = quantity::<K>(toml);
+        quantity.explain(&quantity.si().unwrap_err(), key).0
+    }
+
+    #[test]
+    fn a_bare_number_is_si_and_a_string_has_a_unit() {
+        assert_eq!(quantity::<Length>("0.0222").si(), Ok(0.0222));
+        assert_eq!(quantity::<Length>("1").si(), Ok(1.0));
+        assert_eq!(quantity::<Length>("'22.2 mm'").si(), Ok(0.0222));
+        assert_eq!(quantity::<Number>("'1'").si(), Ok(1.0));
+    }
+
+    #[test]
+    fn what_is_no_finite_quantity_is_an_error_that_says_why() {
+        let is = |found: String, expected: &str| assert_eq!(found, expected);
+        is(
+            explained::<Length>("'22.2 kg'", "diameter"),
+            "\"22.2 kg\" is a mass; diameter wants a length, such as \"22.2 mm\"",
+        );
+        is(
+            explained::<Length>("'22.2'", "diameter"),
+            "\"22.2\" has no unit; diameter wants a length, such as \"22.2 mm\"",
+        );
+        is(
+            explained::<Stress>("'3 kg^2 m'", "youngs_modulus"),
+            "\"3 kg^2 m\" is in m kg^2; youngs_modulus wants a pressure, such as \"63 GPa\"",
+        );
+        is(explained::<Length>("nan", "diameter"), "diameter is NaN m, which is not finite");
+        is(explained::<Length>("-inf", "diameter"), "diameter is -inf m, which is not finite");
+        is(
+            explained::<Length>("'nan mm'", "diameter"),
+            "\"nan mm\" is not a length for diameter: it does not begin with a number",
+        );
+        is(
+            explained::<Length>("'3 furlong'", "diameter"),
+            "unknown unit `furlong` in \"3 furlong\"; diameter wants a length",
+        );
+    }
+
+    #[test]
+    fn a_count_reads_as_a_whole_number() {
+        for written in ["101", "101.0", "'101'"] {
+            let count = quantity::<Count>(written);
+            assert_eq!(serde_json::to_string(&count).unwrap(), "101");
+        }
+        assert_eq!(quantity::<Count>("49.0").to_string(), "49");
+        assert_eq!(quantity::<Count>("49.5").to_string(), "49.5");
+        assert_eq!(quantity::<Number>("1").to_string(), "1.0");
+        let many = quantity::<Count>("'many'");
+        let (_, help) = many.explain(&many.si().unwrap_err(), "steps");
+        assert_eq!(help, "write a whole number, such as 12");
+    }
+
+    #[test]
+    fn it_serializes_as_the_si_number() {
+        let json = |toml| serde_json::to_string(&quantity::<Length>(toml)).unwrap();
+        assert_eq!(json("'22.2 mm'"), "0.0222");
+        assert_eq!(json("3"), "3.0");
+    }
+}

@@ -1,0 +1,111 @@
+//! `[[body]]` as written.
+
+use crate::quantity::{Length, Quantity, Speed};
+use serde::{Deserialize, Serialize};
+
+/// `[[body]]`: a name, exactly one shape, and for all but a wall a material.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table [[body]]")]
+pub struct BodyTable {
+    /// Letters, digits, `_` and `-`; unique.
+    pub name: String,
+    /// The name of a `[material.NAME]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Toward the other body; 0 if absent, negative if it recedes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub approach_speed: Option<Quantity<Speed>>,
+    /// Whether the mass centre of a sphere does not move, whatever falls on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held: Option<bool>,
+    /// A solid sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<SphereTable>,
+    /// A rigid plane of infinite mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall: Option<EmptyTable>,
+    /// A block that never ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub half_space: Option<EmptyTable>,
+}
+
+impl BodyTable {
+    /// A solid sphere at rest, made of `[material.NAME]`.
+    pub fn sphere(
+        name: impl Into<String>,
+        diameter: impl Into<Quantity<Length>>,
+        material: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            material: Some(material.into()),
+            approach_speed: None,
+            held: None,
+            sphere: Some(SphereTable::new(diameter)),
+            wall: None,
+            half_space: None,
+        }
+    }
+
+    /// A rigid plane at rest.
+    pub fn wall(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            material: None,
+            approach_speed: None,
+            held: None,
+            sphere: None,
+            wall: Some(EmptyTable {}),
+            half_space: None,
+        }
+    }
+
+    /// A block that never ends, at rest, made of `[material.NAME]`.
+    pub fn half_space(name: impl Into<String>, material: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            material: Some(material.into()),
+            approach_speed: None,
+            sphere: None,
+            wall: None,
+            half_space: Some(EmptyTable {}),
+            held: None,
+        }
+    }
+
+    /// This body, moving toward the other one.
+    pub fn approaching(self, speed: impl Into<Quantity<Speed>>) -> Self {
+        Self { approach_speed: Some(speed.into()), ..self }
+    }
+
+    /// This sphere, held in its place.
+    pub fn held(self) -> Self {
+        Self { held: Some(true), ..self }
+    }
+}
+
+/// `sphere = { … }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { diameter = \"22.2 mm\" }")]
+pub struct SphereTable {
+    /// Diameter, > 0.
+    pub diameter: Quantity<Length>,
+    /// A mesh file instead of the built-in mesh; relative to the case file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<String>,
+}
+
+impl SphereTable {
+    /// A sphere with the built-in mesh.
+    pub fn new(diameter: impl Into<Quantity<Length>>) -> Self {
+        Self { diameter: diameter.into(), mesh: None }
+    }
+}
+
+/// A table without keys: its presence is the choice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "an empty table, {}")]
+pub struct EmptyTable {}

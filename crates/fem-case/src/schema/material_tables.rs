@@ -1,0 +1,185 @@
+//! `[material.NAME]` as written.
+
+use serde::{Deserialize, Serialize};
+
+use crate::quantity::{Density, Number, Quantity, Rate, Stress, Time};
+use crate::schema::keyword::keywords;
+
+/// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as [material.glass]")]
+pub struct MaterialTable {
+    /// Mass per volume, > 0.
+    pub density: Quantity<Density>,
+    /// Young's modulus E, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Quantity<Stress>>,
+    /// Shear modulus G, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_modulus: Option<Quantity<Stress>>,
+    /// Bulk modulus K, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bulk_modulus: Option<Quantity<Stress>>,
+    /// Poisson's ratio ν, between −1 and 1/2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<Quantity<Number>>,
+    /// Yield strength in uniaxial tension, > 0. It feeds a warning: no model here flows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yield_strength: Option<Quantity<Stress>>,
+    /// The energy that it stores at finite strain; `"neo-hooke"` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hyperelastic: Option<HyperelasticLaw>,
+    /// A Prony series; absent: elastic.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relaxation: Option<RelaxationTable>,
+}
+
+impl MaterialTable {
+    /// Elastic, by Young's modulus and Poisson's ratio.
+    pub fn from_youngs_modulus_poissons_ratio(
+        density: impl Into<Quantity<Density>>,
+        youngs_modulus: impl Into<Quantity<Stress>>,
+        poissons_ratio: impl Into<Quantity<Number>>,
+    ) -> Self {
+        Self {
+            youngs_modulus: Some(youngs_modulus.into()),
+            poissons_ratio: Some(poissons_ratio.into()),
+            ..Self::without_moduli(density.into())
+        }
+    }
+
+    /// Elastic, by bulk and shear modulus.
+    pub fn from_bulk_shear(
+        density: impl Into<Quantity<Density>>,
+        bulk_modulus: impl Into<Quantity<Stress>>,
+        shear_modulus: impl Into<Quantity<Stress>>,
+    ) -> Self {
+        Self {
+            bulk_modulus: Some(bulk_modulus.into()),
+            shear_modulus: Some(shear_modulus.into()),
+            ..Self::without_moduli(density.into())
+        }
+    }
+
+    /// This material with a Prony series in place of its own; the moduli are instantaneous.
+    pub fn relaxing(self, acts_on: ActsOn, terms: impl IntoIterator<Item = TermTable>) -> Self {
+        let terms = terms.into_iter().collect();
+        Self { relaxation: Some(RelaxationTable { acts_on, terms }), ..self }
+    }
+
+    fn without_moduli(density: Quantity<Density>) -> Self {
+        Self {
+            density,
+            youngs_modulus: None,
+            shear_modulus: None,
+            bulk_modulus: None,
+            poissons_ratio: None,
+            yield_strength: None,
+            hyperelastic: None,
+            relaxation: None,
+        }
+    }
+}
+
+keywords! {
+    /// Which energy a solid stores at finite strain.
+    HyperelasticLaw {
+        /// G/2 (J^(−2/3) tr b − 3) + K/2 (J − 1)².
+        NeoHooke = "neo-hooke",
+        /// G/2 (tr b − 3) − G ln J + λ/2 ln² J.
+        NeoHookeLn = "neo-hooke-ln",
+        /// Hooke's energy of the logarithmic strain.
+        Hencky = "hencky",
+        /// Hooke's energy of the Green-Lagrange strain.
+        SaintVenantKirchhoff = "saint-venant-kirchhoff",
+    }
+}
+
+impl From<HyperelasticLaw> for fem_material::finite::HyperelasticLaw {
+    fn from(law: HyperelasticLaw) -> Self {
+        match law {
+            HyperelasticLaw::NeoHooke => Self::NeoHooke,
+            HyperelasticLaw::NeoHookeLn => Self::NeoHookeLn,
+            HyperelasticLaw::Hencky => Self::Hencky,
+            HyperelasticLaw::SaintVenantKirchhoff => Self::SaintVenantKirchhoff,
+        }
+    }
+}
+
+/// `[material.NAME.relaxation]`: a Prony series.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as [material.glass.relaxation]")]
+pub struct RelaxationTable {
+    /// Which moduli relax.
+    pub acts_on: ActsOn,
+    /// One table a Prony term.
+    pub terms: Vec<TermTable>,
+}
+
+keywords! {
+    /// Which moduli relax.
+    ActsOn {
+        /// Shear and bulk modulus alike: Poisson's ratio stays constant.
+        All = "all",
+        /// The shear modulus; the bulk modulus stays elastic.
+        Shear = "shear",
+    }
+}
+
+impl From<fem_material::ActsOn> for ActsOn {
+    fn from(acts_on: fem_material::ActsOn) -> Self {
+        match acts_on {
+            fem_material::ActsOn::All => Self::All,
+            fem_material::ActsOn::Shear => Self::Shear,
+        }
+    }
+}
+
+impl From<ActsOn> for fem_material::ActsOn {
+    fn from(acts_on: ActsOn) -> Self {
+        match acts_on {
+            ActsOn::All => Self::All,
+            ActsOn::Shear => Self::Shear,
+        }
+    }
+}
+
+/// A Prony term: its weight and exactly one of decay rate and relaxation time.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table such as { weight = 1.0, decay_rate = \"2708 1/s\" }"
+)]
+pub struct TermTable {
+    /// G_k/G_0, > 0; all weights together at most 1.
+    pub weight: Quantity<Number>,
+    /// Decay rate 1/τ_k, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay_rate: Option<Quantity<Rate>>,
+    /// Relaxation time τ_k, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relaxation_time: Option<Quantity<Time>>,
+}
+
+impl TermTable {
+    /// By g_k = G_k/G_0 and 1/τ_k.
+    pub fn with_decay_rate(
+        weight: impl Into<Quantity<Number>>,
+        decay_rate: impl Into<Quantity<Rate>>,
+    ) -> Self {
+        let (weight, decay_rate) = (weight.into(), Some(decay_rate.into()));
+        Self { weight, decay_rate, relaxation_time: None }
+    }
+
+    /// By g_k = G_k/G_0 and τ_k.
+    pub fn with_relaxation_time(
+        weight: impl Into<Quantity<Number>>,
+        relaxation_time: impl Into<Quantity<Time>>,
+    ) -> Self {
+        let (weight, relaxation_time) = (weight.into(), Some(relaxation_time.into()));
+        Self { weight, decay_rate: None, relaxation_time }
+    }
+}

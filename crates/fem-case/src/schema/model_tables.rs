@@ -1,0 +1,369 @@
+//! `[model]` as written: which model computes the collision, and its keys.
+
+use fem_laws::{EndRule, KeyRange, LawFamily};
+use serde::{Deserialize, Serialize};
+
+use crate::error::CaseError;
+use crate::quantity::{
+    Count, Damping, Kind, Number, Quantity, QuantityKind, Speed, Stiffness, Time, Viscosity,
+};
+use crate::schema::body_tables::EmptyTable;
+use crate::schema::keyword::keywords;
+use crate::source::key_path::join;
+use crate::validate::{Allowed, Check};
+
+/// `[model]`: exactly one key.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as [model] with fem = {}")]
+pub struct ModelTable {
+    /// Explicit finite elements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fem: Option<EmptyTable>,
+    /// Linear bodies condensed to their contact nodes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub condensed: Option<CondensedTable>,
+    /// Quasi-static viscoelastic half-space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ting: Option<TingTable>,
+    /// Quasi-static elastic half-space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hertz: Option<HertzTable>,
+    /// A contact law of one degree of freedom.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<LawTable>,
+    /// The cheapest that serves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub auto: Option<EmptyTable>,
+}
+
+/// Models with their defaults. A table with keys becomes a model by `into()`.
+///
+/// ```
+/// use fem_case::schema::{CondensedTable, KuwabaraKonoTable, ModelTable};
+///
+/// let quasi_static = ModelTable::condensed();
+/// let vibrating: ModelTable =
+///     CondensedTable { vibration_modes: Some(12.into()), ..Default::default() }.into();
+/// let law =
+///     ModelTable::law(KuwabaraKonoTable { a: Some("1 us".into()), ..Default::default() });
+/// # assert!(quasi_static.condensed.is_some() && vibrating.condensed.is_some());
+/// # assert_eq!(law.law.unwrap().given(), ["kuwabara_kono"]);
+/// ```
+impl ModelTable {
+    /// The names of models that need no key.
+    pub const NAMES: &'static [&'static str] = &["fem", "condensed", "ting", "hertz", "auto"];
+
+    /// Explicit finite elements.
+    pub fn fem() -> Self {
+        Self { fem: Some(EmptyTable {}), ..Self::default() }
+    }
+
+    /// The cheapest that serves.
+    pub fn auto() -> Self {
+        Self { auto: Some(EmptyTable {}), ..Self::default() }
+    }
+
+    /// Linear bodies condensed to their contact nodes.
+    pub fn condensed() -> Self {
+        CondensedTable::default().into()
+    }
+
+    /// Quasi-static viscoelastic half-space.
+    pub fn ting() -> Self {
+        TingTable::default().into()
+    }
+
+    /// Quasi-static elastic half-space.
+    pub fn hertz() -> Self {
+        HertzTable::default().into()
+    }
+
+    /// A contact law of one degree of freedom, by its table.
+    pub fn law(law: impl Into<LawTable>) -> Self {
+        law.into().into()
+    }
+}
+
+impl From<CondensedTable> for ModelTable {
+    fn from(table: CondensedTable) -> Self {
+        Self { condensed: Some(table), ..Self::default() }
+    }
+}
+
+impl From<TingTable> for ModelTable {
+    fn from(table: TingTable) -> Self {
+        Self { ting: Some(table), ..Self::default() }
+    }
+}
+
+impl From<HertzTable> for ModelTable {
+    fn from(table: HertzTable) -> Self {
+        Self { hertz: Some(table), ..Self::default() }
+    }
+}
+
+impl From<LawTable> for ModelTable {
+    fn from(table: LawTable) -> Self {
+        Self { law: Some(table), ..Self::default() }
+    }
+}
+
+/// `condensed = { … }`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { vibration_modes = 12 }")]
+pub struct CondensedTable {
+    /// Modes of free vibration of each body, 0 to 100; 0 is quasi-static.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vibration_modes: Option<Quantity<Count>>,
+    /// Steps over the elastic contact time, 50 to 100,000.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Quantity<Count>>,
+    /// Whether the penalty springs of model fem resist overlap; false: nothing overlaps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub penalty_springs: Option<bool>,
+}
+
+/// `ting = { … }`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
+pub struct TingTable {
+    /// Whether the spheres' finite size adds to the approach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_size: Option<bool>,
+    /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<Quantity<Number>>,
+}
+
+/// `hertz = { … }`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
+pub struct HertzTable {
+    /// Whether the spheres' finite size adds to the approach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_size: Option<bool>,
+}
+
+keywords! {
+    /// When a contact with a law is over.
+    End {
+        /// The force falls to zero: the surfaces cannot pull.
+        ZeroForce = "zero_force",
+        /// The overlap falls to zero; until then the dashpot may pull.
+        ZeroOverlap = "zero_overlap",
+    }
+}
+
+impl From<EndRule> for End {
+    fn from(rule: EndRule) -> Self {
+        match rule {
+            EndRule::ZeroForce => Self::ZeroForce,
+            EndRule::ZeroOverlap => Self::ZeroOverlap,
+        }
+    }
+}
+
+impl From<End> for EndRule {
+    fn from(end: End) -> Self {
+        match end {
+            End::ZeroForce => Self::ZeroForce,
+            End::ZeroOverlap => Self::ZeroOverlap,
+        }
+    }
+}
+
+/// Makes, from the table of contact laws, one table per law, with `end` and `tolerance` in each, and the
+/// table `law` around them.
+macro_rules! law_tables {
+    ($(
+        $(#[$doc:meta])*
+        $variant:ident, $law:ident, $table:ident, $example:literal;
+        formula($pair:ident, [$($value:ident),*]) = $formula:expr;
+        given by $([$($set_key:ident $(: $need:expr)?),*])+ $(, values $values:path)?;
+        $(ends at $ends:ident;)?
+        keys { $($(#[$key_doc:meta])* $key:ident: $kind:ident, $range:ident $(, $role:expr)?;)* }
+    )+) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+            #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+            #[serde(deny_unknown_fields, expecting = $example)]
+            pub struct $table {
+                $(
+                    $(#[$key_doc])*
+                    #[serde(skip_serializing_if = "Option::is_none")]
+                    pub $key: Option<Quantity<$kind>>,
+                )*
+                /// When the contact is over.
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub end: Option<End>,
+                /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub tolerance: Option<Quantity<Number>>,
+            }
+
+            impl From<$table> for LawTable {
+                fn from(table: $table) -> Self {
+                    Self { $law: Some(table), ..Self::default() }
+                }
+            }
+        )+
+
+        /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand beside it.
+        #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[serde(
+            deny_unknown_fields,
+            expecting = "a table such as { kuwabara_kono = { a = \"1e-6 s\" } }"
+        )]
+        pub struct LawTable {
+            $(
+                $(#[$doc])*
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub $law: Option<$table>,
+            )+
+            /// When the contact is over.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub end: Option<End>,
+            /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub tolerance: Option<Quantity<Number>>,
+        }
+
+        impl LawTable {
+            /// The names of all laws.
+            pub const NAMES: &'static [&'static str] = &[$(stringify!($law),)+];
+
+            /// Every number of every law.
+            pub(crate) const KEYS: &'static [LawKey] = &[$($(LawKey {
+                family: LawFamily::$variant,
+                #[cfg(feature = "schema")]
+                table: stringify!($table),
+                key: stringify!($key),
+                kind: <$kind>::KIND,
+                range: KeyRange::$range,
+            },)*)+];
+
+            /// Returns the laws that are given.
+            pub(crate) fn families(&self) -> Vec<LawFamily> {
+                let mut given = Vec::new();
+                $(if self.$law.is_some() { given.push(LawFamily::$variant) })+
+                given
+            }
+
+            /// Returns the names of the laws that are given.
+            pub fn given(&self) -> Vec<&'static str> {
+                self.families().into_iter().map(LawFamily::name).collect()
+            }
+
+            /// Returns `end` and `tolerance` of the law that is given.
+            pub(crate) fn inner(&self) -> (Option<End>, Option<&Quantity<Number>>) {
+                $(if let Some(table) = &self.$law { return (table.end, table.tolerance.as_ref()) })+
+                (None, None)
+            }
+
+            /// Returns the values (SI) of the keys of the law that is given.
+            ///
+            /// # Errors
+            /// A value is no number of its kind, or is out of its range.
+            pub(crate) fn values(&self, check: &Check<'_>, path: &str) -> Result<Values, CaseError> {
+                let mut values = Values::new();
+                $(if let Some(_table) = &self.$law {
+                    $(
+                        let value = check.optional(
+                            &join(path, stringify!($key)),
+                            _table.$key.as_ref(),
+                            Allowed::by(KeyRange::$range),
+                        )?;
+                        values.extend(value.map(|value| (stringify!($key), value)));
+                    )*
+                })+
+                Ok(values)
+            }
+
+            /// Returns this law with `end` and `tolerance` in its own table.
+            #[must_use]
+            pub fn filled(mut self, end: End, tolerance: f64) -> Self {
+                (self.end, self.tolerance) = (None, None);
+                $(if let Some(table) = &mut self.$law {
+                    table.end = Some(end);
+                    table.tolerance = Some(Quantity::from_si(tolerance));
+                })+
+                self
+            }
+        }
+    };
+}
+
+fem_laws::contact_laws!(law_tables);
+
+/// One key of one law.
+pub(crate) struct LawKey {
+    pub family: LawFamily,
+    /// The type of the law's table.
+    #[cfg(feature = "schema")]
+    pub table: &'static str,
+    pub key: &'static str,
+    pub kind: Kind,
+    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema reads it"))]
+    pub range: KeyRange,
+}
+
+/// Keys and their values, SI.
+type Values = Vec<(&'static str, f64)>;
+
+/// Whether a table holds at most one of these two keys, so that an override with the one takes the
+/// place of the other.
+pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool {
+    let is_law = |key| LawTable::NAMES.contains(&key);
+    match table {
+        ["model"] => key != other,
+        ["model", "law"] => key != other && is_law(key) && is_law(other),
+        _ => false,
+    }
+}
+
+/// Whether a name stands for the table of this name, with its defaults, at this path.
+pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
+    match path {
+        ["model"] => ModelTable::NAMES.contains(&name),
+        ["model", "law"] => LawTable::NAMES.contains(&name),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a fit prints can be written into a case: a parameter and its key have the same unit.
+    #[test]
+    fn parameters_have_the_units_of_their_keys() {
+        for LawKey { family, key, kind, .. } in LawTable::KEYS {
+            let mut parameters = family.parameters().iter();
+            let Some(parameter) = parameters.find(|parameter| parameter.key == *key) else {
+                continue;
+            };
+            let [m, kg, s] = parameter.dimension;
+            assert_eq!(kind.dimension.0, [m, kg, s, 0], "{family:?} {parameter:?}");
+            assert!(kind.si == parameter.unit || kind.si.is_empty(), "{parameter:?}");
+        }
+    }
+
+    /// Every key belongs to exactly one set of keys, and every set is of keys that the law has.
+    #[test]
+    fn sets_of_keys_are_the_keys() {
+        for family in LawFamily::ALL {
+            let keys = LawTable::KEYS.iter().filter(|key| key.family == family);
+            let keys: Vec<_> = keys.map(|key| key.key).collect();
+            let sets = family.key_sets().iter().flat_map(|set| set.iter().map(|(key, _)| *key));
+            let mut sets: Vec<_> = sets.collect();
+            sets.sort_by_key(|key| keys.iter().position(|own| own == key));
+            assert_eq!(sets, keys, "{family:?}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! What serde says about a wrong tree, in the words of the case file.
+
+use toml::de::Error;
+
+use crate::error::CaseError;
+use crate::schema::model_tables::{LawTable, ModelTable};
+use crate::source::document::Document;
+use crate::source::toml_text::first_line;
+
+/// Required keys, as a user may write them.
+const EXAMPLES: &[(&str, &str)] = &[
+    ("name", "name = \"striker\""),
+    ("diameter", "diameter = \"22.2 mm\""),
+    ("density", "density = \"2390 kg/m^3\""),
+    ("weight", "weight = 1.0"),
+    ("terms", "terms = [{ weight = 1.0, decay_rate = \"2708 1/s\" }]"),
+    (
+        "acts_on",
+        "acts_on = \"all\" (constant Poisson's ratio) or acts_on = \"shear\" (the bulk modulus \
+         stays elastic)",
+    ),
+];
+
+/// The names that stand for tables at a place.
+fn names_at(path: &str) -> Option<&'static [&'static str]> {
+    match path {
+        "model" => Some(ModelTable::NAMES),
+        "model.law" => Some(LawTable::NAMES),
+        _ => None,
+    }
+}
+
+/// The error of deserializing the tree of `document`.
+pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
+    let message = error.message();
+    let span = error.span().unwrap_or(0..0);
+    let path = document.path_of(&span).unwrap_or("");
+    let at = |message: String| match path {
+        "" => document.error_on(span.clone(), message),
+        path => document.error_on(span.clone(), message).about(path),
+    };
+    let in_table = |path: &str| {
+        if path.is_empty() { String::new() } else { format!(" in {path}") }
+    };
+
+    if let Some(rest) = message.strip_prefix("unknown field ") {
+        let (found, allowed) = split_backticked(rest);
+        let table = path.rfind('.').map_or("", |dot| &path[..dot]);
+        let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
+        let help = match (table, found) {
+            _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
+            ("", "vary" | "combine") if allowed.contains(&"material") => {
+                "a file that varies keys of a case is a sweep: fem-run sweep FILE".to_string()
+            }
+            ("", "body" | "material") if allowed.contains(&"vary") => {
+                "a file with bodies is a case: fem-run FILE; a sweep names it, case = \"FILE\""
+                    .to_string()
+            }
+            _ => keys(),
+        };
+        return at(format!("unknown key `{found}`{}", in_table(table)))
+            .labelled("unknown key")
+            .with_help(help);
+    }
+    if let Some(rest) = message.strip_prefix("missing field ") {
+        let missing = rest.trim_matches('`');
+        let error =
+            at(format!("the key `{missing}` is missing{}", in_table(path))).lacking(missing);
+        let example = EXAMPLES.iter().find(|(key, _)| *key == missing);
+        return match example {
+            Some((_, line)) => error.with_help(format!("write {line}")),
+            None => error,
+        };
+    }
+    if let Some(rest) = message.strip_prefix("unknown variant ") {
+        let (found, allowed) = split_backticked(rest);
+        let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
+        return at(format!("{path} is \"{found}\", which is none of its values"))
+            .with_help(format!("{}it is one of {}", near(found, &allowed), quoted.join(", ")));
+    }
+    if let Some((found, wanted)) =
+        message.strip_prefix("invalid type: ").and_then(|rest| rest.rsplit_once(", expected "))
+    {
+        // serde sees a date as a table.
+        let is_date =
+            found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
+        if let (Some(names), Some(word)) = (names_at(path), found.strip_prefix("string ")) {
+            let word = word.trim_matches('"');
+            return at(format!("{path} is \"{word}\", which is none of its values")).with_help(
+                format!("{}it is one of {}, or a table", near(word, names), names.join(", ")),
+            );
+        }
+        let found = if is_date { "a date or time".to_string() } else { with_article(found) };
+        return at(format!("{} is {found}", name(path)))
+            .with_help(format!("it wants {}", with_article(wanted)));
+    }
+    // serde reads an array as a struct's fields in order, and finds their number wrong.
+    if let Some((_, wanted)) =
+        message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
+    {
+        return at(format!("{} is an array", name(path))).with_help(format!("it wants {wanted}"));
+    }
+    at(first_line(message))
+}
+
+/// `did you mean …? ` if one of the allowed words is near.
+pub(crate) fn near<S: AsRef<str>>(found: &str, allowed: &[S]) -> String {
+    // 0.8 lets `densty`, `diametre` and `youngs_modul` through and `radius` for `name` not.
+    nearest(found, allowed, 0.8).map_or(String::new(), |word| format!("did you mean `{word}`? "))
+}
+
+/// The allowed word that is nearest to what was found, if it is more than so similar (Jaro and
+/// Winkler's, 0 to 1). Two neighbours in the wrong order are next to the same word, in a short one too: `nwe`.
+pub fn nearest<'w, S: AsRef<str>>(found: &str, allowed: &'w [S], least: f64) -> Option<&'w str> {
+    let found = found.to_lowercase();
+    let similarity = |word: &S| {
+        let jaro_winkler = strsim::jaro_winkler(&found, word.as_ref());
+        if is_swapped(&found, word.as_ref()) { jaro_winkler.max(0.95) } else { jaro_winkler }
+    };
+    let nearest = allowed.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+    nearest.filter(|word| similarity(word) > least).map(AsRef::as_ref)
+}
+
+/// Whether two letters beside each other have changed places, and nothing else.
+fn is_swapped(found: &str, word: &str) -> bool {
+    strsim::osa_distance(found, word) == 1 && strsim::levenshtein(found, word) == 2
+}
+
+fn name(path: &str) -> &str {
+    if path.is_empty() { "the case" } else { path }
+}
+
+/// serde's word for a type in TOML's words.
+fn with_article(what: &str) -> String {
+    match what {
+        "map" | "a map" => return "a table".to_string(),
+        "sequence" | "a sequence" => return "an array".to_string(),
+        _ => {}
+    }
+    let has_article = ["a ", "an ", "one "].iter().any(|article| what.starts_with(article));
+    if has_article {
+        return what.to_string();
+    }
+    let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+    format!("{article} {what}")
+}
+
+/// serde's "`found`, expected one of `a`, `b`", or "`found`, there are no fields", in parts.
+fn split_backticked(text: &str) -> (&str, Vec<&str>) {
+    let (found, rest) = text
+        .rsplit_once("`, expected ")
+        .or_else(|| text.rsplit_once("`, there are no "))
+        .unwrap_or((text, ""));
+    (found.strip_prefix('`').unwrap_or(found), rest.split('`').skip(1).step_by(2).collect())
+}
+
+/// "a", "a and b", "a, b and c".
+pub(crate) fn listed(words: &[&str]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.to_string(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}

@@ -1,0 +1,10 @@
+//! The text of a case: one tree of keys with their positions, overrides, and the explanation of faults.
+
+pub(crate) mod document;
+pub(crate) mod error_recovery;
+pub(crate) mod explain;
+pub(crate) mod key_path;
+pub(crate) mod number_at;
+pub(crate) mod overrides;
+pub(crate) mod source_spans;
+pub(crate) mod toml_text;

@@ -1,0 +1,319 @@
+//! An override `KEY=VALUE`: one value put into the tree of a case before it is validated.
+//!
+//! KEY is a dotted path in TOML's key syntax (`material."my glass".density`), an index from 0 in
+//! an array. VALUE is a TOML value; words that are none are a string whose quotes a shell has eaten,
+//! unless they begin like a table, an array or a string. Keys and tables that are absent are added;
+//! array elements are not. A model or a law by its name, `model=ting`, has its defaults.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+use toml::map::{Entry, VacantEntry};
+
+use crate::schema::model_tables::{exclude_each_other, is_choice};
+use crate::source::key_path::is_bare;
+use crate::source::toml_text::{first_line, shift};
+
+/// Deeper than any key of a case; keeps recursion over the tree shallow.
+const DEEPEST_PATH: usize = 32;
+
+/// What is wrong with an override, and where in its text.
+pub(crate) struct Fault {
+    pub(crate) span: Range<usize>,
+    pub(crate) message: String,
+    pub(crate) help: String,
+}
+
+/// A parsed override.
+pub(crate) struct Assignment<'t> {
+    pub(crate) path: Vec<Spanned<String>>,
+    pub(crate) value: Spanned<DeValue<'t>>,
+}
+
+impl Assignment<'_> {
+    /// This override with all of its spans moved by `start`.
+    pub(crate) fn shifted(self, start: usize) -> Self {
+        let move_part = |part: Spanned<String>| {
+            let span = part.span();
+            Spanned::new(span.start + start..span.end + start, part.into_inner())
+        };
+        Self {
+            path: self.path.into_iter().map(move_part).collect(),
+            value: shift(self.value, start),
+        }
+    }
+}
+
+/// The key of an override, for naming it; all of the text if there is no `=` after a key.
+pub(crate) fn key_text(text: &str) -> &str {
+    let mut quote = None;
+    for (index, c) in text.char_indices() {
+        match (quote, c) {
+            (None, '=') => return text[..index].trim(),
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), c) if c == open => quote = None,
+            _ => {}
+        }
+    }
+    text.trim()
+}
+
+/// Splits an override into path and value. Its spans and those of a fault count from `offset`.
+pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, Fault> {
+    let (path, equals) = parse_path(text, offset)?;
+    let raw = &text[equals + 1..];
+    let start = equals + 1 + (raw.len() - raw.trim_start().len());
+    let raw = raw.trim();
+    let value_fault = |span: Range<usize>, message: String| Fault {
+        span: offset + span.start..offset + span.end,
+        message,
+        help: "the value is in TOML syntax: 0.5, true, [1, 2], {}, and strings in quotes, which \
+               a shell must not eat: KEY='\"1 m/s\"'"
+            .to_string(),
+    };
+    if raw.is_empty() {
+        let message = "there is no value after `=`".to_string();
+        return Err(value_fault(equals..equals + 1, message));
+    }
+    let value = match DeValue::parse(raw) {
+        Ok(value) => value,
+        Err(_) if is_unquoted(raw) => Spanned::new(0..raw.len(), DeValue::String(raw.into())),
+        Err(error) => {
+            let message = format!("`{raw}` is no TOML value: {}", first_line(error.message()));
+            return Err(value_fault(start..start + raw.len(), message));
+        }
+    };
+    Ok(Assignment { path, value: shift(value, offset + start) })
+}
+
+/// Whether it can only be meant as a string: `1 m/s`, `14um`, `off`, and no half of a table.
+fn is_unquoted(raw: &str) -> bool {
+    !raw.starts_with(['{', '[', '"', '\'']) && !raw.contains(|c: char| c.is_control() || c == '=')
+}
+
+/// The parts of the key and the position of the `=` after it.
+pub(crate) fn parse_path(
+    text: &str,
+    offset: usize,
+) -> Result<(Vec<Spanned<String>>, usize), Fault> {
+    let fault = |span: Range<usize>, message: &str| Fault {
+        span: offset + span.start..offset + span.end,
+        message: message.to_string(),
+        help: "write KEY=VALUE with a dotted key, such as mesh.contact_element_size=28e-6 or \
+               body.0.sphere.diameter='\"10 mm\"'"
+            .to_string(),
+    };
+    let mut path = Vec::new();
+    let mut at = 0;
+    loop {
+        at += text[at..].len() - text[at..].trim_start().len();
+        let rest = &text[at..];
+        let (part, length) = match rest.chars().next() {
+            Some(quote @ ('"' | '\'')) => quoted_part(rest, quote)
+                .ok_or_else(|| fault(at..text.len(), "a quoted key does not end or is no TOML"))?,
+            _ => {
+                let length = rest.find(|c| !is_bare(c)).unwrap_or(rest.len());
+                (rest[..length].to_string(), length)
+            }
+        };
+        let next = at + length + (rest[length..].len() - rest[length..].trim_start().len());
+        let after = text[next..].chars().next();
+        if length == 0 {
+            let message = match after {
+                None | Some('=' | '.') => "a part of the key is empty".to_string(),
+                Some(c) => format!("`{c}` cannot stand in a key without quotes"),
+            };
+            return Err(fault(at..at + after.map_or(0, char::len_utf8), &message));
+        }
+        path.push(Spanned::new(offset + at..offset + at + length, part));
+        if path.len() > DEEPEST_PATH {
+            return Err(fault(0..next, "the key has too many parts"));
+        }
+        match after {
+            Some('.') => at = next + 1,
+            Some('=') => return Ok((path, next)),
+            None => return Err(fault(0..text.len(), "there is no `=` after the key")),
+            Some(c) => {
+                let message = format!("`{c}` cannot stand in a key without quotes");
+                return Err(fault(next..next + c.len_utf8(), &message));
+            }
+        }
+    }
+}
+
+/// A quoted key at the beginning of `text`, and its length with the quotes.
+fn quoted_part(text: &str, quote: char) -> Option<(String, usize)> {
+    let mut is_escaped = false;
+    for (index, c) in text.char_indices().skip(1) {
+        if is_escaped {
+            is_escaped = false;
+        } else if c == '\\' && quote == '"' {
+            is_escaped = true;
+        } else if c == quote {
+            let value = DeValue::parse(&text[..=index]).ok()?;
+            return Some((value.get_ref().as_str()?.to_string(), index + 1));
+        }
+    }
+    None
+}
+
+/// Puts the value into the tree.
+pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> Result<(), Fault> {
+    let Assignment { path, mut value } = assignment;
+    let names: Vec<&str> = path.iter().map(|part| part.get_ref().as_str()).collect();
+    expand_choice(&names, &mut value);
+    let Some((last, parents)) = path.split_last() else {
+        return Ok(());
+    };
+    drop_alternatives(root, &path);
+    let mut place = Place::Table(root);
+    for part in parents {
+        let child = match place.child(part)? {
+            Child::Value(value) => value,
+            Child::Absent(entry) => {
+                entry.insert(Spanned::new(part.span(), DeValue::Table(DeTable::new())))
+            }
+        };
+        place = Place::of(child, part)?;
+    }
+    if let Place::Table(table) = &mut place {
+        // An insertion over an old key would keep that key's position in the file.
+        table.remove(last.get_ref().as_str());
+    }
+    match place.child(last)? {
+        Child::Value(old) => *old = value,
+        Child::Absent(entry) => {
+            entry.insert(value);
+        }
+    }
+    Ok(())
+}
+
+/// Gives the key at a path another value, or takes it out; nothing where the path leads nowhere. The
+/// value stands where the old one stood, or the nearest one around it.
+pub(crate) fn mend<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<&'t str>) {
+    let Some((last, parents)) = path.split_last() else { return };
+    let mut place = Place::Table(root);
+    let mut span = 0..0;
+    for part in parents {
+        let part = Spanned::new(span.clone(), part.clone());
+        let Ok(Child::Value(child)) = place.child(&part) else { return };
+        span = child.span();
+        let Ok(inner) = Place::of(child, &part) else { return };
+        place = inner;
+    }
+    let new = value.and_then(|text| DeValue::parse(text).ok());
+    let moved = |new: Spanned<DeValue<'t>>, span: Range<usize>| {
+        Spanned::new(span.clone(), shift(new, span.start).into_inner())
+    };
+    match (place, new) {
+        (Place::Table(table), new) => {
+            let span = table.remove(last.as_str()).map_or(span, |old| old.span());
+            if let Some(new) = new {
+                let key = Spanned::new(span.clone(), Cow::Owned(last.clone()));
+                table.insert(key, moved(new, span));
+            }
+        }
+        (Place::Array(array), Some(new)) => {
+            if let Some(old) = last.parse().ok().and_then(|index: usize| array.get_mut(index)) {
+                *old = moved(new, old.span());
+            }
+        }
+        (Place::Array(_), None) => {}
+    }
+}
+
+/// Names of a model and a law of a file as their tables.
+pub(crate) fn expand_choices(root: &mut DeTable<'_>) {
+    let Some(model) = root.get_mut("model") else { return };
+    expand_choice(&["model"], model);
+    if let DeValue::Table(model) = model.get_mut()
+        && let Some(law) = model.get_mut("law")
+    {
+        expand_choice(&["model", "law"], law);
+    }
+}
+
+/// The name of a model or a law in the place of its table, `ting` for `{ ting = {} }`.
+fn expand_choice(path: &[&str], value: &mut Spanned<DeValue<'_>>) {
+    let Some(name) = value.get_ref().as_str().filter(|name| is_choice(path, name)) else { return };
+    let (span, name) = (value.span(), name.to_string());
+    let mut table = DeTable::new();
+    let inner = Spanned::new(span.clone(), DeValue::Table(DeTable::new()));
+    table.insert(Spanned::new(span, Cow::Owned(name)), inner);
+    *value.get_mut() = DeValue::Table(table);
+}
+
+/// Of keys that exclude each other, such as the models, the path's takes the place of another.
+fn drop_alternatives(root: &mut DeTable<'_>, path: &[Spanned<String>]) {
+    let mut names: Vec<&str> = Vec::new();
+    let mut table = root;
+    for part in path {
+        let key = part.get_ref().as_str();
+        let present: Vec<String> = table.iter().map(|(key, _)| key.get_ref().to_string()).collect();
+        for other in present.iter().filter(|other| exclude_each_other(&names, key, other)) {
+            table.remove(other.as_str());
+        }
+        names.push(key);
+        table = match table.get_mut(key).map(Spanned::get_mut) {
+            Some(DeValue::Table(inner)) => inner,
+            _ => return,
+        };
+    }
+}
+
+/// Where a part of a path can lead on from.
+enum Place<'a, 't> {
+    Table(&'a mut DeTable<'t>),
+    Array(&'a mut [Spanned<DeValue<'t>>]),
+}
+
+enum Child<'a, 't> {
+    Value(&'a mut Spanned<DeValue<'t>>),
+    Absent(VacantEntry<'a, Spanned<DeString<'t>>, Spanned<DeValue<'t>>>),
+}
+
+impl<'a, 't> Place<'a, 't> {
+    fn of(value: &'a mut Spanned<DeValue<'t>>, part: &Spanned<String>) -> Result<Self, Fault> {
+        match value.get_mut() {
+            DeValue::Table(table) => Ok(Place::Table(table)),
+            DeValue::Array(array) => Ok(Place::Array(array)),
+            _ => Err(Fault {
+                span: part.span(),
+                message: format!("`{}` is a single value; it has no keys", part.get_ref()),
+                help: "end the key here to replace the value".to_string(),
+            }),
+        }
+    }
+
+    fn child(self, part: &Spanned<String>) -> Result<Child<'a, 't>, Fault> {
+        let key = part.get_ref();
+        match self {
+            Place::Table(table) => {
+                match table.entry(Spanned::new(part.span(), Cow::Owned(key.clone()))) {
+                    Entry::Occupied(entry) => Ok(Child::Value(entry.into_mut())),
+                    Entry::Vacant(entry) => Ok(Child::Absent(entry)),
+                }
+            }
+            Place::Array(array) => {
+                let length = array.len();
+                let is_number = key.bytes().all(|byte| byte.is_ascii_digit());
+                let index = key.parse::<usize>().ok().filter(|_| is_number);
+                match index.and_then(|index| array.get_mut(index)) {
+                    Some(value) => Ok(Child::Value(value)),
+                    None => Err(Fault {
+                        span: part.span(),
+                        message: format!("`{key}` is no index of this array of {length}"),
+                        help: match length {
+                            0 => "it is empty; replace the whole array".to_string(),
+                            1 => "its only index is 0".to_string(),
+                            _ => format!("its indices go from 0 to {}", length - 1),
+                        },
+                    }),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,331 @@
+//! `[vary]`: dotted keys and the values of each, with their places in the sweep file.
+//!
+//! A key is one string in quotes (`"body.0.approach_speed" = […]`) or TOML's own nesting
+//! (`body.0.approach_speed = […]`); both mean the same. A string with commas links keys: they change
+//! together. Values are a list, a range or the rows of a table ([`crate::sweep_values`]).
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::CaseError;
+use crate::source::document::Document;
+use crate::source::key_path::quote_key;
+use crate::source::overrides::{Assignment, parse_path};
+use crate::source::toml_text::shift;
+use crate::sweep::values::{ReadRows, Values, is_values, rounded};
+
+/// The parts of a key and their places.
+type KeyPath = Vec<Spanned<String>>;
+
+/// Keys that change together, mostly one, and their values.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// The keys, at least one.
+    pub keys: Vec<SweptKey>,
+    /// The values, at least one.
+    pub elements: Vec<Element>,
+    pub(crate) span: Range<usize>,
+}
+
+/// A varied key.
+#[derive(Clone, Debug)]
+pub struct SweptKey {
+    /// The dotted key.
+    pub key: String,
+    path: KeyPath,
+}
+
+/// One value of an axis, for each of its keys.
+#[derive(Clone, Debug)]
+pub struct Element {
+    /// As written, a string without its quotes: of each key, or one for all of them.
+    texts: Vec<String>,
+    /// What the keys are set to.
+    source: Source,
+    /// Its bytes in the sweep file.
+    pub(crate) span: Range<usize>,
+}
+
+/// Where values come from.
+#[derive(Clone, Debug)]
+enum Source {
+    /// The bytes of the element in the sweep file are TOML.
+    Written,
+    /// Bare numbers or text, made of a range or read from a table.
+    Made,
+}
+
+impl SweptKey {
+    fn new(path: KeyPath) -> Self {
+        let parts: Vec<String> = path.iter().map(|part| quote_key(part.get_ref())).collect();
+        Self { key: parts.join("."), path }
+    }
+
+    /// The parts of the key, quotes removed.
+    pub fn parts(&self) -> impl Iterator<Item = &str> {
+        self.path.iter().map(|part| part.get_ref().as_str())
+    }
+
+    /// Whether this key is `other` or a table or array around it.
+    pub(crate) fn contains(&self, other: &[Spanned<String>]) -> bool {
+        let same = |(a, b): (&Spanned<String>, &Spanned<String>)| {
+            canonical_part(a.get_ref()) == canonical_part(b.get_ref())
+        };
+        self.path.len() <= other.len() && self.path.iter().zip(other).all(same)
+    }
+}
+
+impl Element {
+    /// A value that stands in the sweep file.
+    fn written(text: String, span: Range<usize>) -> Self {
+        Self { texts: vec![text], source: Source::Written, span }
+    }
+
+    /// Values that are made of what stands there.
+    pub(crate) fn made(texts: Vec<String>, span: Range<usize>) -> Self {
+        Self { texts, source: Source::Made, span }
+    }
+
+    /// The value of a key of the axis, as written.
+    pub fn text(&self, key: usize) -> &str {
+        let text = self.texts.get(key).or(self.texts.last());
+        text.map_or("", String::as_str)
+    }
+
+    /// The value of a key as people say it: of one that was made, whose number has all its digits, five of
+    /// them.
+    pub fn said(&self, key: usize) -> String {
+        let text = self.text(key);
+        match self.source {
+            Source::Made => rounded(text).filter(|short| short.len() < text.len()),
+            Source::Written => None,
+        }
+        .unwrap_or_else(|| text.to_string())
+    }
+
+    /// The value of a key, its spans counted from the beginning of the sweep file `text`.
+    fn value<'t>(&'t self, key: usize, text: &'t str) -> Option<Spanned<DeValue<'t>>> {
+        match self.source {
+            Source::Written => {
+                let value = DeValue::parse(&text[self.span.clone()]).ok()?;
+                Some(shift(value, self.span.start))
+            }
+            Source::Made => {
+                let text = self.text(key);
+                // Else it is text, such as 0.5 m/s.
+                let number = DeValue::parse(text).ok().map(Spanned::into_inner);
+                let is_plain = |value: &DeValue<'_>| {
+                    matches!(value, DeValue::Integer(_) | DeValue::Float(_) | DeValue::Boolean(_))
+                };
+                let value = number.filter(is_plain).unwrap_or(DeValue::String(text.into()));
+                Some(Spanned::new(self.span.clone(), value))
+            }
+        }
+    }
+}
+
+impl Axis {
+    /// The keys in words.
+    pub fn name(&self) -> String {
+        let keys: Vec<&str> = self.keys.iter().map(|key| key.key.as_str()).collect();
+        keys.join(", ")
+    }
+
+    /// The assignments of an element; spans count from the beginning of the sweep file `text`.
+    pub(crate) fn assignments<'t>(
+        &'t self,
+        element: usize,
+        text: &'t str,
+    ) -> impl Iterator<Item = Assignment<'t>> {
+        let element = &self.elements[element];
+        self.keys.iter().enumerate().filter_map(|(k, key)| {
+            Some(Assignment { path: key.path.clone(), value: element.value(k, text)? })
+        })
+    }
+}
+
+/// `00` is the same index as `0`.
+fn canonical_part(part: &str) -> &str {
+    let is_index = !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    let digits = part.trim_start_matches('0');
+    match (is_index, digits) {
+        (false, _) => part,
+        (true, "") => "0",
+        (true, digits) => digits,
+    }
+}
+
+/// Reads `[vary]` of the sweep file `text`; tables lie in a folder and are read so. What is wrong goes to `faults`.
+pub(crate) fn read_axes(
+    document: &Document,
+    text: &str,
+    tables: (&Path, &ReadRows),
+    root: &DeTable<'_>,
+    faults: &mut Vec<CaseError>,
+) -> Vec<Axis> {
+    let reader = Reader { document, text, tables };
+    let (mut axes, n_before) = (Vec::new(), faults.len());
+    match root.get("vary").map(Spanned::get_ref) {
+        Some(DeValue::Table(table)) => {
+            for (key, value) in table {
+                match reader.paths(key.get_ref(), key.span()) {
+                    Ok(paths) => reader.collect(paths, key.span(), value, &mut axes, faults),
+                    Err(fault) => faults.push(fault),
+                }
+            }
+        }
+        Some(_) => {
+            faults.push(document.error_at("vary", "vary is not a table").with_help(EXAMPLE));
+        }
+        None => {}
+    }
+    if axes.is_empty() && faults.len() == n_before {
+        faults.push(document.error_at("vary", "the sweep varies no key").with_help(EXAMPLE));
+    }
+    let keys = axes.iter().flat_map(|axis| axis.keys.iter().map(|key| (key, &axis.span)));
+    let keys: Vec<_> = keys.collect();
+    for (index, (key, span)) in keys.iter().enumerate() {
+        let apart = |(other, _): &(&SweptKey, _)| reader.check_apart(key, other, span).err();
+        faults.extend(keys[..index].iter().find_map(apart));
+    }
+    axes
+}
+
+const EXAMPLE: &str =
+    "write a table [vary] with lines such as \"body.0.approach_speed\" = [\"0.1 m/s\", \"1 m/s\"]";
+
+struct Reader<'a> {
+    document: &'a Document,
+    text: &'a str,
+    tables: (&'a Path, &'a ReadRows),
+}
+
+impl Reader<'_> {
+    /// The parts of the keys that stand directly in `[vary]`.
+    fn paths(&self, key: &str, span: Range<usize>) -> Result<Vec<KeyPath>, CaseError> {
+        let raw = &self.text[span.clone()];
+        let is_quoted = raw.starts_with(['"', '\'']);
+        if !is_quoted {
+            return Ok(vec![vec![Spanned::new(span, key.to_string())]]);
+        }
+        // Escapes in the key move its characters; then all of it stands for each of its parts.
+        let is_exact = raw.get(1..raw.len() - 1) == Some(key);
+        let place = |part: Range<usize>| if is_exact { part } else { span.clone() };
+        let mut start = span.start + 1;
+        let mut paths = Vec::new();
+        for one in linked(key) {
+            let (parts, _) = parse_path(&format!("{one}="), start).map_err(|fault| {
+                self.document.error_on(place(fault.span), fault.message).with_help(EXAMPLE)
+            })?;
+            start += one.len() + 1;
+            let placed = |part: Spanned<String>| {
+                let span = place(part.span());
+                Spanned::new(span, part.into_inner())
+            };
+            paths.push(parts.into_iter().map(placed).collect());
+        }
+        Ok(paths)
+    }
+
+    /// Adds the axes at and below a value.
+    fn collect(
+        &self,
+        paths: Vec<KeyPath>,
+        span: Range<usize>,
+        value: &Spanned<DeValue<'_>>,
+        axes: &mut Vec<Axis>,
+        faults: &mut Vec<CaseError>,
+    ) {
+        let keys: Vec<_> = paths.iter().cloned().map(SweptKey::new).collect();
+        let axis = |elements| Axis { keys: keys.clone(), elements, span: span.clone() };
+        let name = axis(Vec::new()).name();
+        let values = Values { document: self.document, tables: self.tables, name: &name };
+        match value.get_ref() {
+            DeValue::Table(table) if is_values(table) => {
+                let names: Vec<&str> = keys.iter().map(|key| key.key.as_str()).collect();
+                match values.read(table, value.span(), &names) {
+                    Ok(elements) => axes.push(axis(elements)),
+                    Err(fault) => faults.push(fault),
+                }
+            }
+            DeValue::Table(table) => {
+                if table.is_empty() {
+                    let error = self.document.error_on(span, format!("{name} has no list"));
+                    return faults.push(error.with_help(EXAMPLE));
+                }
+                for (key, value) in table {
+                    let mut paths = paths.clone();
+                    for path in &mut paths {
+                        path.push(Spanned::new(key.span(), key.get_ref().to_string()));
+                    }
+                    self.collect(paths, key.span(), value, axes, faults);
+                }
+            }
+            DeValue::Array(array) => {
+                if array.is_empty() {
+                    let error = self.document.error_on(value.span(), format!("{name}: no values"));
+                    return faults.push(error.with_help("a list holds at least one value"));
+                }
+                let elements = array.iter().map(|element| self.element(&name, element));
+                match elements.collect::<Result<_, _>>() {
+                    Ok(elements) => axes.push(axis(elements)),
+                    Err(fault) => faults.push(fault),
+                }
+            }
+            _ => {
+                let error = self.document.error_on(value.span(), format!("{name} is not a list"));
+                let help = "put the values in brackets: [\"0.1 m/s\", \"1 m/s\"]";
+                faults.push(error.with_help(help));
+            }
+        }
+    }
+
+    fn element(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Element, CaseError> {
+        let span = value.span();
+        let raw = self.text.get(span.clone()).unwrap_or_default();
+        // The parser says where a table of [[…]] begins, not where it ends.
+        if DeValue::parse(raw).is_err() {
+            let error = self.document.error_on(span, format!("{key} is not a list in brackets"));
+            return Err(error.with_help("write tables as [{ … }, { … }]"));
+        }
+        let text = value.get_ref().as_str().unwrap_or(raw).to_string();
+        Ok(Element::written(text, span))
+    }
+
+    fn check_apart(
+        &self,
+        key: &SweptKey,
+        other: &SweptKey,
+        span: &Range<usize>,
+    ) -> Result<(), CaseError> {
+        let message = match (key.contains(&other.path), other.contains(&key.path)) {
+            (false, false) => return Ok(()),
+            (true, true) => format!("{} is varied twice", key.key),
+            (true, false) => format!("{} contains {}, which is varied too", key.key, other.key),
+            (false, true) => format!("{} is part of {}, which is varied too", key.key, other.key),
+        };
+        let help = "vary each of them alone, or only the outer one with whole tables as values";
+        Err(self.document.error_on(span.clone(), message).with_help(help))
+    }
+}
+
+/// The keys that commas link, in order; a comma in quotes is part of a key.
+fn linked(keys: &str) -> Vec<&str> {
+    let (mut quote, mut start, mut found) = (None, 0, Vec::new());
+    for (index, c) in keys.char_indices() {
+        match (quote, c) {
+            (None, ',') => {
+                found.push(&keys[start..index]);
+                start = index + 1;
+            }
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), c) if c == open => quote = None,
+            _ => {}
+        }
+    }
+    found.push(&keys[start..]);
+    found
+}

@@ -1,0 +1,276 @@
+//! Values of a varied key that are not written one by one: a range, `{ from = "5 cm/s", to = "2 m/s",
+//! n = 40, log = true }`, or the rows of a CSV file, `{ table = "pairs.csv" }`.
+//!
+//! The values of a range are evenly apart, or have the same ratio with `log`: x_k = from + (to −
+//! from) k / (n − 1), or from (to / from)^(k / (n − 1)); the ends are as they are written, those
+//! between in the unit of `to`. Of a table each row is one value of all keys of the axis, in columns of their
+//! names or in those that `columns` lists.
+
+use std::ops::Range;
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::DeTable;
+
+use crate::case::bytes_at;
+use crate::error::CaseError;
+use crate::quantity::units::{Dimension, parse_quantity};
+use crate::quantity::{Number, Quantity};
+use crate::source::document::Document;
+use crate::source::explain::explain;
+use crate::sweep::axes::Element;
+
+/// Values of one range.
+const MOST_VALUES: u64 = 10_000_000;
+const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perhaps with log = true";
+
+/// What is wrong with a table of values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowsFault {
+    /// What was found, and in which line.
+    pub message: String,
+    /// What is allowed, or what to do.
+    pub help: String,
+}
+
+/// Reads a table, of which messages have the name: of each row the cells of these columns.
+pub type ReadRows = dyn Fn(&str, &[u8], &[String]) -> Result<Vec<Vec<String>>, RowsFault>;
+
+/// Whether a table under `[vary]` makes values: no key of a case is called so.
+pub(crate) fn is_values(table: &DeTable<'_>) -> bool {
+    ["from", "to", "table"].iter().any(|key| table.contains_key(*key))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RangeTable {
+    from: Spanned<Quantity<Number>>,
+    to: Spanned<Quantity<Number>>,
+    n: Spanned<u64>,
+    #[serde(default)]
+    log: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RowsTable {
+    table: Spanned<String>,
+    columns: Option<Spanned<Vec<String>>>,
+}
+
+/// Reads the values of the keys of an axis.
+pub(crate) struct Values<'a> {
+    pub(crate) document: &'a Document,
+    /// Where the sweep file lies, and how tables are read.
+    pub(crate) tables: (&'a Path, &'a ReadRows),
+    /// The keys in words.
+    pub(crate) name: &'a str,
+}
+
+impl Values<'_> {
+    /// The values that a table under `[vary]` makes, of these keys.
+    pub(crate) fn read(
+        &self,
+        table: &DeTable<'_>,
+        span: Range<usize>,
+        keys: &[&str],
+    ) -> Result<Vec<Element>, CaseError> {
+        let tree = Spanned::new(span.clone(), table.clone());
+        let tree = toml::de::Deserializer::from(tree);
+        let explained = |error: toml::de::Error| match error.message().starts_with("missing field")
+        {
+            true => self.fault(
+                span.clone(),
+                error.message().replace("missing field", "there is no"),
+                RANGE,
+            ),
+            false => explain(self.document, &error),
+        };
+        match table.contains_key("table") {
+            true => self.rows(&RowsTable::deserialize(tree).map_err(explained)?, &span, keys),
+            false => self.range(&RangeTable::deserialize(tree).map_err(explained)?, &span),
+        }
+    }
+
+    fn fault(&self, span: Range<usize>, message: impl Into<String>, help: &str) -> CaseError {
+        self.document.error_on(span, format!("{}: {}", self.name, message.into())).with_help(help)
+    }
+
+    fn range(&self, range: &RangeTable, span: &Range<usize>) -> Result<Vec<Element>, CaseError> {
+        let (first, last) = (self.end(&range.from)?, self.end(&range.to)?);
+        let (start, unit) = match (first.unit == last.unit, first.in_unit_of(&last)) {
+            (true, _) => (first.number, &first.unit),
+            (false, Some(start)) => (start, &last.unit),
+            (false, None) => {
+                let message =
+                    format!("the ends have the units {:?} and {:?}", first.unit, last.unit);
+                let help = "write both ends in units of one quantity; a bare number is SI";
+                return Err(self.fault(range.to.span(), message, help));
+            }
+        };
+        let to = last.number;
+        let n = *range.n.get_ref();
+        if !(2..=MOST_VALUES).contains(&n) {
+            let help = format!("a range has 2 to {MOST_VALUES} values; one value is a list, [1.0]");
+            return Err(self.fault(range.n.span(), format!("n is {n}"), &help));
+        }
+        if range.log && !(start > 0.0 && to > 0.0) {
+            let end = if start > 0.0 { &range.to } else { &range.from };
+            let help = "with log = true both ends are greater than 0";
+            return Err(self.fault(end.span(), "this end is not greater than 0", help));
+        }
+        let value = |k: u64| {
+            let share = k as f64 / (n - 1) as f64;
+            match k {
+                0 => start,
+                _ if k == n - 1 => to,
+                _ if range.log => start * (to / start).powf(share),
+                _ => start + (to - start) * share,
+            }
+        };
+        let text = |k| match unit.as_str() {
+            // The ends are as they are written.
+            _ if k == 0 => first.text(),
+            // As TOML has it: 1.0, not 1.
+            "" => format!("{:?}", value(k)),
+            unit => format!("{} {unit}", value(k)),
+        };
+        Ok((0..n).map(|k| Element::made(vec![text(k)], span.clone())).collect())
+    }
+
+    fn end(&self, bound: &Spanned<Quantity<Number>>) -> Result<End, CaseError> {
+        let fault = |found: &str| self.fault(bound.span(), found, RANGE);
+        let end = match bound.get_ref().text().map(str::trim) {
+            None => {
+                let number = bound.get_ref().si().unwrap_or(f64::NAN);
+                End { number, unit: String::new(), si: number, dimension: None }
+            }
+            Some(text) => {
+                let si = parse_quantity(text);
+                let (si, dimension) = si.map_err(|error| fault(&format!("{text:?}: {error}")))?;
+                let (number, unit) = split_unit(text);
+                End { number, unit: unit.to_string(), si, dimension: Some(dimension) }
+            }
+        };
+        end.number.is_finite().then_some(end).ok_or_else(|| fault("this is no end of a range"))
+    }
+
+    fn rows(
+        &self,
+        rows: &RowsTable,
+        span: &Range<usize>,
+        keys: &[&str],
+    ) -> Result<Vec<Element>, CaseError> {
+        let fault = |message: String, help: &str| self.fault(rows.table.span(), message, help);
+        let wanted = match &rows.columns {
+            None => keys.iter().map(ToString::to_string).collect(),
+            Some(columns) if columns.get_ref().len() == keys.len() => columns.get_ref().clone(),
+            Some(columns) => {
+                let message =
+                    format!("{} columns for {} keys", columns.get_ref().len(), keys.len());
+                return Err(self.fault(
+                    columns.span(),
+                    message,
+                    "name one column a key, in their order",
+                ));
+            }
+        };
+        let (folder, read_rows) = self.tables;
+        let path = folder.join(rows.table.get_ref());
+        let name = path.display().to_string();
+        let bytes = bytes_at(&path, &name).map_err(|error| {
+            let help = "table names a CSV file, relative to the sweep file";
+            fault(format!("{name}: {}", error.message()), help)
+        })?;
+        let read = read_rows(&name, &bytes, &wanted);
+        let read = read.map_err(|RowsFault { message, help }| fault(message, &help))?;
+        Ok(read.into_iter().map(|texts| Element::made(texts, span.clone())).collect())
+    }
+}
+
+/// An end of a range: as written, and in SI; a bare number is SI and of any dimension.
+struct End {
+    number: f64,
+    unit: String,
+    si: f64,
+    dimension: Option<Dimension>,
+}
+
+impl End {
+    /// Its number in the unit of another end of the same dimension.
+    fn in_unit_of(&self, other: &Self) -> Option<f64> {
+        let both = self.dimension.zip(other.dimension);
+        let scale = match other.dimension {
+            Some(_) => parse_quantity(&format!("1 {}", other.unit)).ok()?.0,
+            None => 1.0,
+        };
+        both.is_none_or(|(own, other)| own == other).then_some(self.si / scale)
+    }
+
+    /// As written.
+    fn text(&self) -> String {
+        match self.unit.as_str() {
+            "" => format!("{:?}", self.number),
+            unit => format!("{} {unit}", self.number),
+        }
+    }
+}
+
+/// The number of a quantity, not scaled, and its unit as written.
+fn split_unit(text: &str) -> (f64, &str) {
+    let ends = text.char_indices().map(|(index, _)| index).chain([text.len()]).rev();
+    let number = |end: usize| Some((text[..end].trim_end().parse().ok()?, text[end..].trim()));
+    ends.filter(|end| *end > 0).find_map(number).unwrap_or((f64::NAN, text))
+}
+
+/// A quantity with five digits of its number; none of what is no quantity.
+pub(crate) fn rounded(text: &str) -> Option<String> {
+    let (number, unit) = split_unit(text);
+    let rounded: f64 = format!("{number:.4e}").parse().ok()?;
+    let size = rounded.abs();
+    let number = match rounded.is_finite() {
+        true if size == 0.0 || (1e-4..1e6).contains(&size) => rounded.to_string(),
+        true => format!("{rounded:e}"),
+        false => return None,
+    };
+    Some(if unit.is_empty() { number } else { format!("{number} {unit}") })
+}
+
+#[cfg(test)]
+mod tests {
+    use toml::de::DeValue;
+
+    use super::*;
+
+    #[test]
+    fn a_quantity_is_a_number_and_a_unit() {
+        assert_eq!(split_unit("0.05 m/s"), (0.05, "m/s"));
+        assert_eq!(split_unit("1e-3m"), (1e-3, "m"));
+        assert_eq!(split_unit("5 1/s"), (5.0, "1/s"));
+        assert_eq!(split_unit("2."), (2.0, ""));
+    }
+
+    #[test]
+    fn made_quantities_are_said_in_five_digits() {
+        for (text, expected) in [
+            ("0.06640570446680345 m/s", Some("0.066406 m/s")),
+            ("2 m/s", Some("2 m/s")),
+            ("1234567.8", Some("1.2346e6")),
+            ("0.30000000000000004", Some("0.3")),
+            ("glass", None),
+        ] {
+            assert_eq!(rounded(text).as_deref(), expected);
+        }
+    }
+
+    #[test]
+    fn tables_of_a_case_are_no_values() {
+        let is = |text: &str| match DeValue::parse(text).unwrap().into_inner() {
+            DeValue::Table(table) => is_values(&table),
+            _ => false,
+        };
+        assert!(is("{ from = 1, to = 2, n = 3 }") && is("{ table = 'a.csv' }"));
+        assert!(!is("{ approach_speed = [1] }"));
+    }
+}

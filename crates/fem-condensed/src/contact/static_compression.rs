@@ -1,0 +1,42 @@
+//! Two elastic bodies that a constant force presses together.
+
+use fem_collision::{StaticContact, Stop};
+
+use crate::contact::disc_contact::DiscContactSolver;
+use crate::contact::pressure::Pressures;
+use crate::error::CondensedError;
+use crate::operators::slip::motion;
+use crate::pair::CondensedPair;
+
+impl CondensedPair {
+    /// The bodies without relaxation under a force (N) that stays, at rest.
+    ///
+    /// # Errors
+    /// A contact that reaches the end of the condensed region; no contact state.
+    pub fn pressed(&self, force: f64) -> Result<StaticContact, CondensedError> {
+        let n = self.points.len();
+        let beyond = || CondensedError::ContactBeyondCandidates { radius: self.candidate_radius() };
+        let approach = self.curve.approach(force).ok_or_else(beyond)?;
+        let overlap: Vec<f64> =
+            self.points.iter().map(|point| approach - point.initial_gap).collect();
+        let mut forces = vec![0.0; n];
+        let contact = DiscContactSolver::new(self.compliance.clone())
+            .solve(&overlap, &mut forces)
+            .map_err(|_| Stop::NoContactState { time: 0.0 })?;
+        if contact.n_closed > self.most_closed(n) {
+            return Err(beyond());
+        }
+        let force = forces.iter().sum();
+        let moved = self.inputs().each_ref().map(|input| {
+            input.material().map_or(0.0, |material| force * motion(material.instantaneous()))
+        });
+        let (radius, pressure) =
+            self.radius_and_pressure(&contact, &forces, moved, &mut Pressures::default());
+        Ok(StaticContact {
+            force,
+            approach,
+            contact_radius: Some(radius),
+            centre_pressure: Some(pressure),
+        })
+    }
+}

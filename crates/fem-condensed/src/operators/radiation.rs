@@ -1,0 +1,187 @@
+//! Waves that leave a body for good.
+//!
+//! A body that is much larger than the way of waves within the contact is a half-space. To first order
+//! in frequency its plane follows the force F on a small spot by
+//!
+//! ```math
+//! u = S F - \gamma\dot F, \qquad \gamma = \frac{C(\nu)}{\mu c_s},
+//! ```
+//!
+//! and sends out the power γ Ḟ² (Lamb 1904; Miller & Pursey 1955; Hunter 1957), all points of the
+//! contact alike. Taken by itself, −γ Ḟ is a compliance that falls below zero toward high frequencies,
+//! and runs away. The same to first order, and passive, is an element that creeps in a time τ, in series
+//! with a body that is stiffer by γ/τ at once:
+//!
+//! ```math
+//! \frac{-\gamma s}{1+\tau s} = -\frac\gamma\tau + \frac{\gamma/\tau}{1+\tau s}, \qquad
+//! u = -\gamma\dot y, \qquad y + \tau\dot y = F .
+//! ```
+//!
+//! What remains at once is positive as long as γ/τ is less than the compliance under a rigid punch as
+//! large as all points together, 1/k; τ = [`LAG`] γ k, some times what a wave takes across the contact.
+//! The energy that has gone in is
+//!
+//! ```math
+//! \int F\dot u\,dt = -\gamma\dot y\left(y + \tfrac12\tau\dot y\right) + \int\gamma\dot y^2\,dt,
+//! ```
+//!
+//! the first part stored (with the body's own, never less than nothing), the second radiated; both go to
+//! −γ F Ḟ and ∫γ Ḟ² as τ → 0, and the loss is right to the second order in τ over the contact time.
+//!
+//! Two bodies that radiate are one element of the sum of their γ. Limits: small losses; waves do not
+//! come back within the contact; of a body that relaxes, γ is one number of the moduli that waves of the contact meet, and
+//! the lag, which is for its instantaneous stiffness, takes more of the loss the less of that is left.
+
+/// τ/(γ k): how many times the shortest lag that leaves the compliance positive.
+const LAG: f64 = 2.0;
+
+/// The waves of both bodies over a run.
+#[derive(Debug, Clone)]
+pub(crate) struct WaveRadiation {
+    /// γ of each body, s m/N.
+    coefficients: [f64; 2],
+    /// Their sum.
+    total: f64,
+    /// τ, s.
+    lag: f64,
+    /// Shares of y and F before a step, and of F after it, in y after it.
+    before: [f64; 2],
+    now: f64,
+    /// γ (1 − now)/τ, m/N.
+    stiffening: f64,
+    /// F, N.
+    force: f64,
+    /// y, N.
+    lagging_force: f64,
+}
+
+impl WaveRadiation {
+    /// At rest, of bodies with these γ (s m/N), for a stiffness under a rigid punch (N/m) and a time
+    /// step (s); `None` if nothing is radiated.
+    pub fn new(
+        coefficients: [Option<f64>; 2],
+        punch_stiffness: f64,
+        time_step: f64,
+    ) -> Option<Self> {
+        let coefficients = coefficients.map(|coefficient| coefficient.unwrap_or(0.0));
+        let total = coefficients[0] + coefficients[1];
+        if total <= 0.0 {
+            return None;
+        }
+        let lag = LAG * total * punch_stiffness;
+        // Exact for a force that changes at a constant rate.
+        let gone = -(-time_step / lag).exp_m1();
+        let mean = gone * lag / time_step;
+        Some(Self {
+            coefficients,
+            total,
+            lag,
+            before: [1.0 - gone, mean - (1.0 - gone)],
+            now: 1.0 - mean,
+            stiffening: total * mean / lag,
+            force: 0.0,
+            lagging_force: 0.0,
+        })
+    }
+
+    /// What a force closes within a step at all points, m/N; negative.
+    pub fn compliance(&self) -> f64 {
+        -self.stiffening
+    }
+
+    /// y at the end of a step whose force is zero then, N.
+    fn past(&self) -> f64 {
+        self.before[0] * self.lagging_force + self.before[1] * self.force
+    }
+
+    /// Displacement at the end of a step whose force is zero then, m.
+    pub fn past_displacement(&self) -> f64 {
+        self.total / self.lag * self.past()
+    }
+
+    /// Displacement now, m.
+    pub fn displacement(&self) -> f64 {
+        -self.total * self.rate()
+    }
+
+    /// Moves to the end of a step with this force, N.
+    pub fn advance(&mut self, force: f64) {
+        self.lagging_force = self.past() + self.now * force;
+        self.force = force;
+    }
+
+    /// ẏ, N/s.
+    fn rate(&self) -> f64 {
+        (self.force - self.lagging_force) / self.lag
+    }
+
+    /// Energy that the element stores, J.
+    pub fn stored(&self) -> f64 {
+        let rate = self.rate();
+        -self.total * rate * (self.lagging_force + 0.5 * self.lag * rate)
+    }
+
+    /// Power that each body radiates, W.
+    pub fn power(&self) -> [f64; 2] {
+        let rate = self.rate();
+        self.coefficients.map(|coefficient| coefficient * rate * rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_coefficient_there_are_none() {
+        for none in [[None; 2], [Some(0.0), None]] {
+            assert!(WaveRadiation::new(none, 1.0, 0.1).is_none());
+        }
+    }
+
+    /// A force F = t²/2, by hand: y = t²/2 − τt + τ²(1 − e^{−t/τ}), u = −γ(t − τ(1 − e^{−t/τ})).
+    #[test]
+    fn the_lagging_force_is_the_closed_form() {
+        let error = |n_steps: u32| {
+            let step = 2.0 / f64::from(n_steps);
+            let mut waves = WaveRadiation::new([Some(0.2), Some(0.1)], 0.5, step).unwrap();
+            assert!((waves.lag - 0.3).abs() < 1e-15);
+            for k in 1..=n_steps {
+                let force = 0.5 * (f64::from(k) * step).powi(2);
+                let displacement = waves.past_displacement() + waves.compliance() * force;
+                waves.advance(force);
+                assert!((displacement - waves.displacement()).abs() < 1e-14);
+                assert!((displacement + 0.3 * waves.rate()).abs() < 1e-14);
+            }
+            let rate = 2.0 - 0.3 * (1.0 - (-2.0_f64 / 0.3).exp());
+            let [lower, upper] = waves.power();
+            assert!((lower - 2.0 * upper).abs() < 1e-15);
+            waves.rate() - rate
+        };
+        // Second order in the step.
+        let ratio = error(50) / error(100);
+        assert!((ratio - 4.0).abs() < 0.05, "{ratio}");
+    }
+
+    /// What goes in is stored or radiated, whatever the force does.
+    #[test]
+    fn energy_is_kept() {
+        let imbalance = |n_steps: u32| {
+            let step = 3.0 / f64::from(n_steps);
+            let mut waves = WaveRadiation::new([Some(0.2), None], 0.4, step).unwrap();
+            let (mut work, mut radiated, mut last) = (0.0, 0.0, [0.0; 3]);
+            for k in 1..=n_steps {
+                let force = (2.0 * f64::from(k) * step).sin().powi(2);
+                let displacement = waves.past_displacement() + waves.compliance() * force;
+                waves.advance(force);
+                let now = [force, displacement, waves.power()[0]];
+                work += 0.5 * (now[0] + last[0]) * (now[1] - last[1]);
+                radiated += 0.5 * step * (now[2] + last[2]);
+                last = now;
+            }
+            (work - radiated - waves.stored()) / radiated
+        };
+        let (coarse, fine) = (imbalance(100), imbalance(200));
+        assert!(fine.abs() < 1e-3 && (coarse / fine).abs() > 3.5, "{coarse:e} {fine:e}");
+    }
+}

@@ -1,0 +1,368 @@
+//! The relaxing springs of one body in a collision.
+//!
+//! Each mode of a body is a scalar spring with a share θ that relaxes,
+//!
+//! ```math
+//! (1-\theta)\,z + \theta\,w = f = \Phi^T\mathbf p, \qquad
+//! w = g_\infty z + \sum_k g_k q_k, \qquad \dot q_k + q_k/\tau_k = \dot z .
+//! ```
+//!
+//! Over a step of constant rate q_k ← a_k q_k + b_k Δz exactly ([`RelaxationStep`]), so that
+//! w = γ z + m with γ = g∞ + Σ g_k b_k and m known from the past: the step's spring is
+//! κ z = f − θ m, κ = 1 − θ + θ γ.
+//!
+//! A mode of vibration is the same spring with a mass: z̈/ω² = f − (1−θ) z − θ w, stepped with
+//! Newmark's formulas, γ = 1/2 and β = [`BETA`], which add 1/(β Δt² ω²) to κ.
+
+use faer::Mat;
+use fem_material::{PronySeries, RelaxationStep};
+
+use crate::contact::disc_contact::dot;
+
+/// Newmark's β with γ = 1/2: with 1/12 the period of a linear oscillator is right to the fourth
+/// order (Fox & Goodwin 1949; Numerov), stable while ω Δt < √6.
+pub(crate) const BETA: f64 = 1.0 / 12.0;
+
+/// One Prony term at the run's time step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PronyBranch {
+    weight: f64,
+    relaxation_time: f64,
+    step: RelaxationStep,
+}
+
+/// A relaxation function at the run's time step.
+#[derive(Debug, Clone)]
+pub(crate) struct ViscoelasticState {
+    equilibrium: f64,
+    branches: Vec<PronyBranch>,
+    /// γ.
+    instantaneous: f64,
+}
+
+impl ViscoelasticState {
+    /// Of a series and a time step, s.
+    pub fn new(series: &PronySeries, time_step: f64) -> Self {
+        let branches: Vec<_> = series
+            .terms()
+            .iter()
+            .filter(|term| term.weight > 0.0)
+            .map(|term| PronyBranch {
+                weight: term.weight,
+                relaxation_time: term.relaxation_time,
+                step: RelaxationStep::new(term.relaxation_time, time_step),
+            })
+            .collect();
+        let equilibrium = series.equilibrium_weight();
+        let gained: f64 = branches.iter().map(|branch| branch.weight * branch.step.gain).sum();
+        Self { equilibrium, branches, instantaneous: equilibrium + gained }
+    }
+
+    /// κ of a share θ.
+    pub fn spring(&self, share: f64) -> f64 {
+        1.0 - share + share * self.instantaneous
+    }
+
+    /// Of an elastic body.
+    pub fn elastic() -> Self {
+        Self { equilibrium: 1.0, branches: Vec::new(), instantaneous: 1.0 }
+    }
+
+    pub fn n_branches(&self) -> usize {
+        self.branches.len()
+    }
+}
+
+/// Masses of springs.
+#[derive(Debug, Clone)]
+struct Inertia {
+    time_step: f64,
+    /// ω², 1/s².
+    squared_frequency: Vec<f64>,
+    /// ż, √J/s.
+    rate: Vec<f64>,
+    /// z̈, √J/s².
+    acceleration: Vec<f64>,
+}
+
+/// Springs with their state.
+#[derive(Debug, Clone)]
+pub(crate) struct ViscoelasticModes {
+    memory: ViscoelasticState,
+    n_modes: usize,
+    /// Displacement of each point in each mode, mode by mode within a point, m/√J.
+    shapes: Vec<f64>,
+    /// The same, point by point within a mode.
+    modes: Vec<f64>,
+    /// How many modes each point and those before it move: of constant Poisson's ratio Φ is triangular.
+    moved_by: Vec<usize>,
+    /// Modes that have moved, the first ones.
+    n_moved: usize,
+    /// θ.
+    share: Vec<f64>,
+    /// κ.
+    spring: Vec<f64>,
+    /// z, √J.
+    pub displacement: Vec<f64>,
+    /// q of each branch, one after another.
+    branch: Vec<f64>,
+    /// What the springs would do without forces, −z.
+    past: Vec<f64>,
+    /// What they count: 1; −1 for springs that are taken away from a body.
+    weight: f64,
+    inertia: Option<Inertia>,
+}
+
+impl ViscoelasticModes {
+    /// At rest. `shapes` has a row a point and a column a mode.
+    pub fn new(memory: ViscoelasticState, shapes: Mat<f64>, share: &[f64]) -> Self {
+        let (n_points, n_modes) = (shapes.nrows(), shapes.ncols());
+        let flat = (0..n_points)
+            .flat_map(|i| (0..n_modes).map(move |j| (i, j)))
+            .map(|place| shapes[place])
+            .collect();
+        let modes = shapes.col_iter().flat_map(|mode| mode.iter().copied()).collect();
+        let mut most = 0;
+        let moved_by = (0..n_points)
+            .map(|i| {
+                let last = (0..n_modes).rposition(|j| shapes[(i, j)] != 0.0);
+                most = last.map_or(most, |j| most.max(j + 1));
+                most
+            })
+            .collect();
+        Self {
+            n_modes,
+            shapes: flat,
+            modes,
+            moved_by,
+            n_moved: 0,
+            share: share[..n_modes].to_vec(),
+            spring: share[..n_modes].iter().map(|&share| memory.spring(share)).collect(),
+            displacement: vec![0.0; n_modes],
+            branch: vec![0.0; n_modes * memory.n_branches()],
+            past: vec![0.0; n_modes],
+            memory,
+            weight: 1.0,
+            inertia: None,
+        }
+    }
+
+    /// The same springs, taken away from the body.
+    pub fn removed(self) -> Self {
+        self.weighted(-1.0)
+    }
+
+    /// The same springs, counted so many times.
+    pub fn weighted(self, weight: f64) -> Self {
+        Self { weight, ..self }
+    }
+
+    /// The same springs with masses: ω² (1/s²) of each and the time step, s.
+    pub fn with_inertia(mut self, squared_frequency: &[f64], time_step: f64) -> Self {
+        let scale = (BETA * time_step * time_step).recip();
+        for (spring, squared) in self.spring.iter_mut().zip(squared_frequency) {
+            *spring += scale / squared;
+        }
+        self.inertia = Some(Inertia {
+            time_step,
+            squared_frequency: squared_frequency.to_vec(),
+            rate: vec![0.0; self.n_modes],
+            acceleration: vec![0.0; self.n_modes],
+        });
+        self
+    }
+
+    /// Displacement of a point, m, counted once.
+    pub fn displacement_at(&self, point: usize) -> f64 {
+        dot(self.shape(point), &self.displacement)
+    }
+
+    fn shape(&self, point: usize) -> &[f64] {
+        &self.shapes[point * self.n_modes..][..self.n_modes]
+    }
+
+    /// Adds the compliance within a step, Φ κ⁻¹ Φᵀ, m/N.
+    pub fn add_compliance(&self, compliance: &mut Mat<f64>) {
+        let n = compliance.nrows();
+        let mut scaled = vec![0.0; self.n_modes];
+        for i in 0..n {
+            for ((scaled, shape), spring) in scaled.iter_mut().zip(self.shape(i)).zip(&self.spring)
+            {
+                *scaled = shape / spring;
+            }
+            for j in 0..=i {
+                let sum = self.weight * dot(&scaled, self.shape(j));
+                compliance[(i, j)] += sum;
+                if i != j {
+                    compliance[(j, i)] += sum;
+                }
+            }
+        }
+    }
+
+    /// Subtracts from the overlap (m) what the springs do without new forces.
+    pub fn subtract_past(&mut self, overlap: &mut [f64]) {
+        let n = self.n_moved;
+        let past = &mut self.past[..n];
+        past.fill(0.0);
+        for (k, branch) in self.memory.branches.iter().enumerate() {
+            let q = &self.branch[k * self.n_modes..][..n];
+            for ((past, q), z) in past.iter_mut().zip(q).zip(&self.displacement) {
+                *past += branch.weight * (branch.step.decay * q - branch.step.gain * z);
+            }
+        }
+        for (past, share) in past.iter_mut().zip(&self.share) {
+            *past *= share;
+        }
+        if let Some(inertia) = &self.inertia {
+            for (j, past) in past.iter_mut().enumerate() {
+                *past -= inertia.load(j, self.displacement[j]);
+            }
+        }
+        for (past, spring) in past.iter_mut().zip(&self.spring) {
+            *past /= spring;
+        }
+        for (past, mode) in past.iter().zip(self.modes.chunks_exact(overlap.len())) {
+            let moved = self.weight * past;
+            overlap.iter_mut().zip(mode).for_each(|(overlap, shape)| *overlap += moved * shape);
+        }
+    }
+
+    /// Moves to the end of the step under the forces (N) at the points; follows
+    /// [`ViscoelasticModes::subtract_past`].
+    pub fn advance(&mut self, forces: &[f64]) {
+        let reached = forces.len().checked_sub(1).map_or(0, |last| self.moved_by[last]);
+        self.n_moved = self.n_moved.max(reached);
+        let n = self.n_moved;
+        let mut moved = std::mem::take(&mut self.past);
+        let load = &mut moved[..n];
+        for (load, spring) in load.iter_mut().zip(&self.spring) {
+            *load *= -spring;
+        }
+        for (point, &force) in forces.iter().enumerate() {
+            if force != 0.0 {
+                let shape = &self.shapes[point * self.n_modes..][..self.moved_by[point]];
+                load.iter_mut().zip(shape).for_each(|(load, shape)| *load += force * shape);
+            }
+        }
+        for (moved, spring) in load.iter_mut().zip(&self.spring) {
+            *moved /= spring;
+        }
+        for (k, branch) in self.memory.branches.iter().enumerate() {
+            let q = &mut self.branch[k * self.n_modes..][..n];
+            for ((q, new), old) in q.iter_mut().zip(&moved).zip(&self.displacement) {
+                *q = branch.step.advance(*q, new - old);
+            }
+        }
+        if let Some(inertia) = &mut self.inertia {
+            for j in 0..n {
+                inertia.advance(j, self.displacement[j], moved[j]);
+            }
+        }
+        self.past = std::mem::replace(&mut self.displacement, moved);
+    }
+
+    /// Kinetic energy of the springs' masses, J.
+    pub fn kinetic(&self) -> f64 {
+        self.inertia.as_ref().map_or(0.0, |inertia| {
+            let twice: f64 = inertia
+                .rate
+                .iter()
+                .zip(&inertia.squared_frequency)
+                .map(|(rate, squared)| rate * rate / squared)
+                .sum();
+            0.5 * twice
+        })
+    }
+
+    /// w of each mode, √J.
+    pub fn effective(&self) -> Vec<f64> {
+        let n = self.n_modes;
+        let mut w: Vec<f64> =
+            self.displacement.iter().map(|z| self.memory.equilibrium * z).collect();
+        for (k, branch) in self.memory.branches.iter().enumerate() {
+            for (w, q) in w.iter_mut().zip(&self.branch[k * n..][..n]) {
+                *w += branch.weight * q;
+            }
+        }
+        w
+    }
+
+    /// Stored energy (J) and dissipated power (W), negative for springs that are taken away.
+    pub fn stored_and_dissipated(&self) -> (f64, f64) {
+        let n = self.n_moved;
+        let (mut stored, mut power) = (0.0, 0.0);
+        for (z, share) in self.displacement[..n].iter().zip(&self.share) {
+            stored += 0.5 * (1.0 - share + share * self.memory.equilibrium) * z * z;
+        }
+        for (k, branch) in self.memory.branches.iter().enumerate() {
+            let q = &self.branch[k * self.n_modes..][..n];
+            let energy: f64 = q.iter().zip(&self.share).map(|(q, share)| 0.5 * share * q * q).sum();
+            stored += branch.weight * energy;
+            power += 2.0 * branch.weight * energy / branch.relaxation_time;
+        }
+        (self.weight * stored, self.weight * power)
+    }
+}
+
+impl Inertia {
+    /// Newmark's prediction of z at the end of the step.
+    fn predicted(&self, j: usize, displacement: f64) -> f64 {
+        let dt = self.time_step;
+        displacement + dt * self.rate[j] + (0.5 - BETA) * dt * dt * self.acceleration[j]
+    }
+
+    /// What the prediction adds to the load of mode j.
+    fn load(&self, j: usize, displacement: f64) -> f64 {
+        let dt = self.time_step;
+        self.predicted(j, displacement) / (BETA * dt * dt * self.squared_frequency[j])
+    }
+
+    fn advance(&mut self, j: usize, old: f64, new: f64) {
+        let dt = self.time_step;
+        let acceleration = (new - self.predicted(j, old)) / (BETA * dt * dt);
+        self.rate[j] += 0.5 * dt * (self.acceleration[j] + acceleration);
+        self.acceleration[j] = acceleration;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_material::{ActsOn, PronyTerm};
+
+    use super::*;
+
+    const DECAY: PronyTerm = PronyTerm { weight: 0.6, relaxation_time: 2.0 };
+
+    /// Springs whose Φ is triangular, so that those of points that never close stay at rest, and the same
+    /// whose modes are told in another order, all of which move with the first point.
+    fn triangular_and_turned() -> [ViscoelasticModes; 2] {
+        let n = 5;
+        let shapes =
+            Mat::from_fn(n, n, |i, j| if i < j { 0.0 } else { 1.0 / (1 + 2 * i - j) as f64 });
+        let turned = Mat::from_fn(n, n, |i, j| shapes[(i, n - 1 - j)]);
+        [shapes, turned].map(|shapes| {
+            let series = PronySeries::new(vec![DECAY], ActsOn::All).unwrap();
+            ViscoelasticModes::new(ViscoelasticState::new(&series, 0.1), shapes, &[1.0; 5])
+        })
+    }
+
+    /// Modes that have not moved cost nothing and change nothing, also where the contact grows and shrinks.
+    #[test]
+    fn what_has_not_moved_is_left_out() {
+        let [mut triangular, mut turned] = triangular_and_turned();
+        for (step, n_closed) in [1, 1, 2, 3, 3, 2, 1, 0, 0].into_iter().enumerate() {
+            let forces: Vec<f64> = (0..n_closed).map(|k| (1 + step + 3 * k) as f64).collect();
+            let [one, other] = [&mut triangular, &mut turned].map(|chain| {
+                let mut overlap = vec![1.0; 5];
+                chain.subtract_past(&mut overlap);
+                chain.advance(&forces);
+                (overlap, chain.stored_and_dissipated(), chain.displacement_at(4))
+            });
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-13 * (1.0 + a.abs());
+            assert!(one.0.iter().zip(&other.0).all(|(a, b)| near(*a, *b)), "{step}");
+            assert!(near(one.1.0, other.1.0) && near(one.1.1, other.1.1) && near(one.2, other.2));
+        }
+        assert_eq!([triangular.n_moved, turned.n_moved], [3, 5]);
+    }
+}

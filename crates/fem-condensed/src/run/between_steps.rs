@@ -1,0 +1,128 @@
+//! What lies between the steps of a collision: a parabola through the last three.
+//!
+//! With f₋, f₀ and f₁ a step before, at the begin and at the end of a step, 0 ≤ θ ≤ 1,
+//!
+//! ```math
+//! f(\theta) = f_0 + \theta(f_1-f_0) - \tfrac12\theta(1-\theta)D, \qquad D = f_1 - 2f_0 + f_- ,
+//! ```
+//!
+//! ```math
+//! \int_0^\theta f\,\mathrm d\theta
+//! = \theta f_0 + \tfrac12\theta^2(f_1-f_0) - \tfrac1{12}\theta^2(3-2\theta)D, \qquad
+//! f'(1) = f_1 - f_0 + \tfrac12 D :
+//! ```
+//!
+//! the step of Adams and Moulton of third order. Of a step before which something happened, a first touch or
+//! the end of a contact, nothing is known, and D = 0: the trapezoidal rule.
+
+use fem_collision::nan_aware_max_abs;
+
+/// A quantity over a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StepParabola {
+    begin: f64,
+    change: f64,
+    /// D.
+    bend: f64,
+}
+
+impl StepParabola {
+    /// Of the values at begin and end, and a step before if that is known.
+    pub fn new(before: Option<f64>, begin: f64, end: f64) -> Self {
+        let bend = before.map_or(0.0, |before| end - 2.0 * begin + before);
+        Self { begin, change: end - begin, bend }
+    }
+
+    /// At a share of the step.
+    pub fn at(&self, theta: f64) -> f64 {
+        self.begin + theta * (self.change - 0.5 * (1.0 - theta) * self.bend)
+    }
+
+    /// Integral up to a share of the step, over the length of the step.
+    pub fn integral(&self, theta: f64) -> f64 {
+        let [first, second] = [0.5 * self.change, (3.0 - 2.0 * theta) * self.bend / 12.0];
+        theta * (self.begin + theta * (first - second))
+    }
+
+    /// Change a step at its end.
+    pub fn slope(&self) -> f64 {
+        self.change + 0.5 * self.bend
+    }
+}
+
+/// Largest value of a smooth function given at even steps, at least 0: the vertex of the parabola
+/// through the highest three. NaN stays.
+#[derive(Debug, Default)]
+pub(crate) struct InterpolatedPeak {
+    last: [f64; 2],
+    /// So far.
+    pub highest: f64,
+}
+
+impl InterpolatedPeak {
+    /// Takes the next value.
+    pub fn observe(&mut self, value: f64) {
+        let [before, middle] = self.last;
+        if middle >= before && middle > value {
+            let (slope, bend) = (0.5 * (value - before), value - 2.0 * middle + before);
+            self.note(middle - 0.5 * slope * slope / bend);
+        }
+        self.note(value);
+        self.last = [middle, value];
+    }
+
+    fn note(&mut self, value: f64) {
+        // What lies below zero is no candidate; NaN passes.
+        self.highest = nan_aware_max_abs(self.highest, value.clamp(0.0, f64::INFINITY));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A parabola is what it is, its integral and its slope, too.
+    #[test]
+    fn a_parabola_is_exact() {
+        let f = |t: f64| 2.0 - 3.0 * t + 5.0 * t * t;
+        let integral = |t: f64| 2.0 * t - 1.5 * t * t + 5.0 / 3.0 * t * t * t;
+        let step = StepParabola::new(Some(f(-1.0)), f(0.0), f(1.0));
+        for theta in [0.0, 0.25, 0.7, 1.0] {
+            assert!((step.at(theta) - f(theta)).abs() < 1e-14);
+            assert!((step.integral(theta) - integral(theta)).abs() < 1e-14);
+        }
+        assert!((step.slope() - 7.0).abs() < 1e-14);
+    }
+
+    /// Integrals over many steps are of third order, without a step before of second.
+    #[test]
+    fn integrals_converge() {
+        let error = |n: usize, knows: bool| {
+            let f = |k: f64| (k / n as f64).exp();
+            let sum: f64 = (0..n)
+                .map(|k| {
+                    let k = k as f64;
+                    StepParabola::new(knows.then(|| f(k - 1.0)), f(k), f(k + 1.0)).integral(1.0)
+                })
+                .sum();
+            sum / n as f64 - (1.0_f64.exp() - 1.0)
+        };
+        for (knows, order) in [(true, 3.0), (false, 2.0)] {
+            let seen = (error(40, knows) / error(80, knows)).log2();
+            assert!((seen - order).abs() < 0.1, "{seen}");
+        }
+    }
+
+    #[test]
+    fn the_highest_of_a_parabola_lies_between_its_points() {
+        let highest = |values: &[f64]| {
+            let mut peak = InterpolatedPeak::default();
+            values.iter().for_each(|&value| peak.observe(value));
+            peak.highest
+        };
+        // 4 − (t − 1.5)²: the top lies between two points.
+        assert_eq!(highest(&[1.75, 3.75, 3.75, 1.75, -9.0]), 4.0);
+        assert_eq!(highest(&[1.0, 2.0, -3.0]), 2.0 + 0.5 * 2.0 * 2.0 / 6.0);
+        assert!(highest(&[1.0, f64::NAN, 2.0]).is_nan());
+    }
+}

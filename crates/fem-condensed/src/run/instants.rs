@@ -1,0 +1,127 @@
+//! The instants that snapshots show.
+
+use std::ops::Range;
+
+use fem_collision::{
+    Ending, SnapshotInstant, SnapshotRequest, did_not_occur, evenly, fewer_than_asked,
+};
+use fem_material::engineering::show;
+
+/// What is remembered of every step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct RunTrace {
+    /// m.
+    pub approach: f64,
+    pub is_closed: bool,
+}
+
+/// An instant between two steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TraceInstant {
+    /// The step before, or at it.
+    pub step: usize,
+    /// Share of the way to the next step, 0 to 1.
+    pub part: f64,
+}
+
+impl TraceInstant {
+    /// A step itself.
+    pub fn at(step: usize) -> Self {
+        Self { step, part: 0.0 }
+    }
+
+    /// Steps since first touch.
+    pub fn position(self) -> f64 {
+        self.step as f64 + self.part
+    }
+}
+
+/// Instants of the snapshots that are asked for, in the order of time, and what cannot be had.
+/// Times are those of the case, s. Bodies that stay together have no last contact.
+pub(crate) fn choose(
+    trace: &[RunTrace],
+    time_step: f64,
+    request: &SnapshotRequest,
+    first_touch: f64,
+    ending: &Ending,
+) -> (Vec<(TraceInstant, Option<SnapshotInstant>)>, Vec<String>) {
+    let mut missing = Vec::new();
+    let last = trace.iter().rposition(|step| step.is_closed).unwrap_or(0);
+    let end = trace.len().saturating_sub(1);
+    let since_touch = |time: f64| {
+        let position = (time / time_step).clamp(0.0, end as f64);
+        let step = position.floor();
+        // What is nearer to a step than rounding is the step.
+        match position - step {
+            part if part < 1e-6 => TraceInstant::at(step as usize),
+            part if part > 1.0 - 1e-6 => TraceInstant::at(step as usize + 1),
+            part => TraceInstant { step: step as usize, part },
+        }
+    };
+    let chosen = match request {
+        SnapshotRequest::Labels(labels) => {
+            let top = (0..trace.len())
+                .max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach))
+                .unwrap_or(0);
+            let half = 0.5 * trace.get(top).map_or(0.0, |step| step.approach);
+            let wanted = SnapshotInstant::ALL.iter().filter(|label| labels.contains(label));
+            let mut chosen = Vec::new();
+            for label in wanted {
+                let found = match label {
+                    SnapshotInstant::MidCompression => passes(trace, 0..top, half),
+                    SnapshotInstant::Maximum => Some(TraceInstant::at(top)),
+                    SnapshotInstant::MidSeparation => passes(trace, top..end, half),
+                    SnapshotInstant::LastContact => {
+                        (*ending != Ending::Together).then_some(TraceInstant::at(last))
+                    }
+                    SnapshotInstant::LastSound => None,
+                };
+                match found {
+                    Some(instant) => chosen.push((instant, Some(*label))),
+                    None => missing.push(did_not_occur(*label)),
+                }
+            }
+            chosen
+        }
+        SnapshotRequest::Count(n) => {
+            let end = last as f64 * time_step;
+            if *n <= last + 1 {
+                let times = evenly(*n, 0.0, end).into_iter();
+                times.map(|time| (since_touch(time), None)).collect()
+            } else {
+                missing.push(fewer_than_asked(*n, last + 1, "steps"));
+                (0..=last).map(|step| (TraceInstant::at(step), None)).collect()
+            }
+        }
+        SnapshotRequest::Times(times) => {
+            let mut times = times.clone();
+            times.sort_by(f64::total_cmp);
+            let end = first_touch + end as f64 * time_step;
+            let (within, beyond): (Vec<f64>, Vec<f64>) =
+                times.into_iter().partition(|&time| time >= first_touch && time <= end);
+            for time in beyond {
+                missing.push(format!(
+                    "{} lies outside of the contact and the flight that is computed; \
+                     its snapshot is left out",
+                    show(time, "s")
+                ));
+            }
+            within.into_iter().map(|time| (since_touch(time - first_touch), None)).collect()
+        }
+    };
+    (chosen, missing)
+}
+
+/// Where the approach passes a level between two steps with contact.
+fn passes(trace: &[RunTrace], steps: Range<usize>, level: f64) -> Option<TraceInstant> {
+    steps.into_iter().find_map(|step| {
+        let [before, after] = [trace[step], *trace.get(step + 1)?];
+        let (low, high) =
+            (before.approach.min(after.approach), before.approach.max(after.approach));
+        let is_here = low < high && (low..=high).contains(&level);
+        (is_here && after.is_closed).then(|| TraceInstant {
+            step,
+            part: (level - before.approach) / (after.approach - before.approach),
+        })
+    })
+}

@@ -1,0 +1,394 @@
+//! The course of a collision: what is observed of each step, and when it ends.
+
+pub(crate) mod between_steps;
+pub(crate) mod instants;
+pub(crate) mod sample;
+
+use fem_collision::{
+    Collision, DeepestOverlap, Ending, EnergyLedger, FLIGHT_AFTER, ForceNoise, ForcePulse, Frame,
+    History, LARGEST_RESIDUAL, Monitor, OutputRequest, PostContactVibration, Progress,
+    RelativeMotion, RestCriterion, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, StepInstant, Stop,
+    longest_at_pole, nan_aware_max, nan_aware_max_abs,
+};
+
+use crate::contact::pressure::Pressures;
+use crate::motion::{ImpactMotion, MotionEnergies};
+use crate::pair::CondensedPair;
+use crate::run::between_steps::InterpolatedPeak;
+use crate::run::instants::RunTrace;
+use crate::run::sample::MotionSample;
+
+/// Energy that does not add up, over what is at stake: the run is no longer one.
+const LARGEST_IMBALANCE: f64 = 0.1;
+/// Rate of the approach over its first below which bodies creep; those have more time than was given.
+const CREEPING: f64 = 0.1;
+/// Creeping bodies may take so many times as long to part as they came closer.
+const SLOWEST_PARTING: f64 = 2.0;
+
+/// Instants of a contact at which force, radius and pressure are told at least: the window of their peaks is a 64th.
+const INSTANTS: usize = 1000;
+/// The most of them within a step.
+const MOST_WITHIN_STEP: f64 = 8.0;
+
+/// Steps for whose trace there is room from the beginning.
+const MOST_RESERVED: usize = 1 << 16;
+
+/// A collision under way.
+pub(crate) struct ImpactRun<'a> {
+    pair: &'a CondensedPair,
+    frame: &'a Frame,
+    motion: ImpactMotion<'a>,
+    initial_energy: f64,
+    /// Since first touch, s.
+    last_contact: f64,
+    episodes: u64,
+    was_closed: bool,
+    /// Whether the bodies have moved apart since first touch.
+    has_receded: bool,
+    /// What relaxation has taken, J, and ∫F dt, N s, by the trapezoidal rule.
+    dissipated: f64,
+    /// What waves have taken out of each body, J, if any leave it.
+    radiated: Option<[f64; 2]>,
+    impulse: f64,
+    /// The same of the force less what is the nodes' of it ([`ImpactMotion::swing`]).
+    even_impulse: f64,
+    /// See [`ImpactMotion::missed_slope`], of the step before.
+    missed_slope: f64,
+    /// Instants of a step that are told, its end among them.
+    per_step: u64,
+    worst_residual: f64,
+    residual_since: Option<StepInstant>,
+    growth: f64,
+    /// What the momentum that was exchanged is off the impulse, N s.
+    worst_momentum: f64,
+    approach: InterpolatedPeak,
+    force: InterpolatedPeak,
+    scatter: ForceNoise,
+    deepest: Option<DeepestOverlap>,
+    pulse: ForcePulse,
+    aftermath: PostContactVibration,
+    standstill: RestCriterion,
+    /// Since when the bodies no longer approach each other, after first touch, s.
+    turned: f64,
+    /// Since first touch, s.
+    give_up: f64,
+    expected_end: f64,
+    history: Option<History>,
+    /// The step before and the one before that, and the end of contact after it with the steps around.
+    last: Option<MotionSample>,
+    before_last: Option<MotionSample>,
+    opening: Option<[MotionSample; 3]>,
+    trace: Vec<RunTrace>,
+    pressures: Pressures,
+}
+
+/// What came out of a run.
+pub(crate) struct FinishedRun {
+    pub collision: Collision,
+    /// Every step.
+    pub trace: Vec<RunTrace>,
+}
+
+impl<'a> ImpactRun<'a> {
+    pub fn new(
+        pair: &'a CondensedPair,
+        motion: ImpactMotion<'a>,
+        frame: &'a Frame,
+        want: &OutputRequest,
+        n_steps: usize,
+        elastic_contact_time: f64,
+    ) -> Self {
+        let steps = elastic_contact_time / motion.time_step;
+        let instants = want.history_rows.max(INSTANTS) as f64;
+        let per_step = (instants / steps).round().clamp(1.0, MOST_WITHIN_STEP) as u64;
+        Self {
+            give_up: want.give_up_after * elastic_contact_time,
+            expected_end: (1.0 + FLIGHT_AFTER) * elastic_contact_time,
+            initial_energy: frame.initial(),
+            pair,
+            frame,
+            last_contact: 0.0,
+            episodes: 0,
+            was_closed: false,
+            has_receded: false,
+            dissipated: 0.0,
+            radiated: None,
+            impulse: 0.0,
+            even_impulse: 0.0,
+            missed_slope: 0.0,
+            per_step,
+            worst_residual: 0.0,
+            residual_since: None,
+            growth: 0.0,
+            worst_momentum: 0.0,
+            approach: InterpolatedPeak::default(),
+            force: InterpolatedPeak::default(),
+            scatter: ForceNoise::default(),
+            deepest: None,
+            pulse: ForcePulse::default(),
+            aftermath: PostContactVibration::default(),
+            standstill: RestCriterion::new(frame),
+            turned: 0.0,
+            history: (want.history_rows > 0)
+                .then(|| History::new(want.history_rows, per_step as f64 * steps)),
+            last: None,
+            before_last: None,
+            opening: None,
+            trace: Vec::with_capacity(n_steps.saturating_mul(2).min(MOST_RESERVED)),
+            pressures: Pressures::default(),
+            motion,
+        }
+    }
+
+    /// Steps until the bodies have parted, or something stops them.
+    pub fn until_parted(mut self, monitor: &mut dyn Monitor) -> FinishedRun {
+        self.record();
+        let ending = loop {
+            match self.advance(monitor) {
+                Ok(None) => {}
+                Ok(Some(ending)) => break ending,
+                Err(stop) => break Ending::Stopped(stop),
+            }
+        };
+        self.finish(ending)
+    }
+
+    /// Time of the present step since the start of the case, s.
+    fn time_of_case(&self) -> f64 {
+        self.frame.approach.first_touch() + self.motion.time()
+    }
+
+    /// One step; how it ended, if it did.
+    fn advance(&mut self, monitor: &mut dyn Monitor) -> Result<Option<Ending>, Stop> {
+        let overlap_before = if self.motion.step == 0 { 0.0 } else { self.motion.axis_overlap() };
+        let first_touch = self.frame.approach.first_touch();
+        self.motion.advance().map_err(|stop| stop.later_by(first_touch))?;
+        let (time, step) = (self.motion.time(), self.motion.step as u64);
+        if !(self.motion.force.is_finite() && self.motion.rate.is_finite()) {
+            return Err(Stop::NoContactState { time: self.time_of_case() });
+        }
+        let is_closed = self.motion.contact.n_closed > 0;
+        let opens = self.was_closed && !is_closed;
+        if opens {
+            // The overlap on the axis passes through zero between the steps.
+            let now = self.motion.axis_overlap();
+            let part = (overlap_before / (overlap_before - now)).clamp(0.0, 1.0);
+            self.last_contact = time - (1.0 - part) * self.motion.time_step;
+        }
+        self.episodes += u64::from(is_closed && !self.was_closed);
+        self.was_closed = is_closed;
+        let stays = self.record();
+        if let (true, Some(before), Some(after)) = (opens, self.before_last, self.last) {
+            let share = (self.last_contact - before.time) / self.motion.time_step;
+            let end = MotionSample::within(None, &before, &after, Some(share), share);
+            self.opening = Some([before, self.with_residual(end), after]);
+        }
+        let flight = time - self.last_contact;
+        if !is_closed && self.motion.rate < 0.0 && flight >= FLIGHT_AFTER * self.last_contact {
+            return Ok(Some(Ending::Parted));
+        }
+        // Gravity lets no bounce rise further than this.
+        self.has_receded |= self.motion.rate < 0.0;
+        let is_at_top = self.frame.gravity > 0.0 && self.has_receded && self.motion.rate >= 0.0;
+        if !is_closed && is_at_top {
+            return Ok(Some(Ending::Parted));
+        }
+        if stays {
+            return Ok(Some(Ending::Together));
+        }
+        // An imbalance that is no number is above every limit.
+        let is_sound = self.worst_residual <= LARGEST_IMBALANCE;
+        let time_of_case = self.time_of_case();
+        if !is_sound {
+            let relative = self.worst_residual;
+            return Err(Stop::EnergyImbalance { time: time_of_case, relative });
+        }
+        let creeps = self.motion.rate.abs() < CREEPING * self.frame.speed()
+            && time <= (1.0 + SLOWEST_PARTING) * self.turned;
+        if time > self.give_up && !creeps {
+            let (time, approach) = (time_of_case, self.motion.approach);
+            return Err(match self.episodes {
+                0 => Stop::NoContact { time, step, approach },
+                _ => Stop::NoSeparation { time, step },
+            });
+        }
+        if step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
+            let progress = Progress {
+                time: time_of_case,
+                step,
+                fraction: Progress::share(time, self.expected_end),
+                contact_force: self.motion.force,
+            };
+            if !monitor.report(progress) {
+                return Err(Stop::Interrupted { time: time_of_case, step });
+            }
+        }
+        Ok(None)
+    }
+
+    /// Observes a step; whether the bodies stay together.
+    fn record(&mut self) -> bool {
+        let motion = &self.motion;
+        let (time, rate) = (motion.time(), motion.rate);
+        self.approach.observe(motion.approach);
+        self.force.observe(motion.force);
+        let now = StepInstant {
+            time: self.frame.approach.first_touch() + time,
+            step: motion.step as u64,
+        };
+        self.scatter.observe(motion.force, now);
+        if let Some((overlap, radius)) = motion.deepest_overlap() {
+            self.deepest =
+                DeepestOverlap::of(self.deepest, DeepestOverlap { overlap, radius, at: now });
+        }
+        if rate > 0.0 {
+            self.turned = time;
+        }
+        let touches = self.was_closed || motion.step == 0;
+        let MotionEnergies { stored, contact, power, vibration, radiated_power } =
+            motion.energies();
+        let mut sample = MotionSample {
+            time,
+            touches,
+            contact_force: motion.force,
+            even_force: motion.force - motion.swing(),
+            contact_radius: 0.0,
+            approach: motion.approach,
+            centre_pressure: 0.0,
+            rate,
+            strain: stored,
+            contact,
+            power,
+            dissipated: self.dissipated,
+            radiated_power,
+            radiated: None,
+            residual: 0.0,
+            vibration,
+        };
+        (sample.contact_radius, sample.centre_pressure) = self.pair.radius_and_pressure(
+            &motion.contact,
+            &motion.forces,
+            motion.slipped(),
+            &mut self.pressures,
+        );
+        let begin = self.last;
+        // What came before something happened says nothing of what comes after.
+        let is_same = |other: &MotionSample| other.touches == touches;
+        let before =
+            self.before_last.filter(|before| is_same(before) && begin.is_some_and(|b| is_same(&b)));
+        sample = self.integrated(before.as_ref(), begin.as_ref(), sample);
+        let lost = sample.dissipated + sample.radiated.unwrap_or(0.0);
+        let residual = sample.residual;
+        let at_stake = self.frame.energy_at_stake(self.approach.highest);
+        self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / at_stake);
+        self.growth = nan_aware_max(self.growth, (residual - lost) / at_stake);
+        if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
+            self.residual_since = Some(now);
+        }
+        let given = self.frame.weight() * time;
+        let drift = self.frame.impulse(rate) + given - self.impulse;
+        self.worst_momentum = nan_aware_max_abs(self.worst_momentum, drift);
+        if self.episodes > 0 {
+            self.aftermath.observe(self.was_closed, vibration);
+        }
+        let approach = self.motion.approach;
+        self.trace.push(RunTrace { approach, is_closed: self.was_closed });
+        let potential = self.frame.potential(approach).unwrap_or(0.0);
+        let held = RelativeMotion {
+            time,
+            is_closed: self.was_closed,
+            force: sample.contact_force,
+            rate,
+            inner_energy: vibration[0] + vibration[1] + stored + contact + potential,
+        };
+        self.tell(before, begin, sample);
+        (self.before_last, self.last) = (begin, Some(sample));
+        self.standstill.observe(&held)
+    }
+
+    fn finish(self, ending: Ending) -> FinishedRun {
+        let (motion, frame) = (&self.motion, self.frame);
+        let (is_parted, is_stopped) =
+            (ending == Ending::Parted, matches!(ending, Ending::Stopped(_)));
+        let restitution = match ending {
+            Ending::Parted => {
+                // As it was when the contact ended.
+                let fallen = frame.gravity * (motion.time() - self.last_contact);
+                Some((fallen - motion.rate) / frame.speed())
+            }
+            Ending::Together | Ending::AtRest => Some(0.0),
+            Ending::Stopped(_) => None,
+        };
+        let velocity_after = restitution.map(|e| frame.velocities(-e * frame.speed()));
+        let mut bodies = self.pair.bodies_before(frame);
+        let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
+        for (side, body) in bodies.iter_mut().enumerate() {
+            body.velocity_after = velocity_after.map(|both| both[side]);
+            // A half-space has what has gone out as waves; a wall has neither that nor a mass.
+            let input = &self.pair.inputs()[side];
+            let is_wall = frame.masses[side].is_none() && input.mesh().is_none();
+            let radiated = self.radiated.filter(|_| input.is_half_space());
+            let in_waves = radiated.map_or(0.0, |both| both[side]);
+            body.vibration_energy =
+                vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
+        }
+        let meshes = self.pair.inputs().each_ref().map(|input| input.mesh());
+        let peaks = self.pulse.peaks(self.force.highest, longest_at_pole(meshes));
+        let first_touch = frame.approach.first_touch();
+        let has_touched = self.episodes > 0;
+        let mut history = self.history.map(History::into_rows).unwrap_or_default();
+        if !history.is_empty()
+            && is_parted
+            && let Some([before, end, after]) = self.opening
+            && before.time < end.time
+            && end.time < after.time
+        {
+            let place = history.partition_point(|row| row.time < first_touch + end.time);
+            history.insert(place, end.row(frame));
+        }
+        let collision = Collision {
+            approach: frame.approach,
+            restitution,
+            contact_time: is_parted.then_some(self.last_contact),
+            first_contact: has_touched.then_some(first_touch),
+            last_contact: has_touched.then_some(first_touch + self.last_contact),
+            contact_episodes: self.episodes,
+            peak_force: Some(peaks.force),
+            peak_force_raw: Some(self.force.highest),
+            max_approach: Some(self.approach.highest),
+            max_contact_radius: Some(peaks.radius),
+            peak_pressure: Some(peaks.pressure),
+            peak_pressure_radius: Some(peaks.pressure_radius),
+            force_scatter: self.scatter.force(),
+            deepest: self.deepest,
+            noisiest: self.scatter.noisiest(),
+            searched: Some(self.pair.searched()),
+            initial_energy: Some(frame.kinetic(frame.speed())),
+            energies: self.last.map_or(EnergyLedger::EMPTY, |end| end.energies(frame)),
+            residual: self.last.map(|end| end.residual),
+            residual_relative: Some(self.worst_residual),
+            residual_since: self.residual_since,
+            energy_growth: Some(self.growth),
+            momentum_residual_relative: Some(self.worst_momentum / frame.momentum_scale()),
+            bodies,
+            time_step: Some(motion.time_step),
+            plain_time_step: None,
+            steps: Some(motion.step as u64),
+            element_updates: None,
+            factor_bytes: Some(self.pair.factor_bytes() as u64),
+            repeated_contact_solutions: Some(motion.n_fallbacks() as u64),
+            bounces: Vec::new(),
+            rest: None,
+            history,
+            snapshots: Vec::new(),
+            probes: Vec::new(),
+            warnings: if is_stopped || is_parted { Vec::new() } else { vec![STAY_TOGETHER.into()] },
+            ending,
+        };
+        FinishedRun { collision, trace: self.trace }
+    }
+}
+
+mod account;
+#[cfg(test)]
+mod tests;

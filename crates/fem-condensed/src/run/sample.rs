@@ -1,0 +1,122 @@
+//! One instant of the relative motion, and what it is of both bodies.
+
+use fem_collision::{Account, EnergyLedger, Frame, HistoryRow};
+
+use crate::run::between_steps::StepParabola;
+
+/// One instant of the relative motion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MotionSample {
+    /// Since first touch, s.
+    pub time: f64,
+    /// Whether the bodies touch, or begin to.
+    pub touches: bool,
+    /// N.
+    pub contact_force: f64,
+    /// The same less what is the nodes' of it ([`crate::motion::Motion::swing`]), N.
+    pub even_force: f64,
+    /// m.
+    pub contact_radius: f64,
+    /// m.
+    pub approach: f64,
+    /// Pa.
+    pub centre_pressure: f64,
+    /// Of the approach, m/s.
+    pub rate: f64,
+    /// Stored in the bodies, J.
+    pub strain: f64,
+    /// Stored in penalty springs, J.
+    pub contact: f64,
+    /// That relaxation takes, W.
+    pub power: f64,
+    /// J.
+    pub dissipated: f64,
+    /// That waves take out of each body, W, if any leave it.
+    pub radiated_power: Option<[f64; 2]>,
+    /// Gone with waves, J.
+    pub radiated: Option<f64>,
+    /// J.
+    pub residual: f64,
+    /// Kinetic energy of each body relative to its mass centre, J.
+    pub vibration: [f64; 2],
+}
+
+impl MotionSample {
+    /// At a share of the way to the next step, whose samples are given with the one before this if nothing has
+    /// happened since; of a contact that ends within the step at a share of it, where the force is zero.
+    pub fn within(
+        before: Option<&Self>,
+        begin: &Self,
+        end: &Self,
+        opens: Option<f64>,
+        theta: f64,
+    ) -> Self {
+        let over = |get: fn(&Self) -> f64| StepParabola::new(before.map(get), get(begin), get(end));
+        let at = |get: fn(&Self) -> f64| over(get).at(theta);
+        let of_contact = |get: fn(&Self) -> f64| match opens {
+            Some(share) if theta < share => (1.0 - theta / share) * get(begin),
+            Some(_) => 0.0,
+            None => at(get),
+        };
+        // Nothing is radiated before first touch.
+        let of_waves = |get: &dyn Fn(&Self) -> Option<f64>| {
+            let end = get(end)?;
+            Some(StepParabola::new(before.and_then(get), get(begin).unwrap_or(0.0), end).at(theta))
+        };
+        let power_of = |side: usize| of_waves(&|sample| Some(sample.radiated_power?[side]));
+        Self {
+            time: begin.time + theta * (end.time - begin.time),
+            touches: opens.map_or(end.touches, |share| theta < share),
+            contact_force: of_contact(|sample| sample.contact_force),
+            even_force: of_contact(|sample| sample.even_force),
+            contact_radius: of_contact(|sample| sample.contact_radius),
+            centre_pressure: of_contact(|sample| sample.centre_pressure),
+            approach: at(|sample| sample.approach),
+            rate: at(|sample| sample.rate),
+            strain: at(|sample| sample.strain),
+            contact: at(|sample| sample.contact),
+            power: at(|sample| sample.power),
+            dissipated: at(|sample| sample.dissipated),
+            radiated_power: power_of(0).zip(power_of(1)).map(|(lower, upper)| [lower, upper]),
+            radiated: of_waves(&|sample| sample.radiated),
+            vibration: [at(|sample| sample.vibration[0]), at(|sample| sample.vibration[1])],
+            residual: at(|sample| sample.residual),
+        }
+    }
+
+    /// What is in each account, J.
+    pub fn energies(&self, frame: &Frame) -> EnergyLedger {
+        let [lower, upper] = self.vibration;
+        let mut book = EnergyLedger::EMPTY
+            .with(Account::Kinetic, frame.kinetic(self.rate) + lower + upper)
+            .with(Account::Strain, self.strain)
+            .with(Account::Contact, self.contact)
+            .with(Account::ViscousDissipation, self.dissipated)
+            .with(Account::WallWork, frame.wall_work(self.rate));
+        let of_effects = [
+            (Account::Radiated, self.radiated),
+            (Account::Potential, frame.potential(self.approach)),
+        ];
+        for (account, energy) in of_effects {
+            if let Some(energy) = energy {
+                book.add(account, energy);
+            }
+        }
+        book
+    }
+
+    /// The same of both bodies.
+    pub fn row(&self, frame: &Frame) -> HistoryRow {
+        HistoryRow {
+            time: frame.approach.first_touch() + self.time,
+            contact_force: self.contact_force,
+            contact_radius: Some(self.contact_radius),
+            approach: self.approach,
+            centre_pressure: Some(self.centre_pressure),
+            velocity: frame.velocities(self.rate),
+            energies: self.energies(frame),
+            residual: Some(self.residual),
+            vibration: self.vibration,
+        }
+    }
+}
