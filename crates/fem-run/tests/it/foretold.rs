@@ -48,9 +48,7 @@ fn check_tells_what_may_follow() {
     place.write("auxetic.toml", AUXETIC);
     let open = place.succeed(&["check", "rubber.toml"]).stdout;
     let finer = open.lines().find(|line| line.starts_with("# mesh refinement  ")).unwrap();
-    for words in
-        ["misses accuracy.tolerance: ", " expected", "; at most ", " element updates more, "]
-    {
+    for words in ["misses accuracy.tolerance: at most ", " element updates more, "] {
         assert!(finer.contains(words), "{finer}");
     }
     let told = place.succeed(&["check", "auxetic.toml"]).stdout;

@@ -1,8 +1,8 @@
 //! The constants of the error estimate, all of them.
 //!
-//! Safety factors and floors are calibrated on random scenes: `cargo run --release --example calibrate_error_bars` of
-//! the claims' crate draws them, runs every reference run and prints the two tables below; the runs are kept in
-//! `validation/error_bars/`. The claim `error_bars` judges the bars on other scenes. Arrays are in the order of
+//! Safety factors and floors are calibrated on random scenes: `fem-run validate error_bars` draws scenes,
+//! judges the error bars in them and prints, for each quantity, the constant of the edge that it needs. The scenes that the
+//! constants below were fitted on are in `validation/error_bars/old_and_new.csv`. Arrays are in the order of
 //! [`QuantityOfInterest::ALL`](fem_collision::QuantityOfInterest::ALL): restitution, contact time, peak force, approach, contact radius,
 //! peak pressure; errors of the restitution are absolute, all others relative.
 
@@ -40,9 +40,9 @@ pub(super) const ORDER: f64 = 1.9;
 /// the contact force over its peak, the contact radius with that scatter itself; measured for penalty factors of 3 to
 /// 3000 between glass and steel at 0.05 to 20 m/s.
 pub(super) const RESTITUTION_PER_ROOT_SCATTER: f64 = 0.0055;
-/// See [`RESTITUTION_PER_ROOT_SCATTER`].
+/// Relative error of the contact time over the square root of the scatter.
 pub(super) const TIME_PER_ROOT_SCATTER: f64 = 0.02;
-/// See [`RESTITUTION_PER_ROOT_SCATTER`].
+/// Relative error of the contact radius over the scatter.
 pub(super) const RADIUS_PER_SCATTER: f64 = 0.55;
 
 /// Error of closed forms: rounding.

@@ -23,26 +23,26 @@ use super::reference_runs::ReferenceRuns;
 use super::setting::Setting;
 use crate::simulation::Simulation;
 
-/// Since when vibrations relax, over the contact time.
+/// Time for which vibrations relax, over the contact time.
 const SINCE: f64 = 0.8;
 /// Vibrations that have fallen by more are gone, ...
 const MOST_RELAXED: f64 = 8.0;
 /// ... unless they were no more than this share of the energy even so.
 const LITTLE: f64 = 1e-5;
-/// Elements of the run that tells it then, over those of the collision.
+/// Element size of that elastic run over that of the collision.
 const COARSER: f64 = 1.5;
 
-/// What elastic bodies lose on the same mesh with the same settings.
+/// The loss of elastic bodies on the same mesh with the same settings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ElasticNull {
-    /// 1 less the restitution.
+    /// 1 − restitution.
     pub one_minus_restitution: f64,
-    /// Whether it follows from the relaxing run; else an elastic one on a coarser mesh was made.
+    /// Whether it is estimated from the relaxing run; otherwise it is that of an elastic run on a coarser mesh.
     pub estimated: bool,
 }
 
-/// Of a run whose bodies relaxed and have parted, by a model that has elements; nothing where
-/// gravity makes more than one contact.
+/// Returns the elastic null of a finished run of relaxing bodies with elements; `None` under gravity, where there are
+/// several contacts.
 pub(super) fn elastic_null(
     simulation: &Simulation,
     collision: &Collision,

@@ -57,7 +57,7 @@ pub struct ErrorEstimator {
 pub struct ErrorEstimate {
     pub(crate) bars: Doubt,
     parts: [Option<BarParts>; 6],
-    /// What the same bodies lose without relaxation, for relaxing bodies.
+    /// The loss without relaxation, for relaxing bodies.
     pub elastic_null: Option<ElasticNull>,
     /// Element updates of all reference runs so far, those of coarser meshes included.
     pub element_updates: u64,

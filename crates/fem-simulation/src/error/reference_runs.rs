@@ -317,7 +317,7 @@ fn errors(values: Values, limit: Values) -> Values {
 mod tests {
     use super::*;
 
-    /// Values that fall with the assumed order have no error left after extrapolation, whatever the ratio.
+    /// Values that fall with the assumed order have no error left after extrapolation, for any ratio.
     #[test]
     fn the_limit_of_a_power_law_is_exact() {
         for ratio in [1.5, 2.0] {

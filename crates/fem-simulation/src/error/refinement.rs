@@ -53,7 +53,7 @@ pub struct Level {
     pub quantity: String,
     /// Its estimated error: the restitution's absolute, others relative.
     pub error: f64,
-    /// Its tolerance.
+    /// The tolerance of that quantity in the case.
     pub tolerance: f64,
 }
 
@@ -191,8 +191,8 @@ impl ErrorEstimator {
         }
     }
 
-    /// Returns the largest miss that condensed reference runs expect; `None` if they cannot tell, `Some(None)` if the
-    /// tolerance is met.
+    /// Returns the largest miss that condensed reference runs expect; `None` if only the collision
+    /// shows the error, `Some(None)` if the tolerance is met.
     fn expected_miss(&mut self, simulation: &Simulation) -> Option<Option<ToleranceMiss>> {
         let errors = self.before_run(simulation)?;
         Some(misses(simulation, |headline| errors[headline as usize]).into_iter().next())

@@ -18,7 +18,7 @@ const OF_ELEMENTS: f64 = 1.2;
 /// An upper bound of the finer meshes that may follow a collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefinementBound {
-    /// How many.
+    /// The largest number of finer meshes.
     pub meshes: usize,
     /// Element updates of all together over those of the collision; of condensed bodies time.
     pub over_first: f64,

@@ -1,50 +1,50 @@
-//! One thing that a rung has otherwise than the case.
+//! A change of one setting of a case, by which a reference run or a run of the accuracy study differs from it.
 
 use fem_case::schema::{CondensedTable, ContactMethod, HertzTable, ModelTable, Switch, TingTable};
 use fem_case::{CaseFile, Quantity};
 
-/// One thing that a rung has otherwise than the case. SI.
+/// A change of one setting of a case, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
-    /// `model.hertz`, with the spheres' finite size or without.
+    /// Sets `model.hertz`, with the spheres' finite size or without.
     Hertz {
         /// Whether the spheres' finite size adds to the approach.
         finite_size: bool,
     },
-    /// `model.ting`, with the spheres' finite size or without.
+    /// Sets `model.ting`, with the spheres' finite size or without.
     Ting {
         /// Whether the spheres' finite size adds to the approach.
         finite_size: bool,
     },
-    /// `model.condensed`.
+    /// Sets `model.condensed`.
     Condensed {
         /// Modes of free vibration of each body.
         vibration_modes: u8,
         /// Whether the springs of explicit elements resist overlap.
         penalty_springs: bool,
     },
-    /// `model.fem`.
+    /// Sets `model.fem`.
     Explicit,
-    /// `mesh.contact_element_size`, m.
+    /// Sets `mesh.contact_element_size`, m.
     ElementSize(f64),
-    /// `mesh.staggered`.
+    /// Sets `mesh.staggered`.
     Staggered(bool),
-    /// `mesh.growth`.
+    /// Sets `mesh.growth`.
     Growth(f64),
-    /// `contact.method`.
+    /// Sets `contact.method`.
     ContactMethod(ContactMethod),
-    /// `contact.penalty_factor`.
+    /// Sets `contact.penalty_factor`.
     PenaltyFactor(f64),
-    /// `time.mass_scaling`.
+    /// Sets `time.mass_scaling`.
     MassScaling(f64),
-    /// `time.step_factor`.
+    /// Sets `time.step_factor`.
     StepFactor(f64),
-    /// `effects.finite_strain = "on"`.
+    /// Sets `effects.finite_strain = "on"`.
     FiniteStrain,
 }
 
 impl Setting {
-    /// Puts it into a case.
+    /// Makes the change in a case file.
     pub fn apply(self, file: &mut CaseFile) {
         match self {
             Self::Hertz { finite_size } => {
@@ -134,7 +134,7 @@ mod tests {
         [model.law]
         hertz = {}";
 
-    /// What a rung does and what it tells the user to write are the same.
+    /// The change and the override that it prints are the same.
     #[test]
     fn the_override_is_what_is_applied() {
         let settings = [
