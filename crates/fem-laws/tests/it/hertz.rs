@@ -1,25 +1,8 @@
 //! Hertz' collision: reference table, scaling, energy, history.
 
 use fem_laws::{HertzImpact, LawError, Pair, Partner, contact_time_coefficient};
-use fem_material::{ElasticModuli, Material};
 
-fn glass() -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
-    Material::new(2390.0, moduli, None).unwrap()
-}
-
-fn glass_pair() -> Pair {
-    let glass = glass();
-    Pair::new(Partner::solid_sphere(22.2e-3, &glass), Partner::solid_sphere(15.9e-3, &glass))
-        .unwrap()
-}
-
-fn assert_close(found: f64, expected: f64, relative: f64) {
-    assert!(
-        (found - expected).abs() <= relative * expected.abs(),
-        "found {found:e}, expected {expected:e}"
-    );
-}
+use crate::common::{assert_close, glass, glass_pair};
 
 /// Reference numbers for glass, 22.2 mm on 15.9 mm, to one unit of the last digit printed: the
 /// table cuts 72.6378 µs to 72.637 and has 1.3550 GPa for 1.35491.

@@ -8,18 +8,9 @@ use fem_laws::laws::{
     tsuji, tsuji_coefficient,
 };
 use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, Partner};
-use fem_material::{ElasticModuli, Material};
+use fem_material::ElasticModuli;
 
-fn glass() -> Material {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
-    Material::new(2390.0, moduli, None).unwrap()
-}
-
-fn glass_pair() -> Pair {
-    let glass = glass();
-    Pair::new(Partner::solid_sphere(22.2e-3, &glass), Partner::solid_sphere(15.9e-3, &glass))
-        .unwrap()
-}
+use crate::common::{assert_close, glass, glass_pair};
 
 fn impact(law: ContactLaw, speed: f64) -> Impact {
     LawImpact::new(&glass_pair(), law).impact(speed).unwrap()
@@ -28,13 +19,6 @@ fn impact(law: ContactLaw, speed: f64) -> Impact {
 fn impact_to_zero_overlap(law: ContactLaw, speed: f64) -> Impact {
     let model = LawImpact::new(&glass_pair(), law).with_end_rule(EndRule::ZeroOverlap);
     model.impact(speed).unwrap()
-}
-
-fn assert_close(found: f64, expected: f64, relative: f64) {
-    assert!(
-        (found - expected).abs() <= relative * expected.abs(),
-        "found {found:e}, expected {expected:e}"
-    );
 }
 
 /// `DEFAULT_TOLERANCE` is 1e-8; without a dashpot the method does a tenth of it.

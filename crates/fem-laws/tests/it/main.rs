@@ -1,5 +1,6 @@
 //! The laws from outside, in one program: linked once, its tests run side by side.
 
+mod common;
 mod direct;
 mod fast_slow_limits;
 mod gravity;

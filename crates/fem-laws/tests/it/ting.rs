@@ -6,6 +6,8 @@ use fem_laws::{
 };
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
+use crate::common::assert_close;
+
 fn glass(acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
     let term = |&(weight, rate): &(f64, f64)| PronyTerm { weight, relaxation_time: 1.0 / rate };
@@ -24,13 +26,6 @@ fn ting(material: &Material) -> Ting {
 
 fn impact(acts_on: ActsOn, rate: f64) -> Impact {
     ting(&glass(acts_on, &[(1.0, rate)])).impact(0.5).unwrap()
-}
-
-fn assert_close(found: f64, expected: f64, relative: f64) {
-    assert!(
-        (found - expected).abs() <= relative * expected.abs(),
-        "found {found:e}, expected {expected:e}"
-    );
 }
 
 /// Restitutions computed independently for the project, to their printed digits.

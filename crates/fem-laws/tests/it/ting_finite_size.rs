@@ -5,6 +5,8 @@ use crate::direct::{Direct, direct};
 use fem_laws::{FiniteSize, HertzImpact, LawError, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
+use crate::common::assert_close;
+
 /// Hertz' contact time of the elastic pair at 0.5 m/s, s.
 const CONTACT_TIME: f64 = 63.235e-6;
 
@@ -47,13 +49,6 @@ fn ting(materials: [&Material; 2]) -> Ting {
 
 fn restitution(material: &Material, speed: f64) -> f64 {
     ting([material, material]).impact(speed).unwrap().restitution
-}
-
-fn assert_close(found: f64, expected: f64, relative: f64) {
-    assert!(
-        (found - expected).abs() <= relative * expected.abs(),
-        "found {found:e}, expected {expected:e}"
-    );
 }
 
 /// Quasi-static finite elements converged to h = 3.75 µm.

@@ -1,7 +1,7 @@
 //! Every fault of a case file: where it is found, what is said, what help is given.
 
 mod gravity;
-mod marked;
+pub mod marked;
 mod numbers;
 mod places;
 mod scene;
