@@ -110,7 +110,8 @@ fn main() -> Result<(), Error> {
     let viscosity = BulkViscosity::new(&mesh, &of_mesh, usual, 5.0)?;
     let forces: [Box<dyn NodeForce>; 2] = [Box::new(Weight::new(9.81)), Box::new(viscosity)];
     with_forces.node_forces[1].extend(forces);
-    let on_wall = Scene { on_wall: true, ..scene("wall, weight, viscosity", glass()?, with_forces) };
+    let on_wall =
+        Scene { on_wall: true, ..scene("wall, weight, viscosity", glass()?, with_forces) };
     on_wall.run()?;
     for (name, law) in [
         ("neo-Hooke", HyperelasticLaw::NeoHooke),

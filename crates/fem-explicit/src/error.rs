@@ -70,5 +70,5 @@ pub enum ModelError {
         "the memory is of a run of another model or version: its meshes, masses, materials, forces, \
          contact, approach or time step differ; or its parts contradict each other"
     )]
-    MemoryOfAnother,
+    ForeignRestartState,
 }

@@ -8,14 +8,11 @@ use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
-use crate::body::Body;
+use crate::body::{Body, BodyState, Clock, UnscaledMesh};
 use crate::error::ModelError;
-use crate::lumped::{FiniteStrainOf, LumpedMesh};
-use crate::model::check_step_factor;
 use crate::part::Accounts;
-use crate::state::{BodyState, Clock};
-use crate::step::{advance_nodes, advance_stress, update_internal_forces};
-use crate::stress::Collapse;
+use crate::settings::check_step_factor;
+use crate::stress::{Collapse, FiniteStrainChoice};
 
 /// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
 ///
@@ -90,8 +87,8 @@ impl FreeMotion {
         step_factor: f64,
     ) -> Result<Self, ModelError> {
         check_step_factor(step_factor)?;
-        let law = law.map(|law| FiniteStrainOf { law, within: None });
-        let sphere = LumpedMesh::new(mesh, material.clone(), law, Vec::new(), &[])?;
+        let law = law.map(|law| FiniteStrainChoice { law, within: None });
+        let sphere = UnscaledMesh::new(mesh, material.clone(), law, Vec::new(), &[])?;
         let time_step = step_factor * sphere.bound.critical_time_step();
         let nodal_mass = sphere.bound.mass.clone();
         let body = Body::of_mesh(sphere, 0.0, nodal_mass, 0.0, time_step);
@@ -133,16 +130,15 @@ impl FreeMotion {
 
     /// Moves the body by a time step.
     pub fn step(&mut self) {
-        advance_nodes(&self.body, self.time_step, &mut self.state, &self.forces);
+        self.state.advance_nodes(&self.body, self.time_step, &self.forces);
         self.n_steps += 1;
-        advance_stress(&self.body, self.clock(), &mut self.state);
+        self.state.advance_stress(&self.body, self.clock());
         self.update_forces();
     }
 
     fn update_forces(&mut self) {
-        let motion = self.state.motion(&self.body, self.clock());
-        let forces = &mut self.forces;
-        let done = update_internal_forces(&self.body, &motion, &self.state.history, forces);
+        let clock = self.clock();
+        let done = self.state.update_internal_forces(&self.body, clock, &mut self.forces);
         self.collapse = done.err();
     }
 

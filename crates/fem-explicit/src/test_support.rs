@@ -6,11 +6,11 @@ use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
 use nalgebra::{DMatrix, DVector};
 
-use crate::body::Body;
-use crate::lumped::LumpedMesh;
-use crate::model::{Model, Settings};
+use crate::body::{Body, BodyState, Clock, UnscaledMesh};
+use crate::model::Model;
 use crate::part::{Accounts, Field};
-use crate::state::{BodyState, Clock, State};
+use crate::settings::Settings;
+use crate::state::State;
 use crate::stress::Moduli;
 
 /// ν = 0.244 in units of density, shear modulus and so of the shear wave's speed.
@@ -94,8 +94,8 @@ pub(crate) fn geometries(mesh: &SphereMesh) -> Vec<QuadGeometry> {
 }
 
 /// Without forces on its nodes.
-pub(crate) fn lumped(mesh: &SphereMesh, material: Material) -> LumpedMesh {
-    LumpedMesh::new(mesh.clone(), material, None, Vec::new(), &[]).unwrap()
+pub(crate) fn lumped(mesh: &SphereMesh, material: Material) -> UnscaledMesh {
+    UnscaledMesh::new(mesh.clone(), material, None, Vec::new(), &[]).unwrap()
 }
 
 /// Energies and powers of the parts of a body.

@@ -1,9 +1,16 @@
-//! How the bodies touch: the port, and one file an implementation.
+//! The contact of the bodies: what a step asks of it ([`Contact`]), and one file per implementation.
+//!
+//! ```text
+//! springs       penalty springs between the surfaces before deformation, also of surfaces that slip
+//! moved         springs and dashpots between the surfaces where they are now, for finite strain
+//! massless      springs between nodes without mass, which are always in balance
+//! pushed_nodes  forces of the contact on the nodes, for the balance of energy
+//! ```
 
 mod massless;
 mod moved;
-mod penalty;
-mod slipping;
+mod pushed_nodes;
+mod springs;
 
 use std::any::Any;
 
@@ -15,28 +22,30 @@ use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 
 pub use massless::Massless;
 pub use moved::MovedContact;
+pub(crate) use pushed_nodes::PushedNodes;
+pub use springs::Springs;
+pub(crate) use springs::contact_between;
 
-/// How springs keep the surfaces apart.
+/// The contact method: where springs act between the surfaces.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum ContactMethod {
     /// Springs at the Gauss points of both surfaces, between nodes that have mass.
     #[default]
     Penalty,
-    /// The same springs between nodes without mass, which are always in balance.
+    /// The same springs between nodes without mass, which are in balance at the end of every step.
     Massless,
-    /// Springs at the nodes of each surface against the other one, as textbooks have them.
+    /// Springs at the nodes of each surface against the other one, the textbook method.
     NodeToSurface,
 }
 
 impl ContactMethod {
-    /// How many times more than usual springs count in the critical time step that are `factor` times as
-    /// stiff as usual.
+    /// Returns the factor on the stiffness of the springs in the bound of the critical time step, for springs that are
+    /// `factor` times as stiff as usual.
     ///
-    /// The stiffer they are, the more of a collision they open and close, and each time takes or gives energy by
-    /// the square of the step. A glass pair and a glass ball on a wall gained up to 4e-3 of it with springs at
-    /// Gauss points 100 and 1000 times as stiff and the step of usual ones, with half of it 4e-4. Springs at nodes,
-    /// which close as a whole, gained 3e-2 from ten times on, or ended the run; with a third of the step 8e-4,
-    /// with a quarter 2e-4.
+    /// Springs that open or close add or remove energy in proportion to the square of the step, and stiffer ones do so
+    /// more often. With springs at Gauss points 100 and 1000 times as stiff, a glass pair gained up to 4e-3 of its energy
+    /// at the usual step and 4e-4 at half of it. Springs at nodes, which close as a whole, gained 3e-2 at the usual
+    /// step, 8e-4 at a third and 2e-4 at a quarter of it.
     pub fn shorter_steps(self, factor: f64) -> f64 {
         match self {
             Self::Massless => 1.0,
@@ -46,26 +55,23 @@ impl ContactMethod {
     }
 }
 
-/// The contact of both bodies; arrays are of the lower and the upper one.
+/// The contact of both bodies; arrays hold the lower and the upper one.
 ///
-/// The place of another way to keep the bodies apart: penalty springs, a boundary without mass that
-/// is always in balance, surfaces that turn as they deform, friction. The fields of history that it
-/// declares are kept of both bodies.
+/// Implement it for another contact method or for friction. The fields of history that it declares are kept for both
+/// bodies.
 pub trait Contact: Part {
-    /// Where contact is looked for.
-    fn searched(&self) -> CandidateRegion;
+    /// Returns the candidate region, in which contact is searched for.
+    fn searched(&self) -> Searched;
 
-    /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, whatever is
-    /// closed.
+    /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, which holds for any closed part.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);
 
     /// Adds a bound of its damping at each node (N s/m) of a side; a contact that does not depend on the
     /// velocity has none.
     fn add_damping_bound(&self, _side: usize, _bound: &mut [f64]) {}
 
-    /// Adds what these bounds of a side have grown by since the bodies were undeformed, of all that can be
-    /// closed within a time, s: nothing of a contact that does not change its stiffness with them. Asked for
-    /// in runs whose bodies do.
+    /// Adds the growth of both bounds on a side since the bodies were undeformed, for all that can close within a time, s.
+    /// It is asked for in runs at finite strain; a contact of constant stiffness adds nothing.
     fn add_bound_growth(
         &self,
         _motions: &[Motion<'_>; 2],
@@ -76,7 +82,7 @@ pub trait Contact: Part {
     ) {
     }
 
-    /// Adds the contact forces (N) of a configuration.
+    /// Adds the contact forces (N) in a configuration.
     fn add_forces(
         &self,
         motions: &[Motion<'_>; 2],
@@ -84,34 +90,34 @@ pub trait Contact: Part {
         forces: [&mut Field; 2],
     ) -> ContactForces;
 
-    /// Nodes of a side, 0 lower, 1 upper, on which [`Contact::add_forces`] can change the force, in any order.
+    /// Returns the nodes of a side, 0 lower, 1 upper, on which [`Contact::add_forces`] can add forces, in any order.
     fn pushed_nodes(&self, side: usize) -> Vec<u32>;
 
-    /// Whether it can be, once it knows the time step.
+    /// Checks whether it can work, once it knows the time step.
     ///
     /// # Errors
-    /// What it lacks.
+    /// It cannot.
     fn check(&self) -> Result<(), ModelError> {
         Ok(())
     }
 
-    /// Adds what it has taken since first touch; what its springs hold is told with the forces.
+    /// Adds the energy that it has dissipated since first touch; the energy of its springs is returned with the forces.
     fn add_energies(&self, _history: [&[NodalField]; 2], _accounts: &mut Accounts) {}
 
-    /// Nodes of a side, 0 lower, 1 upper, that have no mass: the step leaves them the velocity that
-    /// they had, and the contact moves them where they are in balance.
+    /// Returns the nodes of a side, 0 lower, 1 upper, that have no mass: the step keeps their velocity, and the contact
+    /// moves them to where they are in balance.
     fn massless_nodes(&self, _side: usize) -> &[u32] {
         &[]
     }
 
-    /// Room that a run has for it. A run that goes on from its memory begins with another: nothing that
-    /// is found in it decides a bit.
+    /// Allocates its buffers for a run. A run that is resumed begins with new ones: their contents must not change a bit
+    /// of the result.
     fn buffers(&self) -> Box<dyn Any + Send + Sync> {
         Box::new(())
     }
 
-    /// Takes the history to the end of a step, whose motion is given, that of stress included; moves
-    /// the nodes without mass.
+    /// Takes the history to the end of a step, whose motion is given with the history of the stress, and moves the nodes
+    /// without mass.
     fn advance(
         &self,
         _motions: [MotionMut<'_>; 2],
@@ -120,9 +126,8 @@ pub trait Contact: Part {
     ) {
     }
 
-    /// Whether the next configuration is in contact, of whose nodes `next` tells the displacements (m),
-    /// those of nodes without mass as if they kept their velocity; `now` is the present contact. Where
-    /// that leaves a doubt, it is not.
+    /// Whether the next configuration is certainly in contact: `next` returns the displacements of its nodes (m), those of
+    /// nodes without mass as if they kept their velocity; `now` is the present contact.
     fn is_closed_next(
         &self,
         now: &ContactForces,
@@ -130,14 +135,14 @@ pub trait Contact: Part {
         history: [&[NodalField]; 2],
     ) -> bool;
 
-    /// Radius at which the contact pressure falls to zero, m, and pressure on the axis, Pa; 0 without contact
-    /// there.
+    /// Returns the radius at which the contact pressure falls to zero, m, and the pressure on the axis, Pa; 0 without
+    /// contact there.
     fn radius_and_pressure(
         &self,
         motions: &[Motion<'_>; 2],
         history: [&[NodalField]; 2],
     ) -> (f64, f64);
 
-    /// The contact from the axis outward, as snapshots show it.
+    /// Returns the contact from the axis outward, for snapshots.
     fn profile(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> Profile;
 }

@@ -1,13 +1,13 @@
-//! The springs and dashpots of [`fem_contact`] between moved surfaces as a contact.
+//! Springs and dashpots of [`fem_contact`] between the moved surfaces, as a contact.
 //!
-//! The springs have no history. The dashpots take the velocity of half a step before, as bulk viscosity
-//! does, and their force and the work done against it are the two fields of history: of the work,
+//! The springs have no history. The dashpots take the velocity of half a step before, as bulk viscosity does. Their force
+//! and the work done against it are the two fields of history. The work
 //!
 //! ```math
 //! W_{n+1} - W_n = -\tfrac12 \Delta t\; v_{n+1/2} \cdot (f_n + f_{n+1})
 //! ```
 //!
-//! is exactly what the energy that leapfrog keeps loses in a step.
+//! is exactly the energy that leapfrog loses in a step.
 
 use std::any::Any;
 
@@ -15,29 +15,28 @@ use fem_collision::{Account, BodyInput, CandidateRegion};
 use fem_contact::{ContactError, ContactForces, MovedInterface, Profile};
 
 use super::Contact;
-use crate::model::{Settings, mass_ratio, surface};
+use super::springs::{mass_ratio, surface};
 use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
+use crate::settings::Settings;
 
-/// Share of the critical damping of the surfaces' own nodes on the springs. Of a rubber ball on a wall
-/// at 1, 3 and 10 m/s the largest force was above its mean over 1/64 of the contact time by 5, 10 and
-/// 19 % undamped, 0.3, 0.7 and 1.4 % with 0.1, 0.2, 0.5 and 0.9 % with 0.3, at 3e-5 to 1e-4 of the
-/// restitution.
+/// Damping ratio of the surface nodes on the springs. At 0.3 the peak force of a rubber ball on a wall at 1 to 10 m/s is
+/// within 1 % of its mean over 1/64 of the contact time (undamped: 5 to 19 %), at a cost of 3e-5 to 1e-4 in restitution.
 const DAMPING_RATIO: f64 = 0.3;
 
-/// Contact between the surfaces of two bodies where they are now, for [`Parts`](crate::Parts).
+/// Contact between the surfaces of two bodies in their present places, for [`Parts`](crate::Parts).
 #[derive(Debug, Clone)]
 pub struct MovedContact {
     interface: MovedInterface,
 }
 
 impl MovedContact {
-    /// As settings ask for; `gap` (m) separates the poles.
+    /// Makes the contact that settings ask for; `gap` (m) separates the poles.
     ///
-    /// The impedance of the dashpots is 2ξ √(k m), m the mass of ½ρh on either side of an area in series,
-    /// and k = K/h: ξ √(2K / Σ 1/ρ).
+    /// The impedance of the dashpots is 2ξ √(k m) = ξ √(2K / Σ 1/ρ), with k = K/h and the masses ½ρh of both sides of an
+    /// area in series.
     ///
     /// # Errors
-    /// Two rigid bodies or planes; settings that are not positive and finite.
+    /// Both bodies are rigid or both surfaces are planes; a setting is not positive and finite.
     pub fn new(
         inputs: &[BodyInput; 2],
         gap: f64,
@@ -59,7 +58,7 @@ impl MovedContact {
         Ok(Self { interface })
     }
 
-    /// Takes the work of half a step (s) at a velocity (m/s) against the dashpots of a side.
+    /// Adds the work of half a step (s) at a velocity (m/s) against the dashpots of a side.
     fn add_work(&self, side: usize, half_step: f64, velocity: &Field, history: &mut [NodalField]) {
         let [force, work] = history else { return };
         for node in self.interface.candidate_nodes(side).map(|node| node as usize) {
@@ -71,7 +70,7 @@ impl MovedContact {
 }
 
 impl Part for MovedContact {
-    /// Force of the dashpots in the next step (N), and work done against it so far (J).
+    /// Two: the force of the dashpots in the next step (N), and the work done against it so far (J).
     fn n_history(&self) -> usize {
         2
     }

@@ -3,6 +3,7 @@
 use fem_collision::{Approach, BodyInput, HistoryRow, SnapshotInstant, SnapshotRequest};
 use fem_mesh::Side;
 
+use super::phases::is_closed_next;
 use super::*;
 use crate::state::{Scratch, State};
 use crate::test_support::{settings, sphere, unit_glass};
@@ -34,7 +35,7 @@ fn disturbed(factor: f64) -> Collision {
     let model = model();
     let mut run = Run::new(&model, EXPECTED, &want(SnapshotRequest::none()));
     assert_eq!(run.advance(128), None);
-    for v in run.memory.state.bodies[0].velocity.as_flattened_mut() {
+    for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
         *v *= factor;
     }
     run.advance(u64::MAX);
@@ -65,8 +66,8 @@ fn a_run_that_fails_leaves_its_last_sound_state() {
     for (want, is_kept) in [(labels(), true), (want(SnapshotRequest::none()), false)] {
         let mut run = Run::new(&model, EXPECTED, &want);
         assert_eq!(run.advance(128), None);
-        let disturbed_at = run.memory.state.time;
-        for v in run.memory.state.bodies[0].velocity.as_flattened_mut() {
+        let disturbed_at = run.restart_state.state.time;
+        for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
             *v = f64::NAN;
         }
         run.advance(u64::MAX);
@@ -95,7 +96,7 @@ fn a_sound_state_in_which_a_run_stops_is_the_last_one() {
         OutputRequest { most_element_updates: 200 * model.n_elements() as u64, ..want(COUNT) };
     let mut run = Run::new(&model, EXPECTED, &want);
     run.advance(128);
-    let mut resumed = Run::resume(&model, run.memory().clone()).unwrap();
+    let mut resumed = Run::resume(&model, run.restart_state().clone()).unwrap();
     let collisions = [&mut run, &mut resumed].map(|run| run.advance(u64::MAX).cloned());
     let Some(Ending::Stopped(Stop::TooManyUpdates { time, .. })) = collisions[0] else { panic!() };
     let collision = run.finish();
@@ -217,9 +218,10 @@ fn every_step_has_the_energy_of_a_balance() {
             let mut scratch = Scratch::new(&model);
             let (mut worst, mut largest, mut n_closed): (f64, f64, u32) = (0.0, 0.0, 0);
             while run.advance(1).is_none() {
-                let state = &run.memory.state;
+                let state = &run.restart_state.state;
                 let contact = update_forces(&model, state, &mut scratch).unwrap();
-                let [mut followed, mut balanced] = [(); 2].map(|()| run.memory.ledger.clone());
+                let [mut followed, mut balanced] =
+                    [(); 2].map(|()| run.restart_state.ledger.clone());
                 followed.follow(&model, state, &scratch, &contact).unwrap();
                 let row = balanced.balance(&model, state, &scratch, &contact);
                 let off = (followed.residual() - row.residual.unwrap()) / balanced.initial_relative;
@@ -230,7 +232,7 @@ fn every_step_has_the_energy_of_a_balance() {
             // Rounding of sums of a thousand terms.
             assert!(worst < 1e-12, "{method:?} {stiffness}: {worst:e}");
             // There is something to be seen: springs that open and close within a step.
-            let seen = run.memory.ledger.worst_residual;
+            let seen = run.restart_state.ledger.worst_residual;
             assert!(
                 seen >= largest && (seen > 1e-10 || method == ContactMethod::Massless),
                 "{seen:e}"
@@ -246,21 +248,22 @@ fn a_contact_that_adds_energy_is_seen_in_the_step() {
     let mut run = Run::new(&model, LONG, &want(SnapshotRequest::none()));
     assert_eq!(run.advance(128), None);
     // Two steps that are none of a balance, in the contact.
-    let is_due =
-        |run: &Run<&Model>, ahead: u64| run.memory.observed.is_due(run.memory.state.step + ahead);
+    let is_due = |run: &Run<&Model>, ahead: u64| {
+        run.restart_state.sampled.is_due(run.restart_state.state.step + ahead)
+    };
     for _ in 0..20 {
         if (0..3).any(|ahead| is_due(&run, ahead)) {
             run.advance(1);
         }
     }
     assert!((0..3).all(|ahead| !is_due(&run, ahead)));
-    let worst_before = run.memory.ledger.worst_residual;
+    let worst_before = run.restart_state.ledger.worst_residual;
     // A node at the pole of the lower body is pushed into the other.
     let pole = model.contact().pushed_nodes(0)[0] as usize;
     run.advance(1);
-    run.memory.state.bodies[0].displacement[pole][1] += 1e-3;
+    run.restart_state.state.bodies[0].displacement[pole][1] += 1e-3;
     run.advance(1);
-    let ledger = &run.memory.ledger;
+    let ledger = &run.restart_state.ledger;
     assert!(ledger.worst_residual > 10.0 * worst_before + 1e-6, "{:e}", ledger.worst_residual);
     assert!(ledger.growth > 1e-6 && ledger.growth <= ledger.worst_residual);
 }

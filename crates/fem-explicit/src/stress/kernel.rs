@@ -2,11 +2,9 @@
 
 use fem_material::ElasticModuli;
 
-use super::block::{Block, Blocks};
-use super::elements::Elements;
-use super::lanes::{LANES, LaneKernel, Lanes, RowKernel, RowLanes, WIDE, run_lanes, run_row_lanes};
+use super::elements::{Block, GatheredBlocks, PackedElements, Shape};
 use super::rows::Rows;
-use super::shape::Shape;
+use crate::lanes::{LANES, LaneKernel, Lanes, RowKernel, RowLanes, WIDE, run_lanes, run_row_lanes};
 use crate::part::Field;
 
 /// Bulk and shear modulus, Pa.
@@ -25,12 +23,12 @@ impl Moduli {
 
 /// Subtracts the internal forces (N) of one field from `f`.
 pub(crate) fn subtract_internal_forces(
-    elements: &Elements,
+    elements: &PackedElements,
     moduli: Moduli,
     w: &Field,
     f: &mut Field,
 ) {
-    let Elements { rows, others } = elements;
+    let PackedElements { rows, others } = elements;
     let of = Forces::<_, false> { elements: rows, moduli, bulk_field: w, shear_field: w };
     run_row_lanes(of, f);
     let of = Forces::<_, false> { elements: others, moduli, bulk_field: w, shear_field: w };
@@ -40,20 +38,20 @@ pub(crate) fn subtract_internal_forces(
 /// Subtracts the internal forces (N) from `f`: bulk stress of `u`, deviatoric
 /// stress of `w`.
 pub(crate) fn subtract_split_internal_forces(
-    elements: &Elements,
+    elements: &PackedElements,
     moduli: Moduli,
     u: &Field,
     w: &Field,
     f: &mut Field,
 ) {
-    let Elements { rows, others } = elements;
+    let PackedElements { rows, others } = elements;
     run_row_lanes(Forces::<_, true> { elements: rows, moduli, bulk_field: u, shear_field: w }, f);
     run_lanes(Forces::<_, true> { elements: others, moduli, bulk_field: u, shear_field: w }, f);
 }
 
 /// Strain energy (J) of a field.
-pub(crate) fn strain_energy(elements: &Elements, moduli: Moduli, field: &Field) -> f64 {
-    let Elements { rows, others } = elements;
+pub(crate) fn strain_energy(elements: &PackedElements, moduli: Moduli, field: &Field) -> f64 {
+    let PackedElements { rows, others } = elements;
     let (mut in_rows, mut of_others) = (0.0, 0.0);
     run_row_lanes(Energy { elements: rows, moduli, field }, &mut in_rows);
     run_lanes(Energy { elements: others, moduli, field }, &mut of_others);
@@ -68,7 +66,7 @@ struct Forces<'a, E, const SPLIT: bool> {
     shear_field: &'a Field,
 }
 
-impl<const SPLIT: bool> LaneKernel for Forces<'_, Blocks, SPLIT> {
+impl<const SPLIT: bool> LaneKernel for Forces<'_, GatheredBlocks, SPLIT> {
     type Output = Field;
 
     #[inline(always)]
@@ -93,7 +91,7 @@ struct Energy<'a, E> {
     field: &'a Field,
 }
 
-impl LaneKernel for Energy<'_, Blocks> {
+impl LaneKernel for Energy<'_, GatheredBlocks> {
     type Output = f64;
 
     #[inline(always)]
@@ -128,7 +126,7 @@ impl RowKernel for Energy<'_, Rows> {
     }
 }
 
-impl<const SPLIT: bool> Forces<'_, Blocks, SPLIT> {
+impl<const SPLIT: bool> Forces<'_, GatheredBlocks, SPLIT> {
     #[inline(always)]
     fn subtract_of_blocks<L: Lanes>(self, f: &mut Field) {
         let Self { elements, moduli, bulk_field, shear_field: w } = self;
@@ -196,7 +194,7 @@ struct Corners<L> {
 
 /// Strains of the elements times the square root of their volume, and their
 /// hourglass amplitudes.
-struct Strain<L> {
+struct ElementStrain<L> {
     rr: L,
     yy: L,
     tt: L,
@@ -278,13 +276,13 @@ impl<L> Corners<L> {
     }
 
     #[inline(always)]
-    fn strain<const N: usize, const FUSED: bool>(&self, shape: &Shape<N>) -> Strain<L>
+    fn strain<const N: usize, const FUSED: bool>(&self, shape: &Shape<N>) -> ElementStrain<L>
     where
         L: Lanes<N>,
     {
         let [r, y] = [load_three(&shape.gradient_r), load_three(&shape.gradient_y)];
         let h = load_three(&shape.hourglass);
-        Strain {
+        ElementStrain {
             rr: dot::<N, L, FUSED>(&r, &self.dr),
             yy: dot::<N, L, FUSED>(&y, &self.dy),
             tt: self.hoop::<N, FUSED>(shape),
@@ -365,7 +363,7 @@ impl<L> Constants<L> {
         let s_tt = plus::<N, L, FUSED>(mean, self.twice_shear, e.tt);
         let [k_rr, k_yy, k_ry] = load_three::<N, L>(&shape.hourglass_stiffness);
         let (q_r, q_y) = (e.hourglass_r, e.hourglass_y);
-        let stress = Stress {
+        let stress = ElementStress {
             s_rr: plus::<N, L, FUSED>(mean, self.twice_shear, e.rr),
             s_yy: plus::<N, L, FUSED>(mean, self.twice_shear, e.yy),
             s_ry: self.shear * e.ry,
@@ -410,7 +408,7 @@ impl<L> Constants<L> {
 
 /// What the gradients turn into forces.
 #[derive(Clone, Copy)]
-struct Stress<L> {
+struct ElementStress<L> {
     s_rr: L,
     s_yy: L,
     s_ry: L,
@@ -418,7 +416,7 @@ struct Stress<L> {
     h_y: L,
 }
 
-impl<L> Stress<L> {
+impl<L> ElementStress<L> {
     /// Force at a corner but for the hoop stress.
     #[inline(always)]
     fn force<const N: usize, const FUSED: bool>(&self, shape: &Shape<N>, a: usize) -> (L, L)

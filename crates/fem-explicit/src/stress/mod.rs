@@ -1,71 +1,91 @@
-//! How a body's stress follows from its motion: the port, and one file a law.
+//! The stress of a body, from its motion.
 //!
 //! ```text
-//! port                what the step asks of a stress
-//! elastic             Hooke's law
-//! constant_poisson    all moduli relax alike: Poisson's ratio stays
-//! relaxing_shear      shear relaxes, bulk is elastic
-//! prony               the history of both, one field a term
-//! finite              a law beyond Hooke at finite strain
-//! partly_finite       that near the contact alone, and small strain beyond
-//! kernel              the element loops of all: forces and strain energy
-//! lanes               several elements at once
-//! elements            how those of small strain lie in memory: rows of eight, and blocks of four
+//! port           what a step asks of a stress
+//! elastic        Hooke's law at small strain
+//! prony          linear viscoelasticity at small strain, one nodal field per term
+//! kernel         element loops of small strain: forces and strain energy
+//! elements       elements that lie anywhere, in blocks of four
+//! rows           elements that lie in rows, in eights
+//! finite         hyperelastic laws at finite strain, elastic or relaxing
+//! partly_finite  finite strain near the contact alone, small strain elsewhere
 //! ```
 
-mod block;
-mod constant_poisson;
 mod elastic;
 mod elements;
 mod finite;
 mod kernel;
-pub(crate) mod lanes;
 mod partly_finite;
 mod port;
 mod prony;
-mod relaxing_shear;
 mod rows;
-mod shape;
 
 use fem_element::QuadGeometry;
+use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, Material};
 use fem_mesh::SphereMesh;
 
-use constant_poisson::ConstantPoisson;
+use crate::error::ModelError;
 use elastic::Elastic;
-use elements::Elements;
+use elements::PackedElements;
 pub use finite::MOST_FINITE_STRAIN_TERMS;
-pub(crate) use finite::finite_strain;
 pub(crate) use kernel::Moduli;
-pub(crate) use partly_finite::finite_strain_within;
-pub use port::{Collapse, LumpedElement, Stress, Unstable};
-use prony::Relaxing;
-use relaxing_shear::RelaxingShear;
+use partly_finite::finite_strain_within;
+pub use port::Collapse;
+pub(crate) use port::{
+    FiniteStrainStress, LumpedElement, SmallStrainStress, StrainMeasure, Stress, UnstableElement,
+};
+use prony::{AllModuliRelax, LinearViscoelastic, ShearRelaxes};
 
-/// The stress of a material at small strain, on the integrated elements of a mesh.
-pub(crate) fn of_material(
+/// The law of a body at finite strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FiniteStrainChoice {
+    pub law: HyperelasticLaw,
+    /// Distance from first touch (m) within which elements are at finite strain; `None` for all elements.
+    pub within: Option<f64>,
+}
+
+/// Makes the stress of a material on the integrated elements of a mesh: at small strain, or at finite strain where that is
+/// chosen.
+///
+/// # Errors
+/// The material has too many relaxation terms for finite strain.
+pub(crate) fn stress_of_body(
     mesh: &SphereMesh,
     geometries: &[QuadGeometry],
     material: &Material,
-) -> Box<dyn Stress> {
-    of_quads(mesh.nodes().len(), mesh.quads(), geometries, material)
+    finite_strain: Option<FiniteStrainChoice>,
+) -> Result<Box<dyn Stress>, ModelError> {
+    let Some(FiniteStrainChoice { law, within }) = finite_strain else {
+        return Ok(small_strain(mesh.nodes().len(), mesh.quads(), geometries, material));
+    };
+    let n_terms = material.relaxation().map_or(0, |series| series.terms().len());
+    if n_terms > MOST_FINITE_STRAIN_TERMS {
+        return Err(ModelError::TooManyTerms { n_terms, most: MOST_FINITE_STRAIN_TERMS });
+    }
+    let radius = within.unwrap_or(f64::INFINITY);
+    Ok(finite_strain_within(radius, mesh, geometries, material, law))
 }
 
-/// The same on some elements, quads of so many nodes.
-pub(crate) fn of_quads(
+/// Makes the stress of a material at small strain on integrated elements: quads on nodes with numbers below `n_nodes`.
+pub(crate) fn small_strain(
     n_nodes: usize,
     quads: &[[u32; 4]],
     geometries: &[QuadGeometry],
     material: &Material,
-) -> Box<dyn Stress> {
+) -> Box<dyn SmallStrainStress> {
     let elastic = Elastic {
-        elements: Elements::pack(n_nodes, quads, geometries),
+        elements: PackedElements::pack(n_nodes, quads, geometries),
         moduli: Moduli::of(material.instantaneous()),
     };
     let relaxation = material.relaxation().filter(|series| series.relaxes());
     match relaxation.map(|series| (series, series.acts_on())) {
         None => Box::new(elastic),
-        Some((series, ActsOn::All)) => Box::new(Relaxing::<ConstantPoisson>::new(elastic, series)),
-        Some((series, ActsOn::Shear)) => Box::new(Relaxing::<RelaxingShear>::new(elastic, series)),
+        Some((series, ActsOn::All)) => {
+            Box::new(LinearViscoelastic::<AllModuliRelax>::new(elastic, series))
+        }
+        Some((series, ActsOn::Shear)) => {
+            Box::new(LinearViscoelastic::<ShearRelaxes>::new(elastic, series))
+        }
     }
 }

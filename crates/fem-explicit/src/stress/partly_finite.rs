@@ -1,14 +1,14 @@
-//! Finite strain near first touch, small strain beyond.
+//! Finite strain near first touch, small strain elsewhere.
 //!
-//! Strains under a contact of radius a fall as (a/r)² with the distance r from its middle, and what finite
-//! strain adds to the energy is of the third order in them. What is left of it beyond a radius R,
+//! Strains under a contact of radius a fall as (a/r)² with the distance r from its centre, and the correction of the energy
+//! by finite strain is of third order in them. The share of the correction beyond a radius R,
 //!
 //! ```math
 //! \int_R^\infty \left(\frac ar\right)^6 r^2\, dr \sim \left(\frac aR\right)^3 ,
 //! ```
 //!
-//! is a share that is chosen with R, for a third of the price of an element there. Elements of either kind
-//! store energies of their own, and meet at nodes: energy and momentum are kept as by one kind alone.
+//! is chosen by R; an element at small strain costs a third of one at finite strain. Elements of both kinds store energies of
+//! their own and meet at nodes, so energy and momentum are conserved as with one kind alone.
 
 use std::fmt;
 
@@ -18,18 +18,21 @@ use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
-use super::finite::finite_strain_of;
-use super::port::{Collapse, LumpedElement, Stress, Unstable};
-use super::{of_material, of_quads};
+use super::finite::finite_strain;
+use super::port::{
+    Collapse, FiniteStrainStress, LumpedElement, SmallStrainStress, StrainMeasure, Stress,
+    UnstableElement,
+};
+use super::small_strain;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
-/// A body of which some elements are at finite strain. Its history is that of those, of elements and of
-/// nodes, then that of the others.
+/// The stress of a body of which some elements are at finite strain. Its history is that of the near elements, of elements
+/// and of nodes, followed by that of the far ones.
 struct PartlyFinite {
-    near: Box<dyn Stress>,
-    /// Numbers of its elements, ascending.
+    near: Box<dyn FiniteStrainStress>,
+    /// Numbers of the near elements, ascending.
     near_elements: Vec<usize>,
-    far: Box<dyn Stress>,
+    far: Box<dyn SmallStrainStress>,
     far_elements: Vec<FarElement>,
     material: Material,
 }
@@ -40,9 +43,9 @@ struct FarElement {
     geometry: QuadGeometry,
 }
 
-/// The stress of a material that follows a law in elements whose middles are within a radius (m) of first
-/// touch, and Hooke's law at small strain in the others, if there are any.
-pub(crate) fn finite_strain_within(
+/// Makes the stress of a material that follows a law at finite strain in elements whose centres are within a radius (m) of
+/// first touch, and is at small strain in the others.
+pub(super) fn finite_strain_within(
     radius: f64,
     mesh: &SphereMesh,
     geometries: &[QuadGeometry],
@@ -56,9 +59,9 @@ pub(crate) fn finite_strain_within(
     };
     let (near_elements, others): (Vec<_>, Vec<_>) = (0..geometries.len()).partition(is_near);
     if near_elements.is_empty() {
-        return of_material(mesh, geometries, material);
+        return small_strain(mesh.nodes().len(), mesh.quads(), geometries, material);
     }
-    let near = finite_strain_of(mesh, geometries, &near_elements, material, law);
+    let near = finite_strain(mesh, geometries, &near_elements, material, law);
     if others.is_empty() {
         return near;
     }
@@ -70,7 +73,7 @@ pub(crate) fn finite_strain_within(
     let far_elements: Vec<_> = others.iter().map(of).collect();
     let quads: Vec<_> = far_elements.iter().map(|element| element.quad).collect();
     let of_far: Vec<_> = far_elements.iter().map(|element| element.geometry).collect();
-    let far = of_quads(mesh.nodes().len(), &quads, &of_far, material);
+    let far = small_strain(mesh.nodes().len(), &quads, &of_far, material);
     let material = material.clone();
     Box::new(PartlyFinite { near, near_elements, far, far_elements, material })
 }
@@ -80,9 +83,9 @@ impl PartlyFinite {
         self.near.n_element_history() + self.near.n_history()
     }
 
-    /// The fields of the near elements, and those of the others.
+    /// Returns the fields of the near elements, and those of the others.
     fn split<'a>(&self, history: &'a [NodalField]) -> (&'a [NodalField], &'a [NodalField]) {
-        // Bounds are asked for of bodies without a past, too.
+        // Bounds are also computed without history.
         history.split_at(self.n_near().min(history.len()))
     }
 
@@ -93,13 +96,13 @@ impl PartlyFinite {
         history.split_at_mut(self.n_near())
     }
 
-    /// As the body counts its elements.
+    /// Returns a collapse with the number of its element in the body.
     fn collapse(&self, collapse: Collapse) -> Collapse {
         Collapse { element: self.near_elements[collapse.element], ..collapse }
     }
 }
 
-/// What the elements are, and how many of either kind; the mesh is known by other means.
+/// Shows the near stress and the number of elements of both kinds, for the fingerprint of a model.
 impl fmt::Debug for PartlyFinite {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let n = [self.near_elements.len(), self.far_elements.len()];
@@ -119,24 +122,15 @@ impl Part for PartlyFinite {
 }
 
 impl Stress for PartlyFinite {
+    fn strain_measure(&self) -> StrainMeasure<'_> {
+        StrainMeasure::Finite(self)
+    }
+
     fn n_element_history(&self) -> usize {
         self.near.n_element_history()
     }
 
-    fn n_finite_elements(&self) -> usize {
-        self.near.n_finite_elements()
-    }
-
-    /// The bound of the near ones: undeformed, both kinds have the same stiffness.
-    fn largest_eigenvalue(
-        &self,
-        geometry: &QuadGeometry,
-        masses: &[f64; 4],
-        on_axis: [bool; 4],
-    ) -> f64 {
-        self.near.largest_eigenvalue(geometry, masses, on_axis)
-    }
-
+    /// Those of the near elements: undeformed, both kinds have the same stiffness.
     fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
         self.near.largest_eigenvalues(elements)
     }
@@ -165,20 +159,25 @@ impl Stress for PartlyFinite {
         done.map_err(|collapse| self.collapse(collapse))
     }
 
-    fn changes_stiffness(&self) -> bool {
-        true
+    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
+        let (near, far) = self.split_mut(history);
+        self.near.advance(motion, near);
+        self.far.advance(motion, far);
     }
 
-    fn can_lose_stability(&self) -> bool {
-        self.near.can_lose_stability()
+    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
+        let (near, far) = self.split(history);
+        self.near.add_energies(motion, near, accounts);
+        self.far.add_energies(motion, far, accounts);
+    }
+}
+
+impl FiniteStrainStress for PartlyFinite {
+    fn n_elements(&self) -> usize {
+        self.near.n_elements()
     }
 
-    fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<Unstable> {
-        let unstable = self.near.unstable_element(u, self.split(history).0)?;
-        Some(Unstable { element: self.near_elements[unstable.element], ..unstable })
-    }
-
-    /// Of the near elements alone, here and below: what they grow by is what counts.
+    /// Adds the bound of the near elements alone, as does the next method: only its growth counts.
     fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
         self.near.add_undeformed_stiffness_bound(bound);
     }
@@ -191,12 +190,21 @@ impl Stress for PartlyFinite {
         self.near.strain_rate(motion)
     }
 
-    fn urgency(&self, motion: &Motion<'_>, room: &[f64]) -> f64 {
-        self.near.urgency(motion, room)
+    fn allowance_rate(&self, motion: &Motion<'_>, allowances: &[f64]) -> f64 {
+        self.near.allowance_rate(motion, allowances)
     }
 
-    fn most_compressed(&self, displacement: &Field) -> Option<Collapse> {
-        self.near.most_compressed(displacement).map(|collapse| self.collapse(collapse))
+    fn most_compressed(&self, displacement: &Field) -> Collapse {
+        self.collapse(self.near.most_compressed(displacement))
+    }
+
+    fn can_lose_stability(&self) -> bool {
+        self.near.can_lose_stability()
+    }
+
+    fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<UnstableElement> {
+        let unstable = self.near.unstable_element(u, self.split(history).0)?;
+        Some(UnstableElement { element: self.near_elements[unstable.element], ..unstable })
     }
 
     fn update_cauchy_stress(
@@ -208,7 +216,7 @@ impl Stress for PartlyFinite {
         let (near, far) = self.split(history);
         self.near.update_cauchy_stress(displacement, near, stress);
         stress.resize(self.near_elements.len() + self.far_elements.len(), [0.0; 4]);
-        // No element comes before its place among the near ones.
+        // In descending order no entry is overwritten before it has been moved.
         for (k, &number) in self.near_elements.iter().enumerate().rev() {
             stress[number] = stress[k];
         }
@@ -217,18 +225,6 @@ impl Stress for PartlyFinite {
         for FarElement { number, quad, geometry } in &self.far_elements {
             stress[*number] = small_strain.stress(geometry, quad);
         }
-    }
-
-    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
-        let (near, far) = self.split_mut(history);
-        self.near.advance(motion, near);
-        self.far.advance(motion, far);
-    }
-
-    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
-        let (near, far) = self.split(history);
-        self.near.add_energies(motion, near, accounts);
-        self.far.add_energies(motion, far, accounts);
     }
 }
 

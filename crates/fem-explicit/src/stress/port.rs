@@ -1,10 +1,13 @@
-//! What the step asks of a body's stress.
+//! What a step asks of the stress of a body.
+//!
+//! No method has a default: a new one does not compile until every stress has answered it, also one that is made of others
+//! ([`PartlyFinite`](super::partly_finite)).
 
 use fem_element::{ElementMatrix, QuadGeometry};
 
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
-/// An element that a stress cannot follow.
+/// An element whose deformation its stress cannot follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collapse {
     /// Number of the element.
@@ -13,72 +16,69 @@ pub struct Collapse {
     pub volume_ratio: f64,
 }
 
-/// An element whose material does not bear every wave any more: its law has lost ellipticity.
+/// An element whose law has lost ellipticity: its material no longer bears every wave.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unstable {
+pub(crate) struct UnstableElement {
     /// Number of the element.
     pub element: usize,
-    /// Its principal stretches: two of the meridian plane, the larger first, then that of the hoop.
+    /// Its principal stretches: two in the meridian plane, the larger first, then that of the hoop.
     pub stretches: [f64; 3],
     /// Name of the law.
     pub law: &'static str,
 }
 
-/// An element with its masses.
+/// An undeformed element with its lumped masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LumpedElement {
-    /// Of the undeformed element.
+pub(crate) struct LumpedElement {
     pub geometry: QuadGeometry,
     /// Lumped masses of its corners, kg.
     pub masses: [f64; 4],
-    /// Corners that are free along y alone.
+    /// Corners on the axis, which move along y alone.
     pub on_axis: [bool; 4],
 }
 
-/// The stress of a body: internal forces, what it stores and dissipates, and how stiff it is.
+/// A stress by the strain that it is computed from. Whether a body is at finite strain is asked here and nowhere else.
+pub(crate) enum StrainMeasure<'a> {
+    /// All elements are at small strain; the stiffness is constant.
+    Small(&'a dyn SmallStrainStress),
+    /// Elements are at finite strain, all or some; the stiffness changes with the deformation.
+    Finite(&'a dyn FiniteStrainStress),
+}
+
+impl<'a> StrainMeasure<'a> {
+    /// Returns the stress if it is at finite strain.
+    pub fn finite(self) -> Option<&'a dyn FiniteStrainStress> {
+        match self {
+            Self::Small(_) => None,
+            Self::Finite(stress) => Some(stress),
+        }
+    }
+}
+
+/// The stress of a body: internal forces, stored and dissipated energy, and a bound of its stiffness.
 ///
-/// The place of effects that depend on strain and its past: another material law, finite strain.
-///
-/// Its history are fields of its elements, one pair an element, and behind them those of the nodes.
-pub trait Stress: Part {
-    /// Number of fields of history of the elements.
-    fn n_element_history(&self) -> usize {
-        0
-    }
+/// Its history consists of fields of its elements, one pair per element, followed by fields of the nodes.
+pub(crate) trait Stress: Part {
+    /// Returns this stress by its strain measure.
+    fn strain_measure(&self) -> StrainMeasure<'_>;
 
-    /// Number of elements at finite strain.
-    fn n_finite_elements(&self) -> usize {
-        0
-    }
+    /// Returns the number of fields of history of the elements.
+    fn n_element_history(&self) -> usize;
 
-    /// Largest eigenvalue (s⁻²) of an element's stiffness against its lumped masses (kg), its
-    /// corners `on_axis` free along y alone; or a bound of it.
-    fn largest_eigenvalue(
-        &self,
-        geometry: &QuadGeometry,
-        masses: &[f64; 4],
-        on_axis: [bool; 4],
-    ) -> f64;
+    /// Returns, for each element, the largest eigenvalue of its undeformed stiffness against its lumped masses, s⁻², or a
+    /// bound of it.
+    fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64>;
 
-    /// Those of several elements.
-    fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
-        let of = |element: &LumpedElement| {
-            self.largest_eigenvalue(&element.geometry, &element.masses, element.on_axis)
-        };
-        elements.iter().map(of).collect()
-    }
+    /// Sets the history of a body that is displaced (m) as a whole.
+    fn start_rigid(&self, displacement: &Field, history: &mut [NodalField]);
 
-    /// History of a body that is displaced (m) as a whole.
-    fn start_rigid(&self, _displacement: &Field, _history: &mut [NodalField]) {}
+    /// Sets the history of a body that has been deformed instantaneously: nothing has relaxed.
+    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]);
 
-    /// History of a body that has been deformed in no time: nothing of it has relaxed.
-    fn start_deformed(&self, _displacement: &Field, _history: &mut [NodalField]) {}
-
-    /// Subtracts the internal forces (N) from `forces`: of a motion to which the history has been taken,
-    /// which may hold them.
+    /// Subtracts the internal forces (N) from `forces`. The history has been advanced to the motion.
     ///
     /// # Errors
-    /// An element has collapsed; then the forces mean nothing.
+    /// An element has collapsed; then the forces have no meaning.
     fn subtract_forces(
         &self,
         motion: &Motion<'_>,
@@ -86,74 +86,63 @@ pub trait Stress: Part {
         forces: &mut Field,
     ) -> Result<(), Collapse>;
 
-    /// Whether its stiffness changes as the body deforms; then the time step may follow.
-    fn changes_stiffness(&self) -> bool {
-        false
-    }
+    /// Takes the history to the end of a step, whose motion is given.
+    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]);
 
-    /// Whether its law can lose ellipticity: then it is looked for.
-    fn can_lose_stability(&self) -> bool {
-        false
-    }
+    /// Adds the energy that the body stores and the power that it dissipates.
+    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
+}
 
-    /// The element that is least stable, if it is not stable.
-    fn unstable_element(&self, _displacement: &Field, _: &[NodalField]) -> Option<Unstable> {
-        None
-    }
+/// What a stress at small strain adds: it is linear in the motion, which a boundary without mass relies on.
+pub(crate) trait SmallStrainStress: Stress {
+    /// Returns the stiffness (N/m) of an element against a further displacement at the end of a step, once the time step is
+    /// known.
+    fn stiffness_of_step(&self, geometry: &QuadGeometry) -> ElementMatrix;
 
-    /// Adds a bound of its stiffness at each node (N/m) of the undeformed body, where it changes.
-    fn add_undeformed_stiffness_bound(&self, _bound: &mut [f64]) {}
+    /// Adds the further displacement (m) of a node to the history, which has been advanced to the end of the step.
+    fn shift(&self, node: usize, change: [f64; 2], history: &mut [NodalField]);
 
-    /// The same of the deformed body.
-    fn add_stiffness_bound(&self, _: &Motion<'_>, _: &[NodalField], _bound: &mut [f64]) {}
+    /// Returns which field of its history is the effective displacement, if the stress follows from another displacement
+    /// than that of the body.
+    fn effective(&self) -> Option<usize>;
+}
 
-    /// Largest rate (1/s) at which an element is strained, seen from how it is deformed, where that changes
-    /// its stiffness.
-    fn strain_rate(&self, _: &Motion<'_>) -> f64 {
-        0.0
-    }
+/// What a stress at finite strain adds: time step control and diagnostics follow its changing stiffness.
+pub(crate) trait FiniteStrainStress: Stress {
+    /// Returns the number of elements at finite strain.
+    fn n_elements(&self) -> usize;
 
-    /// The same over the strain that an element may take before its nodes ask for a shorter step, the least of
-    /// its corners', where that changes its stiffness, 1/s.
-    fn urgency(&self, _: &Motion<'_>, _room: &[f64]) -> f64 {
-        0.0
-    }
+    /// Adds a bound of the stiffness at each node (N/m) of the undeformed body.
+    fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]);
 
-    /// The element that is compressed most, where an element can collapse.
-    fn most_compressed(&self, _displacement: &Field) -> Option<Collapse> {
-        None
-    }
+    /// Adds a bound of the stiffness at each node (N/m) of the deformed body.
+    fn add_stiffness_bound(&self, motion: &Motion<'_>, history: &[NodalField], bound: &mut [f64]);
 
-    /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of each element, tension positive, Pa, in place of what
-    /// is there; nothing where it follows from the displacement or the effective displacement at small
-    /// strain.
+    /// Returns the largest strain rate of any element, relative to its present deformation, 1/s.
+    fn strain_rate(&self, motion: &Motion<'_>) -> f64;
+
+    /// Returns the largest ratio of an element's strain rate to its strain allowance, which is the least of those at its
+    /// corners, 1/s.
+    fn allowance_rate(&self, motion: &Motion<'_>, allowances: &[f64]) -> f64;
+
+    /// Returns the element that is compressed most.
+    fn most_compressed(&self, displacement: &Field) -> Collapse;
+
+    /// Whether the law can lose ellipticity, so that unstable elements have to be searched for.
+    fn can_lose_stability(&self) -> bool;
+
+    /// Returns the least stable element, if it is unstable.
+    fn unstable_element(
+        &self,
+        displacement: &Field,
+        history: &[NodalField],
+    ) -> Option<UnstableElement>;
+
+    /// Overwrites `stress` with the Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of each element, tension positive, Pa.
     fn update_cauchy_stress(
         &self,
-        _displacement: &Field,
-        _history: &[NodalField],
+        displacement: &Field,
+        history: &[NodalField],
         stress: &mut Vec<[f64; 4]>,
-    ) {
-        stress.clear();
-    }
-
-    /// Takes the history to the end of a step, whose motion is given.
-    fn advance(&self, _motion: &Motion<'_>, _history: &mut [NodalField]) {}
-
-    /// Stiffness (N/m) of an element against what a node moves more by the end of a step, the time step
-    /// known; `None` of a stress that is no linear function of the motion.
-    fn stiffness_of_step(&self, _geometry: &QuadGeometry) -> Option<ElementMatrix> {
-        None
-    }
-
-    /// A node has moved by so much more (m) in the step that the history has been taken to the end of.
-    fn shift(&self, _node: usize, _change: [f64; 2], _history: &mut [NodalField]) {}
-
-    /// Adds what the body stores and dissipates.
-    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
-
-    /// Which field of its history is the effective displacement, where relaxing stress is that of
-    /// another displacement than the body's.
-    fn effective(&self) -> Option<usize> {
-        None
-    }
+    );
 }

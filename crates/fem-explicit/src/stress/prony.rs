@@ -1,12 +1,18 @@
-//! Linear viscoelasticity by Prony terms, one nodal field a term.
+//! Linear viscoelasticity at small strain by a Prony series, one nodal field per term.
 //!
 //! ```math
 //! \dot q_k + q_k/\tau_k = \dot u, \qquad w = g_\infty u + \sum_k g_k q_k
 //! ```
 //!
-//! A branch is stepped exactly for a constant rate ([`RelaxationStep`]). What relaxes is the stress
-//! of the effective displacement w; which stress that is, [`Relaxes`] says. A branch stores
-//! ½ q·g K q and dissipates q·g K q / τ; the rest of the stiffness stores ½ u·K u.
+//! A branch is advanced exactly for a constant rate ([`RelaxationStep`]). The relaxing part of the stress is that of the
+//! effective displacement w. [`RelaxingModuli`] defines which part relaxes:
+//!
+//! ```math
+//! f = -(K_{bulk} + K_{shear})\, w \quad\text{(all moduli)}, \qquad
+//! f = -K_{bulk}\, u - K_{shear}\, w \quad\text{(shear alone)} .
+//! ```
+//!
+//! A branch stores ½ q·g K q and dissipates q·g K q / τ; the rest of the stiffness stores ½ u·K u.
 
 use std::fmt::Debug;
 use std::marker::PhantomData;
@@ -17,20 +23,58 @@ use fem_material::{PronySeries, RelaxationStep};
 use multiversion::multiversion;
 
 use super::elastic::Elastic;
-use super::kernel::{Moduli, strain_energy};
-use super::port::{Collapse, Stress};
+use super::kernel::{
+    Moduli, strain_energy, subtract_internal_forces, subtract_split_internal_forces,
+};
+use super::port::{Collapse, LumpedElement, SmallStrainStress, StrainMeasure, Stress};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
-/// Which part of the stress relaxes.
-pub(super) trait Relaxes: Debug + Send + Sync + 'static {
-    /// The moduli that relax, of those of a deformation in no time.
+/// The part of the stress that relaxes.
+pub(super) trait RelaxingModuli: Debug + Send + Sync + 'static {
+    /// Returns the moduli that relax, from the instantaneous ones.
     fn relaxing(instantaneous: Moduli) -> Moduli;
 
-    /// The moduli that are left for good, with g∞ of what relaxes.
+    /// Returns the equilibrium moduli, with g∞ of those that relax.
     fn lasting(instantaneous: Moduli, equilibrium_weight: f64) -> Moduli;
 
     /// Subtracts the forces of a displacement u and an effective displacement w from f.
     fn subtract_forces(elastic: &Elastic, u: &Field, w: &Field, f: &mut Field);
+}
+
+/// All moduli relax alike, so that Poisson's ratio stays constant.
+#[derive(Debug)]
+pub(super) struct AllModuliRelax;
+
+impl RelaxingModuli for AllModuliRelax {
+    fn relaxing(instantaneous: Moduli) -> Moduli {
+        instantaneous
+    }
+
+    fn lasting(Moduli { bulk, shear }: Moduli, equilibrium_weight: f64) -> Moduli {
+        Moduli { bulk: equilibrium_weight * bulk, shear: equilibrium_weight * shear }
+    }
+
+    fn subtract_forces(elastic: &Elastic, _: &Field, w: &Field, f: &mut Field) {
+        subtract_internal_forces(&elastic.elements, elastic.moduli, w, f);
+    }
+}
+
+/// Shear relaxes; bulk is elastic.
+#[derive(Debug)]
+pub(super) struct ShearRelaxes;
+
+impl RelaxingModuli for ShearRelaxes {
+    fn relaxing(Moduli { shear, .. }: Moduli) -> Moduli {
+        Moduli { bulk: 0.0, shear }
+    }
+
+    fn lasting(Moduli { bulk, shear }: Moduli, equilibrium_weight: f64) -> Moduli {
+        Moduli { bulk, shear: equilibrium_weight * shear }
+    }
+
+    fn subtract_forces(elastic: &Elastic, u: &Field, w: &Field, f: &mut Field) {
+        subtract_split_internal_forces(&elastic.elements, elastic.moduli, u, w, f);
+    }
 }
 
 /// One Prony term at the model's time step.
@@ -40,14 +84,14 @@ struct Branch {
     relaxation_time: f64,
     /// Factor of the branch over a step.
     decay: f64,
-    /// What it gains of a velocity in a step, s.
+    /// Gain per velocity in a step, s.
     gain: f64,
-    /// What it gains of a displacement in a step.
+    /// Gain per displacement in a step.
     share: f64,
 }
 
 impl Branch {
-    /// Of a step, s.
+    /// Sets the time step, s.
     fn set_time_step(&mut self, time_step: f64) {
         let step = RelaxationStep::new(self.relaxation_time, time_step);
         self.decay = step.decay;
@@ -55,7 +99,7 @@ impl Branch {
         self.share = step.gain;
     }
 
-    /// This branch at a step (s) that may be shorter than the model's.
+    /// Returns this branch at a step (s) that may be shorter than that of the model.
     fn at(mut self, time_step: f64, of_model: f64) -> Self {
         if time_step != of_model {
             self.set_time_step(time_step);
@@ -64,22 +108,22 @@ impl Branch {
     }
 }
 
-/// A body whose stress relaxes. Its history is w, then q of each term.
+/// The stress of a linear viscoelastic body. Its history is w, then q of each term.
 #[derive(Debug)]
-pub(super) struct Relaxing<R> {
+pub(super) struct LinearViscoelastic<R> {
     elastic: Elastic,
     equilibrium_weight: f64,
     branches: Vec<Branch>,
-    /// Of the model, s; 0 as long as it is not known.
+    /// Time step of the model, s; 0 until it is known.
     time_step: f64,
     relaxes: PhantomData<R>,
 }
 
-impl<R: Relaxes> Relaxing<R> {
-    /// Of an elastic body and a series; terms without weight keep no history.
+impl<R: RelaxingModuli> LinearViscoelastic<R> {
+    /// Adds a series to an elastic body; terms without weight keep no history.
     pub fn new(elastic: Elastic, series: &PronySeries) -> Self {
         let terms = series.terms().iter().filter(|term| term.weight > 0.0);
-        // Still as long as no time step is known.
+        // Nothing relaxes until the time step is known.
         let branches = terms.map(|term| Branch {
             weight: term.weight,
             relaxation_time: term.relaxation_time,
@@ -96,13 +140,13 @@ impl<R: Relaxes> Relaxing<R> {
         }
     }
 
-    /// What the effective displacement gains of a displacement in a step, g∞ + Σ g_k ∂q_k/∂u.
+    /// Returns the gain of the effective displacement per displacement in a step, g∞ + Σ g_k ∂q_k/∂u.
     fn weight_of_step(&self) -> f64 {
         let branches = self.branches.iter().map(|branch| branch.weight * branch.share);
         self.equilibrium_weight + branches.sum::<f64>()
     }
 
-    /// w = g∞ u + Σ g_k q_k.
+    /// Computes w = g∞ u + Σ g_k q_k.
     fn update_effective(&self, u: &Field, history: &mut [NodalField]) {
         let [w, branches @ ..] = history else { return };
         start_effective(self.equilibrium_weight, u, w);
@@ -112,7 +156,7 @@ impl<R: Relaxes> Relaxing<R> {
     }
 }
 
-impl<R: Relaxes> Part for Relaxing<R> {
+impl<R: RelaxingModuli> Part for LinearViscoelastic<R> {
     fn n_history(&self) -> usize {
         1 + self.branches.len()
     }
@@ -123,14 +167,17 @@ impl<R: Relaxes> Part for Relaxing<R> {
     }
 }
 
-impl<R: Relaxes> Stress for Relaxing<R> {
-    fn largest_eigenvalue(
-        &self,
-        geometry: &QuadGeometry,
-        masses: &[f64; 4],
-        on_axis: [bool; 4],
-    ) -> f64 {
-        self.elastic.largest_eigenvalue(geometry, masses, on_axis)
+impl<R: RelaxingModuli> Stress for LinearViscoelastic<R> {
+    fn strain_measure(&self) -> StrainMeasure<'_> {
+        StrainMeasure::Small(self)
+    }
+
+    fn n_element_history(&self) -> usize {
+        0
+    }
+
+    fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
+        self.elastic.largest_eigenvalues(elements)
     }
 
     /// Rigid motion strains nothing: the branches stay at zero.
@@ -164,26 +211,6 @@ impl<R: Relaxes> Stress for Relaxing<R> {
         }
     }
 
-    /// Of the moduli that are left of what a step adds at its end.
-    fn stiffness_of_step(&self, geometry: &QuadGeometry) -> Option<ElementMatrix> {
-        let weight = self.weight_of_step();
-        let Moduli { bulk, shear } = R::lasting(self.elastic.moduli, weight);
-        Some(mean_gradient(geometry).combine(bulk, shear))
-    }
-
-    fn shift(&self, node: usize, change: [f64; 2], history: &mut [NodalField]) {
-        let [w, branches @ ..] = history else { return };
-        let weight = self.weight_of_step();
-        for axis in 0..2 {
-            w[node][axis] += weight * change[axis];
-        }
-        for (branch, q) in self.branches.iter().zip(branches) {
-            for axis in 0..2 {
-                q[node][axis] += branch.share * change[axis];
-            }
-        }
-    }
-
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
         let Elastic { elements, moduli } = &self.elastic;
         let lasting = R::lasting(*moduli, self.equilibrium_weight);
@@ -201,6 +228,28 @@ impl<R: Relaxes> Stress for Relaxing<R> {
         }
         accounts.energies.add(Account::Strain, stored);
         accounts.powers.add(Account::ViscousDissipation, power);
+    }
+}
+
+impl<R: RelaxingModuli> SmallStrainStress for LinearViscoelastic<R> {
+    /// The moduli are those that remain of a displacement that a step adds.
+    fn stiffness_of_step(&self, geometry: &QuadGeometry) -> ElementMatrix {
+        let weight = self.weight_of_step();
+        let Moduli { bulk, shear } = R::lasting(self.elastic.moduli, weight);
+        mean_gradient(geometry).combine(bulk, shear)
+    }
+
+    fn shift(&self, node: usize, change: [f64; 2], history: &mut [NodalField]) {
+        let [w, branches @ ..] = history else { return };
+        let weight = self.weight_of_step();
+        for axis in 0..2 {
+            w[node][axis] += weight * change[axis];
+        }
+        for (branch, q) in self.branches.iter().zip(branches) {
+            for axis in 0..2 {
+                q[node][axis] += branch.share * change[axis];
+            }
+        }
     }
 
     fn effective(&self) -> Option<usize> {

@@ -10,8 +10,8 @@ use std::ops::Range;
 
 use fem_element::QuadGeometry;
 
-use super::lanes::{ROW_PLACES, WIDE};
-use super::shape::Shape;
+use super::elements::Shape;
+use crate::lanes::{ROW_PLACES, WIDE};
 
 /// So many slots without an element part two stretches.
 const LONGEST_GAP: usize = 4;

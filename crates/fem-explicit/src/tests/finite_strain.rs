@@ -6,10 +6,11 @@ use fem_material::finite::HyperelasticLaw;
 use fem_mesh::Side;
 use nalgebra::DMatrix;
 
-use crate::contact::Contact;
-use crate::model::{Model, Parts, Settings};
+use crate::contact::{Contact, Springs};
+use crate::model::{Model, Parts};
+use crate::run::{advance, step_demand, update_forces, update_time_step};
+use crate::settings::Settings;
 use crate::state::{Scratch, State};
-use crate::step::{advance, update_forces, update_step};
 use crate::test_support::{largest_eigenvalue, ragged, settings, unit_glass, unit_sphere};
 
 /// A sphere alone and at rest, a wall far below.
@@ -73,7 +74,7 @@ fn the_critical_step_of_a_deformed_body_is_safe_and_tight() {
                 .map(|([r, y], n)| [radial * r + rough * n[0], axial * y + rough * n[1]])
                 .collect();
             let mut scratch = Scratch::new(&model);
-            let critical = model.outlook(&state, &mut scratch).critical_time_step;
+            let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
             let ratio =
                 critical * largest_eigenvalue(&tangent(&model, &state), &[body]).sqrt() / 2.0;
             // Safe, and 14 to 22 % below: as at small strain, and some per cent for the power mean of
@@ -115,7 +116,7 @@ fn the_critical_step_of_a_flattened_body_is_safe() {
         let mut scratch = Scratch::new(&model);
         let contact = update_forces(&model, &state, &mut scratch).unwrap();
         assert!(contact.n_closed > 10, "{contact:?}");
-        let critical = model.outlook(&state, &mut scratch).critical_time_step;
+        let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
         let ratio = critical * largest_eigenvalue(&tangent(&model, &state), &[body]).sqrt() / 2.0;
         assert!(range.contains(&ratio), "{stiffness}: {ratio}");
     }
@@ -159,7 +160,7 @@ fn the_critical_step_beside_a_deformed_body_is_safe() {
     let mut scratch = Scratch::new(&model);
     let contact = update_forces(&model, &state, &mut scratch).unwrap();
     assert!(contact.n_closed > 10, "{contact:?}");
-    let critical = model.outlook(&state, &mut scratch).critical_time_step;
+    let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
     let bodies = model.bodies();
     let stiffness =
         largest_eigenvalue(&tangent_of(&model, &state, &[0, 1]), &[&bodies[0], &bodies[1]]);
@@ -191,7 +192,7 @@ fn the_critical_step_of_a_rigid_sphere_knows_the_area_of_its_partner() {
     let mut scratch = Scratch::new(&model);
     let contact = update_forces(&model, &state, &mut scratch).unwrap();
     assert!(contact.n_closed > 10, "{contact:?}");
-    let critical = model.outlook(&state, &mut scratch).critical_time_step;
+    let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
     let ratio = critical / model.time_step();
     // What springs add to dashpots is 2e-5 of the step. Without the sphere it would be 2e4 times as long.
     assert!((ratio * 1.33f64.powi(2) - 1.0).abs() < 1e-4, "{ratio}");
@@ -209,7 +210,7 @@ fn every_step_of_a_collision_is_stable() {
         let mesh = sphere.mesh().unwrap();
         let upper = Surface::of_sphere(mesh);
         let springs = ContactInterface::new(Surface::wall(), upper, 1.0, 0.0, 0.9).unwrap();
-        let contact = Some(Box::new(springs) as Box<dyn Contact>);
+        let contact = Some(Box::new(Springs::Straight(springs)) as Box<dyn Contact>);
         let parts = Parts { finite_strain: [None, Some(law)], contact, ..Parts::default() };
         let settings = Settings { contact_stiffness: 1.0, candidate_radius: 0.9, ..settings() };
         let bodies = [BodyInput::Wall, sphere.clone()];
@@ -218,7 +219,7 @@ fn every_step_of_a_collision_is_stable() {
         let (mut largest, mut at_first) = (0.0f64, 0.0f64);
         for step in 0..400 {
             update_forces(&model, &state, &mut scratch).unwrap();
-            update_step(&model, &mut state, &mut scratch).unwrap();
+            update_time_step(&model, &mut state, &mut scratch).unwrap();
             if step % 20 == 0 {
                 let stiffness = largest_eigenvalue(&tangent(&model, &state), &[&model.bodies()[1]]);
                 let half = stiffness.sqrt() / 2.0;
@@ -248,8 +249,8 @@ fn the_step_is_bounded_now_and_then() {
     while state.time < 3.0 {
         update_forces(&model, &state, &mut scratch).unwrap();
         n_steps += 1;
-        n_bounds += u32::from(state.pace.unwrap().is_due(state.step));
-        update_step(&model, &mut state, &mut scratch).unwrap();
+        n_bounds += u32::from(state.step_control.unwrap().is_bound_due(state.step));
+        update_time_step(&model, &mut state, &mut scratch).unwrap();
         advance(&model, &mut state, &mut scratch);
     }
     assert!(10 * n_bounds < n_steps, "{n_bounds} of {n_steps}");
@@ -275,9 +276,9 @@ fn every_step_of_bulging_spheres_is_stable() {
         let (mut largest, mut shortest) = (0.0f64, 1.0f64);
         for step in 0..600 {
             update_forces(&model, &state, &mut scratch).unwrap();
-            update_step(&model, &mut state, &mut scratch).unwrap();
+            update_time_step(&model, &mut state, &mut scratch).unwrap();
             // Elements that are strained fast may ask for less.
-            let critical = model.outlook(&state, &mut scratch).critical_time_step;
+            let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
             let allowed = (model.step_factor() * critical).min(model.time_step());
             // Nothing looks ahead from the first steps, in which nothing is strained.
             if step > 4 {
@@ -311,7 +312,7 @@ fn what_no_step_is_short_enough_for_is_named() {
     let mut state = State::at_first_touch(&model);
     state.step = 100;
     let mut scratch = Scratch::new(&model);
-    assert!(update_step(&model, &mut state.clone(), &mut scratch).is_ok());
+    assert!(update_time_step(&model, &mut state.clone(), &mut scratch).is_ok());
     // As deep in each other as they are high, so that the flanks overlap, too.
     state.bodies[1].displacement.fill([0.0, -2.5]);
     let nodes = model.bodies()[1].mesh().unwrap().nodes();
@@ -322,8 +323,8 @@ fn what_no_step_is_short_enough_for_is_named() {
         .collect();
     let [.., inner, outer] = candidates[..] else { panic!() };
     state.bodies[1].displacement[outer][0] = nodes[inner][0] - nodes[outer][0] + 1e-9;
-    let fault = update_step(&model, &mut state, &mut scratch).unwrap_err();
-    let stop = model.stop(fault, &state);
+    let fault = update_time_step(&model, &mut state, &mut scratch).unwrap_err();
+    let stop = fault.stop(&model, &state);
     // The springs of the flank hold a node of either body, and that which is lighter is named.
     let Stop::NoStepShortEnough { step: 100, body, place, of_contact: true, .. } = stop else {
         panic!("{stop:?}")

@@ -3,11 +3,12 @@
 use fem_collision::{Account, Approach, BodyInput};
 use fem_mesh::Side;
 
+use crate::body::{BodyState, Clock};
 use crate::model::Model;
-use crate::motion::advance_motion;
-use crate::state::{BodyState, Clock, Scratch, State};
-use crate::step::{advance, update_forces, update_internal_forces};
+use crate::run::{advance, update_forces};
+use crate::state::{Scratch, State};
 use crate::test_support::{accounts, free_sphere, ragged, settings, unit_glass, unit_sphere};
+use crate::time::advance_motion;
 
 #[test]
 fn rigid_flight_strains_nothing() {
@@ -85,7 +86,7 @@ fn leapfrog_blows_up_beyond_the_critical_step() {
     let time_step = 1.4 * model.time_step();
     for _ in 0..1000 {
         let clock = Clock { time: 0.0, time_step };
-        update_internal_forces(body, &state.motion(body, clock), &state.history, &mut f).unwrap();
+        state.update_internal_forces(body, clock, &mut f).unwrap();
         let BodyState { displacement, velocity, .. } = &mut state;
         advance_motion(time_step, &body.inverse_mass, &f, velocity, displacement);
     }

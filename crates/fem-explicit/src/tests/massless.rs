@@ -6,9 +6,10 @@ use nalgebra::DMatrix;
 
 use super::stability::{both_closed, partly_closed, tangent};
 use crate::contact::ContactMethod;
-use crate::model::{Model, Parts, Settings};
+use crate::model::{Model, Parts};
+use crate::run::{advance, update_forces};
+use crate::settings::Settings;
 use crate::state::{Scratch, State};
-use crate::step::{advance, update_forces, update_internal_forces};
 use crate::test_support::{relaxing_glass, settings, sphere, unit_glass};
 use fem_contact::SlippingInterface;
 use fem_material::{ActsOn, ElasticModuli, Material};
@@ -112,10 +113,8 @@ fn worst_lack(stiffness: f64, materials: [&Material; 2], slips_at: Option<f64>) 
         let mut forces = scratch.forces.clone();
         for side in 0..2 {
             let body = &model.bodies()[side];
-            let motion = state.bodies[side].motion(body, state.clock(&model));
-            let history = &state.bodies[side].history;
-            let own = &mut forces[side];
-            update_internal_forces(body, &motion, history, own).unwrap();
+            let clock = state.clock(&model);
+            state.bodies[side].update_internal_forces(body, clock, &mut forces[side]).unwrap();
         }
         let largest = forces.concat().as_flattened().iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         let [lower, upper] = &mut forces;

@@ -4,13 +4,14 @@ use fem_collision::{Account, Approach, BodyInput};
 use fem_contact::ContactForces;
 use fem_mesh::Side;
 
-use crate::contact_log::ContactLog;
+use crate::energy::Ledger;
 use crate::forces::{NodeForce, Weight};
-use crate::ledger::Ledger;
-use crate::model::{Model, Parts, Settings};
+use crate::model::{Model, Parts};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
+use crate::run::ContactLog;
+use crate::run::{advance, update_forces};
+use crate::settings::Settings;
 use crate::state::{Scratch, State};
-use crate::step::{advance, update_forces};
 use crate::test_support::{settings, unit_glass, unit_sphere};
 
 const ACCELERATION: f64 = 0.3;

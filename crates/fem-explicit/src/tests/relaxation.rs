@@ -5,8 +5,8 @@ use fem_material::{ActsOn, ElasticModuli, Material};
 use fem_mesh::Side;
 
 use crate::body::Body;
+use crate::run::{advance, update_forces};
 use crate::state::{Scratch, State};
-use crate::step::{advance, update_forces};
 use crate::stress::Moduli;
 use crate::test_support::{
     accounts, assembled, free_sphere, moduli, relaxing_glass, unit_sphere, vector,

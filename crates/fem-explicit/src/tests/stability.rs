@@ -5,9 +5,10 @@ use fem_mesh::{HalfDisc, Side, SphereMesh, sphere_volume};
 use nalgebra::DMatrix;
 
 use crate::body::Body;
-use crate::model::{Model, Settings};
+use crate::model::Model;
+use crate::run::update_forces;
+use crate::settings::Settings;
 use crate::state::{Scratch, State};
-use crate::step::update_forces;
 use crate::test_support::{
     assembled, largest_eigenvalue, lumped, moduli, ragged, settings, sphere, unit_glass,
     unit_sphere,

@@ -89,21 +89,21 @@ fn it_is_resumed_and_another_is_refused() {
     let (bare, usual) = (pair.model(), model(&pair, ViscosityCoefficients::default()));
     let n_bytes = |model: &Model| {
         let run = Run::new(model, pair.expected(), &pair.want());
-        postcard::to_stdvec(run.memory()).unwrap().len()
+        postcard::to_stdvec(run.restart_state()).unwrap().len()
     };
     let n_nodes: usize = bare.bodies().iter().map(|body| body.n_nodes()).sum();
     // Its force, its work and its means, pairs of eight bytes, and the lengths of three fields of each body.
     assert_eq!(n_bytes(&usual), n_bytes(&bare) + 3 * 16 * n_nodes + 3 * 2);
     let mut run = Run::new(&usual, pair.expected(), &pair.want());
     assert_eq!(run.advance(200), None);
-    let bytes = postcard::to_stdvec(run.memory()).unwrap();
+    let bytes = postcard::to_stdvec(run.restart_state()).unwrap();
     let memory = || postcard::from_bytes(&bytes).unwrap();
     let mut resumed = Run::resume(&usual, memory()).unwrap();
     for run in [&mut run, &mut resumed] {
         assert_eq!(run.advance(200), None);
     }
-    assert_eq!(run.memory(), resumed.memory());
+    assert_eq!(run.restart_state(), resumed.restart_state());
     let linear = ViscosityCoefficients { linear: 0.061, ..ViscosityCoefficients::default() };
     let other = model(&pair, linear);
-    assert_eq!(Run::resume(&other, memory()).err(), Some(ModelError::MemoryOfAnother));
+    assert_eq!(Run::resume(&other, memory()).err(), Some(ModelError::ForeignRestartState));
 }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::common::Pair;
-use fem_collision::{Collision, Ending, OutputRequest, Stop};
-use fem_explicit::{Memory, Model, Run};
+use fem_collision::{Collision, Ending, Stop, Want};
+use fem_explicit::{Model, RestartState, Run};
 
 /// About 1900 steps a contact and 270 elements.
 fn small() -> Pair {
@@ -17,7 +17,7 @@ fn endings() -> [Pair; 3] {
     [small(), outgrown, Pair { max_time: 30e-6, ..small() }]
 }
 
-fn stored(memory: &Memory) -> Memory {
+fn stored(memory: &RestartState) -> RestartState {
     postcard::from_bytes(&postcard::to_stdvec(memory).unwrap()).unwrap()
 }
 
@@ -28,18 +28,18 @@ fn an_ended_run_does_no_step_more() {
         let model = pair.model();
         let mut run = Run::new(&model, pair.expected(), &pair.want());
         assert_eq!(run.advance(10), None);
-        assert_eq!(run.memory().ending(), None);
+        assert_eq!(run.restart_state().ending(), None);
         let ending = run.advance(u64::MAX).unwrap().clone();
-        let memory = run.memory().clone();
+        let memory = run.restart_state().clone();
         assert_eq!(memory.ending(), Some(&ending));
         for n_steps in [0, 1, u64::MAX] {
             assert_eq!(run.advance(n_steps), Some(&ending));
-            assert_eq!(run.memory(), &memory);
+            assert_eq!(run.restart_state(), &memory);
         }
         // Nor does one that is resumed.
         let mut resumed = Run::resume(&model, stored(&memory)).unwrap();
         assert_eq!(resumed.advance(100), Some(&ending));
-        assert_eq!(resumed.memory(), &memory);
+        assert_eq!(resumed.restart_state(), &memory);
         let whole = pair.run_model(&model);
         assert_eq!(whole.ending, ending);
         assert_eq!(run.finish(), whole);
@@ -68,7 +68,7 @@ fn a_run_that_is_left_is_interrupted_where_it_is() {
         ] {
             let mut run = Run::new(&model, pair.expected(), &want);
             assert_eq!(run.advance(step), None);
-            let time = run.memory().time();
+            let time = run.restart_state().time();
             let left = run.finish();
             assert_eq!(left.ending, Ending::Stopped(Stop::Interrupted { time, step }));
             assert_eq!([left.restitution, left.contact_time], [None; 2]);

@@ -4,7 +4,8 @@ use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
 };
 use fem_explicit::{
-    Contact, FreeMotion, Memory, Model, ModelError, MovedContact, Parts, Run, Settings, collide,
+    Contact, FreeMotion, Model, ModelError, MovedContact, Parts, RestartState, Run, Settings,
+    collide,
 };
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -213,18 +214,18 @@ fn the_time_step_follows_and_resumes() {
     let model = ball.model();
     let want = OutputRequest::history();
     let whole = ball.run();
-    let mut memory = Run::new(&model, ball.expected(), &want).memory().clone();
+    let mut memory = Run::new(&model, ball.expected(), &want).restart_state().clone();
     let mut steps = Vec::new();
     let resumed = loop {
         let bytes = postcard::to_stdvec(&memory).unwrap();
-        let stored: Memory = postcard::from_bytes(&bytes).unwrap();
+        let stored: RestartState = postcard::from_bytes(&bytes).unwrap();
         let mut run = Run::resume(&model, stored).unwrap();
         let has_ended = run.advance(20).is_some();
-        steps.push((run.memory().time() - memory.time()) / 20.0 / model.time_step());
+        steps.push((run.restart_state().time() - memory.time()) / 20.0 / model.time_step());
         if has_ended {
             break run.finish();
         }
-        memory = run.memory().clone();
+        memory = run.restart_state().clone();
     };
     assert_eq!(resumed, whole);
     steps.pop();
@@ -233,7 +234,7 @@ fn the_time_step_follows_and_resumes() {
     assert!(least < 0.82 && first > 0.94 && last > 0.94, "{least} {first} {last}");
     // Another pace is another run.
     let other = Ball { law: None, ..ball };
-    assert_eq!(Run::resume(&other.model(), memory).err(), Some(ModelError::MemoryOfAnother));
+    assert_eq!(Run::resume(&other.model(), memory).err(), Some(ModelError::ForeignRestartState));
 }
 
 /// A law that softens in compression, at a speed at which it gives way before its energy is looked at, is a stop

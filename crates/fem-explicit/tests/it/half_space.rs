@@ -279,7 +279,7 @@ fn a_half_space_may_relax() {
 
         let mut first = Run::new(&model, ball.expected(), &OutputRequest::quantities());
         assert_eq!(first.advance(700), None);
-        let mut second = Run::resume(&model, first.memory().clone()).unwrap();
+        let mut second = Run::resume(&model, first.restart_state().clone()).unwrap();
         while second.advance(1000).is_none() {}
         assert_eq!(second.finish(), run);
     }

@@ -159,18 +159,18 @@ fn a_resumed_run_is_the_same_to_the_bit() {
     let pair = Pair { relaxation: Some(ActsOn::Shear), ..coarse() };
     let model = pair.model();
     let whole = pair.run_model(&model);
-    let mut memory = Run::new(&model, pair.expected(), &pair.want()).memory().clone();
+    let mut memory = Run::new(&model, pair.expected(), &pair.want()).restart_state().clone();
     let resumed = loop {
         let mut run = Run::resume(&model, memory).unwrap();
         if run.advance(61).is_some() {
             break run.finish();
         }
-        memory = run.memory().clone();
+        memory = run.restart_state().clone();
     };
     assert_eq!(resumed, whole);
     // The same springs between nodes that have mass are another model.
     let penalty = Pair { method: ContactMethod::Penalty, ..pair.clone() }.model();
-    let memory = Run::new(&model, pair.expected(), &pair.want()).memory().clone();
+    let memory = Run::new(&model, pair.expected(), &pair.want()).restart_state().clone();
     assert!(Run::resume(&penalty, memory).is_err());
 }
 

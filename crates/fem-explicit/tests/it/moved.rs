@@ -125,10 +125,10 @@ fn a_run_can_be_resumed() {
     let pair = Pair { element_size: 110e-6, ..coarse() };
     let [plain, moved] = of_pair(&pair, [0, 1].map(|body| pair.sphere(body)));
     let mut run = Run::new(&moved, pair.expected(), &pair.want());
-    let first = run.memory().clone();
+    let first = run.restart_state().clone();
     assert!(Run::resume(&plain, first).is_err(), "a memory of another contact");
     while run.advance(97).is_none() {
-        run = Run::resume(&moved, run.memory().clone()).unwrap();
+        run = Run::resume(&moved, run.restart_state().clone()).unwrap();
     }
     assert_eq!(run.finish(), pair.run_model(&moved));
 }
@@ -247,7 +247,7 @@ fn a_body_at_finite_strain_has_it_by_itself() {
         let want = OutputRequest { history_rows: 1000, ..OutputRequest::history() };
         let mut run = Run::new(&model, expected, &want);
         while run.advance(211).is_none() {
-            run = Run::resume(&model, run.memory().clone()).unwrap();
+            run = Run::resume(&model, run.restart_state().clone()).unwrap();
         }
         let run = run.finish();
         assert_eq!(run, collide(&model, expected, &want, &mut ()));

@@ -9,7 +9,7 @@ use fem_collision::{
 use fem_contact::{ContactForces, ContactInterface, Profile, Surface};
 use fem_explicit::{
     Accounts, Contact, Field, Model, ModelError, Motion, MotionMut, NodalField, NodeForce, Part,
-    Parts, Run,
+    Parts, Run, Springs,
 };
 
 fn small() -> Pair {
@@ -31,7 +31,7 @@ fn on_both<F: NodeForce + Clone>(force: &F) -> Parts {
 fn in_pieces(pair: &Pair, model: &Model) -> Collision {
     let mut run = Run::new(model, pair.expected(), &pair.want());
     while run.advance(97).is_none() {
-        let bytes = postcard::to_stdvec(run.memory()).unwrap();
+        let bytes = postcard::to_stdvec(run.restart_state()).unwrap();
         run = Run::resume(model, postcard::from_bytes(&bytes).unwrap()).unwrap();
     }
     run.finish()
@@ -40,7 +40,7 @@ fn in_pieces(pair: &Pair, model: &Model) -> Collision {
 /// Bytes of the memory before the first step.
 fn n_bytes(pair: &Pair, model: &Model) -> usize {
     let run = Run::new(model, pair.expected(), &pair.want());
-    postcard::to_stdvec(run.memory()).unwrap().len()
+    postcard::to_stdvec(run.restart_state()).unwrap().len()
 }
 
 /// What is off is absent: the same bits and not a byte more.
@@ -201,7 +201,7 @@ fn a_force_on_a_wall_is_refused() {
 /// body.
 #[derive(Debug)]
 struct Counting {
-    penalty: ContactInterface,
+    penalty: Springs,
     first_touch: f64,
     time_step: f64,
 }
@@ -220,7 +220,11 @@ impl Counting {
             approach.gap(),
             settings.candidate_radius,
         );
-        Self { penalty: penalty.unwrap(), first_touch: approach.first_touch(), time_step: 0.0 }
+        Self {
+            penalty: Springs::Straight(penalty.unwrap()),
+            first_touch: approach.first_touch(),
+            time_step: 0.0,
+        }
     }
 
     fn check(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) {
@@ -259,7 +263,7 @@ impl Contact for Counting {
         forces: [&mut Field; 2],
     ) -> ContactForces {
         self.check(motions, history);
-        Contact::add_forces(&self.penalty, motions, [&[]; 2], forces)
+        self.penalty.add_forces(motions, [&[]; 2], forces)
     }
 
     fn pushed_nodes(&self, side: usize) -> Vec<u32> {
@@ -288,11 +292,11 @@ impl Contact for Counting {
     }
 
     fn radius_and_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> (f64, f64) {
-        Contact::radius_and_pressure(&self.penalty, motions, [&[]; 2])
+        self.penalty.radius_and_pressure(motions, [&[]; 2])
     }
 
     fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
-        Contact::profile(&self.penalty, motions, [&[]; 2])
+        self.penalty.profile(motions, [&[]; 2])
     }
 }
 
@@ -313,12 +317,15 @@ fn a_contact_with_history_takes_the_place_of_the_penalty() {
         let n_nodes: usize = plain.bodies().iter().map(|body| body.n_nodes()).sum();
         assert_eq!(n_bytes(&pair, &other), n_bytes(&pair, &plain) + 16 * n_nodes + 2 * 2);
         // A memory with more fields is of another model.
-        let memory = Run::new(&other, pair.expected(), &pair.want()).memory().clone();
-        assert_eq!(Run::resume(&plain, memory.clone()).err(), Some(ModelError::MemoryOfAnother));
+        let memory = Run::new(&other, pair.expected(), &pair.want()).restart_state().clone();
+        assert_eq!(
+            Run::resume(&plain, memory.clone()).err(),
+            Some(ModelError::ForeignRestartState)
+        );
         // So is one of the same fields, of a contact with another number inside.
         let later = Counting { first_touch: 1e-9, ..Counting::of(&pair) };
         let later = Parts { contact: Some(Box::new(later)), ..Parts::default() };
         let refused = Run::resume(&model(&pair, later), memory).err();
-        assert_eq!(refused, Some(ModelError::MemoryOfAnother));
+        assert_eq!(refused, Some(ModelError::ForeignRestartState));
     }
 }

@@ -4,7 +4,7 @@ use crate::common::{CONTACT_MODULUS, Pair, quantities};
 use fem_collision::{
     BodyInput, Collision, Ending, Monitor, Progress, SnapshotInstant, SnapshotRequest, Stop,
 };
-use fem_explicit::{Memory, Model, ModelError, Run, Settings, collide};
+use fem_explicit::{Model, ModelError, RestartState, Run, Settings, collide};
 use fem_material::ActsOn;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
@@ -30,9 +30,9 @@ fn requests() -> [SnapshotRequest; 3] {
 }
 
 /// The memory as another process would have it.
-fn stored(memory: &Memory) -> Memory {
+fn stored(memory: &RestartState) -> RestartState {
     let bytes = postcard::to_stdvec(memory).unwrap();
-    let (read, rest) = postcard::take_from_bytes::<Memory>(&bytes).unwrap();
+    let (read, rest) = postcard::take_from_bytes::<RestartState>(&bytes).unwrap();
     assert!(rest.is_empty());
     assert_eq!(&read, memory);
     read
@@ -49,17 +49,17 @@ fn in_pieces(
     pair: &Pair,
     model: &Model,
     n_steps: u64,
-    mut look: impl FnMut(&Memory, Progress),
+    mut look: impl FnMut(&RestartState, Progress),
 ) -> Collision {
-    let mut memory = Run::new(model, pair.expected(), &pair.want()).memory().clone();
+    let mut memory = Run::new(model, pair.expected(), &pair.want()).restart_state().clone();
     loop {
         let mut run = Run::resume(model, stored(&memory)).unwrap();
         let has_ended = run.advance(n_steps).is_some();
-        look(run.memory(), run.progress());
+        look(run.restart_state(), run.progress());
         if has_ended {
             return run.finish();
         }
-        memory = run.memory().clone();
+        memory = run.restart_state().clone();
     }
 }
 
@@ -101,8 +101,8 @@ fn a_run_resumes_from_its_first_steps() {
     for n_steps in 0..5 {
         let mut run = Run::new(&model, pair.expected(), &pair.want());
         assert_eq!(run.advance(n_steps), None);
-        assert_eq!(run.memory().step(), n_steps);
-        let mut resumed = Run::resume(&model, stored(run.memory())).unwrap();
+        assert_eq!(run.restart_state().step(), n_steps);
+        let mut resumed = Run::resume(&model, stored(run.restart_state())).unwrap();
         assert_eq!(resumed.advance(u64::MAX), Some(&Ending::Parted));
         assert_same(&whole, &resumed.finish());
     }
@@ -140,11 +140,11 @@ fn one_step_at_a_time_is_many_at_once() {
                 assert_eq!(single.advance(1), None);
             }
             assert_eq!(many.advance(n_steps), None);
-            assert_eq!(single.memory(), many.memory());
+            assert_eq!(single.restart_state(), many.restart_state());
         }
         while single.advance(1).is_none() {}
         assert_eq!(many.advance(u64::MAX), Some(&Ending::Parted));
-        assert_eq!(single.memory(), many.memory());
+        assert_eq!(single.restart_state(), many.restart_state());
         assert_same(&single.finish(), &many.finish());
     }
 }
@@ -154,10 +154,10 @@ fn one_step_at_a_time_is_many_at_once() {
 fn nothing_happens_by_itself() {
     let (pair, model) = (small(), small().model());
     let mut run = Run::new(&model, pair.expected(), &pair.want());
-    let start = run.memory().clone();
+    let start = run.restart_state().clone();
     assert_eq!((start.want(), start.expected()), (&pair.want(), pair.expected()));
     assert_eq!(run.advance(0), None);
-    assert_eq!(run.memory(), &start);
+    assert_eq!(run.restart_state(), &start);
 }
 
 #[test]
@@ -166,7 +166,7 @@ fn a_memory_of_another_model_is_refused() {
     let model = pair.model();
     let mut run = Run::new(&model, pair.expected(), &pair.want());
     assert_eq!(run.advance(300), None);
-    assert!(Run::resume(&model, run.memory().clone()).is_ok());
+    assert!(Run::resume(&model, run.restart_state().clone()).is_ok());
     let wall = pair.model_of([BodyInput::Wall, pair.sphere(1)]);
     for (other, what) in [
         (Pair { element_size: 100e-6, ..small() }.model(), "a finer mesh"),
@@ -177,8 +177,8 @@ fn a_memory_of_another_model_is_refused() {
         (Pair { gap: 1e-9, ..small() }.model(), "another gap"),
         (wall, "a wall"),
     ] {
-        let refused = Run::resume(&other, run.memory().clone()).err();
-        assert_eq!(refused, Some(ModelError::MemoryOfAnother), "{what}");
+        let refused = Run::resume(&other, run.restart_state().clone()).err();
+        assert_eq!(refused, Some(ModelError::ForeignRestartState), "{what}");
     }
 }
 
@@ -204,7 +204,7 @@ fn a_memory_of_a_model_that_differs_in_little_is_refused() {
     let plain = model(&upper, &soft);
     let mut run = Run::new(&plain, pair.expected(), &pair.want());
     assert_eq!(run.advance(300), None);
-    assert!(Run::resume(&model(&upper, &soft), stored(run.memory())).is_ok());
+    assert!(Run::resume(&model(&upper, &soft), stored(run.restart_state())).is_ok());
 
     let stiffness = 1.001 * soft.contact_stiffness;
     let stiffer = model(&upper, &Settings { contact_stiffness: stiffness, ..soft });
@@ -212,8 +212,8 @@ fn a_memory_of_a_model_that_differs_in_little_is_refused() {
     for (other, what) in [(stiffer, "stiffer springs"), (other_mesh, "another mesh")] {
         assert_eq!(other.time_step().to_bits(), plain.time_step().to_bits(), "{what}");
         assert_eq!(other.n_elements(), plain.n_elements());
-        let refused = Run::resume(&other, stored(run.memory())).err();
-        assert_eq!(refused, Some(ModelError::MemoryOfAnother), "{what}");
+        let refused = Run::resume(&other, stored(run.restart_state())).err();
+        assert_eq!(refused, Some(ModelError::ForeignRestartState), "{what}");
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::common::{CONTACT_MODULUS, Pair, quantities};
 use fem_collision::{Approach, BodyInput, Collision, Ending, Expectation, SnapshotRequest};
 use fem_contact::ContactError;
-use fem_explicit::{Memory, Model, ModelError, Run, Settings, collide};
+use fem_explicit::{Model, ModelError, RestartState, Run, Settings, collide};
 use fem_material::{ActsOn, ElasticModuli, Material};
 
 /// Of glass of the radii (m) of the paper's pair, kg.
@@ -240,7 +240,7 @@ fn a_light_rigid_bead_is_stable() {
 }
 
 /// The memory as another process would have it.
-fn stored(memory: &Memory) -> Memory {
+fn stored(memory: &RestartState) -> RestartState {
     postcard::from_bytes(&postcard::to_stdvec(memory).unwrap()).unwrap()
 }
 
@@ -256,7 +256,7 @@ fn a_resumed_run_is_the_same_to_the_bit() {
         assert!(whole.snapshots.iter().all(|s| s.bodies[rigid].displacement.is_empty()));
         let mut run = Run::new(&model, pair.expected(), &pair.want());
         while run.advance(97).is_none() {
-            run = Run::resume(&model, stored(run.memory())).unwrap();
+            run = Run::resume(&model, stored(run.restart_state())).unwrap();
         }
         assert_eq!(run.finish(), whole);
 
@@ -270,8 +270,8 @@ fn a_resumed_run_is_the_same_to_the_bit() {
         wall[rigid] = BodyInput::Wall;
         let heavier = bodies_of(&pair, rigid, 1.0 + 1e-9);
         for (other, what) in [(larger, "radius"), (heavier, "mass"), (wall, "a wall")] {
-            let refused = Run::resume(&pair.model_of(other), stored(run.memory())).err();
-            assert_eq!(refused, Some(ModelError::MemoryOfAnother), "{what}");
+            let refused = Run::resume(&pair.model_of(other), stored(run.restart_state())).err();
+            assert_eq!(refused, Some(ModelError::ForeignRestartState), "{what}");
         }
     }
 }

@@ -6,7 +6,7 @@ use fem_mesh::SphereMesh;
 
 use crate::error::ModelError;
 use crate::part::{Field, MotionMut};
-use crate::stress::{self, Collapse, Stress};
+use crate::stress::{Collapse, SmallStrainStress, small_strain};
 
 /// The boundary of a body that deforms.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub(super) struct Boundary {
     quads: Vec<[u32; 4]>,
     geometries: Vec<QuadGeometry>,
     /// Of these elements alone.
-    stress: Box<dyn Stress>,
+    stress: Box<dyn SmallStrainStress>,
     /// All nodes of theirs.
     touched: Vec<u32>,
     n_nodes: usize,
@@ -46,7 +46,7 @@ impl Boundary {
         if let Some(k) = quads.iter().position(bare) {
             return Err(ModelError::NoInterior { element: elements[k] });
         }
-        let stress = stress::of_quads(mesh.nodes().len(), &quads, &geometries, material);
+        let stress = small_strain(mesh.nodes().len(), &quads, &geometries, material);
         let neighbours = nodes.iter().map(|&node| neighbour(mesh, &quads, &nodes, node)).collect();
         let mut touched = quads.concat();
         touched.sort_unstable();
@@ -66,12 +66,10 @@ impl Boundary {
         self.stress.set_time_step(time_step);
     }
 
-    /// Its elements and their stiffness against what a step adds at its end; none of a stress that has
-    /// none.
-    pub fn elements(&self) -> Option<Vec<(&[u32; 4], ElementMatrix)>> {
-        let stiffness = |geometry| self.stress.stiffness_of_step(geometry);
+    /// Returns its elements and their stiffness against what a step adds at its end.
+    pub fn elements(&self) -> impl Iterator<Item = (&[u32; 4], ElementMatrix)> {
         let pairs = self.quads.iter().zip(&self.geometries);
-        pairs.map(|(quad, geometry)| Some((quad, stiffness(geometry)?))).collect()
+        pairs.map(|(quad, geometry)| (quad, self.stress.stiffness_of_step(geometry)))
     }
 
     /// Overwrites the forces (N) of its elements on their nodes, those of no other node.

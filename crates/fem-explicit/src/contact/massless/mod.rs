@@ -9,36 +9,34 @@
 //! Mech. A 27, 918; in explicit dynamics Monjaraz-Tec, Gross & Krack 2022, Comput. Struct. 277–278). The
 //! springs p of the surfaces are those of [`ContactInterface`]; they open and close without mass between
 //! them that could ring, and are not in the time step, however stiff. What the others feel of the
-//! boundary is the gradient of a convex potential ([`crate::time_step`]), so that contact neither gains
+//! boundary is the gradient of a convex potential ([`crate::body`]), so that contact neither gains
 //! energy nor loses any.
 //!
 //! In a step the nodes without mass keep their velocity first; of the forces R that they lack then, and
 //! of the gaps, follows what they have to move more, x: its balance is linear but for the springs that
-//! close ([`Rounds`]). The matrix is that of the elements at the end of a step, in which history has a
+//! close ([`ActiveSet`]). The matrix is that of the elements at the end of a step, in which history has a
 //! share ([`Stress::stiffness_of_step`](crate::Stress::stiffness_of_step)); springs of surfaces that slip turn,
-//! and it is solved in passes ([`Turning`]). Masses are moved inward
-//! ([`BoundaryMass`](crate::boundary_mass::BoundaryMass)).
+//! and it is solved in passes ([`SlippingSprings`]). Masses are moved inward
+//! ([`BoundaryMass`](crate::body)).
 
+mod active_set;
 mod boundary;
-mod rounds;
 mod skyline;
-mod springs;
-mod turning;
+mod slipping_springs;
 
 use std::any::Any;
 
-use fem_collision::{BodyInput, CandidateRegion};
-use fem_contact::{ContactForces, ContactInterface, Profile, SlippingInterface};
+use fem_collision::{BodyInput, Searched};
+use fem_contact::{ContactForces, ContactInterface, Profile};
 
-use super::Contact;
+use super::{Contact, Springs};
 use crate::error::ModelError;
 use crate::part::{Field, Motion, MotionMut, NodalField, Part};
 use crate::stress::Collapse;
+use active_set::{ActiveSet, Problem, Spring};
 use boundary::Boundary;
-use rounds::{Problem, Rounds, Spring};
 use skyline::Skyline;
-use springs::Springs;
-use turning::Turning;
+use slipping_springs::SlippingSprings;
 
 /// A contact is taken for the last where it would lose more than this share of its force in a step if
 /// nodes without mass kept their velocity.
@@ -59,26 +57,11 @@ pub struct Massless {
 }
 
 impl Massless {
-    /// Of two bodies and the springs between them, all of whose feet lose their mass.
+    /// Takes two bodies and the springs between them; all nodes at the ends of springs lose their mass.
     ///
     /// # Errors
-    /// An element none of whose corners has mass.
-    pub fn new(bodies: &[BodyInput; 2], interface: ContactInterface) -> Result<Self, ModelError> {
-        Self::with_springs(bodies, Springs::Straight(interface))
-    }
-
-    /// The same of surfaces that slip.
-    ///
-    /// # Errors
-    /// As of others.
-    pub fn slipping(
-        bodies: &[BodyInput; 2],
-        interface: SlippingInterface,
-    ) -> Result<Self, ModelError> {
-        Self::with_springs(bodies, Springs::Slipping(interface))
-    }
-
-    fn with_springs(bodies: &[BodyInput; 2], springs: Springs) -> Result<Self, ModelError> {
+    /// No corner of an element has mass.
+    pub fn new(bodies: &[BodyInput; 2], springs: Springs) -> Result<Self, ModelError> {
         let points = springs.interface().points();
         let nodes = |side: usize| points.iter().flat_map(|point| point.feet[side].nodes).collect();
         let sides = [Boundary::new(&bodies[0], nodes(0))?, Boundary::new(&bodies[1], nodes(1))?];
@@ -97,13 +80,18 @@ impl Massless {
         Ok(Self { ends, ..none })
     }
 
-    /// The springs, without slip.
-    pub fn interface(&self) -> &ContactInterface {
+    /// Returns the springs between the nodes without mass.
+    pub fn springs(&self) -> &Springs {
+        &self.springs
+    }
+
+    /// Returns the springs without their slip.
+    fn interface(&self) -> &ContactInterface {
         self.springs.interface()
     }
 
-    /// Whether they are of surfaces that slip.
-    pub fn slips(&self) -> bool {
+    /// Whether the surfaces slip.
+    fn slips(&self) -> bool {
         self.springs.slipping().is_some()
     }
 
@@ -140,7 +128,7 @@ impl Massless {
     }
 
     /// What each spring opens by, where nothing has moved.
-    fn springs(&self) -> Vec<Spring> {
+    fn undeformed_springs(&self) -> Vec<Spring> {
         let spring = |(k, point): (usize, &fem_contact::ContactPoint)| {
             let at_first = self
                 .springs
@@ -158,11 +146,11 @@ impl Massless {
 
     /// Matrix and springs of a time step that the boundaries know.
     fn assemble(&self) -> Option<Problem> {
-        let springs = self.springs();
+        let springs = self.undeformed_springs();
         let mut entries = Vec::new();
         for (side, boundary) in self.sides.iter().enumerate() {
             let Some(boundary) = boundary else { continue };
-            for (quad, matrix) in boundary.elements()? {
+            for (quad, matrix) in boundary.elements() {
                 let rows = quad.map(|node| self.row(side, node));
                 let unknown = |k: usize| {
                     let row = rows[k / 2]? + k % 2;
@@ -202,13 +190,13 @@ impl Massless {
     /// What is lacking in the balance of the nodes without mass, of a step in which they
     /// kept their velocity.
     fn update(&self, motions: &[MotionMut<'_>; 2], buffers: &mut Buffers) -> Result<(), Collapse> {
-        let Buffers { forces, rounds, .. } = buffers;
+        let Buffers { forces, active_set, .. } = buffers;
         for (side, boundary) in self.sides.iter().enumerate() {
             if let Some(boundary) = boundary {
                 boundary.update_forces(&motions[side], &mut forces[side])?;
             }
         }
-        for (pair, &(side, place)) in rounds.lacking.chunks_exact_mut(2).zip(&self.unknowns) {
+        for (pair, &(side, place)) in active_set.lacking.chunks_exact_mut(2).zip(&self.unknowns) {
             let Some(boundary) = &self.sides[side] else { continue };
             let [r, y] = forces[side][boundary.nodes[place] as usize];
             pair.copy_from_slice(&[if boundary.radii[place] == 0.0 { 0.0 } else { r }, y]);
@@ -225,17 +213,17 @@ impl Massless {
     ) -> Option<()> {
         // No element of these collapses.
         self.update(motions, buffers).ok()?;
-        let Buffers { rounds, turning, .. } = buffers;
-        match (&self.springs, turning) {
-            (Springs::Slipping(slipping), Some(turning)) => {
-                self.solve_turning(slipping, motions, rounds, turning)
+        let Buffers { active_set, slipping_springs, .. } = buffers;
+        match (&self.springs, slipping_springs) {
+            (Springs::Slipping(slipping), Some(slipping_springs)) => {
+                self.solve_slipping(slipping, motions, active_set, slipping_springs)
             }
             (springs, _) => {
                 let displacements = motions.each_ref().map(|motion| &*motion.displacement);
-                for (k, gap) in rounds.gaps.iter_mut().enumerate() {
+                for (k, gap) in active_set.gaps.iter_mut().enumerate() {
                     *gap = springs.interface().gap(k, displacements);
                 }
-                rounds.solve(problem)
+                active_set.solve(problem)
             }
         }
     }
@@ -246,9 +234,9 @@ impl Massless {
 struct Buffers {
     /// Of the elements at the boundaries, N; of no meaning at other nodes.
     forces: [NodalField; 2],
-    rounds: Rounds,
+    active_set: ActiveSet,
     /// Of springs that turn.
-    turning: Option<Turning>,
+    slipping_springs: Option<SlippingSprings>,
 }
 
 impl Part for Massless {
@@ -260,8 +248,8 @@ impl Part for Massless {
 }
 
 impl Contact for Massless {
-    fn searched(&self) -> CandidateRegion {
-        Contact::searched(self.interface())
+    fn searched(&self) -> Searched {
+        self.springs.searched()
     }
 
     fn check(&self) -> Result<(), ModelError> {
@@ -282,7 +270,7 @@ impl Contact for Massless {
     fn pushed_nodes(&self, side: usize) -> Vec<u32> {
         match &self.sides[side] {
             Some(boundary) => boundary.pushed_nodes(),
-            None => self.interface().pushed_nodes(side),
+            None => self.springs.pushed_nodes(side),
         }
     }
 
@@ -291,8 +279,8 @@ impl Contact for Massless {
             |side: &Option<Boundary>| vec![[0.0; 2]; side.as_ref().map_or(0, Boundary::n_nodes)];
         let Some(problem) = &self.problem else { return Box::new(()) };
         let forces = self.sides.each_ref().map(field);
-        let turning = self.slips().then(|| Turning::new(problem));
-        Box::new(Buffers { forces, rounds: Rounds::new(problem), turning })
+        let slipping_springs = self.slips().then(|| SlippingSprings::new(problem));
+        Box::new(Buffers { forces, active_set: ActiveSet::new(problem), slipping_springs })
     }
 
     fn add_forces(
@@ -301,8 +289,7 @@ impl Contact for Massless {
         _: [&[NodalField]; 2],
         [lower, upper]: [&mut Field; 2],
     ) -> ContactForces {
-        let displacements = motions.each_ref().map(|motion| motion.displacement);
-        let contact = self.springs.add_forces(displacements, [&mut *lower, &mut *upper]);
+        let contact = self.springs.add_forces(motions, [&[]; 2], [&mut *lower, &mut *upper]);
         for (boundary, forces) in self.sides.iter().zip([lower, upper]) {
             if let Some(boundary) = boundary {
                 boundary.hand_over(forces);
@@ -325,7 +312,8 @@ impl Contact for Massless {
         if self.solve(problem, &motions, buffers).is_none() {
             return;
         }
-        for (pair, &(side, place)) in buffers.rounds.change.chunks_exact(2).zip(&self.unknowns) {
+        for (pair, &(side, place)) in buffers.active_set.change.chunks_exact(2).zip(&self.unknowns)
+        {
             if let Some(boundary) = &self.sides[side] {
                 let (node, change) = (boundary.nodes[place], [pair[0], pair[1]]);
                 boundary.shift(&mut motions[side], node, change, self.inverse_step);
@@ -344,10 +332,10 @@ impl Contact for Massless {
     }
 
     fn radius_and_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> (f64, f64) {
-        self.springs.radius_and_pressure(motions.each_ref().map(|motion| motion.displacement))
+        self.springs.radius_and_pressure(motions, [&[]; 2])
     }
 
     fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
-        self.springs.profile(motions.each_ref().map(|motion| motion.displacement))
+        self.springs.profile(motions, [&[]; 2])
     }
 }

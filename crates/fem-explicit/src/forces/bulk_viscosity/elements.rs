@@ -3,8 +3,8 @@
 
 use fem_element::QuadGeometry;
 
+use crate::lanes::{LANES, LaneKernel, Lanes, run_lanes};
 use crate::part::Field;
-use crate::stress::lanes::{LANES, LaneKernel, Lanes, run_lanes};
 
 /// One number of each element of a block.
 type Numbers = [f64; LANES];
@@ -28,7 +28,7 @@ struct Block {
 
 /// The elements of a body. Every corner number is below `n_nodes`, which lets the loop index without a
 /// check.
-pub(super) struct Elements {
+pub(super) struct ViscousElements {
     blocks: Vec<Block>,
     n_nodes: usize,
     /// Of each node a quarter of 1/Σ ρ l V (m²/kg) of its elements.
@@ -41,7 +41,7 @@ pub(super) struct Elements {
     largest_drop: f64,
 }
 
-impl Elements {
+impl ViscousElements {
     /// Room for so many, still without viscosity; `speeds` are b₁ c_d (m/s) and b₂².
     pub fn new(n_nodes: usize, n_elements: usize, speeds: [f64; 2], largest_drop: f64) -> Self {
         let empty = Block {
@@ -105,7 +105,7 @@ impl Elements {
 
 /// Adds up at each node the dilatation rates of its elements times their ρ l V.
 struct Sums<'a> {
-    elements: &'a Elements,
+    elements: &'a ViscousElements,
     velocity: &'a Field,
 }
 
@@ -119,7 +119,7 @@ impl LaneKernel for Sums<'_> {
 }
 
 #[inline(always)]
-pub(super) fn add_rates<L: Lanes>(elements: &Elements, velocity: &Field, means: &mut Field) {
+pub(super) fn add_rates<L: Lanes>(elements: &ViscousElements, velocity: &Field, means: &mut Field) {
     let zero = L::splat(0.0);
     for block in &elements.blocks {
         let weight = L::load(&block.inertia) * L::load(&block.root_volume);
@@ -133,7 +133,7 @@ pub(super) fn add_rates<L: Lanes>(elements: &Elements, velocity: &Field, means: 
 }
 
 struct Forces<'a> {
-    elements: &'a Elements,
+    elements: &'a ViscousElements,
     velocity: &'a Field,
     means: &'a Field,
 }
@@ -150,7 +150,7 @@ impl LaneKernel for Forces<'_> {
 
 #[inline(always)]
 pub(super) fn subtract_forces<L: Lanes>(
-    elements: &Elements,
+    elements: &ViscousElements,
     velocity: &Field,
     means: &Field,
     f: &mut Field,

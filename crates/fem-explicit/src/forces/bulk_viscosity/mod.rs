@@ -53,7 +53,7 @@ use multiversion::multiversion;
 use super::NodeForce;
 use crate::error::ModelError;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
-use elements::Elements;
+use elements::ViscousElements;
 
 /// How strong a bulk viscosity is, b₁ and b₂; both at least 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +75,7 @@ impl Default for ViscosityCoefficients {
 
 /// Artificial viscosity of the elements of a sphere, as a force on its nodes.
 pub struct BulkViscosity {
-    elements: Elements,
+    elements: ViscousElements,
     coefficients: ViscosityCoefficients,
     /// j_max, m/s.
     largest_drop: f64,
@@ -122,7 +122,7 @@ impl BulkViscosity {
         let largest_speed = speeds[0] + speeds[1] * largest_drop;
         let density = material.density();
         let mut damping_bound = vec![0.0; nodes.len()];
-        let mut elements = Elements::new(nodes.len(), quads.len(), speeds, largest_drop);
+        let mut elements = ViscousElements::new(nodes.len(), quads.len(), speeds, largest_drop);
         for (element, quad) in quads.iter().enumerate() {
             let corners = quad.map(|node| nodes[node as usize]);
             let geometry = QuadGeometry::new(&corners);

@@ -6,10 +6,11 @@ use fem_mesh::Side;
 use nalgebra::{DMatrix, SVector};
 
 use super::*;
-use crate::ledger::Ledger;
-use crate::model::{Model, Parts, Settings};
+use crate::energy::Ledger;
+use crate::model::{Model, Parts};
+use crate::run::{advance, update_forces};
+use crate::settings::Settings;
 use crate::state::{Scratch, State};
-use crate::step::{advance, update_forces};
 use crate::test_support::{
     assembled, lumped, moduli, ragged, settings, unit_glass, unit_sphere, vector,
 };
@@ -314,17 +315,21 @@ fn numbers_that_are_none_are_refused() {
 #[test]
 fn plain_and_avx2_lanes_give_the_same_bits() {
     use super::elements::{add_rates, subtract_forces};
-    use crate::stress::lanes::{Avx2, Lanes, Plain};
+    use crate::lanes::{Avx2, Lanes, Plain};
     #[inline(always)]
-    fn both<L: Lanes>(elements: &Elements, velocity: &Field, [means, f]: &mut [Vec<[f64; 2]>; 2]) {
+    fn both<L: Lanes>(
+        elements: &ViscousElements,
+        velocity: &Field,
+        [means, f]: &mut [Vec<[f64; 2]>; 2],
+    ) {
         add_rates::<L>(elements, velocity, means);
         subtract_forces::<L>(elements, velocity, means, f);
     }
     #[target_feature(enable = "avx2,fma")]
-    fn avx2(elements: &Elements, velocity: &Field, fields: &mut [Vec<[f64; 2]>; 2]) {
+    fn avx2(elements: &ViscousElements, velocity: &Field, fields: &mut [Vec<[f64; 2]>; 2]) {
         both::<Avx2>(elements, velocity, fields);
     }
-    if !crate::stress::lanes::has_avx2() {
+    if !crate::lanes::has_avx2() {
         return;
     }
     let mesh = unit_sphere(4.0, Side::Below);

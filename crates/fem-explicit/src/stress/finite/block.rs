@@ -6,8 +6,8 @@ use fem_element::QuadGeometry;
 use fem_material::finite::AxisymmetricTensor;
 use fem_mesh::SphereMesh;
 
-use super::super::lanes::{Lanes, WIDE};
 use super::super::port::Collapse;
+use crate::lanes::{Lanes, WIDE};
 use crate::part::Field;
 
 /// One number of each element of a block.

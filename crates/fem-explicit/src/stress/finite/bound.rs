@@ -14,13 +14,13 @@
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
 
-use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use super::super::port::LumpedElement;
-use super::block::{Block, Numbers, place};
-use super::kernel::{Conjugate, Elements, Strain};
+use super::block::{Block, Blocks, Numbers, place};
+use super::internal_variables::{self, InternalVariables};
+use super::kernel::{Conjugate, Deformation};
 use super::law::Law;
-use super::past::{self, Past};
-use crate::part::Field;
+use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
+use crate::part::{Field, NodalField};
 
 /// Strains of an element: rr, ry, θθ and the radial amplitude, which radial displacements make; yr, yy
 /// and the axial amplitude.
@@ -122,7 +122,7 @@ impl<W: Law> LaneKernel<WIDE> for AtRest<'_, W> {
 
     #[inline(always)]
     fn on<L: Lanes<WIDE>>(self, bounds: &mut Vec<f64>) {
-        let past: Past<L> = Past::none();
+        let internal: InternalVariables<L> = InternalVariables::none();
         for elements in self.elements.chunks(WIDE) {
             let (mut block, mut metric) = (Block::EMPTY, Metric::EMPTY);
             for (lane, LumpedElement { geometry, masses, on_axis }) in elements.iter().enumerate() {
@@ -130,26 +130,28 @@ impl<W: Law> LaneKernel<WIDE> for AtRest<'_, W> {
                 metric.put(lane, geometry, masses, *on_axis);
             }
             // SAFETY: the block's corners are 0 to 3.
-            let strain = unsafe { Strain::<L>::gather(&block, &[[0.0; 2]; 4]) };
-            bounds.extend(eigenvalues(&strain, &block, &metric, self.law, &past));
+            let strain = unsafe { Deformation::<L>::gather(&block, &[[0.0; 2]; 4]) };
+            bounds.extend(eigenvalues(&strain, &block, &metric, self.law, &internal));
         }
     }
 }
 
-/// Adds the bounds λ_e m_e,i (N/m) of displaced elements at their nodes.
+/// Adds the bounds λ_e m_e,i (N/m) of displaced elements at their nodes; without history nothing has relaxed.
 pub(super) fn add_stiffness<W: Law>(
-    elements: &Elements<'_, W>,
-    Metrics(metrics): &Metrics,
+    (blocks, Metrics(metrics), law): (&Blocks, &Metrics, &W),
     u: &Field,
+    history: &[NodalField],
     bound: &mut [f64],
 ) {
-    run_wide_lanes(Bound { elements, metrics, u }, bound);
+    run_wide_lanes(Bound { blocks, metrics, law, u, history }, bound);
 }
 
 struct Bound<'a, W> {
-    elements: &'a Elements<'a, W>,
+    blocks: &'a Blocks,
     metrics: &'a [Metric],
+    law: &'a W,
     u: &'a Field,
+    history: &'a [NodalField],
 }
 
 impl<W: Law> LaneKernel<WIDE> for Bound<'_, W> {
@@ -157,16 +159,16 @@ impl<W: Law> LaneKernel<WIDE> for Bound<'_, W> {
 
     #[inline(always)]
     fn on<L: Lanes<WIDE>>(self, bound: &mut [f64]) {
-        let Self { elements: Elements { blocks, law, history }, metrics, u } = self;
+        let Self { blocks, metrics, law, u, history } = self;
         let n_terms = if history.is_empty() { 0 } else { law.weights().len() };
-        assert!(past::is_sound(history, n_terms, blocks.n_elements()));
-        let mut past: Past<L> = Past::none();
+        assert!(internal_variables::is_valid(history, n_terms, blocks.n_elements()));
+        let mut internal: InternalVariables<L> = InternalVariables::none();
         let both = blocks.checked(&[u.len(), bound.len()]).iter().zip(metrics);
         for (place, (block, metric)) in both.enumerate() {
-            past.load(n_terms, history, blocks.slots(place));
+            internal.load(n_terms, history, blocks.slots(place));
             // SAFETY: the field has been checked against the corner numbers.
-            let strain = unsafe { Strain::<L>::gather(block, u) };
-            let eigenvalues = eigenvalues(&strain, block, metric, *law, &past);
+            let strain = unsafe { Deformation::<L>::gather(block, u) };
+            let eigenvalues = eigenvalues(&strain, block, metric, law, &internal);
             for lane in 0..WIDE {
                 for a in 0..4 {
                     let node = block.corners[a][lane] as usize;
@@ -180,16 +182,16 @@ impl<W: Law> LaneKernel<WIDE> for Bound<'_, W> {
 /// Bounds of the largest eigenvalues, s⁻².
 #[inline(always)]
 fn eigenvalues<L: Lanes<WIDE>, W: Law>(
-    strain: &Strain<L>,
+    strain: &Deformation<L>,
     block: &Block,
     metric: &Metric,
     law: &W,
-    past: &Past<L>,
+    internal: &InternalVariables<L>,
 ) -> [f64; WIDE] {
     let length = L::load(&metric.length);
     let step = L::splat(STRAIN_STEP);
     let per_step = L::splat(1.0 / STRAIN_STEP);
-    let before = in_order(&strain.conjugate(block, law, past).0, length);
+    let before = in_order(&strain.conjugate(block, law, internal), length);
     let mut product = [[L::splat(0.0); N_STRAINS]; N_STRAINS];
     for k in 0..N_STRAINS {
         let mut moved = *strain;
@@ -202,7 +204,7 @@ fn eigenvalues<L: Lanes<WIDE>, W: Law>(
             5 => moved.h.yy = moved.h.yy + step,
             _ => moved.q.1 = moved.q.1 + step * length,
         }
-        let after = in_order(&moved.conjugate(block, law, past).0, length);
+        let after = in_order(&moved.conjugate(block, law, internal), length);
         // Row i of D Q takes column k of D with row k of Q, which has its own block alone.
         let own = if k < FIRST_AXIAL { 0..FIRST_AXIAL } else { FIRST_AXIAL..N_STRAINS };
         for i in 0..N_STRAINS {

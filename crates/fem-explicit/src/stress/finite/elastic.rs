@@ -1,4 +1,4 @@
-//! Elements at finite strain that do not relax.
+//! Elastic elements at finite strain.
 
 use std::fmt;
 
@@ -6,25 +6,27 @@ use fem_material::finite::{
     AxisymmetricTensor, Hyperelastic, HyperelasticLaw, Inverted, SymmetricTensor,
 };
 
-use super::Response;
+use super::ElementResponse;
 use super::block::{Blocks, Slots};
-use super::kernel::{self, Elements};
+use super::hourglass::Amplitudes;
+use super::kernel::{self, BlockResponse, BlockStress, Deformation};
 use super::law::ElasticLaw;
+use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use crate::part::{Field, NodalField};
 
-/// A law for the loops, and the same by its name.
-pub(super) struct Elastic<W> {
+/// A law for the loops, and the same law by its name.
+pub(super) struct ElasticResponse<W> {
     pub law: W,
     pub solid: Hyperelastic,
 }
 
-impl<W> fmt::Debug for Elastic<W> {
+impl<W> fmt::Debug for ElasticResponse<W> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "FiniteStrain {{ {:?} }}", self.solid)
     }
 }
 
-impl<W: ElasticLaw> Response for Elastic<W> {
+impl<W: ElasticLaw> ElementResponse for ElasticResponse<W> {
     type Law = W;
 
     fn law(&self) -> &W {
@@ -35,14 +37,23 @@ impl<W: ElasticLaw> Response for Elastic<W> {
         self.solid.law()
     }
 
-    fn subtract_forces(
+    fn n_internal_fields(&self) -> usize {
+        0
+    }
+
+    fn set_time_step(&mut self, _: f64) {}
+
+    fn update_forces(
         &self,
         blocks: &Blocks,
+        _: Option<f64>,
         u: &Field,
-        _: &[NodalField],
+        _: &mut [NodalField],
         forces: &mut Field,
     ) -> bool {
-        Elements { blocks, law: &self.law, history: &[] }.subtract_forces(u, forces)
+        let mut output = (forces, true);
+        run_wide_lanes(Forces { blocks, law: &self.law, u }, &mut output);
+        output.1
     }
 
     fn cauchy(
@@ -56,5 +67,42 @@ impl<W: ElasticLaw> Response for Elastic<W> {
 
     fn energies(&self, blocks: &Blocks, u: &Field, _: &[NodalField]) -> (f64, f64) {
         (kernel::stored_energy(blocks, &self.law, u), 0.0)
+    }
+}
+
+/// The element loop of the forces. Its output are the forces, and whether every element has a positive volume.
+pub(super) struct Forces<'a, W> {
+    pub blocks: &'a Blocks,
+    pub law: &'a W,
+    pub u: &'a Field,
+}
+
+impl<'a, W: ElasticLaw> LaneKernel<WIDE> for Forces<'a, W> {
+    type Output = (&'a mut Field, bool);
+
+    #[inline(always)]
+    fn on<L: Lanes<WIDE>>(self, (f, is_valid): &mut Self::Output) {
+        let Self { blocks, law, u } = self;
+        let mut response = Elastic { law };
+        *is_valid = kernel::subtract_forces::<L, _>(blocks, law.shear(), u, f, &mut response);
+    }
+}
+
+/// The elastic response of blocks: the stress is a function of the deformation.
+struct Elastic<'a, W> {
+    law: &'a W,
+}
+
+impl<L: Lanes<WIDE>, W: ElasticLaw> BlockResponse<L> for Elastic<'_, W> {
+    #[inline(always)]
+    fn stress(
+        &mut self,
+        _: usize,
+        deformation: &Deformation<L>,
+        pulled_back: (L, L),
+    ) -> BlockStress<L> {
+        let (first_piola, volume_change) = self.law.first_piola(&deformation.h, &[]);
+        let amplitudes = Amplitudes::new(pulled_back, self.law.equilibrium_weight());
+        BlockStress { first_piola, volume_change, amplitudes }
     }
 }

@@ -136,14 +136,14 @@ impl<N: Number> Deformed<N> {
 
     /// F̄⁻¹ x.
     #[inline(always)]
-    pub fn pull(&self, x: (N, N)) -> (N, N) {
+    pub fn pull_back(&self, x: (N, N)) -> (N, N) {
         let Self { f, inverse_area: i, .. } = self;
         (*i * (f.yy * x.0).minus_product(f.ry, x.1), *i * (f.rr * x.1).minus_product(f.yr, x.0))
     }
 
     /// F̄⁻ᵀ x.
     #[inline(always)]
-    fn push(&self, x: (N, N)) -> (N, N) {
+    fn push_forward(&self, x: (N, N)) -> (N, N) {
         let Self { f, inverse_area: i, .. } = self;
         (*i * (f.yy * x.0).minus_product(f.yr, x.1), *i * (f.rr * x.1).minus_product(f.ry, x.0))
     }
@@ -166,11 +166,11 @@ impl<N: Number> Deformed<N> {
         let Self { f, measures, stiffness, .. } = self;
         let Amplitudes { own, mean, square } = amplitudes;
         let twice = self.scale + self.scale;
-        let (d_r, d_y) = self.push((
+        let (d_r, d_y) = self.push_forward((
             twice * (stiffness[0] * mean.0).plus_product(stiffness[2], mean.1),
             twice * (stiffness[2] * mean.0).plus_product(stiffness[1], mean.1),
         ));
-        // Twice the derivative by C where q̂ stays.
+        // TwoRegisters the derivative by C where q̂ stays.
         let hoop = N::splat(5.0 / 9.0) * dot(*measures, *square);
         let [rr, yy, ry] = turned(*measures, *square);
         let (b_rr, b_yy, b_ry) = (twice * (rr + hoop), twice * (yy + hoop), twice * ry);

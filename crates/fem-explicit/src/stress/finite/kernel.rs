@@ -2,63 +2,78 @@
 
 use fem_material::finite::AxisymmetricTensor;
 
-use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use super::block::{Block, Blocks, load_three};
 use super::hourglass::{Amplitudes, Deformed};
+use super::internal_variables::InternalVariables;
 use super::law::{ElasticLaw, Law};
-use super::past::{self, Past};
-use crate::part::{Field, NodalField};
+use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
+use crate::part::Field;
 
-/// The elements of a body, their law and what they remember.
-pub(super) struct Elements<'a, W> {
-    pub blocks: &'a Blocks,
-    pub law: &'a W,
-    pub history: &'a [NodalField],
+/// The stress of the elements of a block.
+pub(super) struct BlockStress<L> {
+    /// First Piola–Kirchhoff stress, Pa. It has a meaning where J − 1 > −1.
+    pub first_piola: AxisymmetricTensor<L>,
+    /// J − 1.
+    pub volume_change: L,
+    /// Elastic hourglass amplitudes of all branches.
+    pub amplitudes: Amplitudes<L>,
 }
 
-impl<W: Law> Elements<'_, W> {
-    /// Subtracts the internal forces (N) of a displacement (m) from `f`. Whether every element has a
-    /// volume; if not, the forces mean nothing.
-    pub fn subtract_forces(&self, u: &Field, f: &mut Field) -> bool {
-        let mut output = (f, true);
-        run_wide_lanes(Forces { elements: self, u }, &mut output);
-        output.1
-    }
-
-    #[inline(always)]
-    pub fn subtract<L: Lanes<WIDE>>(&self, u: &Field, f: &mut Field) -> bool {
-        let Self { blocks, law, history } = self;
-        let n_terms = law.weights().len();
-        assert!(past::is_sound(history, n_terms, blocks.n_elements()));
-        let mut past: Past<L> = Past::none();
-        let mut volumes = Volumes::<L>::new();
-        for (place, block) in blocks.checked(&[u.len(), f.len()]).iter().enumerate() {
-            if n_terms > 0 {
-                past.load(n_terms, history, blocks.slots(place));
-            }
-            // SAFETY: the fields have been checked against the corner numbers.
-            let strain = unsafe { Strain::<L>::gather(block, u) };
-            let (conjugate, volume_change) = strain.conjugate(block, *law, &past);
-            volumes.observe(volume_change, strain.h.tt);
-            // SAFETY: as above.
-            unsafe { conjugate.scatter_subtract(block, f) };
-        }
-        volumes.are_sound()
-    }
+/// The response of elements, block by block: from the deformation to the stress, with an update of internal variables if
+/// there are any.
+pub(super) trait BlockResponse<L> {
+    /// Returns the stress of the block at a place, from its deformation and its hourglass amplitude pulled back to the
+    /// undeformed element, m.
+    fn stress(
+        &mut self,
+        place: usize,
+        deformation: &Deformation<L>,
+        pulled_back: (L, L),
+    ) -> BlockStress<L>;
 }
 
-struct Forces<'a, W> {
-    elements: &'a Elements<'a, W>,
-    u: &'a Field,
+/// Subtracts the internal forces (N) of elements at a displacement (m) from `f`. This is the one loop from displacement to
+/// forces of all responses: gather, deformation, pull-back, response, scatter.
+///
+/// Returns whether every element has a positive volume; if not, the forces have no meaning.
+#[inline(always)]
+pub(super) fn subtract_forces<L: Lanes<WIDE>, R: BlockResponse<L>>(
+    blocks: &Blocks,
+    shear: f64,
+    u: &Field,
+    f: &mut Field,
+    response: &mut R,
+) -> bool {
+    let mut volumes = Volumes::<L>::new();
+    for (place, block) in blocks.checked(&[u.len(), f.len()]).iter().enumerate() {
+        // SAFETY: the fields have been checked against the corner numbers.
+        let deformation = unsafe { Deformation::<L>::gather(block, u) };
+        let deformed = deformation.deformed(block, shear);
+        let stress = response.stress(place, &deformation, deformed.pull_back(deformation.q));
+        volumes.observe(stress.volume_change, deformation.h.tt);
+        // SAFETY: as above.
+        unsafe { forces_of(block, &deformed, &stress).scatter_subtract(block, f) };
+    }
+    volumes.are_valid()
 }
 
-impl<'a, W: Law> LaneKernel<WIDE> for Forces<'a, W> {
-    type Output = (&'a mut Field, bool);
-
-    #[inline(always)]
-    fn on<L: Lanes<WIDE>>(self, (f, is_sound): &mut Self::Output) {
-        *is_sound = self.elements.subtract::<L>(self.u, f);
-    }
+/// Returns the derivatives of the energy by the deformation of a block, from its stress.
+#[inline(always)]
+pub(super) fn forces_of<L: Lanes<WIDE>>(
+    block: &Block,
+    deformed: &Deformed<L>,
+    BlockStress { first_piola: p, amplitudes, .. }: &BlockStress<L>,
+) -> Conjugate<L> {
+    let shape = deformed.force(amplitudes);
+    let volume = L::load(&block.volume);
+    let stress = AxisymmetricTensor {
+        rr: shape.stress.rr.plus_product(volume, p.rr),
+        ry: shape.stress.ry.plus_product(volume, p.ry),
+        yr: shape.stress.yr.plus_product(volume, p.yr),
+        yy: shape.stress.yy.plus_product(volume, p.yy),
+        tt: shape.stress.tt.plus_product(volume, p.tt),
+    };
+    Conjugate { stress, q: shape.q }
 }
 
 /// Stored energy (J) of elements that do not relax, of a displacement (m).
@@ -86,7 +101,7 @@ impl<W: ElasticLaw> LaneKernel<WIDE> for Energy<'_, W> {
 /// How lanes of elements are deformed: mean displacement gradient, and amplitude of the hourglass shape,
 /// m.
 #[derive(Clone, Copy)]
-pub(super) struct Strain<L> {
+pub(super) struct Deformation<L> {
     pub h: AxisymmetricTensor<L>,
     pub q: (L, L),
 }
@@ -97,7 +112,7 @@ pub(super) struct Conjugate<L> {
     pub q: (L, L),
 }
 
-impl<L: Lanes<WIDE>> Strain<L> {
+impl<L: Lanes<WIDE>> Deformation<L> {
     /// # Safety
     /// Every corner of the block is an index of `u`.
     #[inline(always)]
@@ -133,50 +148,23 @@ impl<L: Lanes<WIDE>> Strain<L> {
         }
     }
 
-    /// Derivative of the energy, and J − 1.
+    /// Returns the derivatives of the energy at fixed internal variables.
     #[inline(always)]
     pub fn conjugate<W: Law, const MOST: usize>(
         &self,
         block: &Block,
         law: &W,
-        past: &Past<L, MOST>,
-    ) -> (Conjugate<L>, L) {
-        let deformed = self.deformed(block, law);
-        self.conjugate_of(&deformed, deformed.pull(self.q), block, law, past)
+        internal: &InternalVariables<L, MOST>,
+    ) -> Conjugate<L> {
+        let deformed = self.deformed(block, law.shear());
+        let stress = internal.stress(law, &self.h, deformed.pull_back(self.q));
+        forces_of(block, &deformed, &stress)
     }
 
-    /// What the hourglass shape asks of the elements.
+    /// Returns the deformed elements, as their hourglass shape needs them, for an instantaneous shear modulus, Pa.
     #[inline(always)]
-    pub fn deformed<W: Law>(&self, block: &Block, law: &W) -> Deformed<L> {
-        Deformed::of(&self.h, L::splat(law.shear()), load_three(&block.measures))
-    }
-
-    /// The same of elements that are known as `deformed`, and their amplitude in the undeformed element.
-    #[inline(always)]
-    pub fn conjugate_of<W: Law, const MOST: usize>(
-        &self,
-        deformed: &Deformed<L>,
-        own: (L, L),
-        block: &Block,
-        law: &W,
-        past: &Past<L, MOST>,
-    ) -> (Conjugate<L>, L) {
-        let weights = law.weights();
-        let (p, volume_change) = law.first_piola(&self.h, &past.metrics[..weights.len()]);
-        let mut amplitudes = Amplitudes::new(own, law.equilibrium_weight());
-        for (term, &weight) in weights.iter().enumerate() {
-            amplitudes.add_term(weight, past.amplitudes[term]);
-        }
-        let shape = deformed.force(&amplitudes);
-        let volume = L::load(&block.volume);
-        let stress = AxisymmetricTensor {
-            rr: shape.stress.rr.plus_product(volume, p.rr),
-            ry: shape.stress.ry.plus_product(volume, p.ry),
-            yr: shape.stress.yr.plus_product(volume, p.yr),
-            yy: shape.stress.yy.plus_product(volume, p.yy),
-            tt: shape.stress.tt.plus_product(volume, p.tt),
-        };
-        (Conjugate { stress, q: shape.q }, volume_change)
+    pub fn deformed(&self, block: &Block, shear: f64) -> Deformed<L> {
+        Deformed::of(&self.h, L::splat(shear), load_three(&block.measures))
     }
 }
 
@@ -235,7 +223,7 @@ impl<L: Lanes<WIDE>> Volumes<L> {
 
     /// Whether all are positive.
     #[inline(always)]
-    pub fn are_sound(&self) -> bool {
+    pub fn are_valid(&self) -> bool {
         let (least, zero): ([f64; WIDE], [f64; WIDE]) =
             (self.least.to_array(), self.zero.to_array());
         least.iter().all(|change| *change > -1.0) && zero.iter().all(|zero| *zero == 0.0)
@@ -248,13 +236,12 @@ pub(super) fn sum_energy<L: Lanes<WIDE>, W: ElasticLaw>(
     law: &W,
     u: &Field,
 ) -> f64 {
-    let shear = L::splat(law.shear());
     let mut energy = L::splat(0.0);
     for block in blocks.checked(&[u.len()]) {
         // SAFETY: the field has been checked against the corner numbers.
-        let strain = unsafe { Strain::<L>::gather(block, u) };
-        let deformed = Deformed::of(&strain.h, shear, load_three(&block.measures));
-        let shape = deformed.energy_of(deformed.pull(strain.q));
+        let strain = unsafe { Deformation::<L>::gather(block, u) };
+        let deformed = strain.deformed(block, law.shear());
+        let shape = deformed.energy_of(deformed.pull_back(strain.q));
         energy = energy + L::load(&block.volume) * law.energy(&strain.h) + shape;
     }
     let energy: [f64; WIDE] = energy.to_array();

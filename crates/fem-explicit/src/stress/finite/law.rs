@@ -1,7 +1,7 @@
 //! Stress and energy of a law on lanes.
 //!
-//! All laws run on all lanes at once. The default law has loops of its own where it does not relax; in all
-//! others the law is asked for block by block, which costs nothing that could be measured.
+//! All laws run on all lanes at once. The default law has loops of its own where it does not relax. In all others the law
+//! is selected block by block, at no measurable cost.
 
 use std::fmt::Debug;
 
@@ -10,36 +10,36 @@ use fem_material::finite::{
     AxisymmetricTensor, Branches, Hyperelastic, InverseMetric, NeoHooke, Viscoelastic,
 };
 
-use super::super::lanes::{Lanes, WIDE};
+use crate::lanes::{Lanes, WIDE};
 
-/// A law per undeformed volume, of a displacement gradient and of what its terms of relaxation remember.
+/// A law per undeformed volume: the stress as a function of the displacement gradient and of internal variables.
 pub(super) trait Law: Debug + Send + Sync + 'static {
-    /// Instantaneous shear modulus of small strain, Pa.
+    /// Returns the instantaneous shear modulus at small strain, Pa.
     fn shear(&self) -> f64;
 
-    /// Weights of the terms of relaxation.
+    /// Returns the weights of the relaxation terms.
     #[inline(always)]
     fn weights(&self) -> &[f64] {
         &[]
     }
 
-    /// What does not relax.
+    /// Returns the weight of the part that does not relax.
     #[inline(always)]
     fn equilibrium_weight(&self) -> f64 {
         1.0
     }
 
-    /// First Piola-Kirchhoff stress (Pa), and J − 1. The stress means something where J − 1 > −1.
+    /// Returns the first Piola–Kirchhoff stress (Pa), and J − 1. The stress has a meaning where J − 1 > −1.
     fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
-        past: &[InverseMetric<L>],
+        metrics: &[InverseMetric<L>],
     ) -> (AxisymmetricTensor<L>, L);
 }
 
 /// A law that does not relax.
 pub(super) trait ElasticLaw: Law {
-    /// Stored energy, J/m³.
+    /// Returns the stored energy, J/m³.
     fn energy<L: Lanes<WIDE>>(&self, h: &AxisymmetricTensor<L>) -> L;
 }
 
@@ -65,7 +65,7 @@ impl ElasticLaw for NeoHooke {
     }
 }
 
-/// Any law by its name, which is asked once a block.
+/// Any law by its name, which is selected once per block.
 impl Law for Hyperelastic {
     fn shear(&self) -> f64 {
         self.shear_modulus()
@@ -90,15 +90,15 @@ impl ElasticLaw for Hyperelastic {
 
 /// A law that relaxes.
 #[derive(Debug, Clone)]
-pub(super) struct Relaxing {
+pub(super) struct RelaxingLaw {
     branches: Branches,
     shear: f64,
     weights: Vec<f64>,
     equilibrium_weight: f64,
 }
 
-impl Relaxing {
-    /// Of a solid with an instantaneous shear modulus (Pa) and a series.
+impl RelaxingLaw {
+    /// Takes a solid, its instantaneous shear modulus (Pa) and its series.
     pub fn of(solid: &Viscoelastic, shear: f64, series: &PronySeries) -> Self {
         let weights = series.terms().iter().map(|term| term.weight).collect();
         let equilibrium_weight = series.equilibrium_weight();
@@ -106,7 +106,7 @@ impl Relaxing {
     }
 }
 
-impl Law for Relaxing {
+impl Law for RelaxingLaw {
     fn shear(&self) -> f64 {
         self.shear
     }
@@ -123,8 +123,8 @@ impl Law for Relaxing {
     fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
-        past: &[InverseMetric<L>],
+        metrics: &[InverseMetric<L>],
     ) -> (AxisymmetricTensor<L>, L) {
-        self.branches.first_piola(h, past.iter().copied())
+        self.branches.first_piola(h, metrics.iter().copied())
     }
 }

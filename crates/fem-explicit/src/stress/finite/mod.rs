@@ -5,32 +5,36 @@
 //! f_a = -V\, P(\bar F)\, \bar\nabla N_a - \frac{\partial E_h}{\partial u_a}, \qquad P = \frac{\partial W}{\partial F}
 //! ```
 //!
-//! with the gradients, the hoop and the hourglass shape of the undeformed element ([`QuadGeometry`]), so
-//! that a step touches nodal vectors alone, as at small strain. One mean volume an element: nearly
-//! incompressible bodies do not lock. W is the stored energy of a law of [`fem_material::finite`], E_h
-//! that of the hourglass shape ([`hourglass`]). Both are functions of the displacement, so forces are the
-//! derivative of an energy; rigid rotation of the meridian leaves both as they are; at small strain both
-//! are those of the small-strain element.
+//! with the gradients, the hoop and the hourglass shape of the undeformed element ([`QuadGeometry`]), so that a step reads
+//! and writes nodal vectors alone, as at small strain. An element has one mean volume, so nearly incompressible bodies do not
+//! lock. W is the stored energy of a law of [`fem_material::finite`], E_h that of the hourglass shape ([`hourglass`]). Both
+//! are functions of the displacement, so forces are the derivative of an energy; both are invariant under rigid rotation of
+//! the meridian plane; at small strain both agree with the small-strain element.
+//!
+//! A new constitutive model (for instance a return map of plastic flow) is an [`ElementResponse`]: it declares its internal
+//! variables and computes the first Piola–Kirchhoff stress of a block ([`kernel::BlockResponse`]); the loop from
+//! displacement to forces is shared.
 //!
 //! ```text
-//! block       what the loops read of eight elements, and where elements lie in a history
-//! law         stress and energy of a law, on lanes
-//! past        what elements that relax remember
-//! relaxing    how that changes in a step and what forces follow, what it stores and dissipates
-//! hourglass   energy of the hourglass shape in a deformed element, and its derivatives
-//! rates       how fast elements are strained
-//! kernel      the element loops: forces, energy
-//! bound       the largest eigenvalue of deformed elements
-//! stability   whether the law of an element still bears every wave
+//! elastic             elastic response
+//! relaxing            viscoelastic response: update of internal variables, energies
+//! internal_variables  their place in the history
+//! law                 stress and energy of a law, on lanes
+//! kernel              the element loops: forces, energy
+//! hourglass           energy of the hourglass shape in a deformed element, and its derivatives
+//! block               geometry of eight elements, and the place of elements in the history
+//! bound               largest eigenvalue of deformed elements
+//! rates               strain rates
+//! stability           loss of ellipticity
 //! ```
 
 mod block;
 mod bound;
 mod elastic;
 mod hourglass;
+mod internal_variables;
 mod kernel;
 mod law;
-mod past;
 mod rates;
 mod relaxing;
 mod stability;
@@ -45,50 +49,55 @@ use fem_material::finite::{
 };
 use fem_mesh::SphereMesh;
 
-use super::port::{Collapse, LumpedElement, Stress, Unstable};
+use super::port::{
+    Collapse, FiniteStrainStress, LumpedElement, StrainMeasure, Stress, UnstableElement,
+};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use block::{Blocks, Slots};
 use bound::Metrics;
-use elastic::Elastic;
-use kernel::Elements;
+use elastic::ElasticResponse;
+pub use internal_variables::MOST_FINITE_STRAIN_TERMS;
 use law::Law;
-pub use past::MOST_FINITE_STRAIN_TERMS;
+use relaxing::RelaxingResponse;
 
-/// The stress of a body at finite strain: its elements, and how they answer to what deforms them.
+/// The stress of a body at finite strain: its elements and their response.
 struct FiniteStrain<R> {
     blocks: Blocks,
     metrics: Metrics,
     response: R,
 }
 
-/// What elements that relax and elements that do not have each of their own.
-trait Response: fmt::Debug + Send + Sync + 'static {
-    /// The law of their stress.
+/// The response of elements to their deformation: elastic, or with internal variables.
+trait ElementResponse: fmt::Debug + Send + Sync + 'static {
+    /// The law of the stress.
     type Law: Law;
 
+    /// Returns the law of the stress.
     fn law(&self) -> &Self::Law;
 
-    /// Its name.
+    /// Returns the name of the law.
     fn law_name(&self) -> HyperelasticLaw;
 
-    /// Number of fields of history of the elements, and behind them of the nodes.
-    fn n_history(&self) -> [usize; 2] {
-        [0, 0]
-    }
+    /// Returns the number of fields of internal variables; 0 for an elastic response.
+    fn n_internal_fields(&self) -> usize;
 
-    fn set_time_step(&mut self, _time_step: f64) {}
+    /// Takes the time step of the model, s.
+    fn set_time_step(&mut self, time_step: f64);
 
-    /// Subtracts the internal forces, N. Whether every element has a volume; if not, the forces mean
-    /// nothing.
-    fn subtract_forces(
+    /// Takes the internal variables to a displacement at the end of a time step (s), or instantaneously, and subtracts the
+    /// internal forces there (N) from `forces`.
+    ///
+    /// Returns whether every element has a positive volume; if not, the forces have no meaning.
+    fn update_forces(
         &self,
         blocks: &Blocks,
+        time_step: Option<f64>,
         u: &Field,
-        history: &[NodalField],
+        internal: &mut [NodalField],
         forces: &mut Field,
     ) -> bool;
 
-    /// Cauchy stress, Pa, of an element with a displacement gradient.
+    /// Returns the Cauchy stress (Pa) of an element with a displacement gradient.
     fn cauchy(
         &self,
         h: &AxisymmetricTensor,
@@ -96,64 +105,78 @@ trait Response: fmt::Debug + Send + Sync + 'static {
         history: &[NodalField],
     ) -> Result<SymmetricTensor, Inverted>;
 
-    /// Takes the history to a displacement at the end of a time step (s), or in no time.
-    fn advance(&self, _: &Blocks, _time_step: Option<f64>, _u: &Field, _: &mut [NodalField]) {}
-
-    /// What the elements store (J) and dissipate, W.
+    /// Returns the stored energy (J) and the dissipated power, W.
     fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64);
 }
 
-/// The stress of a material that stores energy by a law, and relaxes by no more than [`MOST_FINITE_STRAIN_TERMS`].
-pub(crate) fn finite_strain(
-    mesh: &SphereMesh,
-    geometries: &[QuadGeometry],
-    material: &Material,
-    law: HyperelasticLaw,
-) -> Box<dyn Stress> {
-    let all: Vec<_> = (0..geometries.len()).collect();
-    finite_strain_of(mesh, geometries, &all, material, law)
-}
-
-/// The same on some elements, which it knows by their places in the list.
-pub(super) fn finite_strain_of(
+/// Makes the stress of a material at finite strain on some elements of a mesh, which it numbers by their places in the list.
+/// The material has at most [`MOST_FINITE_STRAIN_TERMS`] relaxation terms.
+pub(super) fn finite_strain(
     mesh: &SphereMesh,
     geometries: &[QuadGeometry],
     elements: &[usize],
     material: &Material,
     law: HyperelasticLaw,
-) -> Box<dyn Stress> {
+) -> Box<dyn FiniteStrainStress> {
     let moduli = material.instantaneous();
     let (bulk, shear) = (moduli.bulk_modulus(), moduli.shear_modulus());
     let solid = Hyperelastic::new(law, moduli);
     let blocks = Blocks::pack(mesh, geometries, elements);
     let metrics = Metrics::pack(mesh, geometries, elements, material.density());
     if let Some(series) = material.relaxation().filter(|series| series.relaxes()) {
-        return relaxing::relaxing_strain(blocks, metrics, &solid, series);
+        let response = RelaxingResponse::new(&solid, series);
+        return Box::new(FiniteStrain { blocks, metrics, response });
     }
     if law == HyperelasticLaw::NeoHooke {
         let law = NeoHooke { bulk, shear };
-        return Box::new(FiniteStrain { blocks, metrics, response: Elastic { law, solid } });
+        return Box::new(FiniteStrain {
+            blocks,
+            metrics,
+            response: ElasticResponse { law, solid },
+        });
     }
-    Box::new(FiniteStrain { blocks, metrics, response: Elastic { law: solid, solid } })
+    Box::new(FiniteStrain { blocks, metrics, response: ElasticResponse { law: solid, solid } })
 }
 
-impl<R: Response> FiniteStrain<R> {
-    fn add_bound(&self, u: &Field, history: &[NodalField], bound: &mut [f64]) {
-        let elements = Elements { blocks: &self.blocks, law: self.response.law(), history };
-        bound::add_stiffness(&elements, &self.metrics, u, bound);
+impl<R: ElementResponse> FiniteStrain<R> {
+    /// Takes a history to a displacement, with the internal forces there. Without internal variables there is no history.
+    fn update_history(&self, time_step: Option<f64>, u: &Field, history: &mut [NodalField]) {
+        let (internal, forces) = history.split_at_mut(self.response.n_internal_fields());
+        let Some(forces) = forces.first_mut() else { return };
+        // At all other nodes they are always zero.
+        let nodes = self.blocks.nodes();
+        forces[nodes.clone()].fill([0.0; 2]);
+        if !self.response.update_forces(&self.blocks, time_step, u, internal, forces) {
+            forces[nodes].fill([f64::NAN; 2]);
+        }
+    }
+
+    /// Adds the internal forces that the history holds. Returns whether every element has a positive volume.
+    fn add_forces_of_history(&self, history: &[NodalField], forces: &mut Field) -> bool {
+        let nodes = self.blocks.nodes();
+        let own = &history[self.response.n_internal_fields()][nodes.clone()];
+        if own.first().is_some_and(|force| force[0].is_nan()) {
+            return false;
+        }
+        let forces = forces[nodes].as_flattened_mut();
+        for (force, own) in forces.iter_mut().zip(own.as_flattened()) {
+            *force += own;
+        }
+        true
     }
 }
 
-/// Its law, moduli and terms; the mesh is known by other means.
+/// Shows law, moduli and terms, for the fingerprint of a model.
 impl<R: fmt::Debug> fmt::Debug for FiniteStrain<R> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.response.fmt(formatter)
     }
 }
 
-impl<R: Response> Part for FiniteStrain<R> {
+impl<R: ElementResponse> Part for FiniteStrain<R> {
+    /// One with internal variables: the internal forces.
     fn n_history(&self) -> usize {
-        self.response.n_history()[1]
+        usize::from(self.response.n_internal_fields() > 0)
     }
 
     fn set_time_step(&mut self, time_step: f64) {
@@ -161,29 +184,27 @@ impl<R: Response> Part for FiniteStrain<R> {
     }
 }
 
-impl<R: Response> Stress for FiniteStrain<R> {
+impl<R: ElementResponse> Stress for FiniteStrain<R> {
+    fn strain_measure(&self) -> StrainMeasure<'_> {
+        StrainMeasure::Finite(self)
+    }
+
     fn n_element_history(&self) -> usize {
-        self.response.n_history()[0]
-    }
-
-    fn n_finite_elements(&self) -> usize {
-        self.blocks.n_elements()
-    }
-
-    fn largest_eigenvalue(
-        &self,
-        geometry: &QuadGeometry,
-        masses: &[f64; 4],
-        on_axis: [bool; 4],
-    ) -> f64 {
-        let element = LumpedElement { geometry: *geometry, masses: *masses, on_axis };
-        self.largest_eigenvalues(&[element])[0]
+        self.response.n_internal_fields()
     }
 
     fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
         bound::at_rest(self.response.law(), elements)
     }
 
+    /// Rigid motion leaves the internal variables and forces at zero.
+    fn start_rigid(&self, _: &Field, _: &mut [NodalField]) {}
+
+    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]) {
+        self.update_history(None, displacement, history);
+    }
+
+    /// Elastic forces are computed here. With internal variables they have been computed when those were advanced.
     fn subtract_forces(
         &self,
         motion: &Motion<'_>,
@@ -191,42 +212,58 @@ impl<R: Response> Stress for FiniteStrain<R> {
         forces: &mut Field,
     ) -> Result<(), Collapse> {
         let u = motion.displacement;
-        match self.response.subtract_forces(&self.blocks, u, history, forces) {
-            true => Ok(()),
-            false => Err(self.blocks.most_compressed(u)),
-        }
+        let is_valid = match self.response.n_internal_fields() {
+            0 => self.response.update_forces(&self.blocks, None, u, &mut [], forces),
+            _ => self.add_forces_of_history(history, forces),
+        };
+        if is_valid { Ok(()) } else { Err(self.blocks.most_compressed(u)) }
     }
 
-    fn changes_stiffness(&self) -> bool {
-        true
+    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
+        self.update_history(Some(motion.time_step), motion.displacement, history);
+    }
+
+    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
+        let (stored, power) = self.response.energies(&self.blocks, motion.displacement, history);
+        accounts.energies.add(Account::Strain, stored);
+        // The account is present for an elastic body too, and empty.
+        accounts.powers.add(Account::ViscousDissipation, power);
+    }
+}
+
+impl<R: ElementResponse> FiniteStrainStress for FiniteStrain<R> {
+    fn n_elements(&self) -> usize {
+        self.blocks.n_elements()
     }
 
     fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
-        let still = vec![[0.0; 2]; bound.len()];
-        self.add_bound(&still, &[], bound);
+        let undeformed = vec![[0.0; 2]; bound.len()];
+        let elements = (&self.blocks, &self.metrics, self.response.law());
+        bound::add_stiffness(elements, &undeformed, &[], bound);
     }
 
     fn add_stiffness_bound(&self, motion: &Motion<'_>, history: &[NodalField], bound: &mut [f64]) {
-        self.add_bound(motion.displacement, history, bound);
+        let elements = (&self.blocks, &self.metrics, self.response.law());
+        bound::add_stiffness(elements, motion.displacement, history, bound);
     }
 
     fn strain_rate(&self, motion: &Motion<'_>) -> f64 {
         rates::strain_rate(&self.blocks, motion.displacement, motion.velocity)
     }
 
-    fn urgency(&self, motion: &Motion<'_>, room: &[f64]) -> f64 {
-        rates::urgency(&self.blocks, motion.displacement, motion.velocity, room)
+    fn allowance_rate(&self, motion: &Motion<'_>, allowances: &[f64]) -> f64 {
+        rates::allowance_rate(&self.blocks, motion.displacement, motion.velocity, allowances)
     }
 
-    fn most_compressed(&self, displacement: &Field) -> Option<Collapse> {
-        Some(self.blocks.most_compressed(displacement))
+    fn most_compressed(&self, displacement: &Field) -> Collapse {
+        self.blocks.most_compressed(displacement)
     }
 
     fn can_lose_stability(&self) -> bool {
         !self.response.law_name().is_always_elliptic()
     }
 
-    fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<Unstable> {
+    fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<UnstableElement> {
         stability::unstable_element(&self.blocks, &self.response, u, history)
     }
 
@@ -234,26 +271,10 @@ impl<R: Response> Stress for FiniteStrain<R> {
         stress.clear();
         stress.extend((0..self.blocks.n_elements()).map(|element| {
             let h = self.blocks.gradient(element, u);
-            // No run goes on behind a collapse.
+            // A run ends where an element has collapsed.
             let stress = self.response.cauchy(&h, self.blocks.slot(element), history).ok();
             stress.map_or([f64::NAN; 4], |stress| [stress.rr, stress.yy, stress.tt, stress.ry])
         }));
-    }
-
-    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
-        let (time_step, u) = (motion.time_step, motion.displacement);
-        self.response.advance(&self.blocks, Some(time_step), u, history);
-    }
-
-    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]) {
-        self.response.advance(&self.blocks, None, displacement, history);
-    }
-
-    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
-        let (stored, power) = self.response.energies(&self.blocks, motion.displacement, history);
-        accounts.energies.add(Account::Strain, stored);
-        // A body that dissipates nothing has an account of it.
-        accounts.powers.add(Account::ViscousDissipation, power);
     }
 }
 

@@ -1,9 +1,9 @@
-//! Elements at finite strain that relax: the law's Maxwell branches at their mean deformation
-//! ([`Viscoelastic`]), and those of the hourglass shape ([`hourglass`](super::hourglass)).
+//! Relaxing elements at finite strain: Maxwell branches of the law at the mean deformation ([`Viscoelastic`]), and of the
+//! hourglass shape ([`hourglass`](super::hourglass)).
 //!
-//! The past of an element moves with the deformation from the start of a step to its end; that at the
-//! start is remembered. One loop over the elements takes their past to the end of a step and makes the
-//! forces there, which the start of the next step asks for: what both need of a deformation is had once.
+//! Internal variables follow the deformation from the start of a step to its end. One loop over the elements takes them to
+//! the end of the step and computes the forces there, since both need the same deformation. The forces are kept until the
+//! next step asks for them ([`FiniteStrain`](super::FiniteStrain)).
 
 use std::borrow::Cow;
 use std::fmt;
@@ -14,28 +14,26 @@ use fem_material::finite::{
 };
 use fem_material::{PronySeries, RelaxationStep};
 
-use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
-use super::super::port::Stress;
+use super::ElementResponse;
 use super::block::{Blocks, Slots};
-use super::bound::Metrics;
 use super::hourglass::Amplitudes;
-use super::kernel::{Strain, Volumes};
-use super::law::{Law, Relaxing};
-use super::past::{self, MOST_FINITE_STRAIN_TERMS, Past};
-use super::{FiniteStrain, Response};
-use crate::pace;
+use super::internal_variables::{self, InternalVariables, MOST_FINITE_STRAIN_TERMS};
+use super::kernel::{self, BlockResponse, BlockStress, Deformation, Volumes};
+use super::law::{Law, RelaxingLaw};
+use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use crate::part::{Field, NodalField};
+use crate::time::step_levels;
 
-/// A law that relaxes, and the same by its name.
-struct RelaxingStrain {
-    law: Relaxing,
+/// A relaxing law for the loops, and the same law by its name.
+pub(super) struct RelaxingResponse {
+    law: RelaxingLaw,
     solid: Viscoelastic,
     relaxation_times: Vec<f64>,
-    /// Of all steps that a run may take.
+    /// Coefficients of all time steps that a run may take.
     steps: Vec<Step>,
 }
 
-/// A time step of all terms.
+/// Coefficients of a time step, for all terms.
 #[derive(Debug, Clone)]
 pub(super) struct Step {
     /// s.
@@ -45,7 +43,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// Of a solid with these relaxation times, s.
+    /// Takes a solid, its relaxation times (s) and a time step, s.
     pub fn of(solid: &Viscoelastic, relaxation_times: &[f64], time_step: f64) -> Self {
         let of = |&time: &f64| RelaxationStep::new(time, time_step);
         let amplitudes = relaxation_times.iter().map(of).collect();
@@ -53,21 +51,11 @@ impl Step {
     }
 }
 
-/// The stress of a solid that relaxes as a series says.
-pub(super) fn relaxing_strain(
-    blocks: Blocks,
-    metrics: Metrics,
-    instantaneous: &Hyperelastic,
-    series: &PronySeries,
-) -> Box<dyn Stress> {
-    let solid = Viscoelastic::new(instantaneous, series);
-    let shear = instantaneous.shear_modulus();
-    let law = Relaxing::of(&solid, shear, series);
-    Box::new(FiniteStrain { blocks, metrics, response: RelaxingStrain::new(law, solid, series) })
-}
-
-impl RelaxingStrain {
-    fn new(law: Relaxing, solid: Viscoelastic, series: &PronySeries) -> Self {
+impl RelaxingResponse {
+    /// Takes the instantaneous solid and its series.
+    pub fn new(instantaneous: &Hyperelastic, series: &PronySeries) -> Self {
+        let solid = Viscoelastic::new(instantaneous, series);
+        let law = RelaxingLaw::of(&solid, instantaneous.shear_modulus(), series);
         let relaxation_times = series.terms().iter().map(|term| term.relaxation_time).collect();
         Self { law, solid, relaxation_times, steps: Vec::new() }
     }
@@ -77,16 +65,16 @@ impl RelaxingStrain {
     }
 }
 
-impl fmt::Debug for RelaxingStrain {
+impl fmt::Debug for RelaxingResponse {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "RelaxingStrain {{ {:?} }}", self.solid)
+        write!(formatter, "RelaxingResponse {{ {:?} }}", self.solid)
     }
 }
 
-impl Response for RelaxingStrain {
-    type Law = Relaxing;
+impl ElementResponse for RelaxingResponse {
+    type Law = RelaxingLaw;
 
-    fn law(&self) -> &Relaxing {
+    fn law(&self) -> &RelaxingLaw {
         &self.law
     }
 
@@ -94,33 +82,12 @@ impl Response for RelaxingStrain {
         self.solid.law()
     }
 
-    /// Of the nodes the internal forces.
-    fn n_history(&self) -> [usize; 2] {
-        [past::n_element_fields(self.solid.n_terms()), 1]
+    fn n_internal_fields(&self) -> usize {
+        internal_variables::n_element_fields(self.solid.n_terms())
     }
 
     fn set_time_step(&mut self, time_step: f64) {
-        self.steps = pace::time_steps(time_step).map(|time_step| self.step(time_step)).collect();
-    }
-
-    fn subtract_forces(
-        &self,
-        blocks: &Blocks,
-        _: &Field,
-        history: &[NodalField],
-        forces: &mut Field,
-    ) -> bool {
-        // Made by the last step; no numbers where an element has collapsed in it.
-        let [n_element_fields, _] = self.n_history();
-        let own = &history[n_element_fields][blocks.nodes()];
-        if own.first().is_some_and(|force| force[0].is_nan()) {
-            return false;
-        }
-        let forces = forces[blocks.nodes()].as_flattened_mut();
-        for (force, own) in forces.iter_mut().zip(own.as_flattened()) {
-            *force += own;
-        }
-        true
+        self.steps = step_levels(time_step).map(|time_step| self.step(time_step)).collect();
     }
 
     fn cauchy(
@@ -130,17 +97,18 @@ impl Response for RelaxingStrain {
         history: &[NodalField],
     ) -> Result<SymmetricTensor, Inverted> {
         let n_terms = self.solid.n_terms();
-        let (strains, _) = past::of_element(history, n_terms, element);
+        let (strains, _) = internal_variables::of_element(history, n_terms, element);
         self.solid.cauchy(h, &strains[..n_terms])
     }
 
-    fn advance(
+    fn update_forces(
         &self,
         blocks: &Blocks,
         time_step: Option<f64>,
         u: &Field,
-        history: &mut [NodalField],
-    ) {
+        internal: &mut [NodalField],
+        forces: &mut Field,
+    ) -> bool {
         let of = |time_step: f64| {
             let same = |step: &&Step| step.time_step == time_step;
             match self.steps.iter().find(same) {
@@ -150,9 +118,9 @@ impl Response for RelaxingStrain {
         };
         let step = time_step.map(of);
         let (law, step) = (&self.law, step.as_deref());
-        let (of_elements, forces) = history.split_at_mut(self.n_history()[0]);
-        let Some(forces) = forces.first_mut() else { return };
-        run_wide_lanes(Advance { blocks, law, step, u }, &mut Advanced { of_elements, forces });
+        let mut advanced = Advanced { internal, forces, is_valid: true };
+        run_wide_lanes(Advance { blocks, law, step, u }, &mut advanced);
+        advanced.is_valid
     }
 
     fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64) {
@@ -162,10 +130,10 @@ impl Response for RelaxingStrain {
     }
 }
 
-/// What all elements store (J) and dissipate, W; no numbers where one has collapsed.
+/// The element loop of stored energy (J) and dissipated power, W; not numbers where an element has collapsed.
 struct Energies<'a> {
     blocks: &'a Blocks,
-    strain: &'a RelaxingStrain,
+    strain: &'a RelaxingResponse,
     u: &'a Field,
     history: &'a [NodalField],
 }
@@ -175,9 +143,10 @@ impl LaneKernel<WIDE> for Energies<'_> {
 
     #[inline(always)]
     fn on<L: Lanes<WIDE>>(self, sums: &mut (f64, f64)) {
-        let Self { blocks, strain: RelaxingStrain { law, solid, relaxation_times, .. }, .. } = self;
+        let Self { blocks, strain: RelaxingResponse { law, solid, relaxation_times, .. }, .. } =
+            self;
         let (weights, n_terms) = (law.weights(), solid.n_terms());
-        assert!(past::is_sound(self.history, n_terms, blocks.n_elements()));
+        assert!(internal_variables::is_valid(self.history, n_terms, blocks.n_elements()));
         let zero = L::splat(0.0);
         let none = ViscousStrain { rr: zero, yy: zero, ry: zero, volume_change: zero };
         let mut strains = [none; MOST_FINITE_STRAIN_TERMS];
@@ -185,13 +154,13 @@ impl LaneKernel<WIDE> for Energies<'_> {
         for (place, block) in blocks.checked(&[self.u.len()]).iter().enumerate() {
             let slots = blocks.slots(place);
             // SAFETY: the field has been checked against the corner numbers.
-            let strain = unsafe { Strain::<L>::gather(block, self.u) };
+            let strain = unsafe { Deformation::<L>::gather(block, self.u) };
             volumes.observe(strain.h.volume_change(), strain.h.tt);
-            let deformed = strain.deformed(block, law);
-            let own = deformed.pull(strain.q);
+            let deformed = strain.deformed(block, law.shear());
+            let own = deformed.pull_back(strain.q);
             let mut all = Amplitudes::new(own, law.equilibrium_weight());
             for term in 0..n_terms {
-                let (strain, flown) = past::load_term(self.history, term, slots);
+                let (strain, flown) = internal_variables::load_term(self.history, term, slots);
                 strains[term] = strain;
                 all.add_term(weights[term], flown);
                 let elastic = deformed.energy_of((own.0 - flown.0, own.1 - flown.1));
@@ -204,14 +173,14 @@ impl LaneKernel<WIDE> for Energies<'_> {
             power = power.plus_product(volume, rate);
         }
         let (stored, power): ([f64; WIDE], [f64; WIDE]) = (stored.to_array(), power.to_array());
-        *sums = match volumes.are_sound() {
+        *sums = match volumes.are_valid() {
             true => (stored.iter().sum(), power.iter().sum()),
             false => (f64::NAN, f64::NAN),
         };
     }
 }
 
-/// The past of all elements over a step, or of none, whose displacement is given at its end.
+/// The element loop over a step with a displacement at its end; without a step the deformation is instantaneous.
 pub(super) struct Advance<'a, W> {
     pub blocks: &'a Blocks,
     pub law: &'a W,
@@ -227,10 +196,14 @@ impl<W> Clone for Advance<'_, W> {
 
 impl<W> Copy for Advance<'_, W> {}
 
-/// What that changes: the fields of the elements, and the forces on the nodes.
+/// The output of [`Advance`].
 pub(super) struct Advanced<'a> {
-    pub of_elements: &'a mut [NodalField],
+    /// Internal variables of the elements.
+    pub internal: &'a mut [NodalField],
+    /// Internal forces are subtracted here, N.
     pub forces: &'a mut Field,
+    /// Whether every element has a positive volume.
+    pub is_valid: bool,
 }
 
 impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
@@ -238,7 +211,7 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
 
     #[inline(always)]
     fn on<L: Lanes<WIDE>>(self, advanced: &mut Advanced<'a>) {
-        // What one term remembers stays in registers.
+        // The internal variables of one term stay in registers.
         match self.law.weights().len() {
             ..=1 => self.of_terms::<L, 1>(advanced),
             _ => self.of_terms::<L, MOST_FINITE_STRAIN_TERMS>(advanced),
@@ -247,54 +220,64 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
 }
 
 impl<W: Law> Advance<'_, W> {
-    /// The loop for up to `MOST` terms; the same bits whatever that is.
+    /// The loop for up to `MOST` terms; its result does not depend on `MOST`.
     #[inline(always)]
-    pub fn of_terms<L: Lanes<WIDE>, const MOST: usize>(
-        self,
-        Advanced { of_elements, forces }: &mut Advanced<'_>,
-    ) {
+    pub fn of_terms<L: Lanes<WIDE>, const MOST: usize>(self, advanced: &mut Advanced<'_>) {
         let Self { blocks, law, step, u } = self;
+        let Advanced { internal: fields, forces, is_valid } = advanced;
         let n_terms = law.weights().len();
-        assert!(n_terms <= MOST && past::is_sound(of_elements, n_terms + 1, blocks.n_elements()));
-        // Elsewhere they are always zero.
-        forces[blocks.nodes()].fill([0.0; 2]);
-        let mut past = Past::<L, MOST>::none();
-        let mut volumes = Volumes::<L>::new();
-        for (place, block) in blocks.checked(&[u.len(), forces.len()]).iter().enumerate() {
-            let slots = blocks.slots(place);
-            // SAFETY: the fields have been checked against the corner numbers.
-            let strain = unsafe { Strain::<L>::gather(block, u) };
-            let deformed = strain.deformed(block, law);
-            let after = (Shape::of(&strain.h), deformed.pull(strain.q));
-            if let Some(step) = step {
-                let (whole, amplitude) = past::load_term(of_elements, n_terms, slots);
-                let before = (Shape::of_remembered(&whole), amplitude);
-                for term in 0..n_terms {
-                    let (strain, amplitude) = past::load_term(of_elements, term, slots);
-                    let (strain, metric, amplitude) =
-                        step.advance_term(term, &before, &after, strain, amplitude);
-                    past::store_term(of_elements, term, slots, &strain, amplitude);
-                    (past.metrics[term], past.amplitudes[term]) = (metric, amplitude);
-                }
-            } else {
-                past.load(n_terms, of_elements, slots);
+        assert!(
+            n_terms <= MOST
+                && internal_variables::is_valid(fields, n_terms + 1, blocks.n_elements())
+        );
+        let internal = InternalVariables::<L, MOST>::none();
+        let mut response = Relaxing { blocks, law, step, fields, internal };
+        *is_valid = kernel::subtract_forces::<L, _>(blocks, law.shear(), u, forces, &mut response);
+    }
+}
+
+/// The relaxing response of blocks: internal variables advance to the deformation, and the stress follows from both.
+struct Relaxing<'a, W, L, const MOST: usize> {
+    blocks: &'a Blocks,
+    law: &'a W,
+    step: Option<&'a Step>,
+    fields: &'a mut [NodalField],
+    internal: InternalVariables<L, MOST>,
+}
+
+impl<L: Lanes<WIDE>, W: Law, const MOST: usize> BlockResponse<L> for Relaxing<'_, W, L, MOST> {
+    #[inline(always)]
+    fn stress(
+        &mut self,
+        place: usize,
+        deformation: &Deformation<L>,
+        pulled_back: (L, L),
+    ) -> BlockStress<L> {
+        let Self { blocks, law, step, fields, internal } = self;
+        let (slots, n_terms) = (blocks.slots(place), law.weights().len());
+        let after = (Shape::of(&deformation.h), pulled_back);
+        if let Some(step) = step {
+            let (whole, amplitude) = internal_variables::load_term(fields, n_terms, slots);
+            let before = (Shape::of_remembered(&whole), amplitude);
+            for term in 0..n_terms {
+                let (strain, amplitude) = internal_variables::load_term(fields, term, slots);
+                let (strain, metric, amplitude) =
+                    step.advance_term(term, &before, &after, strain, amplitude);
+                internal_variables::store_term(fields, term, slots, &strain, amplitude);
+                (internal.metrics[term], internal.amplitudes[term]) = (metric, amplitude);
             }
-            past::store_term(of_elements, n_terms, slots, &after.0.remembered(), after.1);
-            let (conjugate, volume_change) =
-                strain.conjugate_of(&deformed, after.1, block, law, &past);
-            volumes.observe(volume_change, strain.h.tt);
-            // SAFETY: as above.
-            unsafe { conjugate.scatter_subtract(block, forces) };
+        } else {
+            internal.load(n_terms, fields, slots);
         }
-        if !volumes.are_sound() {
-            forces[blocks.nodes()].fill([f64::NAN; 2]);
-        }
+        let (whole, amplitude) = (after.0.remembered(), after.1);
+        internal_variables::store_term(fields, n_terms, slots, &whole, amplitude);
+        internal.stress(*law, &deformation.h, pulled_back)
     }
 }
 
 impl Step {
-    /// What a term remembers after a step between two shapes and amplitudes in the undeformed element, and
-    /// what stress asks of it.
+    /// Returns the internal variables of a term after a step between two shapes and pulled-back amplitudes, and its metric,
+    /// from which the stress follows.
     #[inline(always)]
     fn advance_term<L: Lanes<WIDE>>(
         &self,

@@ -1,24 +1,24 @@
-//! Whether the law of an element still bears every wave: [`least_acoustic_stiffness`] of what its elastic and its
-//! relaxing branches answer to a strain in no time.
+//! Material stability: whether the law of an element still bears every wave, by the [`least_acoustic_stiffness`] of its
+//! instantaneous tangent, elastic and relaxing branches together.
 
 use fem_material::finite::{AxisymmetricTensor, Inverted, least_acoustic_stiffness};
 
-use super::super::port::Unstable;
-use super::Response;
+use super::super::port::UnstableElement;
+use super::ElementResponse;
 use super::block::Blocks;
 use crate::part::{Field, NodalField};
 
-/// Difference of a strain: the stress is known to 1e-16, and its slope changes over a strain of 1.
+/// Difference of a strain: the stress has a relative rounding error of 1e-16, and its slope changes over a strain of 1.
 const STRAIN_STEP: f64 = 1e-6;
 
-/// The element with the least stiffness against a wave, if that is not positive. An element without volume has no
-/// stiffness, and is told of elsewhere.
-pub(super) fn unstable_element<R: Response>(
+/// Returns the element with the least stiffness against a wave, if that is not positive. Collapsed elements are left out;
+/// they are reported elsewhere.
+pub(super) fn unstable_element<R: ElementResponse>(
     blocks: &Blocks,
     response: &R,
     u: &Field,
     history: &[NodalField],
-) -> Option<Unstable> {
+) -> Option<UnstableElement> {
     let mut least = (0.0, None);
     for element in 0..blocks.n_elements() {
         let h = blocks.gradient(element, u);
@@ -42,10 +42,10 @@ pub(super) fn unstable_element<R: Response>(
     }
     let (element, h) = least.1?;
     let (stretches, law) = (h.principal_stretches(), response.law_name().name());
-    Some(Unstable { element, stretches, law })
+    Some(UnstableElement { element, stretches, law })
 }
 
-/// Slopes of a stress of the components rr, ry, yr, yy.
+/// Returns the slopes of a stress with the components rr, ry, yr, yy.
 fn tangent(
     h: &AxisymmetricTensor,
     stress: impl Fn(&AxisymmetricTensor) -> Result<[f64; 4], Inverted>,

@@ -4,14 +4,15 @@ use fem_material::finite::{AxisymmetricTensor, Number};
 use fem_material::{ActsOn, ElasticModuli, PronySeries, PronyTerm};
 use fem_mesh::Side;
 
-use super::super::lanes::{Lanes, Plain, WIDE};
-use super::super::of_material;
+use super::super::small_strain;
 use super::block::Block;
-use super::kernel::{Conjugate, Strain};
+use super::elastic::Forces;
+use super::internal_variables::InternalVariables;
+use super::kernel::{Conjugate, Deformation};
 use super::law::ElasticLaw;
 use super::law::Law;
-use super::past::Past;
 use super::*;
+use crate::lanes::{LaneKernel, Lanes, Plain, WIDE};
 use crate::test_support::{geometries, ragged, sphere, unit_glass, unit_sphere, vector};
 
 /// ν = 0.495 with the shear modulus of the unit glass.
@@ -35,8 +36,12 @@ fn every(mesh: &SphereMesh) -> Blocks {
     Blocks::pack(mesh, &geometries(mesh), &leading(mesh.quads().len()))
 }
 
-fn stress(mesh: &SphereMesh, material: &Material, law: HyperelasticLaw) -> Box<dyn Stress> {
-    finite_strain(mesh, &geometries(mesh), material, law)
+fn stress(
+    mesh: &SphereMesh,
+    material: &Material,
+    law: HyperelasticLaw,
+) -> Box<dyn FiniteStrainStress> {
+    finite_strain(mesh, &geometries(mesh), &leading(mesh.quads().len()), material, law)
 }
 
 fn motion(displacement: &Field) -> Motion<'_> {
@@ -179,19 +184,19 @@ const Q: [f64; 2] = [0.2, -0.3];
 /// What a deformed and an hourglassed quad gives: stress (rr, ry, yr, yy, tt) and amplitude forces.
 fn conjugate_with(
     law: &impl Law,
-    past: &Past<Plain<WIDE>>,
+    internal: &InternalVariables<Plain<WIDE>>,
     [rr, ry, yr, yy, tt]: [f64; 5],
     q: [f64; 2],
 ) -> ([f64; 5], [f64; 2]) {
     let h = tensor([rr - 1.0, ry, yr, yy - 1.0, tt - 1.0]);
-    let strain = Strain { h, q: (Plain::<WIDE>::splat(q[0]), Plain::<WIDE>::splat(q[1])) };
-    let (Conjugate { stress, q }, _) = strain.conjugate(&far_quad(), law, past);
+    let strain = Deformation { h, q: (Plain::<WIDE>::splat(q[0]), Plain::<WIDE>::splat(q[1])) };
+    let Conjugate { stress, q } = strain.conjugate(&far_quad(), law, internal);
     let stress = first([stress.rr, stress.ry, stress.yr, stress.yy, stress.tt]);
     (stress, [q.0.to_array()[0], q.1.to_array()[0]])
 }
 
 fn conjugate(law: &impl Law, f: [f64; 5], q: [f64; 2]) -> ([f64; 5], [f64; 2]) {
-    conjugate_with(law, &Past::none(), f, q)
+    conjugate_with(law, &InternalVariables::none(), f, q)
 }
 
 fn turn([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
@@ -231,7 +236,7 @@ fn a_rotation_turns_stress_and_hourglass_forces() {
 fn small_strain_is_the_limit() {
     let mesh = mesh();
     for material in [unit_glass(), nearly_incompressible()] {
-        let small = of_material(&mesh, &geometries(&mesh), &material);
+        let small = small_strain(mesh.nodes().len(), mesh.quads(), &geometries(&mesh), &material);
         let shape = ragged(&mesh, 4);
         for law in HyperelasticLaw::ALL {
             let finite = stress(&mesh, &material, law);
@@ -346,15 +351,15 @@ fn the_element_that_has_lost_its_stability_is_named() {
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn lanes_of_every_kind_give_the_same_bits() {
-    use super::super::lanes::{Avx2, Avx512, Twice};
+    use crate::lanes::{Avx2, Avx512, TwoRegisters};
     #[target_feature(enable = "avx2,fma")]
     fn avx2(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
-        Elements { blocks, law, history: &[] }.subtract::<Twice<Avx2>>(u, f);
-        kernel::sum_energy::<Twice<Avx2>, _>(blocks, law, u)
+        Forces { blocks, law, u }.on::<TwoRegisters<Avx2>>(&mut (f, true));
+        kernel::sum_energy::<TwoRegisters<Avx2>, _>(blocks, law, u)
     }
     #[target_feature(enable = "avx512f")]
     fn avx512(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
-        Elements { blocks, law, history: &[] }.subtract::<Avx512>(u, f);
+        Forces { blocks, law, u }.on::<Avx512>(&mut (f, true));
         kernel::sum_energy::<Avx512, _>(blocks, law, u)
     }
     let mesh = mesh();
@@ -365,10 +370,10 @@ fn lanes_of_every_kind_give_the_same_bits() {
         let law = Hyperelastic::new(law, unit_glass().instantaneous());
         let none = vec![[0.0; 2]; u.len()];
         let mut plain = none.clone();
-        Elements { blocks: &blocks, law: &law, history: &[] }
-            .subtract::<Plain<WIDE>>(&u, &mut plain);
+        let forces = Forces { blocks: &blocks, law: &law, u: &u };
+        forces.on::<Plain<WIDE>>(&mut (&mut plain, true));
         let energy = kernel::sum_energy::<Plain<WIDE>, _>(&blocks, &law, &u);
-        if crate::stress::lanes::has_avx2() {
+        if crate::lanes::has_avx2() {
             let mut f = none.clone();
             // SAFETY: the processor has been asked.
             let other = unsafe { avx2(&blocks, &law, &u, &mut f) };
@@ -406,10 +411,10 @@ fn the_strain_rate_is_that_of_the_fastest_element() {
         let found = stress.strain_rate(&motion);
         assert!((found / rate - 1.0).abs() < 1e-12, "{strain:?}: {found}");
         let mut room = vec![0.5; still.len()];
-        let urgency = stress.urgency(&motion, &room);
+        let urgency = stress.allowance_rate(&motion, &room);
         assert!((urgency / rate - 2.0).abs() < 1e-12, "{strain:?}: {urgency}");
         room[mesh.quads()[3][2] as usize] = 0.05;
-        let urgency = stress.urgency(&motion, &room);
+        let urgency = stress.allowance_rate(&motion, &room);
         assert!((urgency / rate - 20.0).abs() < 1e-9, "{strain:?}: {urgency}");
     }
     let mut velocity = still.clone();

@@ -11,8 +11,8 @@ fn meshes() -> [SphereMesh; 3] {
     [4.0, 8.0, 30.0].map(|n| unit_sphere(n, if n < 8.0 { Side::Above } else { Side::Below }))
 }
 
-fn pack(mesh: &SphereMesh) -> Elements {
-    Elements::pack(mesh.nodes().len(), mesh.quads(), &geometries(mesh))
+fn pack(mesh: &SphereMesh) -> PackedElements {
+    PackedElements::pack(mesh.nodes().len(), mesh.quads(), &geometries(mesh))
 }
 
 /// Largest difference over the largest number.
@@ -84,8 +84,8 @@ fn internal_forces_balance() {
 type Computed = (NodalField, NodalField, [f64; 2]);
 
 /// On lanes of four and on lanes of rows.
-fn on<L: Lanes, R: RowLanes>(elements: &Elements, u: &Field, w: &Field) -> Computed {
-    let (Elements { rows, others }, moduli) = (elements, moduli(&unit_glass()));
+fn on<L: Lanes, R: RowLanes>(elements: &PackedElements, u: &Field, w: &Field) -> Computed {
+    let (PackedElements { rows, others }, moduli) = (elements, moduli(&unit_glass()));
     let (mut f, mut split) = (vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]);
     let mut energy = [0.0; 2];
     let one = |field| (moduli, field, field);
@@ -115,13 +115,13 @@ fn on<L: Lanes, R: RowLanes>(elements: &Elements, u: &Field, w: &Field) -> Compu
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn all_lanes_give_the_same_bits() {
-    use super::super::lanes::{Avx2, Avx512, Plain, Twice, has_avx2, has_avx512};
+    use crate::lanes::{Avx2, Avx512, Plain, TwoRegisters, has_avx2, has_avx512};
     #[target_feature(enable = "avx2,fma")]
-    fn on_avx2(elements: &Elements, u: &Field, w: &Field) -> Computed {
-        on::<Avx2, Twice<Avx2>>(elements, u, w)
+    fn on_avx2(elements: &PackedElements, u: &Field, w: &Field) -> Computed {
+        on::<Avx2, TwoRegisters<Avx2>>(elements, u, w)
     }
     #[target_feature(enable = "avx512f")]
-    fn on_avx512(elements: &Elements, u: &Field, w: &Field) -> Computed {
+    fn on_avx512(elements: &PackedElements, u: &Field, w: &Field) -> Computed {
         on::<Avx2, Avx512>(elements, u, w)
     }
     for mesh in meshes() {

@@ -5,11 +5,11 @@ use fem_material::{ActsOn, RelaxationStep};
 
 use super::super::block::{load_three, place};
 use super::super::hourglass::Deformed;
-use super::super::law::{Law, Relaxing};
-use super::super::past::FIELDS_A_TERM;
+use super::super::internal_variables::FIELDS_PER_TERM;
+use super::super::law::{Law, RelaxingLaw};
 use super::super::relaxing::Step;
 use super::*;
-use crate::stress::lanes::LaneKernel;
+use crate::lanes::LaneKernel;
 use crate::test_support::relaxing_glass;
 
 const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
@@ -73,7 +73,8 @@ fn small_strain_relaxation_is_the_limit() {
         let material = relaxing_glass(&TERMS, acts_on);
         for law in HyperelasticLaw::ALL {
             let error = |scale: f64| {
-                let small = of_material(&mesh, &geometries(&mesh), &material);
+                let small =
+                    small_strain(mesh.nodes().len(), mesh.quads(), &geometries(&mesh), &material);
                 let mut small = March::new(small, &mesh, PATH[0].0);
                 let mut finite = March::new(stress(&mesh, &material, law), &mesh, PATH[0].0);
                 for (time_step, share) in PATH {
@@ -169,8 +170,9 @@ fn a_rotation_turns_what_has_relaxed() {
     let series = series_of.relaxation().unwrap();
     for law in HyperelasticLaw::ALL {
         let solid = Hyperelastic::new(law, series_of.instantaneous());
-        let law = Relaxing::of(&Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
-        let mut past = Past::none();
+        let law =
+            RelaxingLaw::of(&Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
+        let mut past = InternalVariables::none();
         let splat = Plain::<WIDE>::splat;
         let strain = |rr, yy, ry, volume| ViscousStrain {
             rr: splat(rr),
@@ -213,13 +215,13 @@ fn a_held_amplitude_relaxes_exactly() {
             let all = blocks.checked(&[u.len()]);
             let block = &all[place(element, all.len()).0];
             // SAFETY: the field has been checked.
-            let strain = unsafe { Strain::<Plain<WIDE>>::gather(block, &u) };
+            let strain = unsafe { Deformation::<Plain<WIDE>>::gather(block, &u) };
             let unit = Plain::<WIDE>::splat(1.0);
             let measures = load_three(&block.measures);
-            let own = Deformed::of(&strain.h, unit, measures).pull(strain.q);
+            let own = Deformed::of(&strain.h, unit, measures).pull_back(strain.q);
             let own = (own.0.to_array()[lane], own.1.to_array()[lane]);
-            let flown = slots.pair(lane, &march.history[FIELDS_A_TERM * term + 2]);
-            let before = slots.pair(lane, &at_once[FIELDS_A_TERM * term + 2]);
+            let flown = slots.pair(lane, &march.history[FIELDS_PER_TERM * term + 2]);
+            let before = slots.pair(lane, &at_once[FIELDS_PER_TERM * term + 2]);
             let error = (own.0 - flown[0]) - decay * (own.0 - before[0]);
             // Rounding of amplitudes of a hundredth.
             assert!(error.abs() < 1e-15, "{error:e}");
@@ -232,11 +234,11 @@ fn a_held_amplitude_relaxes_exactly() {
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn lanes_of_every_kind_relax_to_the_same_bits() {
-    use super::super::super::lanes::{Avx2, Avx512, Twice};
     use super::super::relaxing::{Advance, Advanced};
+    use crate::lanes::{Avx2, Avx512, TwoRegisters};
     #[target_feature(enable = "avx2,fma")]
     fn avx2<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
-        advance.on::<Twice<Avx2>>(output);
+        advance.on::<TwoRegisters<Avx2>>(output);
     }
     #[target_feature(enable = "avx512f")]
     fn avx512<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
@@ -255,24 +257,27 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
         let solid = Hyperelastic::new(law, material.instantaneous());
         let viscoelastic = Viscoelastic::new(&solid, series);
         let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
-        let law = Relaxing::of(&viscoelastic, solid.shear_modulus(), series);
+        let law = RelaxingLaw::of(&viscoelastic, solid.shear_modulus(), series);
         let advance = Advance { blocks: &blocks, law: &law, step: Some(&step), u: &u };
         let start = || (of_elements.clone(), vec![[0.0; 2]; u.len()]);
         let [mut plain, mut two, mut one] = [start(), start(), start()];
-        advance
-            .on::<Plain<WIDE>>(&mut Advanced { of_elements: &mut plain.0, forces: &mut plain.1 });
+        advance.on::<Plain<WIDE>>(&mut Advanced {
+            internal: &mut plain.0,
+            forces: &mut plain.1,
+            is_valid: true,
+        });
         assert!(vector(&plain.1).amax() > 1e-3);
         let all_bits = |(history, forces): &(Vec<Vec<_>>, Vec<_>)| {
             history.iter().chain([forces]).map(|field| bits(field)).collect::<Vec<_>>()
         };
-        if crate::stress::lanes::has_avx2() {
-            let mut output = Advanced { of_elements: &mut two.0, forces: &mut two.1 };
+        if crate::lanes::has_avx2() {
+            let mut output = Advanced { internal: &mut two.0, forces: &mut two.1, is_valid: true };
             // SAFETY: the processor has been asked.
             unsafe { avx2(advance, &mut output) };
             assert!(all_bits(&plain) == all_bits(&two), "{law:?}");
         }
         if std::arch::is_x86_feature_detected!("avx512f") {
-            let mut output = Advanced { of_elements: &mut one.0, forces: &mut one.1 };
+            let mut output = Advanced { internal: &mut one.0, forces: &mut one.1, is_valid: true };
             // SAFETY: as above.
             unsafe { avx512(advance, &mut output) };
             assert!(all_bits(&plain) == all_bits(&one), "{law:?}");
@@ -283,7 +288,7 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
 /// A single term has a loop of its own, which is that of many.
 #[test]
 fn one_term_relaxes_to_the_bits_of_many() {
-    use super::super::past::MOST_FINITE_STRAIN_TERMS;
+    use super::super::internal_variables::MOST_FINITE_STRAIN_TERMS;
     use super::super::relaxing::{Advance, Advanced};
     let mesh = mesh();
     let material = relaxing_glass(&TERMS[..1], ActsOn::All);
@@ -299,18 +304,20 @@ fn one_term_relaxes_to_the_bits_of_many() {
         let solid = Hyperelastic::new(law, material.instantaneous());
         let viscoelastic = Viscoelastic::new(&solid, series);
         let step = Step::of(&viscoelastic, &[TERMS[0].1], 0.3);
-        let law = Relaxing::of(&viscoelastic, solid.shear_modulus(), series);
+        let law = RelaxingLaw::of(&viscoelastic, solid.shear_modulus(), series);
         for step in [None, Some(&step)] {
             let advance = Advance { blocks: &blocks, law: &law, step, u: &u };
             let start = || (past.clone(), vec![[0.0; 2]; u.len()]);
             let [mut one, mut many] = [start(), start()];
             advance.of_terms::<Plain<WIDE>, 1>(&mut Advanced {
-                of_elements: &mut one.0,
+                internal: &mut one.0,
                 forces: &mut one.1,
+                is_valid: true,
             });
             advance.of_terms::<Plain<WIDE>, MOST_FINITE_STRAIN_TERMS>(&mut Advanced {
-                of_elements: &mut many.0,
+                internal: &mut many.0,
                 forces: &mut many.1,
+                is_valid: true,
             });
             assert!(vector(&one.1).amax() > 1e-3);
             assert!(bits(&one) == bits(&many), "{law:?}");

@@ -1,0 +1,266 @@
+//! Several elements at once: eight where they lie in rows ([`RowLanes`]) and at finite strain, whose long
+//! chains of operations would leave four waiting for themselves; else four.
+//!
+//! The element kernels are written once over [`Lanes`] and compiled for plain
+//! arrays, for AVX2 with FMA and, where they take eight, for AVX-512, which is chosen at run time. Where a
+//! kernel asks for a product and a sum at once (those of eight do, those of four gain nothing by it) all
+//! lanes round once, so all give the same bits. Plain arrays do so by the library on a processor without
+//! that instruction, slowly; in WebAssembly, which has none, they round twice: there finite strain
+//! agrees to rounding, not in bits.
+
+use std::ops::{Add, Div, Mul, Sub};
+
+use fem_material::finite::{Number, inverse_cube_root_estimate, power_of_two};
+
+/// Elements that one pass of a kernel treats together.
+pub(crate) const LANES: usize = 4;
+
+/// The same of a kernel of finite strain.
+pub(crate) const WIDE: usize = 8;
+
+/// One number of each of several elements.
+pub(crate) trait Lanes<const N: usize = LANES>: Number {
+    /// The larger of both, lane by lane; `other` where one is no number.
+    fn max(self, other: Self) -> Self;
+
+    /// The smaller of both, lane by lane; `other` where one is no number.
+    fn min(self, other: Self) -> Self;
+
+    /// The numbers of an array.
+    fn load(values: &[f64; N]) -> Self;
+
+    /// The numbers as an array.
+    fn to_array(self) -> [f64; N];
+
+    /// The pairs (r, y) of some nodes, all r and all y.
+    ///
+    /// # Safety
+    /// Every node is an index of `field`.
+    unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; N]) -> (Self, Self);
+
+    /// Subtracts (r, y) from the pairs of some nodes, lane by lane.
+    ///
+    /// # Safety
+    /// Every node is an index of `field`.
+    unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; N]);
+}
+
+/// A loop over elements that is written once for lanes of any kind.
+pub(crate) trait LaneKernel<const N: usize = LANES> {
+    /// What the loop writes to.
+    type Output: ?Sized;
+
+    /// The loop. It and all that it calls must be `#[inline(always)]`, so that it is compiled for
+    /// the instruction set of its lanes. The output is a parameter of its own, which tells the
+    /// compiler that nothing of the kernel points there: as a field of the kernel it cost a tenth
+    /// of the time.
+    fn on<L: Lanes<N>>(self, output: &mut Self::Output);
+}
+
+/// Runs a kernel on the widest lanes that the processor has.
+pub(crate) fn run_lanes<K: LaneKernel>(kernel: K, output: &mut K::Output) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2,fma")]
+        fn on_avx2<K: LaneKernel>(kernel: K, output: &mut K::Output) {
+            kernel.on::<Avx2>(output);
+        }
+        if has_avx2() {
+            // SAFETY: the processor has been asked.
+            return unsafe { on_avx2(kernel, output) };
+        }
+    }
+    kernel.on::<Plain>(output);
+}
+
+/// A loop over rows of elements, written once for lanes of any kind; as [`LaneKernel`] is.
+pub(crate) trait RowKernel {
+    /// What the loop writes to.
+    type Output: ?Sized;
+
+    /// The loop.
+    fn on<L: RowLanes>(self, output: &mut Self::Output);
+}
+
+/// A kernel of eight elements that lie anywhere.
+struct Anywhere<K>(K);
+
+impl<K: LaneKernel<WIDE>> RowKernel for Anywhere<K> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn on<L: RowLanes>(self, output: &mut K::Output) {
+        self.0.on::<L>(output);
+    }
+}
+
+/// Runs a kernel of finite strain on the widest lanes that the processor has.
+pub(crate) fn run_wide_lanes<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Output) {
+    run_row_lanes(Anywhere(kernel), output);
+}
+
+/// Runs a kernel of rows on the widest lanes that the processor has.
+pub(crate) fn run_row_lanes<K: RowKernel>(kernel: K, output: &mut K::Output) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx512f")]
+        fn on_avx512<K: RowKernel>(kernel: K, output: &mut K::Output) {
+            kernel.on::<Avx512>(output);
+        }
+        #[target_feature(enable = "avx2,fma")]
+        fn on_avx2<K: RowKernel>(kernel: K, output: &mut K::Output) {
+            kernel.on::<TwoRegisters<Avx2>>(output);
+        }
+        if has_avx512() {
+            // SAFETY: the processor has been asked.
+            return unsafe { on_avx512(kernel, output) };
+        }
+        if has_avx2() {
+            // SAFETY: the processor has been asked.
+            return unsafe { on_avx2(kernel, output) };
+        }
+    }
+    kernel.on::<Plain<WIDE>>(output);
+}
+
+/// Whether the processor has [`Avx512`]'s instructions.
+#[cfg(target_arch = "x86_64")]
+pub(crate) fn has_avx512() -> bool {
+    std::arch::is_x86_feature_detected!("avx512f")
+}
+
+/// Whether the processor has [`Avx2`]'s instructions.
+#[cfg(target_arch = "x86_64")]
+pub(crate) fn has_avx2() -> bool {
+    std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+}
+
+/// Lanes as an array, for any machine.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plain<const N: usize = LANES>([f64; N]);
+
+/// x y + z, rounded once but in WebAssembly.
+#[inline(always)]
+#[allow(clippy::disallowed_methods, reason = "lanes fuse, and these are to have their bits")]
+fn fused(x: f64, y: f64, z: f64) -> f64 {
+    if cfg!(target_family = "wasm") { x * y + z } else { x.mul_add(y, z) }
+}
+
+macro_rules! plain_operator {
+    ($operator:ident, $method:ident) => {
+        impl<const N: usize> $operator for Plain<N> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(std::array::from_fn(|lane| self.0[lane].$method(other.0[lane])))
+            }
+        }
+    };
+}
+
+plain_operator!(Add, add);
+plain_operator!(Sub, sub);
+plain_operator!(Mul, mul);
+plain_operator!(Div, div);
+
+impl<const N: usize> Number for Plain<N> {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; N])
+    }
+
+    #[inline(always)]
+    fn plus_product(self, x: Self, y: Self) -> Self {
+        Self(std::array::from_fn(|lane| fused(x.0[lane], y.0[lane], self.0[lane])))
+    }
+
+    #[inline(always)]
+    fn minus_product(self, x: Self, y: Self) -> Self {
+        Self(std::array::from_fn(|lane| fused(-x.0[lane], y.0[lane], self.0[lane])))
+    }
+
+    #[inline(always)]
+    fn inverse_cube_root_estimate(self) -> Self {
+        Self(self.0.map(inverse_cube_root_estimate))
+    }
+
+    #[inline(always)]
+    fn power_of_two(self) -> (Self, Self) {
+        let both = self.0.map(power_of_two);
+        (Self(both.map(|(power, _)| power)), Self(both.map(|(_, inverse)| inverse)))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    fn all_within(self, bound: f64) -> bool {
+        self.0.iter().all(|x| x.all_within(bound))
+    }
+
+    #[inline(always)]
+    fn choose_within(self, bound: f64, inside: Self, outside: Self) -> Self {
+        let choose =
+            |lane: usize| self.0[lane].choose_within(bound, inside.0[lane], outside.0[lane]);
+        Self(std::array::from_fn(choose))
+    }
+}
+
+impl<const N: usize> Lanes<N> for Plain<N> {
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        let larger =
+            |lane: usize| if self.0[lane] > other.0[lane] { self.0[lane] } else { other.0[lane] };
+        Self(std::array::from_fn(larger))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        let smaller =
+            |lane: usize| if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] };
+        Self(std::array::from_fn(smaller))
+    }
+
+    #[inline(always)]
+    fn load(values: &[f64; N]) -> Self {
+        Self(*values)
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f64; N] {
+        self.0
+    }
+
+    #[inline(always)]
+    unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; N]) -> (Self, Self) {
+        // SAFETY: the caller's promise.
+        let pairs = nodes.map(|node| unsafe { *field.get_unchecked(node as usize) });
+        (Self(pairs.map(|pair| pair[0])), Self(pairs.map(|pair| pair[1])))
+    }
+
+    #[inline(always)]
+    unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; N]) {
+        for lane in 0..N {
+            // SAFETY: the caller's promise.
+            let pair = unsafe { field.get_unchecked_mut(nodes[lane] as usize) };
+            pair[0] -= self.0[lane];
+            pair[1] -= y.0[lane];
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod rows;
+#[cfg(target_arch = "x86_64")]
+mod two_registers;
+
+pub(crate) use rows::{ROW_PLACES, RowLanes};
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use {avx2::Avx2, avx512::Avx512, two_registers::TwoRegisters};

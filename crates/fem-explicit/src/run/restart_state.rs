@@ -1,0 +1,134 @@
+//! The restart state of a run: all that its continuation depends on beside its model.
+
+use fem_collision::{Approach, Ending, Expectation, History, OutputRequest, Snapshot};
+use serde::{Deserialize, Serialize};
+
+use super::contact_log::ContactLog;
+use super::material_stability::MaterialStability;
+use super::sampled_history::SampledHistory;
+use crate::energy::Ledger;
+use crate::model::{Model, fingerprint};
+use crate::snapshots::{LastValidState, Recorder, probes_fit};
+use crate::state::State;
+
+/// The state of a run between two steps, for a restart. A run that is resumed from it gives the same bits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RestartState {
+    pub(crate) state: State,
+    pub(crate) log: ContactLog,
+    pub(crate) ledger: Ledger,
+    pub(crate) sampled: SampledHistory,
+    /// Present if rows are requested.
+    pub(crate) history: Option<History>,
+    pub(crate) recorder: Recorder,
+    /// Samples of the probes so far.
+    pub(crate) probes: Vec<Snapshot>,
+    /// Empty once the run has come to its end.
+    pub(crate) last_valid: LastValidState,
+    pub(crate) stability: MaterialStability,
+    /// Present once the run has ended.
+    pub(crate) ending: Option<Ending>,
+    /// Estimates by closed forms.
+    pub(crate) expected: Expectation,
+    /// Output that was requested.
+    want: Want,
+    /// Approach of the model.
+    approach: Approach,
+    /// Fingerprint of the model, see [`fingerprint`].
+    fingerprint: u64,
+    /// Radius of the candidate region of the model, m.
+    candidate_radius: f64,
+}
+
+impl RestartState {
+    /// Returns the state at first touch.
+    pub(crate) fn new(model: &Model, expected: Expectation, want: &Want) -> Self {
+        let expected_steps = expected.contact_time / model.time_step();
+        let state = State::at_first_touch(model);
+        Self {
+            log: ContactLog::new(model, &state),
+            ledger: Ledger::new(model, &state),
+            state,
+            sampled: SampledHistory::new(model, expected_steps),
+            history: (want.history_rows > 0)
+                .then(|| History::new(want.history_rows, expected_steps)),
+            recorder: Recorder::new(&want.snapshots, model, expected),
+            probes: Vec::new(),
+            last_valid: LastValidState::new(want),
+            stability: MaterialStability::default(),
+            ending: None,
+            expected,
+            want: want.clone(),
+            approach: *model.approach(),
+            fingerprint: fingerprint(model),
+            candidate_radius: model.candidate_radius(),
+        }
+    }
+
+    /// Returns the number of steps taken.
+    pub fn step(&self) -> u64 {
+        self.state.step
+    }
+
+    /// Returns the time since the start of the case, s.
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Returns how the bodies met; those of a model that resumes must meet alike.
+    pub fn approach(&self) -> &Approach {
+        &self.approach
+    }
+
+    /// Returns the radius of the candidate region, m; a model that resumes must have the same.
+    pub fn candidate_radius(&self) -> f64 {
+        self.candidate_radius
+    }
+
+    /// Returns the output that was requested when the run began.
+    pub fn want(&self) -> &Want {
+        &self.want
+    }
+
+    /// Returns the estimates by closed forms from when the run began.
+    pub fn expected(&self) -> Expectation {
+        self.expected
+    }
+
+    /// Returns how the run has ended; `None` while it is under way.
+    pub fn ending(&self) -> Option<&Ending> {
+        self.ending.as_ref()
+    }
+
+    /// Returns the time after first touch at which the run gives up, s.
+    pub(crate) fn max_time(&self) -> f64 {
+        self.want.give_up_after * self.expected.contact_time
+    }
+
+    /// Whether it can belong to a run of a model: approach, candidate region, fingerprint and sizes of all fields agree, and
+    /// its parts do not contradict each other. Computed numbers are not computed again: a wrong one is found only where it
+    /// contradicts another.
+    pub(crate) fn fits(&self, model: &Model) -> bool {
+        let Self { state, .. } = self;
+        let history_fits = |history: &History| {
+            history.is_sound() && history.rows().last().is_none_or(|row| row.time <= state.time)
+        };
+        self.approach == *model.approach()
+            && self.fingerprint == fingerprint(model)
+            && self.candidate_radius.to_bits() == model.candidate_radius().to_bits()
+            && !self.max_time().is_nan()
+            && state.fits(model)
+            && self.log.fits(state)
+            && self.ledger.fits(model, state)
+            && self.sampled.fits(model, state)
+            && self.history.is_some() == (self.want.history_rows > 0)
+            && self.history.as_ref().is_none_or(history_fits)
+            && self.recorder.fits(model, &self.want.snapshots)
+            && probes_fit(&self.probes, &self.want, state.time)
+            && self.last_valid.fits(model, state, &self.want)
+            && self.stability.fits(model, state)
+    }
+}
+
+#[cfg(test)]
+mod tests;

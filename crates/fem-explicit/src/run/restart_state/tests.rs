@@ -1,0 +1,176 @@
+//! Memories that no run has left: refused, or a run without panic.
+
+use fem_collision::{BodyInput, SnapshotInstant, SnapshotRequest};
+use fem_material::ActsOn;
+use fem_mesh::Side;
+use serde_json::Value;
+
+use super::*;
+use crate::error::ModelError;
+use crate::run::Run;
+use crate::test_support::{relaxing_glass, settings, sphere, unit_glass};
+
+const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
+
+/// An elastic unit sphere below one that relaxes, at a hundredth of the wave's speed.
+fn model() -> Model {
+    let glasses = [unit_glass(), relaxing_glass(&[(0.5, 10.0)], ActsOn::Shear)];
+    let mut glasses = glasses.into_iter();
+    let bodies = [Side::Below, Side::Above].map(|side| BodyInput::Sphere {
+        mesh: sphere(0.1, 0.15, side),
+        material: glasses.next().unwrap(),
+    });
+    Model::new(bodies, Approach::at(0.01).unwrap(), &settings()).unwrap()
+}
+
+fn requests() -> [SnapshotRequest; 3] {
+    let labels = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    [labels, SnapshotRequest::Count(3), SnapshotRequest::Times(vec![0.5, 3.0, 1e3])]
+}
+
+fn want(snapshots: SnapshotRequest) -> OutputRequest {
+    OutputRequest { history_rows: 20, snapshots, give_up_after: 5.0, ..OutputRequest::history() }
+}
+
+/// After so many steps, or at the end of the run.
+fn memory(model: &Model, snapshots: SnapshotRequest, n_steps: u64) -> RestartState {
+    let mut run = Run::new(model, EXPECTED, &want(snapshots));
+    run.advance(n_steps);
+    run.restart_state().clone()
+}
+
+/// Calls with the place of every value, of long lists with those of the first and the last.
+fn visit(value: &Value, place: &str, look: &mut dyn FnMut(&str, &Value)) {
+    look(place, value);
+    match value {
+        Value::Array(list) => {
+            for (k, one) in list.iter().enumerate() {
+                if k == 0 || k + 1 == list.len() {
+                    visit(one, &format!("{place}/{k}"), look);
+                }
+            }
+        }
+        Value::Object(fields) => {
+            fields.iter().for_each(|(key, one)| visit(one, &format!("{place}/{key}"), look));
+        }
+        _ => {}
+    }
+}
+
+/// What a value could be damaged to.
+fn damages(value: &Value) -> Vec<Value> {
+    match value {
+        Value::Array(list) => {
+            let without_last = &list[..list.len().saturating_sub(1)];
+            let twice: Vec<_> = list.iter().chain(list).cloned().collect();
+            vec![Value::Array(Vec::new()), without_last.into(), twice.into()]
+        }
+        Value::Number(number) if number.is_f64() => {
+            vec![0.0.into(), (-1.0).into(), 1e300.into()]
+        }
+        Value::Number(_) => vec![0.into(), 1.into(), u64::MAX.into(), (u64::MAX / 2).into()],
+        Value::Bool(is) => vec![Value::Bool(!is)],
+        Value::Null => vec![],
+        Value::String(_) | Value::Object(_) => vec![Value::Null],
+    }
+}
+
+/// Every array truncated, emptied or doubled, every number another, one by one.
+#[test]
+fn a_damaged_memory_is_refused_or_runs() {
+    let model = model();
+    let n_end = memory(&model, SnapshotRequest::none(), u64::MAX).step();
+    let (mut n_refused, mut n_run) = (0, 0);
+    for snapshots in requests() {
+        for n_steps in [0, n_end / 2, u64::MAX] {
+            let whole = serde_json::to_value(memory(&model, snapshots.clone(), n_steps)).unwrap();
+            let mut damaged = Vec::new();
+            visit(&whole, "", &mut |place, value| {
+                damaged.extend(damages(value).into_iter().map(|other| (place.to_string(), other)));
+            });
+            for (place, other) in damaged {
+                let mut memory = whole.clone();
+                *memory.pointer_mut(&place).unwrap() = other;
+                let Ok(memory) = serde_json::from_value(memory) else { continue };
+                match Run::resume(&model, memory) {
+                    Err(refused) => {
+                        assert_eq!(refused, ModelError::ForeignRestartState);
+                        n_refused += 1;
+                    }
+                    Ok(mut run) => {
+                        run.advance(20);
+                        run.finish();
+                        n_run += 1;
+                    }
+                }
+            }
+        }
+    }
+    // Both happen, many times; whoever breaks the walk over the memory sees it here.
+    assert!(n_refused > 100 && n_run > 100, "{n_refused} {n_run}");
+}
+
+/// Told twice, or following from the model: one that says otherwise is seen.
+#[test]
+fn parts_that_contradict_each_other_are_refused() {
+    let model = model();
+    let whole = memory(&model, SnapshotRequest::Times(vec![3.0, 0.5]), 100);
+    assert!(whole.fits(&model));
+    let mut text = serde_json::to_value(&whole).unwrap();
+    for (place, other) in [
+        ("/observed/standstill/speed", 0.02.into()),
+        ("/observed/standstill/reduced_mass", 1.0.into()),
+        ("/want/history_rows", 0.into()),
+        ("/want/snapshots/Times/0", 0.25.into()),
+        ("/recorder/request/Times/0", 0.25.into()),
+    ] {
+        let before = std::mem::replace(text.pointer_mut(place).unwrap(), other);
+        let memory: RestartState = serde_json::from_value(text.clone()).unwrap();
+        assert!(!memory.fits(&model), "{place}");
+        *text.pointer_mut(place).unwrap() = before;
+    }
+    assert!(serde_json::from_value::<RestartState>(text).unwrap().fits(&model));
+}
+
+/// What JSON cannot say.
+#[test]
+fn a_time_that_is_no_number_is_refused() {
+    let model = model();
+    let whole = memory(&model, SnapshotRequest::Count(3), 100);
+    assert!(whole.fits(&model));
+    type Damage = (&'static str, fn(&mut RestartState));
+    let damages: [Damage; 5] = [
+        ("time", |memory| memory.state.time = f64::NAN),
+        ("longest time", |memory| memory.want.give_up_after = f64::NAN),
+        ("first contact", |memory| memory.log.first_contact = Some(f64::NAN)),
+        ("last row", |memory| memory.sampled.last.as_mut().unwrap().time = f64::NAN),
+        ("approach", |memory| memory.approach = Approach::at(0.02).unwrap()),
+    ];
+    for (what, damage) in damages {
+        let mut memory = whole.clone();
+        damage(&mut memory);
+        assert!(!memory.fits(&model), "{what}");
+    }
+}
+
+/// What a restart needs and nothing else: no buffers, no rows that nobody wants.
+#[test]
+fn a_memory_grows_by_what_is_asked_for() {
+    let model = model();
+    let n_bytes = |memory: &RestartState| postcard::to_stdvec(memory).unwrap().len();
+    let n_nodes: usize = model.bodies().iter().map(|body| body.n_nodes()).sum();
+    let bare = |n_steps: u64| {
+        let want = OutputRequest { history_rows: 0, ..want(SnapshotRequest::none()) };
+        let mut run = Run::new(&model, EXPECTED, &want);
+        run.advance(n_steps);
+        run.restart_state().clone()
+    };
+    // Numbers of the state that differ in length, a row, and the pulse: four numbers an instant observed.
+    let n_observed = 2 * OutputRequest::ROWS;
+    assert!(n_bytes(&bare(u64::MAX)) < n_bytes(&bare(0)) + 500 + 32 * n_observed);
+    // One state: two fields of each body, a third of the one that relaxes.
+    let ended =
+        memory(&model, SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]), u64::MAX);
+    let rows = size_of_val(ended.history.as_ref().unwrap().rows());
+    assert!(n_bytes(&ended) < n_bytes(&bare(u64::MAX)) + 3 * 16 * n_nodes + rows + 1000);
+}

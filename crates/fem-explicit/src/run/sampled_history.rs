@@ -1,0 +1,99 @@
+//! What a run observes of itself, whether or not anybody keeps the rows.
+//!
+//! A row takes a pass over all nodes and elements, so it is not made at every step: at the beginning
+//! and end of a contact, and at an even stride that follows from the expected contact alone. Extremes,
+//! integrals and means are those of these instants, the same for any number of rows that are kept.
+
+use fem_collision::{
+    Account, BalanceSide, ForceNoise, ForcePulse, HistoryRow, OutputRequest, PostContactVibration,
+    RelativeMotion, RestCriterion, SamplingInterval, StepInstant,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::model::Model;
+use crate::state::State;
+
+/// Share of the kinetic energy of a half-space that certainly does not come back: in outgoing waves strain energy and
+/// kinetic energy agree within some per cent.
+const GONE_WITH_WAVES: f64 = 0.95;
+
+/// Quantities derived from the instants that have been sampled so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SampledHistory {
+    cadence: Cadence,
+    /// Means and peaks of force, contact radius and pressure.
+    pub pulse: Pulse,
+    /// Scatter of the contact force.
+    pub scatter: Scatter,
+    /// Vibration since the last contact; `None` before the first one.
+    pub aftermath: Option<Aftermath>,
+    /// Row of the last sampled instant.
+    pub last: Option<Row>,
+    standstill: Standstill,
+}
+
+impl SampledHistory {
+    /// Starts for a contact of an expected number of steps.
+    pub fn new(model: &Model, expected_steps: f64) -> Self {
+        Self {
+            cadence: SamplingInterval::new(OutputRequest::ROWS, expected_steps),
+            pulse: ForcePulse::default(),
+            scatter: ForceNoise::default(),
+            aftermath: None,
+            last: None,
+            standstill: RestCriterion::new(&model.frame()),
+        }
+    }
+
+    /// Whether this step is to be sampled.
+    pub fn is_due(&self, step: u64) -> bool {
+        self.cadence.is_due(step)
+    }
+
+    /// Takes note of a step with a contact force, sampled or not: the time after the last contact begins anew.
+    pub fn touch(&mut self) {
+        self.aftermath = Some(PostContactVibration::default());
+    }
+
+    /// Whether the bodies stay together, by the last sampled instant, a time (s) after first touch, at a rate of the
+    /// approach, m/s.
+    ///
+    /// Waves that leave into a half-space carry equal strain and kinetic energy, neither of which can separate the bodies, so
+    /// both are left out.
+    pub fn stays_together(&mut self, model: &Model, is_closed: bool, time: f64, rate: f64) -> bool {
+        let Some(row) = &self.last else { return false };
+        let is_stored =
+            |account: Account| account.side() == BalanceSide::Held && account != Account::Kinetic;
+        let stored = row.energies.entries().filter(|(account, _)| is_stored(*account));
+        let mut inner_energy: f64 =
+            row.vibration.into_iter().chain(stored.map(|(_, energy)| energy)).sum();
+        for (body, vibration) in model.bodies().iter().zip(row.vibration) {
+            if !body.held_nodes().is_empty() {
+                inner_energy -= 2.0 * GONE_WITH_WAVES * vibration;
+            }
+        }
+        let force = row.contact_force;
+        self.standstill.observe(&RelativeMotion { time, is_closed, force, rate, inner_energy })
+    }
+
+    /// Takes the row of an instant, the impulse of the contact so far (N s), the step, and whether the contact is closed.
+    pub fn take(&mut self, row: Row, impulse: f64, step: u64, is_closed: bool) {
+        self.cadence.count();
+        let (radius, pressure) = (row.contact_radius, row.centre_pressure);
+        self.pulse.observe(row.time, impulse, radius.unwrap_or(0.0), pressure.unwrap_or(0.0));
+        self.scatter.observe(row.contact_force, StepInstant { time: row.time, step });
+        if let Some(aftermath) = &mut self.aftermath {
+            aftermath.observe(is_closed, row.vibration);
+        }
+        self.last = Some(row);
+    }
+
+    /// Whether it can belong to a run of a model in a state.
+    pub fn fits(&self, model: &Model, state: &State) -> bool {
+        self.cadence.is_sound()
+            && self.standstill.is_of(&model.frame())
+            && self.pulse.is_sound()
+            && self.pulse.last_time().is_none_or(|time| time <= state.time)
+            && self.last.is_none_or(|row| row.time <= state.time)
+    }
+}
