@@ -11,7 +11,7 @@ use crate::models::Bounces;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// Of the contact under way, by explicit elements.
-    pub(crate) contact: fem_explicit::Memory,
+    pub(crate) contact: fem_explicit::RestartState,
     /// Of a ball that gravity brings back: the contacts before.
     pub(crate) bounces: Option<Box<Bounces>>,
     /// How the bodies met in the contact under way; they are computed in the frame of their mass centre.
@@ -24,7 +24,7 @@ pub struct Memory {
 
 impl Memory {
     /// Of the contact under way.
-    pub fn contact(&self) -> &fem_explicit::Memory {
+    pub fn contact(&self) -> &fem_explicit::RestartState {
         &self.contact
     }
 

@@ -103,7 +103,7 @@ fn it_moves_with_what_decides_bits() {
     for name in ABOVE {
         assert!(!moves(&format!("crates/{name}/Cargo.toml")), "{name}");
     }
-    assert!(!moves("crates/fem-explicit/src/memory/tests.rs"));
+    assert!(!moves("crates/fem-explicit/src/run/restart_state/tests.rs"));
 }
 
 /// As cargo unpacks it from a registry: alone, and no other crate is where a neighbour would be.

@@ -47,7 +47,7 @@ impl Bounces {
     }
 
     /// Whether it can be of this ball in this contact. What was computed is not computed again.
-    fn fits(&self, ball: &Ball, contact: &fem_explicit::Memory, met: &Approach) -> bool {
+    fn fits(&self, ball: &Ball, contact: &fem_explicit::RestartState, met: &Approach) -> bool {
         let (speed, time, _) = ball.fall(&self.approach);
         let is_first = self.so_far.n_contacts() == 0;
         self.want.check().is_ok()
@@ -88,7 +88,7 @@ impl BouncingCourse {
     /// # Errors
     /// A memory of another ball; one whose parts contradict each other.
     pub fn resume(ball: &Arc<Ball>, memory: Memory) -> Result<Self, Refusal> {
-        let another = || Refusal::new("gravity", ModelError::MemoryOfAnother.to_string());
+        let another = || Refusal::new("gravity", ModelError::ForeignRestartState.to_string());
         let known = memory.bounces.clone().ok_or_else(another)?;
         if !known.fits(ball, &memory.contact, &memory.met) {
             return Err(another());

@@ -268,7 +268,7 @@ impl Model for Explicit {
         let frame = self.made.own_frame(&met).map_err(refused)?;
         let (approach, expected) = (*memory.approach(), memory.expected());
         if bounces.is_some() || approach != *frame.own() {
-            return Err(refused(ModelError::MemoryOfAnother));
+            return Err(refused(ModelError::ForeignRestartState));
         }
         let want = memory.want().clone();
         let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
@@ -323,7 +323,7 @@ impl Course for ExplicitCourse {
     }
 
     fn memory(&self) -> Option<Memory> {
-        let contact = self.run.memory().clone();
+        let contact = self.run.restart_state().clone();
         let (met, refinement, levels) = (*self.frame.met(), 1.0, Vec::new());
         Some(Memory { contact, bounces: None, met, refinement, levels })
     }
