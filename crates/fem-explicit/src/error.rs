@@ -1,10 +1,10 @@
-//! What can be wrong with a model.
+//! Errors of building a model or resuming a run.
 
 use fem_collision::ApproachError;
 use fem_contact::ContactError;
 use thiserror::Error;
 
-/// Why no model can be built.
+/// Reasons for which a model cannot be built or a run cannot be resumed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ModelError {
     /// The surfaces make no contact.
@@ -16,59 +16,59 @@ pub enum ModelError {
     /// A setting lies outside of its range.
     #[error("{name} is {value}; allowed is {allowed}")]
     Setting {
-        /// Which setting.
+        /// Name of the setting.
         name: &'static str,
-        /// Its value.
+        /// Its value, in SI units.
         value: f64,
-        /// What is allowed.
+        /// The allowed range.
         allowed: &'static str,
     },
-    /// The bodies are so stiff, light or small, or so soft, heavy or large, that none is a number.
+    /// The time step is not a positive finite number, because a body is extremely stiff, light, small, soft, heavy or large.
     #[error(
-        "explicit elements would need a time step of {time_step} s, which is none: a wave passes the \
-         smallest of them in a time beyond the range of numbers"
+        "explicit elements would need a time step of {time_step} s: the time in which a wave crosses the \
+         smallest element is beyond the range of numbers"
     )]
     NoStep {
-        /// What it would be, s.
+        /// The time step that would follow, s.
         time_step: f64,
     },
-    /// Surface nodes without mass need an inside that has it.
+    /// All corners of an element are massless surface nodes.
     #[error(
         "all corners of element {element} lie in the surface that can be in contact, which has no \
-         mass with contact.method = \"massless\"; a mesh of more layers, or \
+         mass with contact.method = \"massless\": use a mesh of more layers, or \
          contact.method = \"penalty\""
     )]
     NoInterior {
-        /// Its number in the mesh.
+        /// Number of the element in the mesh.
         element: usize,
     },
-    /// The matrix of a boundary without mass is not positive.
+    /// The stiffness matrix of a massless boundary is not positive.
     #[error(
-        "the boundary without mass of contact.method = \"massless\" cannot be in balance: an \
-         element at the contact has no stiffness; contact.method = \"penalty\" needs none"
+        "the boundary without mass of contact.method = \"massless\" cannot be in balance, since an \
+         element at the contact has no stiffness: use contact.method = \"penalty\""
     )]
     NoBalance,
-    /// A rigid body is to be computed at finite strain.
-    #[error("a rigid body does not deform: it has no finite strain")]
+    /// A rigid body is to be at finite strain.
+    #[error("a rigid body does not deform and cannot be at finite strain")]
     StrainOfRigid,
-    /// A material relaxes by more terms than elements at finite strain keep.
+    /// A material has more relaxation terms than elements at finite strain can keep.
     #[error(
-        "the material relaxes by {n_terms} terms; at finite strain it may have {most}: fold those of \
-         times far from the impact's"
+        "the material has {n_terms} relaxation terms, and at finite strain at most {most} are allowed: merge \
+         terms whose relaxation times are far from the contact time"
     )]
     TooManyTerms {
-        /// How many it has.
+        /// Number of terms of the material.
         n_terms: usize,
-        /// How many it may have.
+        /// Largest number of terms.
         most: usize,
     },
-    /// A wall keeps its velocity, whatever acts on it.
+    /// Forces act on a wall, which keeps its velocity.
     #[error("a force acts on the nodes of a wall, which keeps its velocity")]
     ForceOnWall,
-    /// A run is to go on from the memory of another, or from one whose parts contradict each other.
+    /// The restart state belongs to another model or version, or its parts contradict each other.
     #[error(
-        "the memory is of a run of another model or version: its meshes, masses, materials, forces, \
-         contact, approach or time step differ; or its parts contradict each other"
+        "the restart state belongs to a run of another model or version (meshes, masses, materials, forces, \
+         contact, approach or time step differ), or its parts contradict each other"
     )]
     ForeignRestartState,
 }

@@ -1,7 +1,7 @@
 //! One body without contact: its free vibrations, and the forces of a given deformation.
 //!
-//! The body moves by the step of a collision, M ü = −f(u), central differences at a step that is
-//! stable for it alone, without mass scaling.
+//! The body moves as in a collision, M ü = −f(u), by central differences with a step that is stable for it alone, without mass
+//! scaling.
 
 use fem_collision::{BalanceSide, BodyFields, StressField};
 use fem_material::Material;
@@ -14,9 +14,9 @@ use crate::part::Accounts;
 use crate::settings::check_step_factor;
 use crate::stress::{Collapse, FiniteStrainChoice};
 
-/// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
+/// A sphere without contact, at rest until it is given a velocity or a deformation.
 ///
-/// Displacement u_n and velocity v_{n−1/2} are half a step apart, as leapfrog has them.
+/// Displacement u_n and velocity v_{n−1/2} are half a step apart, as leapfrog requires.
 ///
 /// ```
 /// use fem_explicit::FreeMotion;
@@ -32,7 +32,7 @@ use crate::stress::{Collapse, FiniteStrainChoice};
 ///     growth: None,
 /// };
 /// let mut sphere = FreeMotion::new(disc.build()?, &glass, 0.9)?;
-/// // It breathes: as much energy as it was given is there after any number of steps.
+/// // It vibrates, and its energy is conserved.
 /// sphere.set_velocity(|[r, y]| [r, y - 1e-2]);
 /// let start = sphere.energy();
 /// for _ in 0..100 {
@@ -48,16 +48,16 @@ pub struct FreeMotion {
     time_step: f64,
     n_steps: u64,
     state: BodyState,
-    /// −f(u_n), N.
+    /// Internal forces −f(u_n), N.
     forces: Vec<[f64; 2]>,
     collapse: Option<Collapse>,
 }
 
 impl FreeMotion {
-    /// Lumps masses and chooses the time step: `step_factor`, in (0, 1], of the critical one.
+    /// Makes a body at small strain, with a time step of `step_factor`, in (0, 1], times the critical one.
     ///
     /// # Errors
-    /// A step factor out of range.
+    /// The step factor is out of range.
     pub fn new(
         mesh: SphereMesh,
         material: &Material,
@@ -66,11 +66,11 @@ impl FreeMotion {
         Self::with_law(mesh, material, None, step_factor)
     }
 
-    /// The same at finite strain, by a law. The step is that of the undeformed body and stays: a body
-    /// that stiffens much may outrun it.
+    /// Makes a body at finite strain, by a law. The step stays that of the undeformed body, so a body that stiffens much may
+    /// become unstable.
     ///
     /// # Errors
-    /// A step factor out of range.
+    /// The step factor is out of range, or the material has too many relaxation terms.
     pub fn at_finite_strain(
         mesh: SphereMesh,
         material: &Material,
@@ -97,28 +97,27 @@ impl FreeMotion {
         Ok(Self { body, time_step, n_steps: 0, state, forces, collapse: None })
     }
 
-    /// The body.
+    /// Returns the body.
     pub fn body(&self) -> &Body {
         &self.body
     }
 
-    /// Time step, s.
+    /// Returns the time step, s.
     pub fn time_step(&self) -> f64 {
         self.time_step
     }
 
-    /// Time since the start, s.
+    /// Returns the time since the start, s.
     pub fn time(&self) -> f64 {
         self.n_steps as f64 * self.time_step
     }
 
-    /// Gives every node the velocity (r, y), m/s, of its place (r, y), m.
+    /// Sets the velocity (r, y) of every node, m/s, as a function of its place (r, y), m.
     pub fn set_velocity(&mut self, velocity: impl Fn([f64; 2]) -> [f64; 2]) {
         self.state.velocity = self.at_nodes(velocity);
     }
 
-    /// Gives every node the displacement (r, y), m, of its place (r, y), m, in no time: nothing
-    /// of it has relaxed.
+    /// Sets the displacement (r, y) of every node, m, as a function of its place (r, y), m, instantaneously: nothing has relaxed.
     pub fn set_displacement(&mut self, displacement: impl Fn([f64; 2]) -> [f64; 2]) {
         self.state.displacement = self.at_nodes(displacement);
         let BodyState { displacement, history, .. } = &mut self.state;
@@ -128,7 +127,7 @@ impl FreeMotion {
         self.update_forces();
     }
 
-    /// Moves the body by a time step.
+    /// Takes a time step.
     pub fn step(&mut self) {
         self.state.advance_nodes(&self.body, self.time_step, &self.forces);
         self.n_steps += 1;
@@ -142,7 +141,7 @@ impl FreeMotion {
         self.collapse = done.err();
     }
 
-    /// The element that has collapsed, if one has: then forces and energy mean nothing.
+    /// Returns an element that has collapsed; then forces and energy have no meaning.
     pub fn collapse(&self) -> Option<Collapse> {
         self.collapse
     }
@@ -151,23 +150,23 @@ impl FreeMotion {
         Clock { time: self.time(), time_step: self.time_step }
     }
 
-    /// Displacements (r, y) of the nodes, m.
+    /// Returns the displacements (r, y) of the nodes, m.
     pub fn displacement(&self) -> &[[f64; 2]] {
         &self.state.displacement
     }
 
-    /// Velocities (r, y) of the nodes half a step ago, m/s.
+    /// Returns the velocities (r, y) of the nodes half a step ago, m/s.
     pub fn velocity(&self) -> &[[f64; 2]] {
         &self.state.velocity
     }
 
-    /// Forces (r, y) with which the deformed body pulls its nodes back, −f(u), N.
+    /// Returns the internal forces (r, y) on the nodes, −f(u), N.
     pub fn internal_forces(&self) -> &[[f64; 2]] {
         &self.forces
     }
 
-    /// ½ v_{n−1/2}·M v_{n+1/2} and what the body stores, ½ u_n·K u_n if it is elastic, J: what
-    /// leapfrog keeps, to rounding, of an elastic body.
+    /// Returns the energy ½ v_{n−1/2}·M v_{n+1/2} plus the stored energy, ½ u_n·K u_n for an elastic body, J. Leapfrog conserves it
+    /// to rounding for an elastic body at small strain.
     pub fn energy(&self) -> f64 {
         let inverse_mass = self.body.inverse_mass.as_flattened();
         let forces = self.forces.as_flattened();
@@ -185,7 +184,7 @@ impl FreeMotion {
         0.5 * twice_kinetic + held.map(|(_, energy)| energy).sum::<f64>()
     }
 
-    /// Stress of the deformed body.
+    /// Returns the stress of the deformed body.
     pub fn stress(&self) -> StressField {
         let mut fields = BodyFields::default();
         self.body.update_stress_fields(&self.state, &mut fields);

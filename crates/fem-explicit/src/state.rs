@@ -17,7 +17,7 @@ const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 /// The state of both bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct State {
-    /// Steps taken.
+    /// Number of steps taken.
     pub step: u64,
     /// Time since the start of the case, s.
     pub time: f64,

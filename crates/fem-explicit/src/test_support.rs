@@ -1,4 +1,4 @@
-//! What the unit tests share.
+//! Helpers of the unit tests.
 
 use fem_collision::{Approach, BodyInput};
 use fem_element::{QuadGeometry, mean_gradient};

@@ -11,19 +11,17 @@
 //!
 //! With m_i = Σ m_e,i and no contact this is never above the largest λ_e, the
 //! bound of Irons and Treharne. Mass scaling turns it round: a step Δt is stable
-//! once every node has m_i ≥ κ_i Δt²/4 = n_i, so the lightest nodes, which are the
-//! stiffest and hold almost none of the mass, are filled up to that from the nodes
-//! that have more than they need,
+//! if every node has m_i ≥ κ_i Δt²/4 = n_i. So the lightest nodes, which hold almost none of the mass, are filled up to n_i
+//! from the nodes that have more than they need,
 //!
 //! ```math
 //! m_i' = \max(m_i, n_i) - \theta\,\bigl(\max(m_i, n_i) - n_i\bigr), \qquad
 //! \theta = \frac{\sum_j \max(n_j - m_j, 0)}{\sum_j \max(m_j - n_j, 0)},
 //! ```
 //!
-//! so that the body keeps its mass. The step is the longest for which the mass that
-//! is moved stays within its budget and θ is no more than ½. Mass that is only added
-//! makes the bodies heavier: of 1 % the contact lasts 0.25 % longer and
-//! pushes 0.65 % harder, which moved mass does not (docs/accuracy.md).
+//! so that the body keeps its mass. The step is the longest for which the moved mass stays within its budget and θ is at most
+//! ½. Mass that is added and not moved would make the bodies heavier: 1 % of it prolongs the contact by 0.25 % and raises the
+//! force by 0.65 %.
 //!
 //! Forces of damping C take the velocity of half a step before, which is the same as
 //! the mean velocity at the mass M − ½ Δt C. So with C bounded by a diagonal γ_i the
@@ -39,12 +37,11 @@
 //! the step of an oscillator of damping ratio ξ (Belytschko, Liu & Moran 2000, eq. 6.2.30). Without
 //! damping it is the step above, to the bit.
 //!
-//! Nodes without mass ([`BoundaryMass`]) are where the others have them: at the least of the energy, so
-//! that the potential of the others is V(u) = min_b W(u, b), with a convex W of stress and contact. Its
-//! curvature is at most that of W at fixed b, which is the stiffness of the elements without those
-//! corners: λ_e is that of what is left of an element, and the springs of the contact, whichever are
-//! closed and however stiff, are not in the bound. V is convex and its gradient continuous, so springs
-//! that open and close change nothing of that.
+//! Nodes without mass ([`BoundaryMass`]) are always at the minimum of the energy, so the potential of the other nodes is
+//! V(u) = min_b W(u, b), with a convex W of stress and contact. Its curvature is at most that of W at fixed b, which is the
+//! stiffness of the elements without those corners. Hence λ_e is that of the rest of an element, and the springs of the
+//! contact are not in the bound, however stiff they are. V is convex with a continuous gradient, so this holds while springs
+//! open and close.
 
 use fem_element::QuadGeometry;
 use fem_mesh::{SphereMesh, lump_mass};
@@ -52,25 +49,25 @@ use fem_mesh::{SphereMesh, lump_mass};
 use super::massless_boundary_mass::BoundaryMass;
 use crate::stress::{FiniteStrainStress, LumpedElement, Stress};
 
-/// Share of what nodes have beyond their need that is taken from them at most.
+/// Largest share of their spare mass that is taken from nodes.
 const MOST_OF_SPARE: f64 = 0.5;
-/// Mass over what is spare that is a rounding.
+/// Ratio of missing to spare mass that counts as rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Masses of a body's nodes and a bound of the stiffness that pulls at them.
+/// Masses of the nodes of a body, and bounds of stiffness and damping at them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NodalBound {
     /// Lumped masses, kg.
     pub mass: Vec<f64>,
-    /// κ_i, N/m.
+    /// Bounds κ_i of the stiffness, N/m.
     pub stiffness: Vec<f64>,
-    /// γ_i, N s/m.
+    /// Bounds γ_i of the damping, N s/m.
     pub damping: Vec<f64>,
 }
 
 impl NodalBound {
-    /// Of the elements of a body without contact, for a density (kg/m³) and a stress; some nodes may
-    /// have no mass.
+    /// Computes masses and bounds of the elements of a body without contact, for a density (kg/m³) and a stress; some nodes
+    /// may have no mass.
     pub fn of_elements(
         mesh: &SphereMesh,
         geometries: &[QuadGeometry],
@@ -99,7 +96,7 @@ impl NodalBound {
         Self { mass: boundary.of_nodes(mesh, geometries, mass), stiffness, damping }
     }
 
-    /// Mass (kg), stiffness (N/m) and damping (N s/m) of each node.
+    /// Returns mass (kg), stiffness (N/m) and damping (N s/m) of each node.
     fn nodes(&self) -> impl Iterator<Item = [f64; 3]> {
         let bounds = self.stiffness.iter().zip(&self.damping);
         self.mass
@@ -108,21 +105,20 @@ impl NodalBound {
             .map(|(&mass, (&stiffness, &damping))| [mass, stiffness, damping])
     }
 
-    /// Leaves out nodes that have no mass: what pulls at them is in balance.
+    /// Leaves out nodes without mass, whose forces are in balance.
     pub fn leave_out(&mut self, massless: impl Iterator<Item = usize>) {
         for node in massless {
             (self.stiffness[node], self.damping[node]) = (0.0, 0.0);
         }
     }
 
-    /// Critical time step without mass scaling, s.
+    /// Returns the critical time step without mass scaling, s.
     pub fn critical_time_step(&self) -> f64 {
         let pulled = self.nodes().filter(|node| *node != [0.0; 3]);
         pulled.map(critical_time_step).fold(f64::INFINITY, f64::min)
     }
 
-    /// Masses that a critical time step (s) asks for beyond what is there, and that are there beyond what it
-    /// asks for, kg.
+    /// Returns the mass that is missing for a critical time step (s) at some nodes, and the spare mass at the others, kg.
     fn missing_and_spare(&self, time_step: f64) -> [f64; 2] {
         self.nodes().fold([0.0; 2], |[missing, spare], node| {
             let needed = needed_mass(time_step, node);
@@ -130,7 +126,7 @@ impl NodalBound {
         })
     }
 
-    /// Longest critical time step (s) within a budget of moved mass, kg.
+    /// Returns the longest critical time step (s) within a budget of moved mass, kg.
     pub fn scaled_time_step(&self, budget: f64) -> f64 {
         let plain = self.critical_time_step();
         let has = |time_step: f64| {
@@ -155,11 +151,11 @@ impl NodalBound {
         stable
     }
 
-    /// Fills the masses up for a critical time step (s) from those that have more than they need. Returns
-    /// the masses and what was moved, kg.
+    /// Moves mass from nodes that have more than they need for a critical time step (s) to those that have less. Returns the
+    /// masses and the moved mass, kg.
     pub fn scale_mass(&self, time_step: f64) -> (Vec<f64>, f64) {
         let [missing, spare] = self.missing_and_spare(time_step);
-        // The node that decides may be filled up by a rounding, and from none.
+        // The critical node may lack a rounding error while no node has spare mass.
         let share = if missing > ROUNDING * spare { missing / spare } else { 0.0 };
         let filled = |node: [f64; 3]| {
             let needed = needed_mass(time_step, node);
@@ -169,14 +165,14 @@ impl NodalBound {
     }
 }
 
-/// The same of a body whose stiffness changes as it deforms; mass scaling stays as it was.
+/// Bounds for a body in a run whose stiffness changes; mass scaling stays that of the undeformed body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ChangingBound {
-    /// κ_i of the undeformed body, its contact and its forces, N/m.
+    /// Bounds κ_i of the undeformed body, its contact and its forces, N/m.
     stiffness: Vec<f64>,
-    /// What of that is its elements', N/m.
+    /// Share of the elements in these bounds, N/m.
     of_elements: Vec<f64>,
-    /// γ_i, N s/m.
+    /// Bounds γ_i of the damping, N s/m.
     damping: Vec<f64>,
 }
 
@@ -190,9 +186,9 @@ impl ChangingBound {
         Self { stiffness: bound.stiffness, of_elements, damping: bound.damping }
     }
 
-    /// Critical time step (s) at masses (kg), where the elements have these bounds now (N/m), with what the
-    /// contact's have grown by, and its damping (N s/m); and the node that asks for it. What is no number
-    /// counts. In place of the bounds it leaves the steps of all nodes, s.
+    /// Returns the critical time step (s) at masses (kg) and the critical node, from the present bounds of the elements with
+    /// the growth of the contact's (N/m), and the growth of its damping (N s/m). A step that is not a number counts as the
+    /// shortest. The bounds are replaced by the critical steps of the nodes, s.
     pub fn critical_time_step(
         &self,
         mass: &[f64],
@@ -213,16 +209,16 @@ impl ChangingBound {
     }
 }
 
-/// Critical time step of a node of this mass (kg), stiffness (N/m) and damping (N s/m), s.
+/// Returns the critical time step (s) of a node with a mass (kg), stiffness (N/m) and damping (N s/m).
 fn critical_time_step([mass, stiffness, damping]: [f64; 3]) -> f64 {
     match damping == 0.0 {
         true => 2.0 * (mass / stiffness).sqrt(),
-        // The same root without the difference of two large numbers.
+        // The root of the module documentation, without the difference of two large numbers.
         false => 4.0 * mass / (damping + damping.hypot(2.0 * (stiffness * mass).sqrt())),
     }
 }
 
-/// Mass (kg) with which a node of this stiffness and damping is stable at a time step, s.
+/// Returns the mass (kg) with which a node of a stiffness and damping is stable at a time step, s.
 fn needed_mass(time_step: f64, [_, stiffness, damping]: [f64; 3]) -> f64 {
     0.25 * time_step * time_step * stiffness + 0.5 * time_step * damping
 }

@@ -1,32 +1,31 @@
 //! Masses of a body some of whose surface nodes carry none.
 //!
-//! An element gives the mass of a corner that has none to the corners next to it, and where those have
-//! none either to the one across. The sum stays. What moved inward moved the mass centre, by some
-//! millionths of the radius: the factor
+//! An element moves the mass of a massless corner to the neighbouring corners, or to the opposite corner if those are
+//! massless too. The sum stays. The move shifts the mass centre inward by some millionths of the radius; the factor
 //!
 //! ```math
 //! 1 + \beta (y_i - \bar y)
 //! ```
 //!
-//! on all masses brings it back, ȳ the centre after the move.
+//! on all masses brings it back, with the centre ȳ after the move.
 
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
 
 use crate::error::ModelError;
 
-/// Which nodes of a mesh have no mass.
+/// The massless nodes of a mesh.
 #[derive(Debug)]
 pub(crate) struct BoundaryMass {
-    /// Empty where all nodes have mass.
+    /// Empty if all nodes have mass.
     is_massless: Vec<bool>,
 }
 
 impl BoundaryMass {
-    /// Of a mesh with these nodes without mass.
+    /// Takes the massless nodes of a mesh.
     ///
     /// # Errors
-    /// An element none of whose corners has mass.
+    /// No corner of an element has mass.
     pub fn new(mesh: &SphereMesh, massless: &[u32]) -> Result<Self, ModelError> {
         if massless.is_empty() {
             return Ok(Self { is_massless: Vec::new() });
@@ -40,12 +39,12 @@ impl BoundaryMass {
         }
     }
 
-    /// Nodes without mass.
+    /// Returns the massless nodes.
     pub fn nodes(&self) -> impl Iterator<Item = usize> {
         (0..self.is_massless.len()).filter(|&node| self.is_massless[node])
     }
 
-    /// The corners that take the mass of a corner of a quad, itself if it keeps it.
+    /// Returns the corners of a quad that receive the mass of a corner: itself if it keeps its mass.
     fn heirs(&self, quad: &[u32; 4], corner: usize) -> impl Iterator<Item = usize> {
         let has_mass =
             |corner: usize| !self.is_massless.get(quad[corner] as usize).is_some_and(|bare| *bare);
@@ -58,7 +57,7 @@ impl BoundaryMass {
         first.into_iter().chain(second)
     }
 
-    /// Masses of an element's corners (kg) after the move.
+    /// Returns the masses of the corners of an element (kg) after the move.
     pub fn of_corners(&self, quad: &[u32; 4], masses: [f64; 4]) -> [f64; 4] {
         if self.is_massless.is_empty() {
             return masses;
@@ -71,8 +70,8 @@ impl BoundaryMass {
         moved
     }
 
-    /// Masses of the nodes (kg) after the move: what a node has beyond its shares of elements goes the
-    /// way of those.
+    /// Returns the masses of the nodes (kg) after the move. Mass of a node beyond its shares of elements moves in proportion to
+    /// those.
     pub fn of_nodes(
         &self,
         mesh: &SphereMesh,

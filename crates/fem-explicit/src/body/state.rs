@@ -10,9 +10,9 @@ use crate::time::advance_motion;
 /// The state of a body at time t_n.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BodyState {
-    /// m.
+    /// Displacements of the nodes, m.
     pub displacement: NodalField,
-    /// At t_n − Δt/2, m/s.
+    /// Velocities of the nodes at t_n − Δt/2, m/s.
     pub velocity: NodalField,
     /// History of the parts of the body, then the fields that the contact keeps of it.
     pub history: Vec<NodalField>,
@@ -23,7 +23,7 @@ pub(crate) struct BodyState {
 pub(crate) struct Clock {
     /// Time since the start of the case, s.
     pub time: f64,
-    /// s.
+    /// The step Δt, s.
     pub time_step: f64,
 }
 

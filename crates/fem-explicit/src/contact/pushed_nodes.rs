@@ -7,7 +7,7 @@ use crate::part::Field;
 #[derive(Debug)]
 pub(crate) struct PushedNodes {
     nodes: Vec<usize>,
-    /// N.
+    /// Their forces by the contact, N.
     forces: Vec<[f64; 2]>,
 }
 

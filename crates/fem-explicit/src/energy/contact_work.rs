@@ -3,7 +3,7 @@
 //! Leapfrog conserves the energy of the bodies alone exactly ([`Ledger`](super::Ledger)). The forces p of the contact change
 //! it over a step by ½ Δt v_{n+1/2}·(p_n + p_{n+1}), as follows from the equations of motion at t_n and t_{n+1};
 //! on nodes without mass p is the force that keeps them in balance. The energy C of the springs and the work W on dashpots
-//! must grow by as much:
+//! must grow by the same amount:
 //!
 //! ```math
 //! \Delta_n = \tfrac12 \Delta t\, v_{n+1/2} \cdot (p_n + p_{n+1}) + (C + W)_{n+1} - (C + W)_n
@@ -23,7 +23,7 @@ use crate::state::{Scratch, State};
 /// The beginning of a step whose end is not known yet.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Pending {
-    /// s.
+    /// The step, s.
     time_step: f64,
     /// Power of the forces at the beginning, W.
     power: f64,

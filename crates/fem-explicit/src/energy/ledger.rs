@@ -7,15 +7,13 @@
 //! E_n = \tfrac12 v_{n-1/2} \cdot M v_{n+1/2} + \tfrac12 u_n \cdot K u_n ,
 //! ```
 //!
-//! so that is the form in which kinetic energy is reported. What the bodies store,
-//! are given and dissipate, their parts tell of the state; what does not add up is
-//! the residual, which can fail. Powers are integrated by the trapezoidal rule over
-//! the instants that are observed. Between them the contact alone is followed ([`ContactWork`]),
-//! where energy comes from if any does.
+//! so kinetic energy is reported in this form. The parts of the bodies compute from the state what they store, are given and
+//! dissipate. The residual is stored + dissipated − initial − external work; a run stops where it grows too large. Powers are
+//! integrated by the trapezoidal rule over the sampled instants. Between them the contact alone is followed
+//! ([`ContactWork`]), which is the source of spurious energy if there is one.
 //!
-//! A half-space has infinite mass and keeps its velocity V far away, as a wall does: its kinetic energy
-//! and momentum are those of its nodes relative to V, and what holds its far boundary gives it momentum
-//! and, seen from there, no energy.
+//! A half-space has infinite mass and keeps its velocity V far away, as a wall does. Its kinetic energy and momentum are those
+//! of its nodes relative to V; the support of its far boundary gives it momentum and, in that frame, no energy.
 
 use fem_collision::{
     Account, BalanceSide, DissipatedEnergies, HistoryRow, LARGEST_RESIDUAL, StepInstant,
@@ -43,15 +41,15 @@ pub(crate) struct Ledger {
     pub initial_relative: f64,
     /// Worst imbalance of energy over `initial_relative`.
     pub worst_residual: f64,
-    /// Most that the bodies have held above what they had and were given, at any step, over `initial_relative`.
+    /// Largest spurious energy at any step, over `initial_relative`.
     pub growth: f64,
-    /// When the imbalance was first above what a sound run has.
-    pub beyond: Option<StepInstant>,
+    /// When the imbalance first exceeded the limit of a valid run.
+    pub beyond: Option<Moment>,
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
-    /// What the bodies have had at first and been given since by forces on their nodes and by what
-    /// holds the far boundary of a half-space, up to t_n − Δt/2, N s.
+    /// Initial momentum of the bodies, and the impulses of forces on their nodes and of the support of a half-space since, up to
+    /// t_n − Δt/2, N s.
     given_momentum: f64,
     momentum_scale: f64,
     /// ∫ F dt up to t_n − Δt/2, N s.
@@ -59,27 +57,27 @@ pub(crate) struct Ledger {
     losses: DissipatedEnergies,
     /// Time of the last balance, s.
     last_time: f64,
-    /// What the last balance has shown.
+    /// Result of the last balance.
     shown: Shown,
-    /// What has become of it since.
+    /// Its change since by the contact.
     since: ContactWork,
 }
 
-/// What a balance shows.
+/// The result of a balance.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 struct Shown {
-    /// J.
+    /// Energy residual, J.
     residual: f64,
-    /// What was lost until then, J.
+    /// Energy dissipated until then, J.
     lost: f64,
     /// Drift of momentum, N s.
     drift: f64,
 }
 
-/// A state whose energy is not finite or has grown.
+/// The growth of the energy beyond its limit, or to a value that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct EnergyGrowth {
-    /// Since the start of the case, s.
+    /// Time since the start of the case, s.
     pub time: f64,
     pub step: u64,
     /// Total energy over initial energy.
@@ -97,7 +95,7 @@ struct BodyBalance {
 }
 
 impl Ledger {
-    /// At first touch.
+    /// Starts at first touch.
     pub fn new(model: &Model, state: &State) -> Self {
         let moving = || model.bodies().iter().filter(|body| body.is_free());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
@@ -106,7 +104,7 @@ impl Ledger {
         let momentum_before = |(body, state): (&Body, &BodyState)| {
             match (body.is_free(), body.node_forces.is_empty()) {
                 (true, true) => body.mass() * body.velocity,
-                // Half a step before first touch the forces had done less.
+                // Half a step before first touch the forces had acted for a shorter time.
                 (true, false) => body.sum_mass(&state.velocity),
                 (false, _) => momentum_relative_to(body.velocity, body, state),
             }
@@ -132,8 +130,7 @@ impl Ledger {
         }
     }
 
-    /// Told every state with its forces in `scratch`, whether or not it is balanced: what the contact has
-    /// added since the last balance.
+    /// Follows the share of the contact in every state, whose forces are in `scratch`, whether or not the state is sampled.
     ///
     /// # Errors
     /// The energy is not finite or has grown.
@@ -149,12 +146,12 @@ impl Ledger {
         self.check_energy(self.residual(), state.time, state.step)
     }
 
-    /// What the energies do not account for now, as far as the contact tells, J.
+    /// Returns the present residual, as far as it comes from the contact, J.
     pub fn residual(&self) -> f64 {
         self.shown.residual + self.since.energy
     }
 
-    /// Told the forces of a step (s) that the nodes have just done, that of the contact (N), and what that
+    /// Takes the forces of a step (s) in which the nodes have just moved, the contact force (N), and the energy that the contact
     /// held before (J).
     pub fn begin_step(
         &mut self,
@@ -168,14 +165,13 @@ impl Ledger {
         self.since.begin_step(model, held, time_step, state, scratch, force);
     }
 
-    /// Notes how far energy and momentum are off now.
+    /// Updates the largest residuals of energy and momentum.
     fn note(&mut self, state: &State) {
         let Shown { lost, drift, .. } = self.shown;
         let residual = self.residual();
-        self.worst_residual =
-            nan_aware_max_abs(self.worst_residual, residual / self.initial_relative);
-        self.growth = nan_aware_max(self.growth, (residual - lost) / self.initial_relative);
-        // What is no number is above every limit.
+        self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
+        self.growth = highest(self.growth, (residual - lost) / self.initial_relative);
+        // A residual that is not a number is above every limit.
         let is_sound = self.worst_residual <= LARGEST_RESIDUAL;
         if self.beyond.is_none() && !is_sound {
             self.beyond = Some(StepInstant { time: state.time, step: state.step });
@@ -184,8 +180,8 @@ impl Ledger {
         self.worst_momentum = nan_aware_max_abs(self.worst_momentum, drift);
     }
 
-    /// Counts the impulses of forces that last for a time (s), those in `scratch` and that of the
-    /// contact (N): of the step from t_n to t_n+1, or of what half a step loses.
+    /// Adds the impulses over a time (s) of the forces in `scratch` and of the contact (N): over the step from t_n to t_n+1, or
+    /// over the time by which half a step has become shorter.
     pub fn push(&mut self, model: &Model, scratch: &Scratch, force: f64, time: f64) {
         self.impulse += time * force;
         for (side, body) in model.bodies().iter().enumerate() {
@@ -198,12 +194,12 @@ impl Ledger {
         }
     }
 
-    /// ∫ F dt of the contact so far, half a step behind the state, N s.
+    /// Returns ∫ F dt of the contact up to half a step before the state, N s.
     pub fn impulse(&self) -> f64 {
         self.impulse
     }
 
-    /// Balances the state at t_n, whose forces are in `scratch`.
+    /// Balances the state at t_n, whose forces are in `scratch`, and returns its row.
     pub fn balance(
         &mut self,
         model: &Model,
@@ -262,7 +258,10 @@ impl Ledger {
         }
     }
 
-    /// Refuses a row whose energy is not finite or has grown.
+    /// Checks the energy of a row.
+    ///
+    /// # Errors
+    /// It is not finite or has grown.
     pub fn check(&self, row: &Row, step: u64) -> Result<(), EnergyGrowth> {
         self.check_energy(row.residual.unwrap_or(f64::NAN), row.time, step)
     }
@@ -281,15 +280,15 @@ impl Ledger {
         self.beyond.is_none()
     }
 
-    /// Whether it can be of a run of this model at this state.
+    /// Whether it can belong to a run of a model in a state.
     pub fn fits(&self, model: &Model, state: &State) -> bool {
         let constants =
             |ledger: &Self| [ledger.initial, ledger.initial_relative, ledger.momentum_scale];
         constants(self) == constants(&Self::new(model, state)) && self.last_time <= state.time
     }
 
-    /// Work of a moving wall, or half-space, on the other body up to t_n, J; `next` is the impulse of
-    /// the contact force there over a step, N s.
+    /// Returns the work of a moving wall or half-space on the other body up to t_n, J; `next` is the impulse of the contact
+    /// force over the next step, N s.
     fn wall_work(&self, model: &Model, next: f64) -> f64 {
         let impulse = self.impulse + 0.5 * next;
         let [lower, upper] = model.bodies();
@@ -300,12 +299,11 @@ impl Ledger {
         }
     }
 
-    /// The side of a rigid sphere that the contact alone moves, and the kinetic energy that it has
-    /// gained since first touch up to t_n, J; `next` is as above.
+    /// Returns the side of a rigid sphere that only the contact moves, and its gain of kinetic energy from first touch to t_n, J;
+    /// `next` is as above.
     ///
     /// With the impulses J of the contact up to t_n ∓ Δt/2, ½ M v₋v₊ − ½ M v² = ½ v (J₋ + J₊) +
-    /// J₋J₊/2M, without the cancellation that would leave of a heavy sphere's energy no more than
-    /// rounding.
+    /// J₋J₊/2M, without the cancellation by which the energy of a heavy sphere would be lost in rounding.
     fn gained_by_rigid(&self, model: &Model, next: f64) -> Option<(usize, f64)> {
         let is_moved = |body: &Body| body.mesh().is_none() && !body.is_wall() && !body.is_pushed();
         let side = model.bodies().iter().position(is_moved)?;
@@ -316,7 +314,7 @@ impl Ledger {
         Some((side, 0.5 * gained))
     }
 
-    /// What the momentum of the bodies (N s), walls not counted, at t_n − Δt/2 is off.
+    /// Returns the drift of the momentum of the bodies (N s), without walls, at t_n − Δt/2.
     fn drift(&self, model: &Model, momentum: f64) -> f64 {
         let [lower, upper] = model.bodies();
         let from_wall = match (lower.is_wall(), upper.is_wall()) {
@@ -328,7 +326,7 @@ impl Ledger {
     }
 }
 
-/// Kinetic energy at the start, J; of a body that is not free, relative to its own velocity.
+/// Returns the kinetic energy at the start, J; for a body that is not free, relative to its own velocity.
 fn kinetic_before(body: &Body) -> f64 {
     match body.is_free() {
         true => 0.5 * body.mass() * body.velocity.powi(2),
@@ -336,7 +334,7 @@ fn kinetic_before(body: &Body) -> f64 {
     }
 }
 
-/// Momentum of a body's nodes relative to a velocity (m/s), N s.
+/// Returns the momentum of the nodes of a body relative to a velocity (m/s), N s.
 fn momentum_relative_to(velocity: f64, body: &Body, state: &BodyState) -> f64 {
     let nodes = body.nodal_mass.iter().zip(&state.velocity);
     nodes.map(|(mass, v)| mass * (v[1] - velocity)).sum()
@@ -357,7 +355,7 @@ fn balance_body(
             displacement: state.displacement[0][1],
         };
     }
-    // Nothing is taken from the velocities of a free body.
+    // Velocities of a free body are absolute.
     let far_velocity = if body.is_free() { 0.0 } else { body.velocity };
     let BodyState { displacement, velocity, .. } = state;
     let nodes = Nodes { mass: &body.nodal_mass, displacement, velocity, forces };
@@ -378,7 +376,7 @@ fn balance_body(
     let vibration = 0.5 * (twice_kinetic - mass * before * after);
     BodyBalance {
         kinetic: 0.5 * twice_kinetic,
-        // What a single node has is rounding.
+        // For a single node it is a rounding error.
         vibration: if body.mesh().is_some() { vibration } else { 0.0 },
         momentum,
         velocity: 0.5 * (before + after),

@@ -1,10 +1,9 @@
-//! What the nodes of a body sum up to, in one pass over them: eight at once, whose numbers are summed side by
-//! side and so in the same order on all processors.
+//! Sums over the nodes of a body in one pass: eight nodes at once, summed in the same order on all processors.
 
 use crate::lanes::{ROW_PLACES, RowKernel, RowLanes, WIDE, run_row_lanes};
 use crate::part::Field;
 
-/// Sums over the nodes of a body, axial but for the energy.
+/// Sums over the nodes of a body; vectors along y.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct NodalSums {
     /// Σ m u, kg m.
@@ -17,22 +16,21 @@ pub(crate) struct NodalSums {
     pub force: f64,
 }
 
-/// What the nodes of a body have.
+/// Fields on the nodes of a body.
 #[derive(Clone, Copy)]
 pub(crate) struct Nodes<'a> {
-    /// kg.
+    /// Masses, kg.
     pub mass: &'a [f64],
-    /// m.
+    /// Displacements, m.
     pub displacement: &'a Field,
-    /// At t_n − Δt/2, m/s.
+    /// Velocities at t_n − Δt/2, m/s.
     pub velocity: &'a Field,
-    /// N.
+    /// Forces, N.
     pub forces: &'a Field,
 }
 
 impl NodalSums {
-    /// Of nodes whose next step takes a time, s; velocities count relative to an axial one (m/s), that of what is
-    /// far away.
+    /// Sums over nodes whose next step takes a time, s; velocities are relative to an axial one (m/s).
     pub fn of(nodes: Nodes<'_>, time_step: f64, far_velocity: f64) -> Self {
         let mut sums = Self::default();
         run_row_lanes(Summing { nodes, time_step, far_velocity }, &mut sums);
@@ -102,7 +100,7 @@ impl RowKernel for Summing<'_> {
     }
 }
 
-/// The numbers of eight nodes as [`RowLanes::load_row`] has them.
+/// Returns the numbers of eight nodes in the order of [`RowLanes::load_row`].
 #[inline(always)]
 fn in_row_order(values: &[f64; WIDE]) -> [f64; WIDE] {
     let mut placed = [0.0; WIDE];
@@ -112,7 +110,7 @@ fn in_row_order(values: &[f64; WIDE]) -> [f64; WIDE] {
     placed
 }
 
-/// The sum of the lanes.
+/// Returns the sum of the lanes.
 #[inline(always)]
 fn total<L: RowLanes>(lanes: L) -> f64 {
     let numbers: [f64; WIDE] = lanes.to_array();

@@ -15,12 +15,12 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 /// Gravity along −y.
 #[derive(Debug, Clone)]
 pub struct Weight {
-    /// m/s².
+    /// Along −y, m/s².
     acceleration: f64,
 }
 
 impl Weight {
-    /// Of this acceleration along −y, m/s².
+    /// Takes the acceleration along −y, m/s².
     pub fn new(acceleration: f64) -> Self {
         Self { acceleration }
     }

@@ -1,4 +1,4 @@
-//! Forces on the nodes of a body beside stress and contact: the port; one file a force.
+//! Forces on the nodes of a body beside stress and contact, one file per force.
 
 mod bulk_viscosity;
 mod gravity;
@@ -11,10 +11,9 @@ pub use gravity::Weight;
 
 /// A force on the nodes of a body, from first touch on.
 ///
-/// The place of effects that act on a body from outside or by its motion: gravity, a drag, a
-/// prescribed load, bulk viscosity. A body has a list of them, empty by default
-/// ([`Parts`](crate::Parts)); they add up in its order. A rigid sphere is one node with all of its mass; a
-/// wall has no forces. Flight before first touch is not stepped and knows no force.
+/// Implement it for effects that act from outside or depend on the motion: gravity, drag, a prescribed load, bulk viscosity. A
+/// body has a list of such forces, empty by default ([`Parts`](crate::Parts)), which are added in its order. A rigid sphere is
+/// one node with all of its mass; a wall has no forces. No force acts in the flight before first touch, which is not stepped.
 ///
 /// ```
 /// use fem_collision::Account;
@@ -51,11 +50,10 @@ pub trait NodeForce: Part {
     /// Takes its history to the end of a step, whose motion is given.
     fn advance(&self, _motion: &Motion<'_>, _history: &mut [NodalField]) {}
 
-    /// Adds the work that it has done since first touch, what it stores, or its power.
+    /// Adds the work that it has done since first touch, its stored energy, or its power.
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
 
-    /// The acceleration along +y that it gives to the whole body, wherever that is and however it moves,
-    /// m/s²; 0 of any other force.
+    /// Returns the acceleration along +y that it gives to the whole body at any place and velocity, m/s²; 0 for any other force.
     fn acceleration(&self) -> f64 {
         0.0
     }

@@ -1,38 +1,36 @@
-//! Several elements at once: eight where they lie in rows ([`RowLanes`]) and at finite strain, whose long
-//! chains of operations would leave four waiting for themselves; else four.
+//! Several elements at once: eight where they lie in rows ([`RowLanes`]) and at finite strain, whose long chains of operations
+//! would keep four lanes waiting; otherwise four.
 //!
-//! The element kernels are written once over [`Lanes`] and compiled for plain
-//! arrays, for AVX2 with FMA and, where they take eight, for AVX-512, which is chosen at run time. Where a
-//! kernel asks for a product and a sum at once (those of eight do, those of four gain nothing by it) all
-//! lanes round once, so all give the same bits. Plain arrays do so by the library on a processor without
-//! that instruction, slowly; in WebAssembly, which has none, they round twice: there finite strain
-//! agrees to rounding, not in bits.
+//! The element kernels are written once over [`Lanes`] and compiled for plain arrays, for AVX2 with FMA and, with eight lanes,
+//! for AVX-512; the best is chosen at run time. Kernels of eight lanes fuse products and sums, and all lanes round once, so all
+//! give the same bits. Plain arrays do so by a library function on a processor without that instruction, slowly. WebAssembly
+//! has no such instruction, and rounds twice: there finite strain agrees to rounding, not in bits.
 
 use std::ops::{Add, Div, Mul, Sub};
 
 use fem_material::finite::{Number, inverse_cube_root_estimate, power_of_two};
 
-/// Elements that one pass of a kernel treats together.
+/// Elements that a kernel treats together.
 pub(crate) const LANES: usize = 4;
 
-/// The same of a kernel of finite strain.
+/// The same for a kernel of rows or of finite strain.
 pub(crate) const WIDE: usize = 8;
 
 /// One number of each of several elements.
 pub(crate) trait Lanes<const N: usize = LANES>: Number {
-    /// The larger of both, lane by lane; `other` where one is no number.
+    /// Returns the larger one, lane by lane; `other` where one is not a number.
     fn max(self, other: Self) -> Self;
 
-    /// The smaller of both, lane by lane; `other` where one is no number.
+    /// Returns the smaller one, lane by lane; `other` where one is not a number.
     fn min(self, other: Self) -> Self;
 
-    /// The numbers of an array.
+    /// Loads the numbers of an array.
     fn load(values: &[f64; N]) -> Self;
 
-    /// The numbers as an array.
+    /// Returns the numbers as an array.
     fn to_array(self) -> [f64; N];
 
-    /// The pairs (r, y) of some nodes, all r and all y.
+    /// Gathers the pairs (r, y) of some nodes, all r and all y.
     ///
     /// # Safety
     /// Every node is an index of `field`.
@@ -45,15 +43,14 @@ pub(crate) trait Lanes<const N: usize = LANES>: Number {
     unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; N]);
 }
 
-/// A loop over elements that is written once for lanes of any kind.
+/// A loop over elements, written once for lanes of any kind.
 pub(crate) trait LaneKernel<const N: usize = LANES> {
-    /// What the loop writes to.
+    /// The output of the loop.
     type Output: ?Sized;
 
-    /// The loop. It and all that it calls must be `#[inline(always)]`, so that it is compiled for
-    /// the instruction set of its lanes. The output is a parameter of its own, which tells the
-    /// compiler that nothing of the kernel points there: as a field of the kernel it cost a tenth
-    /// of the time.
+    /// Runs the loop. It and all that it calls must be `#[inline(always)]`, so that it is compiled for the instruction set of
+    /// its lanes. The output is a separate parameter, so that the compiler knows that it does not alias the kernel; as a field
+    /// of the kernel it cost a tenth of the time.
     fn on<L: Lanes<N>>(self, output: &mut Self::Output);
 }
 
@@ -73,12 +70,12 @@ pub(crate) fn run_lanes<K: LaneKernel>(kernel: K, output: &mut K::Output) {
     kernel.on::<Plain>(output);
 }
 
-/// A loop over rows of elements, written once for lanes of any kind; as [`LaneKernel`] is.
+/// A loop over rows of elements, written once for lanes of any kind, like [`LaneKernel`].
 pub(crate) trait RowKernel {
-    /// What the loop writes to.
+    /// The output of the loop.
     type Output: ?Sized;
 
-    /// The loop.
+    /// Runs the loop.
     fn on<L: RowLanes>(self, output: &mut Self::Output);
 }
 
@@ -139,7 +136,7 @@ pub(crate) fn has_avx2() -> bool {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plain<const N: usize = LANES>([f64; N]);
 
-/// x y + z, rounded once but in WebAssembly.
+/// Returns x y + z, rounded once except in WebAssembly.
 #[inline(always)]
 #[allow(clippy::disallowed_methods, reason = "lanes fuse, and these are to have their bits")]
 fn fused(x: f64, y: f64, z: f64) -> f64 {

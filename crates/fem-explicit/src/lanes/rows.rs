@@ -1,28 +1,27 @@
-//! Elements that lie in a row: their corners are neighbours in memory, and so are what they push.
+//! Lanes for elements in a row, whose corners are neighbours in memory.
 
 use super::{Lanes, Plain, WIDE};
 
-/// Which of eight elements of a row each lane has: the order that comes of parting registers of pairs
-/// into their first and second numbers, four and four apart.
+/// The element of eight in a row that each lane holds. The order follows from splitting registers of pairs into first and second
+/// numbers.
 pub(crate) const ROW_PLACES: [usize; WIDE] = [0, 4, 1, 5, 2, 6, 3, 7];
 
 /// Lanes that read and write nodes which follow each other.
 pub(crate) trait RowLanes: Lanes<WIDE> {
-    /// What the last element of eight adds to the node behind them.
+    /// The share of the last element of eight in the node behind them.
     type Carry: Copy;
 
-    /// Nothing.
+    /// Returns an empty carry.
     fn no_carry() -> Self::Carry;
 
-    /// The pairs (r, y) of eight nodes from `first` on, all r and all y, in the order of
-    /// [`ROW_PLACES`].
+    /// Loads the pairs (r, y) of eight nodes from `first` on, all r and all y, in the order of [`ROW_PLACES`].
     ///
     /// # Safety
     /// All of them are in the field.
     unsafe fn load_row(field: &[[f64; 2]], first: usize) -> (Self, Self);
 
-    /// Subtracts from eight nodes from `first` on the pairs that each element has for its node, those
-    /// that it has for the next, and what the eight before have carried; what these carry on.
+    /// Subtracts, from eight nodes from `first` on, the pairs of each element for its own node and for the next one, and the carry
+    /// of the eight before. Returns the new carry.
     ///
     /// # Safety
     /// All of them are in the field.
@@ -34,7 +33,7 @@ pub(crate) trait RowLanes: Lanes<WIDE> {
         carry: Self::Carry,
     ) -> Self::Carry;
 
-    /// The pair that is carried.
+    /// Returns the pair in a carry.
     fn carried(carry: Self::Carry) -> [f64; 2];
 }
 

@@ -1,8 +1,4 @@
-//! What a run observes of itself, whether or not anybody keeps the rows.
-//!
-//! A row takes a pass over all nodes and elements, so it is not made at every step: at the beginning
-//! and end of a contact, and at an even stride that follows from the expected contact alone. Extremes,
-//! integrals and means are those of these instants, the same for any number of rows that are kept.
+//! Quantities that a run derives from sampled instants, whether or not their rows are kept.
 
 use fem_collision::{
     Account, BalanceSide, ForceNoise, ForcePulse, HistoryRow, OutputRequest, PostContactVibration,

@@ -18,7 +18,7 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 #[derive(Debug, Clone)]
 pub(super) struct Elastic {
     pub elements: PackedElements,
-    /// Instantaneous moduli.
+    /// The instantaneous moduli.
     pub moduli: Moduli,
 }
 

@@ -1,4 +1,4 @@
-//! The element loops, in which a run spends its time.
+//! The element loops of small strain, in which a run spends most of its time.
 
 use fem_material::ElasticModuli;
 
@@ -15,7 +15,7 @@ pub(crate) struct Moduli {
 }
 
 impl Moduli {
-    /// Of an elastic material.
+    /// Returns the moduli of an elastic material.
     pub fn of(moduli: &ElasticModuli) -> Self {
         Self { bulk: moduli.bulk_modulus(), shear: moduli.shear_modulus() }
     }
@@ -49,7 +49,7 @@ pub(crate) fn subtract_split_internal_forces(
     run_lanes(Forces::<_, true> { elements: others, moduli, bulk_field: u, shear_field: w }, f);
 }
 
-/// Strain energy (J) of a field.
+/// Returns the strain energy (J) of a field.
 pub(crate) fn strain_energy(elements: &PackedElements, moduli: Moduli, field: &Field) -> f64 {
     let PackedElements { rows, others } = elements;
     let (mut in_rows, mut of_others) = (0.0, 0.0);
@@ -58,7 +58,7 @@ pub(crate) fn strain_energy(elements: &PackedElements, moduli: Moduli, field: &F
     in_rows + of_others
 }
 
-/// Internal forces; bulk and shear see fields of their own if `SPLIT`.
+/// The loop of internal forces; bulk and shear read fields of their own if `SPLIT`.
 struct Forces<'a, E, const SPLIT: bool> {
     elements: &'a E,
     moduli: Moduli,
@@ -84,7 +84,7 @@ impl<const SPLIT: bool> RowKernel for Forces<'_, Rows, SPLIT> {
     }
 }
 
-/// Strain energy.
+/// The loop of the strain energy.
 struct Energy<'a, E> {
     elements: &'a E,
     moduli: Moduli,
@@ -203,7 +203,7 @@ struct ElementStrain<L> {
     hourglass_y: L,
 }
 
-/// sum + x y, rounded once or twice.
+/// Returns sum + x y, rounded once if `FUSED`, otherwise twice.
 #[inline(always)]
 fn plus<const N: usize, L: Lanes<N>, const FUSED: bool>(sum: L, x: L, y: L) -> L {
     if FUSED { sum.plus_product(x, y) } else { sum + x * y }
@@ -216,7 +216,7 @@ fn load_three<const N: usize, L: Lanes<N>>(values: &[[f64; N]; 3]) -> [L; 3] {
     [L::load(&values[0]), L::load(&values[1]), L::load(&values[2])]
 }
 
-/// x₀ y₀ + x₁ y₁ + x₂ y₂.
+/// Returns x₀ y₀ + x₁ y₁ + x₂ y₂.
 #[inline(always)]
 fn dot<const N: usize, L: Lanes<N>, const FUSED: bool>(x: &[L; 3], y: &[L; 3]) -> L {
     plus::<N, L, FUSED>(plus::<N, L, FUSED>(x[0] * y[0], x[1], y[1]), x[2], y[2])
@@ -254,7 +254,7 @@ impl<L> Corners<L> {
         Self::of([r0, r1, r2, r3], [y0, y1, y2, y3])
     }
 
-    /// Of eight elements in a row, the first corner of the first of them and their stride.
+    /// Loads the corners of eight elements in a row, given the first corner of the first one and their stride.
     ///
     /// # Safety
     /// The nine nodes from there and the nine a stride further are in the field.
@@ -320,9 +320,9 @@ struct Constants<L> {
     bulk: L,
     shear: L,
     twice_shear: L,
-    /// 2/3 G.
+    /// The share 2/3 G of the trace.
     trace_shear: L,
-    /// K − 2/3 G.
+    /// Lamé's constant K − 2/3 G.
     lame: L,
 }
 
@@ -341,8 +341,7 @@ impl<L> Constants<L> {
         }
     }
 
-    /// The forces (r, y) of the elements at their corners; bulk stress is that of other displacements if
-    /// there are.
+    /// Returns the forces (r, y) of the elements at their corners; the bulk stress is that of other displacements if given.
     #[inline(always)]
     fn forces<const N: usize, const FUSED: bool>(
         &self,
@@ -383,7 +382,7 @@ impl<L> Constants<L> {
         ]
     }
 
-    /// A sum and twice the strain energies of the elements.
+    /// Returns a sum plus twice the strain energies of the elements.
     #[inline(always)]
     fn plus_twice_energy<const N: usize, const FUSED: bool>(
         &self,
@@ -406,7 +405,7 @@ impl<L> Constants<L> {
     }
 }
 
-/// What the gradients turn into forces.
+/// Stresses and hourglass forces, which the gradients turn into nodal forces.
 #[derive(Clone, Copy)]
 struct ElementStress<L> {
     s_rr: L,
@@ -417,7 +416,7 @@ struct ElementStress<L> {
 }
 
 impl<L> ElementStress<L> {
-    /// Force at a corner but for the hoop stress.
+    /// Returns the force at a corner without that of the hoop stress.
     #[inline(always)]
     fn force<const N: usize, const FUSED: bool>(&self, shape: &Shape<N>, a: usize) -> (L, L)
     where

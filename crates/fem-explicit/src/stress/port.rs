@@ -1,4 +1,4 @@
-//! What a step asks of the stress of a body.
+//! The port of the stress: the traits that a step calls.
 //!
 //! No method has a default: a new one does not compile until every stress has answered it, also one that is made of others
 //! ([`PartlyFinite`](super::partly_finite)).
@@ -93,7 +93,7 @@ pub(crate) trait Stress: Part {
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
 }
 
-/// What a stress at small strain adds: it is linear in the motion, which a boundary without mass relies on.
+/// A stress at small strain: it is linear in the motion, which a boundary without mass relies on.
 pub(crate) trait SmallStrainStress: Stress {
     /// Returns the stiffness (N/m) of an element against a further displacement at the end of a step, once the time step is
     /// known.
@@ -107,7 +107,7 @@ pub(crate) trait SmallStrainStress: Stress {
     fn effective(&self) -> Option<usize>;
 }
 
-/// What a stress at finite strain adds: time step control and diagnostics follow its changing stiffness.
+/// A stress at finite strain: time step control and diagnostics follow its changing stiffness.
 pub(crate) trait FiniteStrainStress: Stress {
     /// Returns the number of elements at finite strain.
     fn n_elements(&self) -> usize;

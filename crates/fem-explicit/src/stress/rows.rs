@@ -1,9 +1,9 @@
-//! Elements in rows: those of a mesh that is made here, and of any whose nodes are numbered row by row.
+//! Elements in rows, as in the meshes of `fem-mesh` and in any mesh whose nodes are numbered row by row.
 //!
-//! Of an element with the corners k, k + 1, k + s + 1 and k + s the next in its row has k + 1, and so on:
-//! the corners of eight are eight neighbours in memory, four times. The slot between the last element of a
-//! row and the first of the next is an element without stiffness, so that rows of one length s are one
-//! stretch, whatever s is, and no lane but those is idle.
+//! If an element has the corners k, k + 1, k + s + 1 and k + s, the next one in its row has the corners from k + 1 on: the
+//! corners of eight elements are four times eight neighbours in memory. The slot between the last element of a row and the first
+//! one of the next row is an element without stiffness. So all rows of one length s form one stretch, and only these slots are
+//! idle.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,7 +13,7 @@ use fem_element::QuadGeometry;
 use super::elements::Shape;
 use crate::lanes::{ROW_PLACES, WIDE};
 
-/// So many slots without an element part two stretches.
+/// Largest number of slots without an element within a stretch.
 const LONGEST_GAP: usize = 4;
 
 /// Elements of consecutive first corners.
@@ -21,14 +21,13 @@ const LONGEST_GAP: usize = 4;
 pub(crate) struct Stretch {
     /// First corner of the first element.
     pub first: usize,
-    /// From a node to its neighbour in the next row.
+    /// Distance in node numbers to the neighbour in the next row.
     pub stride: usize,
-    /// Of its eights.
+    /// Shapes of its eights.
     shapes: Range<usize>,
 }
 
-/// Elements of a body that lie in rows. No stretch touches a node beyond `n_nodes`, which lets the kernels
-/// index without a check.
+/// Elements of a body that lie in rows. All node numbers of a stretch are below `n_nodes`, so that kernels index without a check.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows {
     stretches: Vec<Stretch>,
@@ -36,15 +35,15 @@ pub(crate) struct Rows {
     n_nodes: usize,
 }
 
-/// An element in a row: its number, and which of its corners are k, k + 1, k + s + 1 and k + s.
+/// An element in a row: its number, and the corners that are k, k + 1, k + s + 1 and k + s.
 struct Placed {
     element: usize,
     corners: [usize; 4],
 }
 
 impl Rows {
-    /// Packs the integrated elements, quads of so many nodes, that lie in stretches of eight or more; and
-    /// the numbers of the others.
+    /// Packs the integrated elements that lie in stretches of eight or more; quads are on nodes with numbers below `n_nodes`. Returns
+    /// also the numbers of the other elements.
     pub fn pack(
         n_nodes: usize,
         quads: &[[u32; 4]],
@@ -77,7 +76,7 @@ impl Rows {
                     others.extend(stretch.iter().map(|(_, placed)| placed.element));
                     continue;
                 }
-                // Whole eights from the first on, and one that ends with the last.
+                // Whole eights from the first element on, and one eight that ends with the last element.
                 let end = last + 1;
                 let whole = first + (end - first) / WIDE * WIDE;
                 let part = |range: Range<usize>| move |(k, _): &&(usize, Placed)| range.contains(k);
@@ -117,14 +116,13 @@ impl Rows {
         self.stretches.push(Stretch { first: slots.start, stride, shapes });
     }
 
-    /// Elements that the loop goes through, idle lanes included.
+    /// Returns the number of slots in the loop, idle lanes included.
     #[cfg(test)]
     pub fn n_slots(&self) -> usize {
         WIDE * self.shapes.len()
     }
 
-    /// The stretches and the shapes of their eights, after a check that nodal fields are long enough for
-    /// them.
+    /// Returns the stretches with the shapes of their eights, after a check that nodal fields are long enough.
     #[inline(always)]
     pub fn checked(
         &self,
@@ -135,7 +133,7 @@ impl Rows {
     }
 }
 
-/// First corner k, stride s and which corners are k, k + 1, k + s + 1 and k + s of a quad that has such.
+/// Returns first corner k, stride s and the corners that are k, k + 1, k + s + 1 and k + s, if a quad has such corners.
 fn in_row(quad: &[u32; 4]) -> Option<(usize, usize, [usize; 4])> {
     let mut order = [0, 1, 2, 3];
     order.sort_by_key(|&corner| quad[corner]);
@@ -156,15 +154,15 @@ mod tests {
         Rows::pack(mesh.nodes().len(), mesh.quads(), &geometries(mesh))
     }
 
-    /// What a step costs is counted here: blocks and rings are rows, but for the half of the first and of
-    /// the last ring that lies along the nodes of a block which are not neighbours.
+    /// The cost of a step: blocks and rings lie in rows, except the halves of the first and of the last ring along the nodes of a
+    /// block that are not neighbours.
     #[test]
     fn meshes_that_are_made_here_are_rows() {
         for m in [3, 5, 10, 20] {
             let mesh = sphere(0.1 / m as f64, 0.1, Side::Above);
             let (rows, others) = packed(&mesh);
             let n = mesh.quads().len();
-            // A stretch of fewer than eight is none.
+            // Fewer than eight elements are no stretch.
             let too_short = if m < WIDE { m } else { 0 };
             assert_eq!(others.len(), 2 * m + too_short, "{m}");
             // A slot without an element behind each row, and an eight of each stretch that is not full.
@@ -173,7 +171,7 @@ mod tests {
         }
     }
 
-    /// Corners may be named from any, and either way around.
+    /// Corners may be listed from any corner on, in both directions.
     #[test]
     fn the_corners_of_an_element_in_a_row_are_found() {
         for turn in 0..4 {

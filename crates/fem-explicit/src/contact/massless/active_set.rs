@@ -1,4 +1,4 @@
-//! Which springs are closed where the boundary is in balance.
+//! The active set: the springs that are closed where the boundary is in balance.
 //!
 //! The boundary problem is the minimum of
 //!
@@ -7,12 +7,12 @@
 //!   + \sum_j \tfrac12\, k_j \langle -(g_j + b_j \cdot x) \rangle^2
 //! ```
 //!
-//! over the changes x of the nodes without mass, with their stiffness K against a step, the forces R
-//! that they lack, and gaps g that the change opens by b·x. φ is convex and piecewise quadratic. Where
-//! it is known which springs are closed, x solves one linear system; closed are then those whose gap is
-//! negative there. ActiveSet of the two end where nothing changes, which is the minimum, exactly: one round
-//! a step but when the contact grows or shrinks (Newton's method; Qi & Sun 1993). Should the active_set go in
-//! circles, steps are taken as far only as φ falls, which ends for any convex φ of this kind (Sun 1997).
+//! over the changes x of the nodes without mass, with their stiffness K in a step, the forces R that are missing to their
+//! balance, and gaps g that the change opens by b·x. φ is convex and piecewise quadratic. For a given active set x solves one
+//! linear system; the springs whose gap is negative there are the next active set. The iteration ends where the set does not
+//! change, which is exactly the minimum: after one iteration in most steps, more where the contact grows or shrinks (Newton's
+//! method; Qi & Sun 1993). Should the sets repeat in a cycle, steps are damped so that φ falls, which converges for any convex
+//! φ of this kind (Sun 1997).
 
 use super::skyline::Skyline;
 
@@ -20,15 +20,15 @@ use super::skyline::Skyline;
 const FREE_ITERATIONS: usize = 10;
 /// ActiveSet at most; one that is not over by then is taken up again in the next step.
 const MOST_ITERATIONS: usize = 100;
-/// Halvings of the line, to rounding.
+/// Bisections of the line search, down to rounding.
 const HALVINGS: usize = 60;
 
 /// A spring between the surfaces.
 #[derive(Debug, Clone)]
 pub(super) struct Spring {
-    /// N/m.
+    /// Its stiffness, N/m.
     pub stiffness: f64,
-    /// b: row of the unknown and what its change opens the gap by.
+    /// b: rows of the unknowns, and how much the gap opens per change.
     pub opening: Vec<(usize, f64)>,
 }
 
@@ -49,24 +49,24 @@ pub(super) struct Problem {
     pub springs: Vec<Spring>,
 }
 
-/// Room for a solution.
+/// Buffers for a solution, and the active set.
 #[derive(Debug)]
 pub(super) struct ActiveSet {
-    /// R, N.
+    /// Missing forces R, N.
     pub lacking: Vec<f64>,
-    /// g, m.
+    /// Gaps g, m.
     pub gaps: Vec<f64>,
-    /// x, m.
+    /// Change x, m.
     pub change: Vec<f64>,
     is_closed: Vec<bool>,
-    /// The factor of the springs that were closed in the last round, and which those were.
+    /// The factor for the springs that were closed in the last iteration, and their set.
     factor: Skyline,
     factored: Option<Vec<bool>>,
     line: Line,
 }
 
 impl ActiveSet {
-    /// For a problem.
+    /// Allocates the buffers for a problem.
     pub fn new(problem: &Problem) -> Self {
         let (n, n_springs) = (problem.stiffness.n_rows(), problem.springs.len());
         Self {
@@ -80,7 +80,7 @@ impl ActiveSet {
         }
     }
 
-    /// Finds x of R and g. `None` where the matrix is not positive.
+    /// Solves for x, given R and g. `None` if the matrix is not positive.
     pub fn solve(&mut self, problem: &Problem) -> Option<()> {
         self.close_by_gaps();
         for _ in 0..FREE_ITERATIONS {
@@ -92,7 +92,7 @@ impl ActiveSet {
         self.search_lines(problem)
     }
 
-    /// To be told where springs that are closed open by something else than at the last solution.
+    /// Discards the factor if it contains closed springs, whose directions have changed since.
     pub fn forget_closed(&mut self) {
         self.factored.take_if(|factored| factored.contains(&true));
     }
@@ -104,7 +104,7 @@ impl ActiveSet {
         }
     }
 
-    /// Closes the springs whose gap is negative after the change; whether those are others.
+    /// Closes the springs whose gap is negative after the change. Returns whether the set has changed.
     fn close_by_change(&mut self, problem: &Problem) -> bool {
         let mut differ = false;
         for ((spring, gap), is_closed) in
@@ -117,7 +117,7 @@ impl ActiveSet {
         differ
     }
 
-    /// The change with the springs closed that are.
+    /// Solves for the change with the present set.
     fn solve_closed(&mut self, problem: &Problem) -> Option<()> {
         self.update_factor(problem)?;
         self.change.copy_from_slice(&self.lacking);
@@ -135,7 +135,7 @@ impl ActiveSet {
         Some(())
     }
 
-    /// The factor with the springs closed that are, from the first row on in which it is another.
+    /// Updates the factor for the present set, from the first row that changes.
     fn update_factor(&mut self, problem: &Problem) -> Option<()> {
         let springs = || problem.springs.iter().zip(&self.is_closed);
         let from = match &self.factored {
@@ -161,7 +161,7 @@ impl ActiveSet {
         Some(())
     }
 
-    /// ActiveSet from no change on, each as far as φ falls.
+    /// Iterates from no change on, with a line search in which φ falls.
     fn search_lines(&mut self, problem: &Problem) -> Option<()> {
         self.line.start.fill(0.0);
         self.line.pull.fill(0.0);
@@ -183,11 +183,11 @@ impl ActiveSet {
 /// A line from one change, x, to another, y.
 #[derive(Debug)]
 struct Line {
-    /// x, m.
+    /// Start x, m.
     start: Vec<f64>,
-    /// K x, N.
+    /// K x at the start, N.
     pull: Vec<f64>,
-    /// K y, N.
+    /// K y at the end, N.
     pull_at_end: Vec<f64>,
 }
 
@@ -197,7 +197,7 @@ impl Line {
         Self { start: zeros(), pull: zeros(), pull_at_end: zeros() }
     }
 
-    /// At y, which is the balance of R (N), of the springs that are closed at their gaps (m), and of K.
+    /// Sets the end y, where R (N), the closed springs at their gaps (m) and K are in balance.
     fn aim(
         &mut self,
         problem: &Problem,
@@ -217,7 +217,7 @@ impl Line {
         }
     }
 
-    /// dφ/dt at the share t of the way.
+    /// Returns dφ/dt at a share t of the way.
     fn slope(&self, problem: &Problem, lacking: &[f64], gaps: &[f64], end: &[f64], t: f64) -> f64 {
         let Self { start, pull, pull_at_end } = self;
         let mut slope = 0.0;
@@ -233,7 +233,7 @@ impl Line {
         slope
     }
 
-    /// As far towards y as φ falls.
+    /// Moves towards y as far as φ falls.
     fn advance(&mut self, problem: &Problem, lacking: &[f64], gaps: &[f64], end: &[f64]) {
         let falls = |t: f64| self.slope(problem, lacking, gaps, end, t) <= 0.0;
         let (mut length, mut beyond) = (0.0, 1.0);

@@ -1,4 +1,4 @@
-//! The nodes without mass of one body, and the elements that pull at them.
+//! The massless nodes of one body, and the elements around them.
 
 use fem_collision::BodyInput;
 use fem_element::{ElementMatrix, QuadGeometry};
@@ -11,26 +11,26 @@ use crate::stress::{Collapse, SmallStrainStress, small_strain};
 /// The boundary of a body that deforms.
 #[derive(Debug)]
 pub(super) struct Boundary {
-    /// Nodes without mass, from the axis outward.
+    /// Massless nodes, from the axis outward.
     pub nodes: Vec<u32>,
     /// Their distances from the axis, m.
     pub radii: Vec<f64>,
-    /// Of each a node next to it that has mass.
+    /// For each massless node, a node next to it that has mass.
     neighbours: Vec<u32>,
     quads: Vec<[u32; 4]>,
     geometries: Vec<QuadGeometry>,
-    /// Of these elements alone.
+    /// Stress of these elements alone.
     stress: Box<dyn SmallStrainStress>,
-    /// All nodes of theirs.
+    /// All nodes of these elements.
     touched: Vec<u32>,
     n_nodes: usize,
 }
 
 impl Boundary {
-    /// Of a body whose nodes without mass are these; `None` of a rigid one.
+    /// Takes the massless nodes of a body; `None` for a rigid body.
     ///
     /// # Errors
-    /// An element none of whose corners has mass.
+    /// No corner of an element has mass.
     pub fn new(body: &BodyInput, mut nodes: Vec<u32>) -> Result<Option<Self>, ModelError> {
         let (Some(mesh), Some(material)) = (body.mesh(), body.material()) else { return Ok(None) };
         let radius = |node: u32| mesh.nodes()[node as usize][0];
@@ -56,12 +56,12 @@ impl Boundary {
         Ok(Some(Self { nodes, radii, neighbours, quads, geometries, stress, touched, n_nodes }))
     }
 
-    /// Nodes of the whole body.
+    /// Returns the number of nodes of the whole body.
     pub fn n_nodes(&self) -> usize {
         self.n_nodes
     }
 
-    /// Told the time step, s.
+    /// Takes the time step, s.
     pub fn set_time_step(&mut self, time_step: f64) {
         self.stress.set_time_step(time_step);
     }
@@ -72,10 +72,10 @@ impl Boundary {
         pairs.map(|(quad, geometry)| (quad, self.stress.stiffness_of_step(geometry)))
     }
 
-    /// Overwrites the forces (N) of its elements on their nodes, those of no other node.
+    /// Overwrites the forces (N) of its elements on their nodes; forces at other nodes stay.
     ///
     /// # Errors
-    /// An element has collapsed, which none does whose stress is a linear function of the motion.
+    /// An element has collapsed, which does not happen at small strain.
     pub fn update_forces(
         &self,
         motion: &MotionMut<'_>,
@@ -85,7 +85,7 @@ impl Boundary {
         self.stress.subtract_forces(&motion.as_motion(), motion.stress_history, forces)
     }
 
-    /// Moves a node by so much more (m) in a step (s) that is done.
+    /// Moves a node by a further displacement (m) in a step that has been taken, given the inverse of its time, 1/s.
     pub fn shift(
         &self,
         motion: &mut MotionMut<'_>,
@@ -101,13 +101,13 @@ impl Boundary {
         self.stress.shift(node, change, motion.stress_history);
     }
 
-    /// Those that [`Boundary::hand_over`] changes.
+    /// Returns the nodes whose forces [`Boundary::hand_over`] changes.
     pub fn pushed_nodes(&self) -> Vec<u32> {
         [&self.nodes[..], &self.neighbours].concat()
     }
 
-    /// What rounding leaves of the balance of a node without mass acts on its neighbour: forces (N) of
-    /// both bodies stay opposite and equal.
+    /// Moves the forces (N) at massless nodes, which are rounding errors of their balance, to their neighbours, so that the
+    /// forces on both bodies stay opposite and equal.
     pub fn hand_over(&self, forces: &mut Field) {
         for (&node, &neighbour) in self.nodes.iter().zip(&self.neighbours) {
             let [r, y] = std::mem::take(&mut forces[node as usize]);
@@ -117,7 +117,7 @@ impl Boundary {
     }
 }
 
-/// The nearest node that has mass, of those that share an element with one that has none.
+/// Returns the nearest node with mass that shares an element with a massless node.
 fn neighbour(mesh: &SphereMesh, quads: &[[u32; 4]], massless: &[u32], node: u32) -> u32 {
     let place = |node: u32| mesh.nodes()[node as usize];
     let [r, y] = place(node);

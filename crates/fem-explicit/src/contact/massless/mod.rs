@@ -1,23 +1,21 @@
-//! A boundary without mass: the surface nodes that can be in contact carry none and are where the forces
-//! on them are in balance, at the end of every step.
+//! The massless boundary: surface nodes that can be in contact carry no mass, and the forces on them are in balance at the
+//! end of every step.
 //!
 //! ```math
 //! 0 = -K_b w + B^T p(w_b), \qquad M_i \ddot u_i = -K_i w + f_i
 //! ```
 //!
-//! with the rows b of the nodes without mass and i of the others (Khenous, Laborde & Renard 2008, Eur. J.
-//! Mech. A 27, 918; in explicit dynamics Monjaraz-Tec, Gross & Krack 2022, Comput. Struct. 277–278). The
-//! springs p of the surfaces are those of [`ContactInterface`]; they open and close without mass between
-//! them that could ring, and are not in the time step, however stiff. What the others feel of the
-//! boundary is the gradient of a convex potential ([`crate::body`]), so that contact neither gains
-//! energy nor loses any.
+//! with the rows b of the massless nodes and i of the others (Khenous, Laborde & Renard 2008, Eur. J. Mech. A 27, 918; in
+//! explicit dynamics Monjaraz-Tec, Gross & Krack 2022, Comput. Struct. 277–278). The springs p between the surfaces are those
+//! of [`ContactInterface`]. They open and close without mass between them that could ring, and they do not limit the time
+//! step, however stiff they are. The force of the boundary on the other nodes is the gradient of a convex potential
+//! (`body/critical_time_step.rs`), so the contact neither gains nor loses energy.
 //!
-//! In a step the nodes without mass keep their velocity first; of the forces R that they lack then, and
-//! of the gaps, follows what they have to move more, x: its balance is linear but for the springs that
-//! close ([`ActiveSet`]). The matrix is that of the elements at the end of a step, in which history has a
-//! share ([`Stress::stiffness_of_step`](crate::Stress::stiffness_of_step)); springs of surfaces that slip turn,
-//! and it is solved in passes ([`SlippingSprings`]). Masses are moved inward
-//! ([`BoundaryMass`](crate::body)).
+//! In a step the massless nodes first keep their velocity. From the forces R that are then missing to their balance, and from
+//! the gaps, follows their further displacement x: a linear system but for the springs that close ([`ActiveSet`]). The matrix
+//! is the stiffness of the elements against a displacement at the end of a step, in which the history has a share
+//! (`SmallStrainStress::stiffness_of_step`). Springs of slipping surfaces turn, and the system is solved in passes
+//! ([`SlippingSprings`]). Masses are moved inward (`body/massless_boundary_mass.rs`).
 
 mod active_set;
 mod boundary;
@@ -38,20 +36,20 @@ use boundary::Boundary;
 use skyline::Skyline;
 use slipping_springs::SlippingSprings;
 
-/// A contact is taken for the last where it would lose more than this share of its force in a step if
-/// nodes without mass kept their velocity.
+/// A contact counts as the last one if it would lose more than this share of its force in a step in which massless nodes keep
+/// their velocity.
 const LAST_LOSS: f64 = 0.25;
 
-/// A massless boundary of each body that deforms.
+/// The massless boundaries of the deformable bodies, and the springs between them.
 #[derive(Debug)]
 pub struct Massless {
     springs: Springs,
     sides: [Option<Boundary>; 2],
     /// Side and place of the node of each pair of unknowns (r, y), from the axis outward.
     unknowns: Vec<(usize, usize)>,
-    /// Of each spring the unknowns of the ends of the segments of both sides, radial and along y.
+    /// For each spring, the unknowns at the ends of the segments on both sides, radial and along y.
     ends: Vec<[[[Option<usize>; 2]; 2]; 2]>,
-    /// Once the time step is known, unless elements have no stiffness.
+    /// Present once the time step is known, unless elements have no stiffness.
     problem: Option<Problem>,
     inverse_step: f64,
 }
@@ -95,14 +93,14 @@ impl Massless {
         self.springs.slipping().is_some()
     }
 
-    /// First row of the unknowns of a node of a side.
+    /// Returns the first row of the unknowns of a node of a side.
     fn row(&self, side: usize, node: u32) -> Option<usize> {
         let nodes = &self.sides[side].as_ref()?.nodes;
         let is_node = |&(other, place): &(usize, usize)| other == side && nodes[place] == node;
         Some(2 * self.unknowns.iter().position(is_node)?)
     }
 
-    /// The unknowns of each spring's ends. Those that do not turn open along y alone.
+    /// Returns the unknowns at the ends of each spring. Springs that do not turn open along y alone.
     fn ends(&self) -> Vec<[[[Option<usize>; 2]; 2]; 2]> {
         let unknown = |side: usize, node: u32| {
             let row = self.row(side, node);
@@ -115,19 +113,19 @@ impl Massless {
         self.interface().points().iter().map(of_spring).collect()
     }
 
-    /// The unknown of an end of a spring.
+    /// Returns the unknown at an end of a spring.
     fn unknown(&self, k: usize, side: usize, end: usize, axis: usize) -> Option<usize> {
         self.ends[k][side][end][axis]
     }
 
-    /// Side, end and axis of the unknowns of a spring, in the order of what it opens by.
+    /// Returns side, end and axis of the unknowns of a spring, in the order of its openings.
     fn entries(&self, k: usize) -> impl Iterator<Item = [usize; 3]> + '_ {
         (0..8)
             .map(|entry: usize| [entry / 4, entry / 2 % 2, entry % 2])
             .filter(move |&[side, end, axis]| self.unknown(k, side, end, axis).is_some())
     }
 
-    /// What each spring opens by, where nothing has moved.
+    /// Returns the springs of the undeformed surfaces.
     fn undeformed_springs(&self) -> Vec<Spring> {
         let spring = |(k, point): (usize, &fem_contact::ContactPoint)| {
             let at_first = self
@@ -144,7 +142,7 @@ impl Massless {
         self.interface().points().iter().enumerate().map(spring).collect()
     }
 
-    /// Matrix and springs of a time step that the boundaries know.
+    /// Assembles matrix and springs, once the boundaries know the time step.
     fn assemble(&self) -> Option<Problem> {
         let springs = self.undeformed_springs();
         let mut entries = Vec::new();
@@ -180,15 +178,15 @@ impl Massless {
         Some(Problem { stiffness, springs })
     }
 
-    /// Whether an unknown is the radial motion of a node on the axis, which there is not.
+    /// Whether an unknown is the radial motion of a node on the axis, which is zero.
     fn is_fixed(&self, row: usize) -> bool {
         let (side, place) = self.unknowns[row / 2];
         let on_axis = |boundary: &Boundary| boundary.radii[place] == 0.0;
         row.is_multiple_of(2) && self.sides[side].as_ref().is_some_and(on_axis)
     }
 
-    /// What is lacking in the balance of the nodes without mass, of a step in which they
-    /// kept their velocity.
+    /// Computes the forces that are missing to the balance of the massless nodes after a step in which they kept their
+    /// velocity.
     fn update(&self, motions: &[MotionMut<'_>; 2], buffers: &mut Buffers) -> Result<(), Collapse> {
         let Buffers { forces, active_set, .. } = buffers;
         for (side, boundary) in self.sides.iter().enumerate() {
@@ -204,14 +202,14 @@ impl Massless {
         Ok(())
     }
 
-    /// Finds what the nodes without mass have to move more.
+    /// Solves for the further displacements of the massless nodes.
     fn solve(
         &self,
         problem: &Problem,
         motions: &[MotionMut<'_>; 2],
         buffers: &mut Buffers,
     ) -> Option<()> {
-        // No element of these collapses.
+        // At small strain no element collapses.
         self.update(motions, buffers).ok()?;
         let Buffers { active_set, slipping_springs, .. } = buffers;
         match (&self.springs, slipping_springs) {
@@ -229,13 +227,13 @@ impl Massless {
     }
 }
 
-/// What a run has for it.
+/// The buffers of a run.
 #[derive(Debug)]
 struct Buffers {
-    /// Of the elements at the boundaries, N; of no meaning at other nodes.
+    /// Forces of the elements at the boundaries, N; without meaning at other nodes.
     forces: [NodalField; 2],
     active_set: ActiveSet,
-    /// Of springs that turn.
+    /// Present for slipping surfaces.
     slipping_springs: Option<SlippingSprings>,
 }
 
@@ -256,7 +254,7 @@ impl Contact for Massless {
         self.problem.as_ref().map(|_| ()).ok_or(ModelError::NoBalance)
     }
 
-    /// A rigid sphere feels the springs as if the other body were held: more than they can pull.
+    /// Bounds the springs at a rigid sphere as if the other body were fixed, which is more than they can pull.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
         if self.sides[side].is_none() {
             self.interface().add_bound_against_held(side, bound);

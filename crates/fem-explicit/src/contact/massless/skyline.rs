@@ -1,13 +1,13 @@
 //! Symmetric positive matrices whose rows begin near the diagonal.
 
-/// The lower half of a symmetric matrix: of each row what lies between its first entry and the diagonal.
+/// The lower half of a symmetric matrix: each row from its first entry to the diagonal.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Skyline {
     rows: Vec<Row>,
     values: Vec<f64>,
 }
 
-/// Where a row begins.
+/// The beginning of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Row {
     first_column: usize,
@@ -16,14 +16,14 @@ struct Row {
 }
 
 impl Row {
-    /// Its entries left of the diagonal, of row i.
+    /// Returns the places of the entries of row i left of the diagonal.
     fn before(self, i: usize) -> std::ops::Range<usize> {
         self.place..self.place + i - self.first_column
     }
 }
 
 impl Skyline {
-    /// Of zeros; the rows begin at these columns.
+    /// Makes a matrix of zeros whose rows begin at given columns.
     pub fn new(first_columns: impl IntoIterator<Item = usize>) -> Self {
         let mut place = 0;
         let rows = first_columns.into_iter().enumerate().map(|(i, first_column)| {
@@ -35,27 +35,27 @@ impl Skyline {
         Self { rows, values: vec![0.0; place] }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn n_rows(&self) -> usize {
         self.rows.len()
     }
 
-    /// Entry (i, j), j ≤ i, of those that there are.
+    /// Returns the stored entry (i, j), j ≤ i.
     pub fn entry(&mut self, i: usize, j: usize) -> &mut f64 {
         let Row { first_column, place } = self.rows[i];
         &mut self.values[place + j - first_column]
     }
 
-    /// Takes the rows of another from one on.
+    /// Copies the rows of another matrix from a row on.
     pub fn copy_rows(&mut self, from: usize, other: &Self) {
         let place = self.rows.get(from).map_or(self.values.len(), |row| row.place);
         self.values[place..].copy_from_slice(&other.values[place..]);
     }
 
-    /// Overwrites the rows from one on with those of Cholesky's factor, its diagonal inverted; those
-    /// before have been. The entries do not depend on where that begins.
+    /// Overwrites the rows from a row on with those of Cholesky's factor, with its diagonal inverted; earlier rows have been
+    /// factored before. The entries do not depend on where the factorisation begins.
     ///
-    /// `None` of a matrix that is not positive.
+    /// Returns `None` if the matrix is not positive.
     pub fn factor(&mut self, from: usize) -> Option<()> {
         for i in from..self.rows.len() {
             let row = self.rows[i];

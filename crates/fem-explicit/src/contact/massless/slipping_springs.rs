@@ -1,17 +1,17 @@
-//! The balance of nodes without mass whose springs turn as they slip.
+//! The balance of massless nodes whose springs turn as the surfaces slip.
 //!
-//! The gap is a function of second order of the displacements there ([`SlippingInterface`]), and what a
-//! change x opens it by is one of x:
+//! The gap is a function of second order of the displacements ([`SlippingInterface`]), so the opening of a spring depends on
+//! the change x:
 //!
 //! ```math
 //! K x = R + \sum_j k_j \langle -g_j(x) \rangle\, \nabla g_j(x)
 //! ```
 //!
-//! In each pass gaps are linear about the x of the pass before, and the balance is that of springs which do
-//! not turn ([`ActiveSet`]); what is left of it is of second order in what a pass moves, and there is one pass
-//! more while that is more than [`BALANCED`] of the force: two in most steps. The potential is that of
-//! [`ActiveSet`] with curvatures of a force over the length of a segment, small beside the stiffness of elements
-//! where strains are: it is convex there, and energy is kept as well.
+//! In each pass the gaps are linearised about the x of the pass before, and the balance is that of springs that do not turn
+//! ([`ActiveSet`]). The remaining error is of second order in the change of a pass. Passes are repeated while it is more than
+//! [`BALANCED`] of the force; two suffice in most steps. The potential differs from that of [`ActiveSet`] by curvatures of a
+//! force over the length of a segment, which are small beside the stiffness of elements at small strain: it is convex there,
+//! and energy is conserved as well.
 
 use fem_contact::{Displacement, SlippingInterface};
 
@@ -19,31 +19,31 @@ use super::Massless;
 use super::active_set::{ActiveSet, Problem};
 use crate::part::MotionMut;
 
-/// What a step may lack in the balance of a node, over the force of the contact. It acts on the next node
-/// and is work that no account has: at most this share of what is stored.
+/// Largest error in the balance of a node over the force of the contact. It acts on the next node, and its work is in no
+/// account: at most this share of the stored energy.
 const BALANCED: f64 = 1e-7;
-/// Passes at most. Four are the most at a contact of a twentieth of the radius, eleven at strains of a third.
+/// Largest number of passes: 4 are needed at a contact radius of a twentieth of the radius, 11 at strains of a third.
 const MOST_PASSES: usize = 20;
 
-/// Room for a solution.
+/// Buffers for a solution.
 #[derive(Debug)]
 pub(super) struct SlippingSprings {
-    /// Its springs open by what they do at the last x.
+    /// The springs have the openings of the last x.
     problem: Problem,
-    /// Forces of the springs less those of the last solution, N.
+    /// Change of the forces of the springs since the last solution, N.
     lacking: Vec<f64>,
 }
 
 impl SlippingSprings {
-    /// Of springs as they are at no displacement.
+    /// Starts with the springs of the undeformed surfaces.
     pub fn new(problem: &Problem) -> Self {
         Self { problem: problem.clone(), lacking: vec![0.0; problem.stiffness.n_rows()] }
     }
 }
 
 impl Massless {
-    /// Finds x of the forces that are lacking in `active_set`, for displacements before it. `None` where a
-    /// matrix is not positive.
+    /// Solves for x, given the missing forces in `active_set` and the displacements before the change. `None` if a matrix is
+    /// not positive.
     pub(super) fn solve_slipping(
         &self,
         slipping: &SlippingInterface,
@@ -67,7 +67,8 @@ impl Massless {
 }
 
 impl SlippingSprings {
-    /// Makes gaps linear about the x of `active_set`. What is lacking then, and the force of the contact, N.
+    /// Linearises the gaps about the x of `active_set`. Leaves the missing forces in this struct, and returns the contact
+    /// force, N.
     fn turn(
         &mut self,
         massless: &Massless,

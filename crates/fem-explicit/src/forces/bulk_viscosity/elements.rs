@@ -31,13 +31,13 @@ struct Block {
 pub(super) struct ViscousElements {
     blocks: Vec<Block>,
     n_nodes: usize,
-    /// Of each node a quarter of 1/Σ ρ l V (m²/kg) of its elements.
+    /// For each node, a quarter of 1/Σ ρ l V (m²/kg) of its elements.
     shares: Vec<f64>,
     /// b₁ c_d, m/s.
     linear_speed: f64,
-    /// b₂².
+    /// Quadratic coefficient b₂².
     quadratic: f64,
-    /// j_max, m/s.
+    /// Cap j_max of the velocity drop, m/s.
     largest_drop: f64,
 }
 
@@ -209,7 +209,7 @@ impl Block {
         (m0 + m1) + (m2 + m3)
     }
 
-    /// What a field holds at the four corners. Not by a closure, which would be compiled without the
+    /// The values of a field at the four corners. Not by a closure, which would be compiled without the
     /// instructions of the lanes.
     ///
     /// # Safety

@@ -18,16 +18,13 @@
 //! \frac{\sum_{e' \ni i} w_{e'}\, \dot\varepsilon_{e'}}{\sum_{e' \ni i} w_{e'}}, \qquad w = \rho\, l\, V .
 //! ```
 //!
-//! With w that mean is a symmetric operator of eigenvalues 0 to 1 (each is a mean of means), so the linear term never
-//! gives energy and damps nothing by more than it would without the mean. It acts both ways, since what rings behind
-//! a front that unloads does so as it does behind one that loads, and so the damping of small motion is
-//! a constant matrix. Without viscosity a front in a mesh overshoots whatever its size: elastic bodies
-//! have steep fronts and no shocks, and it is the linear term that damps them.
+//! With the weights w this mean is a symmetric operator with eigenvalues 0 to 1 (each is a mean of means), so the linear term
+//! never adds energy and damps no motion more than without the mean. It acts in compression and expansion, since fronts ring
+//! in loading and in unloading; so the damping of small motion is a constant matrix. Without viscosity a front of any size
+//! overshoots in a mesh. Elastic bodies have steep fronts and no shocks, and the linear term damps them.
 //!
-//! Viscosity is no property of the body: its pressure is not part of the stress that results show. What the
-//! linear term takes of a smooth motion falls with l³ (with l without the mean, where a rubber ball at
-//! half of its shear wave speed lost a sixth more of its energy to it and its largest force was 1 % lower), what the
-//! quadratic one takes with l².
+//! Viscosity is not a property of the body: its pressure is not part of the stress in results. The energy that the linear term
+//! takes from a smooth motion falls with l³ (with l if the mean were left out), that of the quadratic term with l².
 //!
 //! The force takes the velocity of half a step before, so the element's damping enters the time step
 //! ([`NodeForce::add_damping_bound`]), with j at its largest. j_max caps the viscosity there: it is less
@@ -38,7 +35,7 @@
 //! W_{n+1} - W_n = -\tfrac12 \Delta t\; v_{n+1/2} \cdot (f_n + f_{n+1}),
 //! ```
 //!
-//! for r and for y at each node: exactly what the energy that leapfrog keeps loses in a step.
+//! for r and for y at each node: exactly the energy that leapfrog loses in a step.
 
 mod elements;
 
@@ -55,19 +52,18 @@ use crate::error::ModelError;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use elements::ViscousElements;
 
-/// How strong a bulk viscosity is, b₁ and b₂; both at least 0.
+/// The coefficients b₁ and b₂ of bulk viscosity, both at least 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViscosityCoefficients {
-    /// b₁: the damping ratio of the highest vibration of a bar's element.
+    /// Linear coefficient b₁: the damping ratio of the highest mode of a bar's element.
     pub linear: f64,
-    /// b₂, which enters as its square.
+    /// Quadratic coefficient b₂, which enters as its square.
     pub quadratic: f64,
 }
 
 impl Default for ViscosityCoefficients {
-    /// 0.06 and 1.2, as programs for impact have them (Abaqus; LS-DYNA writes the square, 1.5): a
-    /// front that has gone through eighty elements is five of them wide, and overshoots by five
-    /// per cent, not by a quarter.
+    /// Returns 0.06 and 1.2, the usual values of impact codes (Abaqus; LS-DYNA gives the square, 1.5). After eighty elements a
+    /// front is five elements wide and overshoots by 5 %, instead of 25 % without viscosity.
     fn default() -> Self {
         Self { linear: 0.06, quadratic: 1.2 }
     }
@@ -77,19 +73,18 @@ impl Default for ViscosityCoefficients {
 pub struct BulkViscosity {
     elements: ViscousElements,
     coefficients: ViscosityCoefficients,
-    /// j_max, m/s.
+    /// Cap j_max of the velocity drop, m/s.
     largest_drop: f64,
-    /// N s/m, a number a node; of the time before the model is built.
+    /// Bound of the damping at each node, N s/m; empty once the model is built.
     damping_bound: Vec<f64>,
 }
 
 impl BulkViscosity {
-    /// Of a sphere's elements. `largest_drop` is the drop of velocity (m/s) across an element up to
-    /// which viscosity grows: with the speed at which the bodies approach none is compressed faster
-    /// before waves meet.
+    /// Takes the elements of a sphere. `largest_drop` is the drop of velocity (m/s) across an element up to which viscosity grows;
+    /// with the speed of approach no element is compressed faster before waves meet.
     ///
     /// # Errors
-    /// A coefficient or a drop that is negative or no finite number.
+    /// A coefficient or the drop is negative or not finite.
     pub fn new(
         mesh: &SphereMesh,
         material: &Material,
@@ -109,7 +104,7 @@ impl BulkViscosity {
         Ok(Self::of_quads(mesh.nodes(), mesh.quads(), material, coefficients, largest_drop))
     }
 
-    /// Of the quads of nodes (r, y), m.
+    /// Takes quads and nodes (r, y), m.
     fn of_quads(
         nodes: &[[f64; 2]],
         quads: &[[u32; 4]],
@@ -139,9 +134,8 @@ impl BulkViscosity {
     }
 }
 
-/// Σ b²/m (1/(m² kg)) of the dilatation b of unit displacements and the lumped masses (kg) of the
-/// corners that move: times a bulk viscosity and the volume, the decay rate of the one motion that it
-/// damps in an element.
+/// Returns Σ b²/m (1/(m² kg)) with the dilatation b of unit displacements and the lumped masses (kg) of the corners that move.
+/// Times a bulk viscosity and the volume it is the decay rate of the one motion that is damped in an element.
 fn inverse_mass(corners: &[[f64; 2]; 4], geometry: &QuadGeometry, masses: &[f64; 4]) -> f64 {
     let of_corner = |a: usize| {
         let radial = geometry.gradient_r[a] + geometry.hoop[a];
@@ -151,12 +145,12 @@ fn inverse_mass(corners: &[[f64; 2]; 4], geometry: &QuadGeometry, masses: &[f64;
     (0..4).map(of_corner).sum()
 }
 
-/// Area (m²) of a quad whose corners (m) go counter-clockwise.
+/// Returns the area (m²) of a quad with corners (m) in counter-clockwise order.
 fn area([a, b, c, d]: &[[f64; 2]; 4]) -> f64 {
     0.5 * ((c[0] - a[0]) * (d[1] - b[1]) - (d[0] - b[0]) * (c[1] - a[1]))
 }
 
-/// What distinguishes it from others of the same mesh and material.
+/// Shows what distinguishes it from others of the same mesh and material, for the fingerprint of a model.
 impl fmt::Debug for BulkViscosity {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { coefficients, largest_drop, .. } = self;
@@ -165,20 +159,20 @@ impl fmt::Debug for BulkViscosity {
 }
 
 impl Part for BulkViscosity {
-    /// Force of the next step (N), work done against it so far (J), and means of dilatation rates (1/s) for use
+    /// Three: force of the next step (N), work done against it so far (J), and means of dilatation rates (1/s), which are used
     /// within a step.
     fn n_history(&self) -> usize {
         3
     }
 
-    /// The bound has been asked for by then.
+    /// Frees the bound, which is not needed any more.
     fn set_time_step(&mut self, _: f64) {
         self.damping_bound = Vec::new();
     }
 }
 
 impl NodeForce for BulkViscosity {
-    /// Forces inside of a body add up to none.
+    /// Internal forces of a body add up to zero.
     fn add_forces(&self, _: &Motion<'_>, history: &[NodalField], forces: &mut Field) -> f64 {
         add(&history[0], forces);
         0.0

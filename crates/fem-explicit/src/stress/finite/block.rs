@@ -10,7 +10,7 @@ use super::super::port::Collapse;
 use crate::lanes::{Lanes, WIDE};
 use crate::part::Field;
 
-/// One number of each element of a block.
+/// One number for each element of a block.
 pub(super) type Numbers = [f64; WIDE];
 
 /// Geometry of the elements of a block.
@@ -21,21 +21,21 @@ pub(super) type Numbers = [f64; WIDE];
 #[repr(C, align(64))]
 pub(super) struct Block {
     pub corners: [[u32; WIDE]; 4],
-    /// 1/m.
+    /// Derivatives of the shape functions by r, 1/m.
     pub gradient_r: [Numbers; 3],
-    /// 1/m.
+    /// Derivatives of the shape functions by y, 1/m.
     pub gradient_y: [Numbers; 3],
-    /// 1/m.
+    /// Hoop strain per radial displacement, 1/m.
     pub hoop: [Numbers; 4],
     pub hourglass: [Numbers; 3],
-    /// Of the hourglass shape at unit amplitude: rr, yy, ry, m.
+    /// Measures of the hourglass shape at unit amplitude: rr, yy, ry, m.
     pub measures: [Numbers; 3],
-    /// m³.
+    /// Volume, m³.
     pub volume: Numbers,
 }
 
 impl Block {
-    /// Without volume: no deformation, no force.
+    /// Elements without volume, deformation and force.
     pub const EMPTY: Self = Self {
         corners: [[0; WIDE]; 4],
         gradient_r: [[0.0; WIDE]; 3],
@@ -63,9 +63,9 @@ impl Block {
     }
 }
 
-/// Places of a block in the fields of elements, each one pair an element: the first, and how many. Of a
-/// block without empty lanes the fields hold the first numbers of all lanes, then the second ones; of
-/// another one pair after the other.
+/// Places of a block in the fields of elements, which have one pair per element: the first place, and the number of places. For a
+/// block without empty lanes a field holds the first numbers of all lanes, then the second ones; for other blocks it holds one
+/// pair after the other.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slots {
     pub first: usize,
@@ -73,7 +73,7 @@ pub(super) struct Slots {
 }
 
 impl Slots {
-    /// The pairs of the lanes; zero in empty ones.
+    /// Loads the pairs of the lanes; zero in empty lanes.
     #[inline(always)]
     pub fn load<L: Lanes<WIDE>>(self, field: &Field) -> (L, L) {
         let own = &field[self.first..self.first + self.n_lanes];
@@ -87,7 +87,7 @@ impl Slots {
         (L::load(&both[0]), L::load(&both[1]))
     }
 
-    /// Puts them back.
+    /// Stores the pairs of the lanes.
     #[inline(always)]
     pub fn store<L: Lanes<WIDE>>(self, field: &mut Field, first: L, second: L) {
         let own = &mut field[self.first..self.first + self.n_lanes];
@@ -101,7 +101,7 @@ impl Slots {
         }
     }
 
-    /// The pair of a lane.
+    /// Returns the pair of a lane.
     pub fn pair(self, lane: usize, field: &Field) -> [f64; 2] {
         let own = &field[self.first..self.first + self.n_lanes];
         match own.as_flattened().as_chunks::<WIDE>() {
@@ -111,19 +111,18 @@ impl Slots {
     }
 }
 
-/// The elements of a body. Every corner number is below `n_nodes`, which lets the loops index without a
-/// check.
+/// The elements of a body at finite strain. Every corner number is below `n_nodes`, so that loops index without a check.
 #[derive(Debug, Clone)]
 pub(super) struct Blocks {
     blocks: Vec<Block>,
     n_nodes: usize,
     n_elements: usize,
-    /// From the first corner of any element to the last; no number between them need be one.
+    /// Range from the lowest to the highest corner number.
     nodes: Range<usize>,
 }
 
 impl Blocks {
-    /// Packs some integrated elements of a mesh; lanes as those of the small-strain loops.
+    /// Packs some integrated elements of a mesh; lane l takes the l-th part of them.
     pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry], elements: &[usize]) -> Self {
         let n_nodes = mesh.nodes().len();
         assert!(
@@ -142,25 +141,25 @@ impl Blocks {
         Self { blocks, n_nodes, n_elements, nodes }
     }
 
-    /// Number of elements.
+    /// Returns the number of elements.
     pub fn n_elements(&self) -> usize {
         self.n_elements
     }
 
-    /// Where in nodal fields the corners of the elements lie: of the elements of a mesh that are near its first
-    /// touch a part, if nodes are numbered from there.
+    /// Returns the range of nodes in which all corners lie: a small part of all nodes if the elements are near first touch and nodes
+    /// are numbered from there.
     pub fn nodes(&self) -> Range<usize> {
         self.nodes.clone()
     }
 
-    /// The blocks, after a check that nodal fields are long enough for them.
+    /// Returns the blocks, after a check that nodal fields are long enough for them.
     #[inline(always)]
     pub fn checked(&self, field_lengths: &[usize]) -> &[Block] {
         assert!(field_lengths.iter().all(|&length| length >= self.n_nodes));
         &self.blocks
     }
 
-    /// Where the fields of elements hold a block.
+    /// Returns the places of a block in the fields of elements.
     #[inline(always)]
     pub fn slots(&self, place: usize) -> Slots {
         let n_blocks = self.blocks.len();
@@ -174,13 +173,13 @@ impl Blocks {
         Slots { first, n_lanes: n_lanes(place) }
     }
 
-    /// Slots and lane of an element.
+    /// Returns slots and lane of an element.
     pub fn slot(&self, element: usize) -> (Slots, usize) {
         let (place, lane) = place(element, self.blocks.len());
         (self.slots(place), lane)
     }
 
-    /// Mean displacement gradient of an element.
+    /// Returns the mean displacement gradient of an element.
     pub fn gradient(&self, element: usize, u: &Field) -> AxisymmetricTensor {
         let (place, lane) = place(element, self.blocks.len());
         let block = &self.blocks[place];
@@ -198,13 +197,13 @@ impl Blocks {
         h
     }
 
-    /// The element that is compressed most, or whose displacement is no number.
+    /// Returns the most compressed element, or one whose displacement is not a number.
     pub fn most_compressed(&self, u: &Field) -> Collapse {
         let mut most = Collapse { element: 0, volume_ratio: f64::INFINITY };
         for element in 0..self.n_elements {
             let h = self.gradient(element, u);
             let jacobian = 1.0 + h.volume_change();
-            // Beyond the axis hoop and meridian are both inside out.
+            // Beyond the axis, hoop and meridian are both inverted.
             let volume_ratio = if h.tt <= -1.0 { -jacobian.abs() } else { jacobian };
             if volume_ratio < most.volume_ratio || volume_ratio.is_nan() {
                 most = Collapse { element, volume_ratio };
@@ -214,7 +213,7 @@ impl Blocks {
     }
 }
 
-/// Block and lane of an element: lane l takes the l-th stretch of the elements.
+/// Returns block and lane of an element: lane l takes the l-th part of the elements.
 pub(super) fn place(element: usize, n_blocks: usize) -> (usize, usize) {
     (element % n_blocks, element / n_blocks)
 }

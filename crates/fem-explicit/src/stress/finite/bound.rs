@@ -1,4 +1,4 @@
-//! The largest eigenvalue of deformed elements against their masses.
+//! Bound of the largest eigenvalue of deformed elements against their masses.
 //!
 //! With the strains e = B u of an element, those of its mean gradient and its hourglass amplitudes, the
 //! stiffness is Bᵀ D B, D = ∂²E/∂e². Its eigenvalues against the masses are those of D Q, Q = B M⁻¹ Bᵀ,
@@ -8,8 +8,8 @@
 //! \lambda_{max} \le \left( \mathrm{tr} (D Q)^{16} \right)^{1/16},
 //! ```
 //!
-//! since all are real. The bound is 7^(1/16) = 1.13 times too large at most, some per cent as a rule. D
-//! is taken from differences of the stress.
+//! since all are real. The bound is at most 7^(1/16) = 1.13 times too large, usually some per cent. D is computed by differences of
+//! the stress.
 
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
@@ -22,29 +22,29 @@ use super::law::Law;
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use crate::part::{Field, NodalField};
 
-/// Strains of an element: rr, ry, θθ and the radial amplitude, which radial displacements make; yr, yy
-/// and the axial amplitude.
+/// Number of strains of an element: rr, ry, θθ and the radial amplitude by radial displacements; yr, yy and the axial amplitude by
+/// axial displacements.
 const N_STRAINS: usize = 7;
-/// The first of those that axial displacements make.
+/// Index of the first strain by axial displacements.
 const FIRST_AXIAL: usize = 4;
-/// Difference of a strain: the stress is known to 1e-16, and its slope changes over a strain of 1.
+/// Difference of a strain: the stress has a relative rounding error of 1e-16, and its slope changes over a strain of 1.
 const STRAIN_STEP: f64 = 1e-6;
 
 type Square<L> = [[L; N_STRAINS]; N_STRAINS];
 
-/// Masses of the elements of a block, and Q.
+/// Masses of the elements of a block, and their matrix Q.
 #[derive(Debug, Clone)]
 struct Metric {
-    /// kg.
+    /// Masses of the corners, kg.
     masses: [Numbers; 4],
-    /// Length by which amplitudes are measured, m.
+    /// Unit of the hourglass amplitudes, m.
     length: Numbers,
-    /// Of strains and of amplitudes over the length, 1/(m² kg).
+    /// Q for strains and for amplitudes over the length, 1/(m² kg).
     q: [[Numbers; N_STRAINS]; N_STRAINS],
 }
 
 impl Metric {
-    /// Without mass: no eigenvalue.
+    /// Elements without mass, whose eigenvalue is 0.
     const EMPTY: Self = Self {
         masses: [[0.0; WIDE]; 4],
         length: [1.0; WIDE],
@@ -79,12 +79,12 @@ impl Metric {
     }
 }
 
-/// Those of all elements, beside their blocks.
+/// The metrics of all blocks.
 #[derive(Debug, Clone)]
 pub(super) struct Metrics(Vec<Metric>);
 
 impl Metrics {
-    /// Of some integrated elements of a mesh and a density, kg/m³.
+    /// Packs some integrated elements of a mesh with a density, kg/m³.
     pub fn pack(
         mesh: &SphereMesh,
         geometries: &[QuadGeometry],
@@ -104,7 +104,7 @@ impl Metrics {
     }
 }
 
-/// Bounds of the largest eigenvalues (s⁻²) of undeformed elements.
+/// Returns bounds of the largest eigenvalues (s⁻²) of undeformed elements.
 pub(super) fn at_rest<W: Law>(law: &W, elements: &[LumpedElement]) -> Vec<f64> {
     let mut bounds = Vec::with_capacity(elements.len().next_multiple_of(WIDE));
     run_wide_lanes(AtRest { elements, law }, &mut bounds);
@@ -179,7 +179,7 @@ impl<W: Law> LaneKernel<WIDE> for Bound<'_, W> {
     }
 }
 
-/// Bounds of the largest eigenvalues, s⁻².
+/// Returns bounds of the largest eigenvalues, s⁻².
 #[inline(always)]
 fn eigenvalues<L: Lanes<WIDE>, W: Law>(
     strain: &Deformation<L>,
@@ -217,17 +217,17 @@ fn eigenvalues<L: Lanes<WIDE>, W: Law>(
     largest(product)
 }
 
-/// Derivatives by the strains in their order; an amplitude is that over the length.
+/// Returns the derivatives by the strains in their order, amplitudes over the length.
 #[inline(always)]
 fn in_order<L: Lanes<WIDE>>(conjugate: &Conjugate<L>, length: L) -> [L; N_STRAINS] {
     let Conjugate { stress, q } = conjugate;
     [stress.rr, stress.ry, stress.tt, q.0 * length, stress.yr, stress.yy, q.1 * length]
 }
 
-/// (tr X¹⁶)^(1/16), lane by lane.
+/// Returns (tr X¹⁶)^(1/16), lane by lane.
 #[inline(always)]
 fn largest<L: Lanes<WIDE>>(mut x: Square<L>) -> [f64; WIDE] {
-    // Numbers whose sixteenth power is one.
+    // Scaled so that the sixteenth power stays within the range of numbers.
     let size = trace_of_square(&x).to_array();
     let mut scale = [0.0; WIDE];
     for lane in 0..WIDE {
@@ -247,7 +247,7 @@ fn largest<L: Lanes<WIDE>>(mut x: Square<L>) -> [f64; WIDE] {
     for lane in 0..WIDE {
         let root = trace[lane].max(0.0).sqrt().sqrt().sqrt().sqrt();
         let own = root * size[lane].max(0.0).sqrt();
-        // What is no number stays none.
+        // A value that is not a number has to stay so.
         largest[lane] = if size[lane].is_nan() { size[lane] } else { own };
     }
     largest

@@ -28,7 +28,7 @@
 
 use fem_material::finite::{AxisymmetricTensor, Number, inverse_cube_root};
 
-/// What the shape gives: derivatives of its energy by the amplitude (N) and by F̄ (J).
+/// Derivatives of the hourglass energy by the amplitude (N) and by F̄ (J).
 pub(super) struct HourglassForce<N> {
     pub q: (N, N),
     pub stress: AxisymmetricTensor<N>,
@@ -43,7 +43,7 @@ pub(super) struct Amplitudes<N> {
 }
 
 impl<N: Number> Amplitudes<N> {
-    /// Of an element of which so much does not relax; terms are added.
+    /// Starts with the weight of the part that does not relax; terms are added.
     #[inline(always)]
     pub fn new(own: (N, N), equilibrium_weight: f64) -> Self {
         Self { own, mean: own, square: square(N::splat(equilibrium_weight), own) }
@@ -68,23 +68,23 @@ impl<N: Number> Amplitudes<N> {
     }
 }
 
-/// w x ⊗ x as rr, yy, ry.
+/// Returns w x ⊗ x as rr, yy, ry.
 #[inline(always)]
 fn square<N: Number>(weight: N, x: (N, N)) -> [N; 3] {
     let (r, y) = (weight * x.0, weight * x.1);
     [r * x.0, y * x.1, r * x.1]
 }
 
-/// A : B of symmetric plane tensors.
+/// Returns A : B of symmetric plane tensors.
 #[inline(always)]
 fn dot<N: Number>(a: [N; 3], b: [N; 3]) -> N {
     let off = a[2] * b[2];
     (off + off).plus_product(a[0], b[0]).plus_product(a[1], b[1])
 }
 
-/// Elements: how they are deformed, and what an amplitude becomes in that.
+/// Deformed elements, as the hourglass shape needs them.
 pub(super) struct Deformed<N> {
-    /// F̄.
+    /// Deformation gradient F̄.
     f: AxisymmetricTensor<N>,
     /// 1/J, and 1/J of the meridian plane.
     inverse: N,
@@ -98,7 +98,7 @@ pub(super) struct Deformed<N> {
 }
 
 impl<N: Number> Deformed<N> {
-    /// Elements of a shear modulus (Pa) and measures (m) with a displacement gradient.
+    /// Takes a displacement gradient, a shear modulus (Pa) and measures, m.
     #[inline(always)]
     pub fn of(h: &AxisymmetricTensor<N>, shear: N, measures: [N; 3]) -> Self {
         let one = N::splat(1.0);
@@ -134,33 +134,33 @@ impl<N: Number> Deformed<N> {
         }
     }
 
-    /// F̄⁻¹ x.
+    /// Pulls an amplitude back: F̄⁻¹ x.
     #[inline(always)]
     pub fn pull_back(&self, x: (N, N)) -> (N, N) {
         let Self { f, inverse_area: i, .. } = self;
         (*i * (f.yy * x.0).minus_product(f.ry, x.1), *i * (f.rr * x.1).minus_product(f.yr, x.0))
     }
 
-    /// F̄⁻ᵀ x.
+    /// Pushes an amplitude force forward: F̄⁻ᵀ x.
     #[inline(always)]
     fn push_forward(&self, x: (N, N)) -> (N, N) {
         let Self { f, inverse_area: i, .. } = self;
         (*i * (f.yy * x.0).minus_product(f.yr, x.1), *i * (f.rr * x.1).minus_product(f.ry, x.0))
     }
 
-    /// Energy of amplitudes (m), J.
+    /// Returns the energy of amplitudes (m), J.
     #[inline(always)]
     pub fn energy(&self, amplitudes: &Amplitudes<N>) -> N {
         self.scale * dot(self.stiffness, amplitudes.square)
     }
 
-    /// Energy of one amplitude in the undeformed element (m), J.
+    /// Returns the energy of one amplitude in the undeformed element (m), J.
     #[inline(always)]
     pub fn energy_of(&self, amplitude: (N, N)) -> N {
         self.scale * dot(self.stiffness, square(N::splat(1.0), amplitude))
     }
 
-    /// Its derivatives, where nothing more flows.
+    /// Returns the derivatives of the energy at fixed internal variables.
     #[inline(always)]
     pub fn force(&self, amplitudes: &Amplitudes<N>) -> HourglassForce<N> {
         let Self { f, measures, stiffness, .. } = self;
@@ -203,7 +203,7 @@ impl<N: Number> Deformed<N> {
     }
 }
 
-/// tr M X − 2/3 (M X + X M) of symmetric plane tensors.
+/// Returns tr M X − 2/3 (M X + X M) of symmetric plane tensors.
 #[inline(always)]
 fn turned<N: Number>(m: [N; 3], x: [N; 3]) -> [N; 3] {
     let (third, two_thirds) = (N::splat(1.0 / 3.0), N::splat(2.0 / 3.0));

@@ -76,7 +76,7 @@ pub(super) fn forces_of<L: Lanes<WIDE>>(
     Conjugate { stress, q: shape.q }
 }
 
-/// Stored energy (J) of elements that do not relax, of a displacement (m).
+/// Returns the stored energy (J) of elastic elements at a displacement, m.
 pub(super) fn stored_energy<W: ElasticLaw>(blocks: &Blocks, law: &W, u: &Field) -> f64 {
     let mut energy = 0.0;
     run_wide_lanes(Energy { blocks, law, u }, &mut energy);
@@ -98,15 +98,14 @@ impl<W: ElasticLaw> LaneKernel<WIDE> for Energy<'_, W> {
     }
 }
 
-/// How lanes of elements are deformed: mean displacement gradient, and amplitude of the hourglass shape,
-/// m.
+/// Deformation of the elements of a block: mean displacement gradient, and amplitude of the hourglass shape, m.
 #[derive(Clone, Copy)]
 pub(super) struct Deformation<L> {
     pub h: AxisymmetricTensor<L>,
     pub q: (L, L),
 }
 
-/// What is conjugate to that: J, and N.
+/// Derivatives of the energy by the deformation, J and N.
 pub(super) struct Conjugate<L> {
     pub stress: AxisymmetricTensor<L>,
     pub q: (L, L),
@@ -169,7 +168,7 @@ impl<L: Lanes<WIDE>> Deformation<L> {
 }
 
 impl<L: Lanes<WIDE>> Conjugate<L> {
-    /// Force at a corner but for the hoop stress.
+    /// Returns the force at a corner without that of the hoop stress.
     #[inline(always)]
     fn force(&self, block: &Block, a: usize) -> (L, L) {
         let (g_r, g_y) = (L::load(&block.gradient_r[a]), L::load(&block.gradient_y[a]));
@@ -201,11 +200,11 @@ impl<L: Lanes<WIDE>> Conjugate<L> {
     }
 }
 
-/// What the loops learn of the volumes on their way.
+/// The least volumes that a loop has seen.
 pub(super) struct Volumes<L> {
     /// Least J − 1, and least hoop.
     least: L,
-    /// 0, or no number where a J is none.
+    /// 0, or not a number where a J is not.
     zero: L,
 }
 
@@ -221,7 +220,7 @@ impl<L: Lanes<WIDE>> Volumes<L> {
         self.zero = self.zero + volume_change * L::splat(0.0);
     }
 
-    /// Whether all are positive.
+    /// Whether all volumes are positive.
     #[inline(always)]
     pub fn are_valid(&self) -> bool {
         let (least, zero): ([f64; WIDE], [f64; WIDE]) =

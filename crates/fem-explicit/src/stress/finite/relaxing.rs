@@ -36,7 +36,7 @@ pub(super) struct RelaxingResponse {
 /// Coefficients of a time step, for all terms.
 #[derive(Debug, Clone)]
 pub(super) struct Step {
-    /// s.
+    /// The step, s.
     time_step: f64,
     law: ViscousStep,
     amplitudes: Vec<RelaxationStep>,
