@@ -1,6 +1,6 @@
-//! Cost of an element update at finite strain over that at small strain, of one body that vibrates:
-//! `cargo run --release -p fem-explicit --example finite_strain_cost`. A line a law: nanoseconds, the
-//! least of many turns that all laws take in one run, and the ratio.
+//! Cost of an element update at finite strain over that at small strain, of one body that vibrates: `cargo run
+//! --release -p fem-explicit --example finite_strain_cost`. It prints one line per law: nanoseconds (the least of
+//! many turns, in which all laws alternate), and the ratio.
 
 #![allow(
     clippy::disallowed_methods,

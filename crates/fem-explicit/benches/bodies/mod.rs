@@ -10,7 +10,7 @@ use fem_mesh::{HalfDisc, SphereMesh};
 /// m.
 const RADIUS: f64 = 11.1e-3;
 
-/// What goes wrong in none of them.
+/// These constructions cannot fail.
 pub type Error = Box<dyn std::error::Error>;
 
 /// A way to compute an element.

@@ -95,8 +95,7 @@ pub trait Contact: Part {
 
     /// Checks whether it can work, once it knows the time step.
     ///
-    /// # Errors
-    /// It cannot.
+    /// # Errors The contact cannot work at this time step.
     fn check(&self) -> Result<(), ModelError> {
         Ok(())
     }

@@ -195,8 +195,8 @@ fn the_next_contact_is_foreseen() {
 /// Tens of steps from one balance to the next.
 const LONG: Expectation = Expectation { contact_time: 1200.0, ..EXPECTED };
 
-/// Between two balances the contact tells what a balance would, at every step: of bodies that do not relax
-/// to rounding, of springs that ring between masses as of a boundary without.
+/// Between two balances the share of the contact follows the whole balance at every step: to rounding for bodies that
+/// do not relax, with springs between nodes that have mass and with a massless boundary.
 #[test]
 fn every_step_has_the_energy_of_a_balance() {
     for (method, stiffness) in [

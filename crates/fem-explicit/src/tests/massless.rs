@@ -87,8 +87,8 @@ fn the_critical_time_step_is_safe_and_knows_no_springs() {
     }
 }
 
-/// The largest force that is lacking at a bare node over the sixty steps that follow first touch, over one
-/// more than the largest force of elements; of springs that do not turn, or of some that do at a speed.
+/// Returns the largest unbalanced force at a massless node over the sixty steps after first touch, over the largest
+/// force of elements, for straight and for slipping springs.
 fn worst_lack(stiffness: f64, materials: [&Material; 2], slips_at: Option<f64>) -> f64 {
     let surface_slip = slips_at.is_some();
     let settings = Settings { contact_stiffness: stiffness, ..settings() };

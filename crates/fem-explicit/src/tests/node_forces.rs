@@ -77,8 +77,8 @@ fn a_free_fall_is_the_closed_form() {
     }
 }
 
-/// What the pull gives is motion. Leapfrog's kinetic energy ½ v_{n−½}·M v_{n+½} is ⅛ m (aΔt)² short
-/// of ½ m v_n².
+/// The work of the pull becomes kinetic energy. Leapfrog's kinetic energy ½ v_{n−½}·M v_{n+½} is ⅛ m (aΔt)² short of
+/// ½ m v_n².
 #[test]
 fn the_account_of_a_force_closes_the_ledger() {
     let (model, mut state) = falling();

@@ -96,8 +96,8 @@ fn recovered_stress_relaxes_alike() {
     }
 }
 
-/// Branch k stores ½ q·g_k K q, which falls as e^{−2t/τ}; the bulk stores on if it is elastic.
-/// What it loses is the dissipated power.
+/// Branch k stores ½ q·g_k K q, which falls as e^{−2t/τ}; the bulk stores on if it is elastic. Its loss is the
+/// dissipated power.
 #[test]
 fn stored_energy_falls_by_what_is_dissipated() {
     for acts_on in [ActsOn::All, ActsOn::Shear] {
@@ -134,7 +134,7 @@ fn stored_energy_falls_by_what_is_dissipated() {
     }
 }
 
-/// Ramp: q = τ(1 − e^{−t/τ}) u̇ exactly, whatever the ratio of step to relaxation time.
+/// Ramp: q = τ(1 − e^{−t/τ}) u̇ holds exactly for any ratio of step to relaxation time.
 #[test]
 fn branches_follow_a_ramp_exactly() {
     let mesh = unit_sphere(4.0, Side::Above);

@@ -109,7 +109,7 @@ fn critical_time_step_with_closed_contact_is_safe() {
     }
 }
 
-/// Lumped masses with the chords' caps make the true sphere, whatever the mesh.
+/// Lumped masses with the caps over the chords have the mass of the true sphere for any mesh.
 #[test]
 fn lumped_mass_is_that_of_the_sphere() {
     for (size, refined_radius) in [(0.25, 0.5), (0.02, 0.06)] {

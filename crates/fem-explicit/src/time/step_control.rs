@@ -47,7 +47,7 @@ const MARGIN_TO_LENGTHEN: f64 = 1.01;
 /// The step of the undeformed bodies is allowed despite rounding.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
-/// What the deformed bodies demand of the time step.
+/// The demand of the deformed bodies on the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct StepDemand {
     /// Critical step of the deformed bodies, s.
@@ -190,7 +190,7 @@ fn level_within(model_step: f64, allowed: f64, margin: f64) -> Option<u32> {
     (0..=MOST_LEVELS).find(|&level| model_step * level_factor(level) * margin <= allowed)
 }
 
-/// The same for a strain rate, 1/s. What is strained faster than the shortest step can follow collapses.
+/// The same for a strain rate, 1/s. Elements that are strained faster than the shortest step can follow collapse.
 fn level_for_strain_rate(model_step: f64, strain_rate: f64, margin: f64) -> u32 {
     level_within(model_step, STRAIN_PER_STEP / strain_rate, margin).unwrap_or(MOST_LEVELS)
 }

@@ -28,7 +28,7 @@ fn fast() -> Pair {
     Pair { velocities, element_size, candidate_radius, ..Pair::default() }
 }
 
-/// What viscosity took over the kinetic energy in the frame of the mass centre.
+/// Returns the energy taken by viscosity over the kinetic energy in the frame of the mass centre.
 fn loss(run: &Collision) -> f64 {
     let [lower, upper] = run.bodies.map(|body| body.mass.unwrap());
     let reduced_mass = lower * upper / (lower + upper);
@@ -68,8 +68,8 @@ fn a_fast_impact_rings_less_and_balances() {
     assert_eq!(bare.energies.get(Account::BulkViscosity), None);
 }
 
-/// Of a smooth motion it takes the third order, of the edge of a contact, where pressure ends as a square root,
-/// less.
+/// It takes a share of third order from a smooth motion, and of lower order from the edge of a contact, where the
+/// pressure ends as a square root.
 #[test]
 fn what_it_takes_of_a_slow_pair_is_little_and_falls_fast() {
     let [coarse, fine] = [90e-6, 45e-6].map(|element_size| {

@@ -113,8 +113,8 @@ fn on_moved_surfaces(pair: &Pair, finite_strain: [Option<HyperelasticLaw>; 2]) -
     Model::with_parts(bodies, approach, &settings, parts).unwrap()
 }
 
-/// By how much a law changes contact time, force and approach of the glass pair, in per cent of those of
-/// small strain on the same mesh and contact, four elements a contact radius.
+/// Returns the changes of contact time, force and approach of the glass pair by a law, in per cent of those at small
+/// strain on the same mesh and contact, with four elements per contact radius.
 fn slopes(law: HyperelasticLaw) -> [f64; 3] {
     let coarse = Pair { element_size: 55e-6, ..Pair::default() };
     let read = |law: Option<HyperelasticLaw>| {
@@ -154,7 +154,7 @@ fn energy_balances_where_fronts_are_steep() {
     }
 }
 
-/// Of every law, nearly incompressible, relaxing or not: the run ends, energy and momentum balance.
+/// Every law, nearly incompressible, relaxing or not: the run ends, and energy and momentum balance.
 #[test]
 fn a_rubber_ball_bounces_and_balances() {
     let ball = Ball::default();
@@ -237,8 +237,8 @@ fn the_time_step_follows_and_resumes() {
     assert_eq!(Run::resume(&other.model(), memory).err(), Some(ModelError::ForeignRestartState));
 }
 
-/// A law that softens in compression, at a speed at which it gives way before its energy is looked at, is a stop
-/// that names body, element and time.
+/// A law that softens in compression, at a speed at which it loses stability before the energy is checked, stops the
+/// run with body, element and time.
 #[test]
 fn an_element_that_collapses_stops_the_run_and_says_why() {
     let law = Some(HyperelasticLaw::SaintVenantKirchhoff);
@@ -263,9 +263,9 @@ fn an_element_that_collapses_stops_the_run_and_says_why() {
     assert!(time <= last.time && last.residual.unwrap().is_finite(), "{last:?}");
 }
 
-/// St Venant-Kirchhoff's law gives way to waves at J = 0.90 for ν = 0.45. A ball that comes there stops once its
-/// energy does not add up, and says which element it was; a slower one whose energy does comes through, and warns
-/// of it; a still slower one, and neo-Hooke's, has nothing to say.
+/// St Venant-Kirchhoff's law loses ellipticity at J = 0.90 for ν = 0.45. A ball that comes there stops once its
+/// energy does not add up, and says which element it was; a slower one whose energy does comes through, and warns of
+/// it; a still slower one, and neo-Hooke's, has nothing to say.
 #[test]
 fn a_law_that_loses_its_stability_says_so() {
     let ball = |law: HyperelasticLaw, speed: f64| Ball {
@@ -296,8 +296,8 @@ fn a_law_that_loses_its_stability_says_so() {
     assert!(stable.residual_relative.unwrap() < 1e-3);
 }
 
-/// Faster, and the energy of finer meshes adds up for long: the step follows the band of elements that gives way, and
-/// there the run ends.
+/// At a higher speed the energy of finer meshes adds up for longer: the step follows the localising band of elements,
+/// and there the run ends.
 #[test]
 fn a_law_that_loses_its_stability_ends_the_run_at_any_speed() {
     for speed in [12.0, 25.0, 50.0] {

@@ -8,7 +8,7 @@ use fem_mesh::{HalfDisc, Side};
 
 use crate::common::quantities;
 
-/// Of rubber, m and Pa.
+/// A rubber ball; lengths in m, moduli in Pa.
 fn ball(radius: f64, n: f64, youngs_modulus: f64, side: Side) -> BodyInput {
     let disc = HalfDisc {
         radius,

@@ -47,7 +47,7 @@ impl Hertz {
 #[derive(Clone)]
 struct Ball {
     speed: f64,
-    /// Of both bodies along +y, m/s.
+    /// Velocities of both bodies along +y, m/s.
     drift: f64,
     /// Far radius over that which waves do not reach.
     reach: f64,
@@ -55,7 +55,7 @@ struct Ball {
     /// Radius in which contact is looked for over Hertz' contact radius.
     candidates: f64,
     mass_scaling: f64,
-    /// Of the half-space.
+    /// Side of the half-space.
     relaxation: Option<PronySeries>,
     half_space: Side,
 }
@@ -224,7 +224,7 @@ fn nothing_comes_back() {
     assert!((finer / here - 1.0).abs() < 5e-3, "{finer:e} {here:e}");
 }
 
-/// Waves from a far end that is too near are told.
+/// Waves that return from a far boundary that is too near are reported.
 #[test]
 fn a_far_end_that_is_too_near_is_told() {
     let run = Ball { reach: 0.2, ..Ball::default() }.run();
@@ -285,7 +285,7 @@ fn a_half_space_may_relax() {
     }
 }
 
-/// Bodies that stay together are told in time, whatever waves have carried away: a half-space that flows
+/// Bodies that stay together are recognised in time, also when waves have carried energy away: the half-space flows
 /// after a fiftieth of the contact time. One that keeps a spring parts.
 #[test]
 fn waves_that_are_gone_part_no_bodies() {
@@ -303,7 +303,7 @@ fn waves_that_are_gone_part_no_bodies() {
     assert_eq!(ending(0.9).ending, Ending::Parted);
 }
 
-/// What may be added to the half-space is a share of the ball's mass.
+/// The mass that may be moved in the half-space is a share of the mass of the ball.
 #[test]
 fn mass_scaling_is_measured_by_the_ball() {
     let model = Ball::default().model();

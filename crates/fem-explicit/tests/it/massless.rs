@@ -18,7 +18,7 @@ fn noise(run: &Collision) -> f64 {
     run.force_scatter.unwrap() / run.peak_force.unwrap()
 }
 
-/// As the same springs between nodes that have mass (`collision.rs`), from the same limits.
+/// The results are those of the same springs between nodes with mass (`collision.rs`), within the same limits.
 #[test]
 fn the_collision_is_the_converged_one() {
     let run = glass().run();
@@ -55,7 +55,7 @@ fn it_is_quieter_than_springs_between_masses() {
     assert!((massless.restitution - penalty.restitution).abs() < 1e-4);
 }
 
-/// Of any stiffness: the step stays, to the bit, and no energy is gained. The softest springs let the
+/// For any stiffness the step stays the same, to the bit, and no energy is gained. The softest springs let the
 /// spheres overlap by some of their contact radius.
 #[test]
 fn no_stiffness_gains_energy() {
@@ -135,7 +135,7 @@ fn swapped_bodies_collide_in_the_mirror() {
     close(&plain, &swapped, 1e-9);
 }
 
-/// A rigid sphere has its mass and its step, whatever the springs: as an enormous one it is a wall.
+/// A rigid sphere has the same mass and step with any springs; a very large one behaves as a wall.
 #[test]
 fn a_rigid_sphere_collides() {
     let with = |body: BodyInput, penalty_factor: f64| {
@@ -153,7 +153,7 @@ fn a_rigid_sphere_collides() {
     }
 }
 
-/// Whatever the room that a run has for the boundary remembers is no part of it.
+/// The contents of the buffers of the boundary do not change results.
 #[test]
 fn a_resumed_run_is_the_same_to_the_bit() {
     let pair = Pair { relaxation: Some(ActsOn::Shear), ..coarse() };

@@ -30,9 +30,9 @@ fn check_balance(found: &Quantities) {
     assert!(found.momentum_residual < 1e-13, "{}", found.momentum_residual);
 }
 
-/// Facing points of like bodies move by the same u_r, and a plane wall has no slope: there the gap at
-/// undeformed radii is exact to second order in the strain. What is left is the edge of the contact, of
-/// three Gauss points a piece and not two: up to 4e-4 at five elements a contact radius.
+/// Facing points of like bodies move by the same u_r, and a plane wall has no slope: there the gap at undeformed
+/// radii is exact to second order in the strain. The remaining difference is at the edge of the contact, with three
+/// Gauss points per segment instead of two: up to 4e-4 at five elements per contact radius.
 ///
 /// The pressure is per area of now and not of the undeformed body: under Hertz' pressure p0 the axis is
 /// stretched by ε_rr = −(1 + ν)(1 − 2ν) p0/2E, and the area by twice that.

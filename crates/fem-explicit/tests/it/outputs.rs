@@ -1,4 +1,4 @@
-//! What a run hands out: history, snapshots, progress, and why it stopped.
+//! Output of a run: history, snapshots, progress, and the reason of a stop.
 
 use crate::common::{HERTZ_TIME, Pair, quantities};
 use fem_collision::{

@@ -43,7 +43,7 @@ fn n_bytes(pair: &Pair, model: &Model) -> usize {
     postcard::to_stdvec(run.restart_state()).unwrap().len()
 }
 
-/// What is off is absent: the same bits and not a byte more.
+/// A part that is off is absent: the same bits, and the same size of the restart state.
 #[test]
 fn no_part_is_no_part() {
     let pair = small();

@@ -44,7 +44,7 @@ fn assert_same(one: &Collision, other: &Collision) {
     assert_eq!(one, other);
 }
 
-/// A run in pieces of so many steps, each in a fresh [`Run`]; what is told of each memory.
+/// Runs in pieces of a number of steps, each in a new [`Run`], and collects a value from each restart state.
 fn in_pieces(
     pair: &Pair,
     model: &Model,
@@ -63,8 +63,7 @@ fn in_pieces(
     }
 }
 
-/// Whatever the body and the request: before the first force, in compression, in separation and in
-/// flight.
+/// All bodies and requests, before the first force, in compression, in separation and in flight.
 #[test]
 fn a_resumed_run_is_the_same_to_the_bit() {
     for pair in materials() {
@@ -182,7 +181,7 @@ fn a_memory_of_another_model_is_refused() {
     }
 }
 
-/// What leaves sizes, step and approach as they are, and still makes other numbers.
+/// Changes that leave sizes, step and approach as they are, and still change results.
 #[test]
 fn a_memory_of_a_model_that_differs_in_little_is_refused() {
     let pair = small();

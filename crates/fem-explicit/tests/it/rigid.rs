@@ -8,7 +8,7 @@ use fem_contact::ContactError;
 use fem_explicit::{Model, ModelError, RestartState, Run, Settings, collide};
 use fem_material::{ActsOn, ElasticModuli, Material};
 
-/// Of glass of the radii (m) of the paper's pair, kg.
+/// Masses of glass spheres with the radii (m) of the paper's pair, kg.
 fn masses() -> [f64; 2] {
     [11.1e-3, 7.95e-3].map(|radius: f64| 2390.0 * 4.0 / 3.0 * PI * radius.powi(3))
 }
@@ -171,10 +171,9 @@ fn swapped_bodies_collide_in_the_mirror() {
     }
 }
 
-/// A partner so many times stiffer, of the same mass and of the same wave speed, takes its share of
-/// the approach, δ ~ E*^(−2/5) (Hertz). Force and time are read from steps and scatter by more. Of the
-/// stiff pair's compliance, 4 % is in the penalty springs, and no share of it is the partner's; of
-/// 4e-5, the scatter of the contact is a tenth.
+/// A stiffer partner of the same mass and wave speed takes its share of the approach, δ ~ E*^(−2/5) (Hertz). Force
+/// and time are read from steps and scatter by more. The penalty springs have 4 % of the compliance of the stiff
+/// pair, which is no share of the partner; the scatter of the contact is a tenth of 4e-5.
 #[test]
 fn a_stiff_partner_comes_to_the_rigid_one_as_foretold() {
     let pair = Pair { history_rows: 0, velocities: [0.0, -0.5], ..coarse() };

@@ -1,4 +1,4 @@
-//! What is observed of a run does not depend on whether its rows are kept.
+//! Sampled quantities of a run do not depend on whether its rows are kept.
 
 use crate::common::{HERTZ_TIME, Pair};
 use fem_collision::{Collision, Expectation, OutputRequest, Stop};

@@ -97,7 +97,7 @@ fn like_bodies_hardly_slip() {
     }
 }
 
-/// Of springs whatever their stiffness: the same steps, one contact, quiet, and no energy is gained. Springs
+/// For any stiffness of the springs: the same steps, one contact without chatter, and no energy is gained. Springs
 /// between masses, a hundred times as stiff, close and open a hundred times.
 #[test]
 fn a_boundary_without_mass_slips_quietly_at_any_stiffness() {

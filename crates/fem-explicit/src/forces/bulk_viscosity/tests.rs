@@ -1,4 +1,4 @@
-//! A front in a column, the critical step with damping, and the work that the ledger is told.
+//! Tests of a front in a column, of the critical step with damping, and of the work in the ledger.
 
 use fem_collision::{Approach, BodyInput};
 use fem_element::{ElementMatrix, QuadGeometry, largest_eigenvalue, mean_gradient};
@@ -158,7 +158,7 @@ fn a_front_keeps_its_speed_and_its_pressure_and_does_not_ring() {
     assert!(width(&viscous) < 6.0 && width(&viscous) > width(&bare), "{}", width(&viscous));
 }
 
-/// What weaker and weaker viscosity changes goes to nothing in proportion.
+/// The change by viscosity vanishes in proportion to its coefficient.
 #[test]
 fn no_coefficient_is_no_viscosity() {
     let bare = after(NONE, 20.0);

@@ -57,7 +57,7 @@ fn visit(value: &Value, place: &str, look: &mut dyn FnMut(&str, &Value)) {
     }
 }
 
-/// What a value could be damaged to.
+/// Values to which a number could be damaged.
 fn damages(value: &Value) -> Vec<Value> {
     match value {
         Value::Array(list) => {
@@ -110,7 +110,7 @@ fn a_damaged_memory_is_refused_or_runs() {
     assert!(n_refused > 100 && n_run > 100, "{n_refused} {n_run}");
 }
 
-/// Told twice, or following from the model: one that says otherwise is seen.
+/// Entries that are stored twice or follow from the model: a contradiction is found.
 #[test]
 fn parts_that_contradict_each_other_are_refused() {
     let model = model();
@@ -132,7 +132,7 @@ fn parts_that_contradict_each_other_are_refused() {
     assert!(serde_json::from_value::<RestartState>(text).unwrap().fits(&model));
 }
 
-/// What JSON cannot say.
+/// Values that JSON cannot represent.
 #[test]
 fn a_time_that_is_no_number_is_refused() {
     let model = model();
@@ -153,7 +153,7 @@ fn a_time_that_is_no_number_is_refused() {
     }
 }
 
-/// What a restart needs and nothing else: no buffers, no rows that nobody wants.
+/// The restart state contains what a restart needs and nothing else: no buffers, and no rows that are not requested.
 #[test]
 fn a_memory_grows_by_what_is_asked_for() {
     let model = model();

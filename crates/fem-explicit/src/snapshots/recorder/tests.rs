@@ -86,8 +86,8 @@ fn approaching(approach: f64, approach_rate: f64) -> Instant {
     }
 }
 
-/// Of bodies as fast as at first touch no state is taken until a quarter of the expected approach; of those that
-/// have been slowed down all rungs are. Either way the ladder has the same rungs.
+/// While the bodies are as fast as at first touch, no candidate is taken below a quarter of the expected approach;
+/// once they have slowed down, all are. Either way the ladder has the same rungs.
 #[test]
 fn no_state_is_taken_of_bodies_that_nothing_has_slowed() {
     let model = model();
@@ -157,7 +157,7 @@ fn bodies_that_stay_together_have_no_last_contact() {
     assert!(missing.contains(&did_not_occur(SnapshotInstant::LastContact)), "{missing:?}");
 }
 
-/// What no check has refused: every state is kept, every time that is one has its snapshot.
+/// Unusual requests that pass all checks: every state is kept, and every time that is a number has its snapshot.
 #[test]
 fn no_request_is_too_much() {
     let model = model();

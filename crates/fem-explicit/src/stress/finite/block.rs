@@ -141,6 +141,16 @@ impl Blocks {
         Self { blocks, n_nodes, n_elements, nodes }
     }
 
+    /// Packs elements that share no nodes: each has the corners 0 to 3, and eight that follow each other are a block.
+    pub fn pack_alone<'a>(geometries: impl ExactSizeIterator<Item = &'a QuadGeometry>) -> Self {
+        let n_elements = geometries.len();
+        let mut blocks = vec![Block::EMPTY; n_elements.div_ceil(WIDE)];
+        for (k, geometry) in geometries.enumerate() {
+            blocks[k / WIDE].put(k % WIDE, &[0, 1, 2, 3], geometry);
+        }
+        Self { blocks, n_nodes: 4, n_elements, nodes: 0..4 }
+    }
+
     /// Returns the number of elements.
     pub fn n_elements(&self) -> usize {
         self.n_elements

@@ -106,34 +106,19 @@ impl Metrics {
 
 /// Returns bounds of the largest eigenvalues (s⁻²) of undeformed elements.
 pub(super) fn at_rest<W: Law>(law: &W, elements: &[LumpedElement]) -> Vec<f64> {
+    let blocks = Blocks::pack_alone(elements.iter().map(|element| &element.geometry));
+    let mut metrics = vec![Metric::EMPTY; elements.len().div_ceil(WIDE)];
+    for (k, LumpedElement { geometry, masses, on_axis }) in elements.iter().enumerate() {
+        metrics[k / WIDE].put(k % WIDE, geometry, masses, *on_axis);
+    }
     let mut bounds = Vec::with_capacity(elements.len().next_multiple_of(WIDE));
-    run_wide_lanes(AtRest { elements, law }, &mut bounds);
+    let undeformed = [[0.0; 2]; 4];
+    let bound = Bound { blocks: &blocks, metrics: &metrics, law, u: &undeformed, history: &[] };
+    run_wide_lanes(bound, &mut |_: &Block, _: &Metric, eigenvalues: &Numbers| {
+        bounds.extend(eigenvalues);
+    });
     bounds.truncate(elements.len());
     bounds
-}
-
-struct AtRest<'a, W> {
-    elements: &'a [LumpedElement],
-    law: &'a W,
-}
-
-impl<W: Law> LaneKernel<WIDE> for AtRest<'_, W> {
-    type Output = Vec<f64>;
-
-    #[inline(always)]
-    fn on<L: Lanes<WIDE>>(self, bounds: &mut Vec<f64>) {
-        let internal: InternalVariables<L> = InternalVariables::none();
-        for elements in self.elements.chunks(WIDE) {
-            let (mut block, mut metric) = (Block::EMPTY, Metric::EMPTY);
-            for (lane, LumpedElement { geometry, masses, on_axis }) in elements.iter().enumerate() {
-                block.put(lane, &[0, 1, 2, 3], geometry);
-                metric.put(lane, geometry, masses, *on_axis);
-            }
-            // SAFETY: the block's corners are 0 to 3.
-            let strain = unsafe { Deformation::<L>::gather(&block, &[[0.0; 2]; 4]) };
-            bounds.extend(eigenvalues(&strain, &block, &metric, self.law, &internal));
-        }
-    }
 }
 
 /// Adds the bounds λ_e m_e,i (N/m) of displaced elements at their nodes; without history nothing has relaxed.
@@ -143,9 +128,19 @@ pub(super) fn add_stiffness<W: Law>(
     history: &[NodalField],
     bound: &mut [f64],
 ) {
-    run_wide_lanes(Bound { blocks, metrics, law, u, history }, bound);
+    let add = &mut |block: &Block, metric: &Metric, eigenvalues: &Numbers| {
+        for lane in 0..WIDE {
+            for a in 0..4 {
+                let node = block.corners[a][lane] as usize;
+                bound[node] += eigenvalues[lane] * metric.masses[a][lane];
+            }
+        }
+    };
+    run_wide_lanes(Bound { blocks, metrics, law, u, history }, add);
 }
 
+/// The loop over the eigenvalues of displaced elements. Its output is called for every block: the loop is long to compile,
+/// and so exists once for all uses.
 struct Bound<'a, W> {
     blocks: &'a Blocks,
     metrics: &'a [Metric],
@@ -154,27 +149,20 @@ struct Bound<'a, W> {
     history: &'a [NodalField],
 }
 
-impl<W: Law> LaneKernel<WIDE> for Bound<'_, W> {
-    type Output = [f64];
+impl<'a, W: Law> LaneKernel<WIDE> for Bound<'a, W> {
+    type Output = dyn FnMut(&Block, &Metric, &Numbers) + 'a;
 
     #[inline(always)]
-    fn on<L: Lanes<WIDE>>(self, bound: &mut [f64]) {
+    fn on<L: Lanes<WIDE>>(self, output: &mut Self::Output) {
         let Self { blocks, metrics, law, u, history } = self;
         let n_terms = if history.is_empty() { 0 } else { law.weights().len() };
         assert!(internal_variables::is_valid(history, n_terms, blocks.n_elements()));
         let mut internal: InternalVariables<L> = InternalVariables::none();
-        let both = blocks.checked(&[u.len(), bound.len()]).iter().zip(metrics);
-        for (place, (block, metric)) in both.enumerate() {
+        for (place, (block, metric)) in blocks.checked(&[u.len()]).iter().zip(metrics).enumerate() {
             internal.load(n_terms, history, blocks.slots(place));
             // SAFETY: the field has been checked against the corner numbers.
             let strain = unsafe { Deformation::<L>::gather(block, u) };
-            let eigenvalues = eigenvalues(&strain, block, metric, law, &internal);
-            for lane in 0..WIDE {
-                for a in 0..4 {
-                    let node = block.corners[a][lane] as usize;
-                    bound[node] += eigenvalues[lane] * metric.masses[a][lane];
-                }
-            }
+            output(block, metric, &eigenvalues(&strain, block, metric, law, &internal));
         }
     }
 }
@@ -191,20 +179,26 @@ fn eigenvalues<L: Lanes<WIDE>, W: Law>(
     let length = L::load(&metric.length);
     let step = L::splat(STRAIN_STEP);
     let per_step = L::splat(1.0 / STRAIN_STEP);
-    let before = in_order(&strain.conjugate(block, law, internal), length);
+    let mut before = [L::splat(0.0); N_STRAINS];
     let mut product = [[L::splat(0.0); N_STRAINS]; N_STRAINS];
-    for k in 0..N_STRAINS {
+    // One call for the present strains and the moved ones, since it is inlined.
+    for strain_number in 0..=N_STRAINS {
         let mut moved = *strain;
-        match k {
-            0 => moved.h.rr = moved.h.rr + step,
-            1 => moved.h.ry = moved.h.ry + step,
-            2 => moved.h.tt = moved.h.tt + step,
-            3 => moved.q.0 = moved.q.0 + step * length,
-            4 => moved.h.yr = moved.h.yr + step,
-            5 => moved.h.yy = moved.h.yy + step,
+        match strain_number {
+            0 => {}
+            1 => moved.h.rr = moved.h.rr + step,
+            2 => moved.h.ry = moved.h.ry + step,
+            3 => moved.h.tt = moved.h.tt + step,
+            4 => moved.q.0 = moved.q.0 + step * length,
+            5 => moved.h.yr = moved.h.yr + step,
+            6 => moved.h.yy = moved.h.yy + step,
             _ => moved.q.1 = moved.q.1 + step * length,
         }
         let after = in_order(&moved.conjugate(block, law, internal), length);
+        let Some(k) = strain_number.checked_sub(1) else {
+            before = after;
+            continue;
+        };
         // Row i of D Q takes column k of D with row k of Q, which has its own block alone.
         let own = if k < FIRST_AXIAL { 0..FIRST_AXIAL } else { FIRST_AXIAL..N_STRAINS };
         for i in 0..N_STRAINS {

@@ -60,8 +60,8 @@ fn energy(stress: &dyn Stress, u: &Field) -> f64 {
     accounts.energies.get(Account::Strain).unwrap()
 }
 
-/// What a step of elements near first touch clears and adds is counted here: nodes are numbered from there, and no
-/// more of them than 1.4 an element are gone through.
+/// The cost of forces of elements near first touch: nodes are numbered from there, and at most 1.4 nodes per element
+/// are cleared and added.
 #[test]
 fn elements_near_first_touch_have_the_first_nodes() {
     let mesh = sphere(0.02, 0.1, Side::Above);
@@ -181,7 +181,8 @@ fn first([rr, ry, yr, yy, tt]: [Plain<WIDE>; 5]) -> [f64; 5] {
 const F: [f64; 5] = [0.6, 0.3, -0.2, 1.5, 1.2];
 const Q: [f64; 2] = [0.2, -0.3];
 
-/// What a deformed and an hourglassed quad gives: stress (rr, ry, yr, yy, tt) and amplitude forces.
+/// Returns the derivatives for a deformed quad with an hourglass amplitude: stress (rr, ry, yr, yy, tt) and amplitude
+/// forces.
 fn conjugate_with(
     law: &impl Law,
     internal: &InternalVariables<Plain<WIDE>>,
@@ -274,7 +275,7 @@ fn internal_forces_balance() {
     assert!(f64::abs(sum) < 1e-15 * size, "{sum:e} {size}");
 }
 
-/// An element that is turned inside out, or is no number, is told by its number.
+/// An inverted element, or one whose displacement is not a number, is reported by its number.
 #[test]
 fn a_collapsed_element_is_named() {
     let mesh = mesh();
@@ -308,9 +309,9 @@ fn a_collapsed_element_is_named() {
     }
 }
 
-/// Pressed alike from all sides St Venant-Kirchhoff's law gives way at λ² = 1/(1 + 2G/3K), to shear: every
-/// element is unstable from there on and none before, also one that has just begun to relax. An element that is
-/// pressed more than the others is the one that is told. Neo-Hooke's law is not asked.
+/// Under equal pressure from all sides St Venant-Kirchhoff's law loses ellipticity in shear at λ² = 1/(1 + 2G/3K):
+/// every element is unstable from there on and none before, also with relaxation. The element under the highest
+/// pressure is reported. Neo-Hooke's law is not asked.
 #[test]
 fn the_element_that_has_lost_its_stability_is_named() {
     let mesh = mesh();
@@ -389,8 +390,8 @@ fn lanes_of_every_kind_give_the_same_bits() {
     assert!(WIDE == 8 && mesh.quads().len() > WIDE);
 }
 
-/// Of a body that is stretched as a whole, undeformed and deformed; and where one of its nodes has less room the
-/// elements there count.
+/// The strain rate of a uniformly stretched body, undeformed and deformed; where a node has a smaller allowance, the
+/// elements around it decide.
 #[test]
 fn the_strain_rate_is_that_of_the_fastest_element() {
     let mesh = mesh();

@@ -145,7 +145,7 @@ fn forces_are_the_derivative_of_the_energy() {
     }
 }
 
-/// What collapses is named as the body counts its elements.
+/// A collapsed element has its number in the body.
 #[test]
 fn an_element_is_named_by_its_number_in_the_body() {
     let mesh = mesh();

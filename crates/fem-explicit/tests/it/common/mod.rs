@@ -14,7 +14,7 @@ pub const HERTZ_APPROACH: f64 = 10.742e-6;
 /// E/(1 − ν²)/2 of the glass.
 pub const CONTACT_MODULUS: f64 = 33.494e9;
 
-/// What makes a pair: lengths, times and masses can be scaled.
+/// The definition of a pair; lengths, times and masses can be scaled.
 #[derive(Clone)]
 pub struct Pair {
     pub radii: [f64; 2],

@@ -74,7 +74,7 @@ fn a_search_along_lines_finds_the_same() {
     }
 }
 
-/// What is left in the buffers of earlier solutions decides no bit.
+/// The contents of the buffers from earlier solutions do not change a bit.
 #[test]
 fn a_solution_does_not_depend_on_those_before() {
     let problem = chain(40, 30.0);

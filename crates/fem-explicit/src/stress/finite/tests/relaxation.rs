@@ -1,4 +1,4 @@
-//! Elements that relax: the limit of small strain, energy, objectivity, and what they remember.
+//! Tests of relaxing elements: limit of small strain, energy, objectivity, and internal variables.
 
 use fem_material::finite::{Viscoelastic, ViscousStrain};
 use fem_material::{ActsOn, RelaxationStep};
@@ -48,7 +48,7 @@ impl March {
         f
     }
 
-    /// What is stored, and dissipated a second.
+    /// Returns the stored energy and the dissipated power.
     fn energies(&self, u: &Field) -> (f64, f64) {
         let mut accounts = Accounts::default();
         self.stress.add_energies(&motion(u), &self.history, &mut accounts);
