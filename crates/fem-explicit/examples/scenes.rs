@@ -4,7 +4,7 @@
 
 #![allow(clippy::disallowed_macros, reason = "an example prints what it computes")]
 
-use fem_collision::{Approach, BodyInput, Expectation, SnapshotRequest, Want};
+use fem_collision::{Approach, BodyInput, Expectation, OutputRequest, SnapshotRequest};
 use fem_explicit::{
     BulkViscosity, ContactMethod, Model, NodeForce, Parts, Settings, ViscosityCoefficients, Weight,
     collide,
@@ -60,7 +60,8 @@ impl Scene {
         let model = Model::with_parts(bodies, approach, &settings, self.parts)?;
         let hertz = 80e-6 * (0.5 / self.speed).powf(0.2) * (63e9 / modulus).powf(0.4);
         let expected = Expectation { contact_time: hertz, approach: 0.3 * self.speed * hertz };
-        let want = Want { snapshots: SnapshotRequest::Count(4), ..Want::history() };
+        let want =
+            OutputRequest { snapshots: SnapshotRequest::Count(4), ..OutputRequest::history() };
         let collision = collide(&model, expected, &want, &mut ());
         let text = format!("{collision:?}");
         let digest = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {

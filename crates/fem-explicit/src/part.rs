@@ -48,9 +48,9 @@ pub struct Motion<'a> {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Accounts {
     /// Energies stored, or exchanged since first touch, J.
-    pub energies: Book,
+    pub energies: EnergyLedger,
     /// Powers into accounts, W, which are integrated over time from first touch.
-    pub powers: Book,
+    pub powers: EnergyLedger,
 }
 
 /// The motion of a body at the end of a step, for a contact that moves some of its nodes itself.

@@ -61,7 +61,7 @@ impl ContactMethod {
 /// bodies.
 pub trait Contact: Part {
     /// Returns the candidate region, in which contact is searched for.
-    fn searched(&self) -> Searched;
+    fn searched(&self) -> CandidateRegion;
 
     /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, which holds for any closed part.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);

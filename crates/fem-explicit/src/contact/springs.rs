@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use fem_collision::{BodyInput, Searched};
+use fem_collision::{BodyInput, CandidateRegion};
 use fem_contact::{
     ContactError, ContactForces, ContactInterface, Displacement, Profile, SlippingInterface,
     Surface,
@@ -105,10 +105,10 @@ impl Springs {
 impl Part for Springs {}
 
 impl Contact for Springs {
-    fn searched(&self) -> Searched {
+    fn searched(&self) -> CandidateRegion {
         let interface = self.interface();
         let (radius, n_points) = (interface.candidate_radius(), interface.n_points());
-        Searched { radius, n_points, at_nodes: false }
+        CandidateRegion { radius, n_points, at_nodes: false }
     }
 
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {

@@ -44,7 +44,7 @@ pub(crate) struct Ledger {
     /// Largest spurious energy at any step, over `initial_relative`.
     pub growth: f64,
     /// When the imbalance first exceeded the limit of a valid run.
-    pub beyond: Option<Moment>,
+    pub beyond: Option<StepInstant>,
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
@@ -169,8 +169,9 @@ impl Ledger {
     fn note(&mut self, state: &State) {
         let Shown { lost, drift, .. } = self.shown;
         let residual = self.residual();
-        self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
-        self.growth = highest(self.growth, (residual - lost) / self.initial_relative);
+        self.worst_residual =
+            nan_aware_max_abs(self.worst_residual, residual / self.initial_relative);
+        self.growth = nan_aware_max(self.growth, (residual - lost) / self.initial_relative);
         // A residual that is not a number is above every limit.
         let is_sound = self.worst_residual <= LARGEST_RESIDUAL;
         if self.beyond.is_none() && !is_sound {
@@ -262,7 +263,7 @@ impl Ledger {
     ///
     /// # Errors
     /// It is not finite or has grown.
-    pub fn check(&self, row: &Row, step: u64) -> Result<(), EnergyGrowth> {
+    pub fn check(&self, row: &HistoryRow, step: u64) -> Result<(), EnergyGrowth> {
         self.check_energy(row.residual.unwrap_or(f64::NAN), row.time, step)
     }
 

@@ -5,7 +5,7 @@ mod fingerprint;
 use std::any::Any;
 use std::sync::Arc;
 
-use fem_collision::{Approach, BodyInput, Frame, Searched};
+use fem_collision::{Approach, BodyInput, CandidateRegion, Frame};
 use fem_contact::ContactInterface;
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
@@ -180,7 +180,7 @@ impl Model {
     }
 
     /// Returns the candidate region.
-    pub fn searched(&self) -> Searched {
+    pub fn searched(&self) -> CandidateRegion {
         self.contact.searched()
     }
 

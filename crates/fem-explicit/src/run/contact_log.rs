@@ -25,7 +25,7 @@ pub(crate) struct ContactLog {
     /// Largest contact force, N.
     pub peak_force: f64,
     /// Largest penetration of the springs.
-    pub deepest: Option<Deepest>,
+    pub deepest: Option<DeepestOverlap>,
     /// Largest approach, m.
     pub max_approach: f64,
     was_closed: bool,

@@ -105,7 +105,7 @@ fn find(model: &Model, state: &State) -> Option<Lost> {
         let UnstableElement { element, stretches, law } =
             stress.unstable_element(&state_of_body.displacement, history)?;
         let place = own.element_centre(element);
-        let moment = Moment { time: state.time, step: state.step };
+        let moment = StepInstant { time: state.time, step: state.step };
         Some(Lost { moment, body, element, place, stretches, law: law.to_string() })
     };
     [0, 1].into_iter().find_map(of)

@@ -25,8 +25,8 @@ mod stops;
 use std::ops::Deref;
 
 use fem_collision::{
-    Collision, Ending, Expectation, FLIGHT_AFTER, Monitor, Phase, Progress, STEPS_BETWEEN_REPORTS,
-    Stop, Want,
+    Collision, Ending, Expectation, FLIGHT_AFTER, Monitor, OutputRequest, Phase, Progress,
+    STEPS_BETWEEN_REPORTS, Stop,
 };
 
 use crate::error::ModelError;
@@ -49,7 +49,7 @@ use step::{record_stop, step};
 pub fn collide(
     model: &Model,
     expected: Expectation,
-    want: &Want,
+    want: &OutputRequest,
     monitor: &mut dyn Monitor,
 ) -> Collision {
     monitor.enter(Phase::Collision);
@@ -63,7 +63,7 @@ pub fn collide(
 /// It borrows or shares its model: `M` is `&Model` or `Arc<Model>`.
 ///
 /// ```
-/// use fem_collision::{Approach, BodyInput, Ending, Expectation, Want};
+/// use fem_collision::{Approach, BodyInput, Ending, Expectation, OutputRequest};
 /// use fem_explicit::{Model, Run, Settings};
 /// # use fem_material::{ElasticModuli, Material};
 /// # use fem_mesh::{HalfDisc, Side};
@@ -87,7 +87,7 @@ pub fn collide(
 /// let bodies = [BodyInput::Sphere { mesh, material }, BodyInput::Wall];
 /// let model = Model::new(bodies, Approach::at(0.5)?, &settings)?;
 /// let expected = Expectation { contact_time: 80e-6, approach: 20e-6 };
-/// let mut run = Run::new(&model, expected, &Want::quantities());
+/// let mut run = Run::new(&model, expected, &OutputRequest::quantities());
 /// assert_eq!(run.advance(100), None);
 /// // The run is resumed from its restart state, perhaps in another process.
 /// let state = run.restart_state().clone();
@@ -109,7 +109,7 @@ pub struct Run<M> {
 
 impl<M: Deref<Target = Model>> Run<M> {
     /// Starts a run at first touch.
-    pub fn new(model: M, expected: Expectation, want: &Want) -> Self {
+    pub fn new(model: M, expected: Expectation, want: &OutputRequest) -> Self {
         let restart_state = RestartState::new(&model, expected, want);
         let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, want));
         Self { model, restart_state, scratch, probing }

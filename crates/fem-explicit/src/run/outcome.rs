@@ -102,7 +102,7 @@ pub(super) fn outcome(model: &Model, run: RestartState, ending: Ending) -> Colli
         noisiest: sampled.scatter.noisiest(),
         searched: Some(model.searched()),
         initial_energy: Some(ledger.initial),
-        energies: sampled.last.map_or(Book::EMPTY, |row| row.energies),
+        energies: sampled.last.map_or(EnergyLedger::EMPTY, |row| row.energies),
         residual: sampled.last.and_then(|row| row.residual),
         residual_relative: Some(of_stake * ledger.worst_residual),
         residual_since: ledger.beyond.filter(|_| !is_sound),

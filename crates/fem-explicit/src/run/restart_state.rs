@@ -31,7 +31,7 @@ pub struct RestartState {
     /// Estimates by closed forms.
     pub(crate) expected: Expectation,
     /// Output that was requested.
-    want: Want,
+    want: OutputRequest,
     /// Approach of the model.
     approach: Approach,
     /// Fingerprint of the model, see [`fingerprint`].
@@ -42,7 +42,7 @@ pub struct RestartState {
 
 impl RestartState {
     /// Returns the state at first touch.
-    pub(crate) fn new(model: &Model, expected: Expectation, want: &Want) -> Self {
+    pub(crate) fn new(model: &Model, expected: Expectation, want: &OutputRequest) -> Self {
         let expected_steps = expected.contact_time / model.time_step();
         let state = State::at_first_touch(model);
         Self {
@@ -86,7 +86,7 @@ impl RestartState {
     }
 
     /// Returns the output that was requested when the run began.
-    pub fn want(&self) -> &Want {
+    pub fn want(&self) -> &OutputRequest {
         &self.want
     }
 

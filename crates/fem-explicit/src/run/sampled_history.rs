@@ -16,16 +16,16 @@ const GONE_WITH_WAVES: f64 = 0.95;
 /// Quantities derived from the instants that have been sampled so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SampledHistory {
-    cadence: Cadence,
+    cadence: SamplingInterval,
     /// Means and peaks of force, contact radius and pressure.
-    pub pulse: Pulse,
-    /// Scatter of the contact force.
-    pub scatter: Scatter,
+    pub pulse: ForcePulse,
+    /// ForceNoise of the contact force.
+    pub scatter: ForceNoise,
     /// Vibration since the last contact; `None` before the first one.
-    pub aftermath: Option<Aftermath>,
-    /// Row of the last sampled instant.
-    pub last: Option<Row>,
-    standstill: Standstill,
+    pub aftermath: Option<PostContactVibration>,
+    /// HistoryRow of the last sampled instant.
+    pub last: Option<HistoryRow>,
+    standstill: RestCriterion,
 }
 
 impl SampledHistory {
@@ -73,7 +73,7 @@ impl SampledHistory {
     }
 
     /// Takes the row of an instant, the impulse of the contact so far (N s), the step, and whether the contact is closed.
-    pub fn take(&mut self, row: Row, impulse: f64, step: u64, is_closed: bool) {
+    pub fn take(&mut self, row: HistoryRow, impulse: f64, step: u64, is_closed: bool) {
         self.cadence.count();
         let (radius, pressure) = (row.contact_radius, row.centre_pressure);
         self.pulse.observe(row.time, impulse, radius.unwrap_or(0.0), pressure.unwrap_or(0.0));

@@ -21,7 +21,7 @@ pub(crate) struct LastValidState {
 
 impl LastValidState {
     /// Keeps states if snapshots are requested, otherwise none.
-    pub fn new(want: &Want) -> Self {
+    pub fn new(want: &OutputRequest) -> Self {
         Self { is_wanted: is_wanted(want), ..Self::default() }
     }
 
@@ -63,7 +63,7 @@ impl LastValidState {
     }
 
     /// Whether it can belong to a run of a model in a state, with a request.
-    pub fn fits(&self, model: &Model, state: &State, want: &Want) -> bool {
+    pub fn fits(&self, model: &Model, state: &State, want: &OutputRequest) -> bool {
         let is_valid = |kept: &Snapshot| fits(kept, model) && kept.time <= state.time;
         self.is_wanted == is_wanted(want) && self.kept.as_ref().is_none_or(is_valid)
     }

@@ -3,7 +3,10 @@
 mod last_valid_state;
 mod recorder;
 
-use fem_collision::{BodyFields, ContactPlace, Label, Probes, Snapshot, SnapshotRequest, Want};
+use fem_collision::{
+    BodyFields, ContactProfilePoint, OutputRequest, Probes, Snapshot, SnapshotInstant,
+    SnapshotRequest,
+};
 
 use crate::model::Model;
 use crate::part::NodalField;
@@ -34,7 +37,7 @@ fn take(
     state: &State,
     forces: &[NodalField; 2],
     approach: f64,
-    label: Option<Label>,
+    label: Option<SnapshotInstant>,
 ) {
     let time_step = state.time_step(model);
     snapshot.label = label;
@@ -62,7 +65,7 @@ fn take(
     let profile = profile.closed();
     snapshot.contact.radius = profile.contact_radius;
     snapshot.contact.places.clear();
-    snapshot.contact.places.extend(profile.points.iter().map(|point| ContactPlace {
+    snapshot.contact.places.extend(profile.points.iter().map(|point| ContactProfilePoint {
         is_node: point.is_node,
         radius: point.radius,
         pressure: point.pressure,
@@ -111,7 +114,7 @@ pub(crate) struct Probing {
 
 impl Probing {
     /// Finds the places of the requested probes in the meshes of a model.
-    pub fn new(model: &Model, want: &Want) -> Self {
+    pub fn new(model: &Model, want: &OutputRequest) -> Self {
         let meshes = model.bodies().each_ref().map(|body| body.mesh());
         Self { probes: Probes::new(meshes, &want.probes), all: Snapshot::default() }
     }
@@ -135,7 +138,7 @@ impl Probing {
 }
 
 /// Whether samples of probes can belong to a run with this request at a time, s.
-pub(crate) fn probes_fit(samples: &[Snapshot], want: &Want, time: f64) -> bool {
+pub(crate) fn probes_fit(samples: &[Snapshot], want: &OutputRequest, time: f64) -> bool {
     let n = want.probes.len();
     let is_complete = |one: &Snapshot| {
         one.bodies.iter().all(|fields| {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::common::Pair;
-use fem_collision::{Collision, Ending, Stop, Want};
+use fem_collision::{Collision, Ending, OutputRequest, Stop};
 use fem_explicit::{Model, RestartState, Run};
 
 /// About 1900 steps a contact and 270 elements.

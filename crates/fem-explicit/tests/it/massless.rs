@@ -13,7 +13,7 @@ fn coarse() -> Pair {
     Pair { element_size: 80e-6, candidate_radius: 0.4e-3, ..glass() }
 }
 
-/// Scatter of the force from instant to instant over its peak.
+/// ForceNoise of the force from instant to instant over its peak.
 fn noise(run: &Collision) -> f64 {
     run.force_scatter.unwrap() / run.peak_force.unwrap()
 }

@@ -24,7 +24,7 @@ mod slipping_springs;
 
 use std::any::Any;
 
-use fem_collision::{BodyInput, Searched};
+use fem_collision::{BodyInput, CandidateRegion};
 use fem_contact::{ContactForces, ContactInterface, Profile};
 
 use super::{Contact, Springs};
@@ -246,7 +246,7 @@ impl Part for Massless {
 }
 
 impl Contact for Massless {
-    fn searched(&self) -> Searched {
+    fn searched(&self) -> CandidateRegion {
         self.springs.searched()
     }
 

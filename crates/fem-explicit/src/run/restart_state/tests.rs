@@ -118,8 +118,8 @@ fn parts_that_contradict_each_other_are_refused() {
     assert!(whole.fits(&model));
     let mut text = serde_json::to_value(&whole).unwrap();
     for (place, other) in [
-        ("/observed/standstill/speed", 0.02.into()),
-        ("/observed/standstill/reduced_mass", 1.0.into()),
+        ("/sampled/standstill/speed", 0.02.into()),
+        ("/sampled/standstill/reduced_mass", 1.0.into()),
         ("/want/history_rows", 0.into()),
         ("/want/snapshots/Times/0", 0.25.into()),
         ("/recorder/request/Times/0", 0.25.into()),
