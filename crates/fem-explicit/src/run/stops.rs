@@ -1,7 +1,7 @@
 //! Reasons for which a run stops before its end, with their place.
 
 use fem_collision::Stop;
-use fem_contact::Turn;
+use fem_contact::SurfaceFold;
 
 use crate::energy::EnergyGrowth;
 use crate::model::Model;
@@ -75,8 +75,8 @@ pub(super) fn stop_of_growth(model: &Model, growth: EnergyGrowth, state: &State)
 }
 
 /// Returns the stop of a run whose surface has turned over.
-pub(super) fn stop_of_turn(model: &Model, turn: Turn, state: &State) -> Stop {
-    let Turn { side, node, radius } = turn;
+pub(super) fn stop_of_turn(model: &Model, turn: SurfaceFold, state: &State) -> Stop {
+    let SurfaceFold { side, node, radius } = turn;
     let (time, step, node) = (state.time, state.step, node as usize);
     let place = model.bodies()[side].node_position(node);
     Stop::SurfaceTurnsOver { time, step, radius, body: side, node, place }
