@@ -1,4 +1,4 @@
-//! What a collision is asked for and what comes out of it, whichever model computes it.
+//! Input and result of a collision, the same for every model that computes it.
 //!
 //! ```text
 //! asked for                       while it runs                  what comes out
@@ -8,15 +8,16 @@
 //! OutputRequest       rows, snapshots                                     Snapshot   fields at an instant
 //! ```
 //!
-//! * [`Account`] names a place of energy and [`EnergyLedger`] holds what is in each; every model, part of a
-//!   step, column of a history and key of a summary means the same by them.
-//! * [`SamplingInterval`] says at which steps of a run something is observed, [`PostContactVibration`] and [`ForceNoise`]
-//!   what follows from it beside extremes; [`ForcePulse`] has the peaks without noise.
-//! * [`Frame`] leads from the relative motion of two bodies to each of them.
-//! * [`far_radius_of_waves`] and [`far_radius_at_rest`] say how far the mesh of a half-space has to
-//!   reach.
-//! * [`QuantityOfInterest`] names the numbers that a collision is known by.
-//! * [`RestCriterion`] tells bodies that stay together from those that are slow to part.
+//! * [`Account`] names a form of energy and [`EnergyLedger`] holds the amount in each. Every model,
+//!   phase of a step, column of a history and key of a summary uses the same accounts.
+//! * [`SamplingInterval`] sets the steps at which a run is sampled. [`PostContactVibration`] and
+//!   [`ForceNoise`] are computed from the samples, and [`ForcePulse`] gives the peaks without
+//!   noise.
+//! * [`Frame`] converts the relative motion of two bodies to the motion of each.
+//! * [`far_radius_of_waves`] and [`far_radius_at_rest`] return the radius that the mesh of a
+//!   half-space needs.
+//! * [`QuantityOfInterest`] lists the quantities of interest, such as restitution and contact time.
+//! * [`RestCriterion`] distinguishes bodies that stay together from those that separate slowly.
 //! * [`StressField`] is the stress recovered from a body's fields, [`StressRecovery`] the same for
 //!   many fields of one mesh.
 //!

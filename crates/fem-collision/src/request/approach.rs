@@ -1,4 +1,4 @@
-//! How two bodies meet.
+//! Initial velocities and distance of two bodies.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -20,13 +20,13 @@ pub struct Approach {
     gap: f64,
 }
 
-/// Why two bodies do not meet.
+/// Reasons why two bodies do not collide.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum ApproachError {
-    /// They recede, stand still, or move at no speed that can be computed with.
+    /// The relative velocity is not positive and finite.
     #[error("the bodies approach each other at {0} m/s; it must be positive and finite")]
     NotApproaching(f64),
-    /// They overlap already, or are infinitely far.
+    /// The gap is negative or not finite.
     #[error("gap is {0} m; allowed is at least 0, and finite")]
     Gap(f64),
 }
@@ -47,8 +47,8 @@ impl TryFrom<Unchecked> for Approach {
 }
 
 impl Approach {
-    /// Bodies with these velocities along +y (m/s), the lower one's first, at this distance of their
-    /// surfaces on the axis at time 0, m.
+    /// Creates an approach from the velocities of the lower and the upper body along +y (m/s) and
+    /// the distance of their surfaces on the axis at time 0, m.
     ///
     /// # Errors
     /// Bodies that do not approach each other; a gap that is negative or not finite.
@@ -64,7 +64,8 @@ impl Approach {
         Ok(approach)
     }
 
-    /// The lower body strikes the upper one at rest at this speed (m/s); they touch at time 0.
+    /// Creates an approach of the lower body at this speed (m/s) to an upper body at rest. They
+    /// touch at time 0.
     ///
     /// # Errors
     /// A speed that is not positive and finite.
@@ -92,8 +93,9 @@ impl Approach {
         self.gap / self.speed()
     }
 
-    /// The same in the frame of the common mass centre, touching at time 0, and that frame's velocity
-    /// along +y, m/s. Masses in kg; infinite for a wall, of which there is one at most.
+    /// Returns this approach in the frame of the common mass centre, touching at time 0, and the
+    /// velocity of that frame along +y, m/s. Masses are in kg; that of a wall is infinite, and only
+    /// one body may be a wall.
     ///
     /// # Errors
     /// Speeds that leave the range of f64.
@@ -104,9 +106,9 @@ impl Approach {
         Ok((Self::new([lower * speed, upper * speed], 0.0)?, velocity))
     }
 
-    /// What the two mass centres do along +y (m, or m/s) at an approach since time 0 (m, or its
-    /// rate in m/s), the time since then (s, or 1 for the rates), and the masses, kg; infinite for a
-    /// wall.
+    /// Returns the displacements of the two mass centres along +y (m) for an approach since time 0
+    /// (m), the time (s) and the masses (kg; infinite for a wall). With the rate of the approach
+    /// (m/s) and a time of 1 it returns their velocities, m/s.
     pub fn centres(&self, masses: [f64; 2], approach: f64, time: f64) -> [f64; 2] {
         let share = |own: f64, other: f64| {
             if own.is_infinite() { 0.0 } else { (1.0 + own / other).recip() }

@@ -1,4 +1,4 @@
-//! What a body is, for a model with meshes.
+//! Bodies of models with meshes, and the radius that the mesh of a half-space needs.
 
 use fem_material::Material;
 use fem_mesh::SphereMesh;
@@ -23,11 +23,11 @@ pub enum BodyInput {
         /// kg.
         mass: f64,
     },
-    /// A block that never ends, in its plane y = 0. Far away it keeps its velocity, as a wall does, and
-    /// has an infinite mass.
+    /// A half-space bounded by the plane y = 0. It has infinite mass, and its far boundary keeps
+    /// its velocity as a wall does.
     HalfSpace {
-        /// Its mesh, on its side of the plane, as a [`QuarterDisc`](fem_mesh::QuarterDisc) makes it.
-        /// The mesh says that it is one: in the place of a sphere's it is a half-space all the same.
+        /// Its mesh, on its side of the plane, as a [`QuarterDisc`](fem_mesh::QuarterDisc) makes
+        /// it. The mesh identifies a half-space, even where it is given for a sphere.
         mesh: SphereMesh,
         /// Its material.
         material: Material,
@@ -59,20 +59,22 @@ impl BodyInput {
     }
 }
 
-/// Share of the compliance that the held boundary of a half-space at rest may take away.
+/// Largest relative error of the compliance due to the fixed far boundary of a half-space in static
+/// equilibrium.
 const COMPLIANCE_LEFT_OUT: f64 = 1e-6;
 
-/// Far radius (m) of a half-space of this material that waves do not reach in a run: over a contact of
-/// this duration (s) and the flight after it, from anywhere within the radius in which contact is looked
-/// for (m). A contact that relaxation makes twice as long is still one without waves that come back.
+/// Returns the far radius (m) of a half-space that waves do not reach within a run: during a
+/// contact of this duration (s) and the flight after it, from anywhere in the candidate region of
+/// this radius (m). Even if relaxation doubles the duration, no reflected wave returns to the
+/// contact.
 pub fn far_radius_of_waves(material: &Material, contact_time: f64, candidate_radius: f64) -> f64 {
     let time = (1.0 + FLIGHT_AFTER) * contact_time;
     // A mesh around a contact of no duration still has its rings.
     (candidate_radius + material.dilatational_wave_speed() * time).max(4.0 * candidate_radius)
 }
 
-/// Far radius (m) of a half-space that is always in balance, for a contact of this radius (m): the
-/// compliance is right to 1e-6.
+/// Returns the far radius (m) of a half-space in static equilibrium for a contact of this radius
+/// (m). The relative error of the compliance is 1e-6.
 pub fn far_radius_at_rest(contact_radius: f64) -> f64 {
     8.0 / (3.0 * PI) * contact_radius / COMPLIANCE_LEFT_OUT
 }

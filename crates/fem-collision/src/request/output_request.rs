@@ -5,8 +5,8 @@ use thiserror::Error;
 
 use crate::fields::{ProbeRequest, SnapshotRequest};
 
-/// A run goes on for this share of the contact time after the last contact, so that the bodies'
-/// velocities and vibrations are those of free flight.
+/// Duration of the run after the last contact, as a fraction of the contact time. Velocities and
+/// vibrations are measured in this free flight.
 pub const FLIGHT_AFTER: f64 = 0.2;
 
 /// What a run is asked for.

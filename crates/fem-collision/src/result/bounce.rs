@@ -1,4 +1,4 @@
-//! What follows the first contact of a ball that gravity brings back: further contacts, and rest.
+//! Further contacts and rest of a ball that gravity brings back.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,21 +9,20 @@ pub struct Bounce {
     pub time: f64,
     /// Relative speed at first touch, m/s.
     pub speed_before: f64,
-    /// Relative velocity when the contact ends over that before; 0 of a ball that does not leave any
-    /// more.
+    /// Relative velocity after the contact over that before; 0 if the ball does not leave any more.
     pub restitution: f64,
-    /// First to last instant with a contact force, s; none of a ball that does not leave any more.
+    /// Time from first to last contact force, s; `None` if the ball does not leave any more.
     pub contact_time: Option<f64>,
     /// Largest contact force, N.
     pub peak_force: Option<f64>,
 }
 
-/// A ball at rest: what bears its weight once nothing moves and all has relaxed.
+/// The static contact of a ball at rest, after all relaxation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RestState {
-    /// When it was seen not to leave any more, since the start of the case, s.
+    /// Time since the start of the case from which the ball does not leave any more, s.
     pub time: f64,
-    /// What is then borne for ever.
+    /// The static contact under its weight.
     pub contact: StaticContact,
 }
 
@@ -32,10 +31,10 @@ pub struct RestState {
 pub struct StaticContact {
     /// N.
     pub force: f64,
-    /// Of the mass centres since first touch, m.
+    /// Approach of the mass centres since first touch, m.
     pub approach: f64,
-    /// Where the contact pressure falls to zero, m; `None` of a model without one.
+    /// Contact radius, where the pressure falls to zero, m; `None` if the model has none.
     pub contact_radius: Option<f64>,
-    /// Contact pressure on the axis, Pa; `None` of a model without one.
+    /// Contact pressure on the axis, Pa; `None` if the model has none.
     pub centre_pressure: Option<f64>,
 }

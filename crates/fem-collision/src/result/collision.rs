@@ -1,4 +1,4 @@
-//! What comes out of a collision, the same for every model.
+//! The result of a collision, the same for every model.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,19 +7,20 @@ use crate::request::Approach;
 use crate::result::{Bounce, Ending, RestState, Stop};
 use crate::run::{DeepestOverlap, EnergyLedger, HistoryRow, StepInstant};
 
-/// What is said of a restitution of 0.
+/// Warning for bodies with a restitution of 0.
 pub const STAY_TOGETHER: &str = "the bodies stay together: what drives them apart is worth less than a thousandth of the speed of approach, and the \
      contact is not followed to an end";
 
-/// Energy of a sound collision adds up to this share of the initial.
+/// Largest energy residual of a valid run, as a fraction of the initial energy.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
 
-/// A collision as far as it got. `None`: the model knows it not, or it has no value.
+/// The result of a collision, complete or up to the stop. `None` means that the model does not
+/// compute the quantity or that it has no value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Collision {
-    /// How the bodies met.
+    /// Initial velocities and gap.
     pub approach: Approach,
-    /// How it ended.
+    /// How the collision ended.
     pub ending: Ending,
     /// Relative velocity after over before, 1 when elastic; 0 for bodies that stay together.
     pub restitution: Option<f64>,
@@ -44,28 +45,28 @@ pub struct Collision {
     pub peak_pressure: Option<f64>,
     /// Radius of the contact at that pressure, of a model with meshes, m.
     pub peak_pressure_radius: Option<f64>,
-    /// How far the contact force scatters from instant to instant, N: none of a smooth pulse.
+    /// Scatter of the contact force from sample to sample, N; close to 0 for a smooth pulse.
     pub force_scatter: Option<f64>,
-    /// When it scatters most.
+    /// When the force scatters most.
     pub noisiest: Option<StepInstant>,
-    /// Where springs let the surfaces overlap most; none of a contact without.
+    /// The deepest overlap of the surfaces; `None` for a contact without springs.
     pub deepest: Option<DeepestOverlap>,
-    /// Where contact was looked for in the end, of a model that does not look everywhere.
+    /// The final candidate region of the contact, for models that limit the search.
     pub searched: Option<CandidateRegion>,
     /// Kinetic energy at the start, walls and half-spaces not counted, J.
     pub initial_energy: Option<f64>,
-    /// What is in each account of energy at the end, J.
+    /// Energy in each account at the end, J.
     pub energies: EnergyLedger,
-    /// What the energies do not account for at the end, J.
+    /// Energy residual at the end, J.
     pub residual: Option<f64>,
     /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre, with gravity
     /// over that and what the weight has given while the bodies came closer.
     pub residual_relative: Option<f64>,
-    /// When that was first above [`LARGEST_RESIDUAL`], of a model that steps in time.
+    /// When that was first above [`LARGEST_RESIDUAL`], for models that step in time.
     pub residual_since: Option<StepInstant>,
-    /// Most energy that the bodies have held above what they had and were given, at any step, over the initial
-    /// kinetic energy in the frame of the mass centre; of a ball that bounces that of its worst contact. `None`
-    /// of one degree of freedom.
+    /// Largest spurious energy growth at any step, over the initial kinetic energy in the frame of
+    /// the mass centre; for a bouncing ball that of its worst contact. `None` for models with one
+    /// degree of freedom.
     pub energy_growth: Option<f64>,
     /// Worst drift of momentum over Σ m|v| at the start, or of the momentum that the bodies have
     /// exchanged from the impulse of the contact force. `None` of one degree of freedom, from which
@@ -73,31 +74,32 @@ pub struct Collision {
     pub momentum_residual_relative: Option<f64>,
     /// Lower and upper body.
     pub bodies: [BodyResult; 2],
-    /// Of a model that steps in time with a fixed step, s.
+    /// Time step of models with a fixed step, s.
     pub time_step: Option<f64>,
-    /// What that step would be without mass scaling, of a model that has it, s.
+    /// Time step without mass scaling, for models that have it, s.
     pub plain_time_step: Option<f64>,
-    /// Steps done by such a model.
+    /// Number of time steps of such a model.
     pub steps: Option<u64>,
-    /// Elements times steps, of a model that computes each element at each step.
+    /// Elements times steps, for models that compute each element at each step.
     pub element_updates: Option<u64>,
     /// Memory of the factors of condensed bodies, bytes.
     pub factor_bytes: Option<u64>,
-    /// Steps whose contact problem took more than one solution, of a model that solves one a step.
+    /// Steps whose contact problem took more than one solution, for models that solve one per step.
     pub repeated_contact_solutions: Option<u64>,
-    /// Of a ball that gravity brings back: each contact, the first one among them; else none. All else
-    /// here but the ending, the history and the energies at the end is of the first one.
+    /// All contacts of a ball that gravity brings back, the first one included; else empty. All
+    /// other results but the ending, the history and the final energies belong to the first
+    /// contact.
     pub bounces: Vec<Bounce>,
-    /// Of a ball that has come to rest.
+    /// The state of a ball that has come to rest.
     pub rest: Option<RestState>,
     /// Instants over contact and separation.
     pub history: Vec<HistoryRow>,
     /// Fields of finite elements, in the order of time.
     pub snapshots: Vec<Snapshot>,
-    /// What the probes that were asked for saw, in the order of time: fields of one entry a probe
+    /// Fields at the requested probes in the order of time, one entry per probe
     /// ([`Probes::reduce`](crate::Probes::reduce)).
     pub probes: Vec<Snapshot>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
@@ -110,22 +112,23 @@ pub struct BodyResult {
     pub nodes: Option<usize>,
     /// Mass, kg; a wall or a half-space has none.
     pub mass: Option<f64>,
-    /// Added to light nodes by mass scaling, from others of the body, kg.
+    /// Mass that mass scaling moved to light nodes of the body, kg.
     pub added_mass: Option<f64>,
     /// Velocity of the mass centre along +y, m/s; of a half-space far away.
     pub velocity_after: Option<f64>,
-    /// Energy left in its vibrations, J; of a half-space that of the waves that go out.
+    /// Energy left in its vibrations, J; for a half-space that of the outgoing waves.
     pub vibration_energy: Option<f64>,
 }
 
 impl Collision {
-    /// What mass scaling adds to light nodes of each body, over the mass of the lighter one of both.
+    /// Returns the mass that mass scaling moves to light nodes of each body, over the mass of the
+    /// lighter body.
     pub fn added_shares(&self) -> [Option<f64>; 2] {
         let lightest = self.bodies.iter().filter_map(|body| body.mass).reduce(f64::min);
         self.bodies.each_ref().map(|body| Some(body.added_mass? / lightest?))
     }
 
-    /// Nothing of bodies that were to meet like this, and why.
+    /// Creates an empty result of a collision that was not computed, with the reason.
     pub fn stopped(approach: Approach, stop: Stop) -> Self {
         Self {
             approach,
@@ -168,7 +171,7 @@ impl Collision {
         }
     }
 
-    /// Why it did not end by itself.
+    /// Returns the reason if the run was stopped.
     pub fn stop(&self) -> Option<&Stop> {
         match &self.ending {
             Ending::Stopped(stop) => Some(stop),
@@ -176,22 +179,22 @@ impl Collision {
         }
     }
 
-    /// Whether it ended by itself.
+    /// Returns whether the collision ended by itself.
     pub fn is_complete(&self) -> bool {
         self.stop().is_none()
     }
 
-    /// Whether the caller ended it.
+    /// Returns whether the caller interrupted the run.
     pub fn is_interrupted(&self) -> bool {
         matches!(self.stop(), Some(Stop::Interrupted { .. }))
     }
 
-    /// The fields at a named instant, if they were asked for and it came.
+    /// Returns the snapshot at a named instant, if it was requested and occurred.
     pub fn snapshot(&self, label: SnapshotInstant) -> Option<&Snapshot> {
         self.snapshots.iter().find(|snapshot| snapshot.label == Some(label))
     }
 
-    /// Whether the contact outgrew the region in which it is looked for, and how large that is, m.
+    /// Returns the candidate radius (m) if the contact outgrew it.
     pub fn outgrown_radius(&self) -> Option<f64> {
         match self.stop() {
             Some(Stop::ContactBeyondCandidates { radius, .. }) => Some(*radius),
@@ -207,6 +210,6 @@ pub struct CandidateRegion {
     pub radius: f64,
     /// Number of points that can touch.
     pub n_points: usize,
-    /// Whether the points are nodes of one surface; else they are its integration points.
+    /// Whether the points are nodes of one surface; otherwise they are integration points.
     pub at_nodes: bool,
 }

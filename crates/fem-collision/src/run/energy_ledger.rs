@@ -1,61 +1,63 @@
-//! The accounts of the energy ledger, and what is in them.
+//! The accounts of the energy ledger and the energy in each.
 //!
 //! ```math
 //! \text{residual} = \sum \text{held} + \sum \text{lost} - E_0 - \sum \text{given}
 //! ```
 //!
-//! An account is one variant here and one line in [`LINES`], from which summaries, histories, sweeps
-//! and reports take it; what fills it is the part of a model that knows the energy. An account that
-//! nobody fills is blank in a history and null in a summary, or absent from both: [`ShownIn`].
+//! An account is one variant here and one line in [`LINES`]; summaries, histories, sweeps and
+//! reports read it from there. The part of a model that computes the energy fills it. An account
+//! that the model does not fill is blank in a history and null in a summary, or absent from both
+//! ([`ShownIn`]).
 
 use serde::{Deserialize, Serialize};
 
-/// A place where the energy of a collision can be.
+/// A form of energy in the balance of a collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Account {
-    /// Motion of the bodies, walls not counted; of a half-space relative to what is far away.
+    /// Kinetic energy of the bodies without walls; for a half-space relative to its far boundary.
     Kinetic,
-    /// Deformation of the bodies, or the spring of a contact law.
+    /// Strain energy of the bodies, or energy in the spring of a contact law.
     Strain,
-    /// Springs of a penalty contact.
+    /// Energy in the springs of a penalty contact.
     Contact,
-    /// Relaxation of the bodies, or the dashpot of a contact law.
+    /// Energy dissipated by relaxation of the bodies, or by the dashpot of a contact law.
     ViscousDissipation,
-    /// Work of a moving wall, or of a half-space that moves far away.
+    /// Work done by a moving wall, or at the far boundary of a moving half-space.
     WallWork,
-    /// Artificial viscosity of elements.
+    /// Energy dissipated by the artificial bulk viscosity of elements.
     BulkViscosity,
-    /// Dashpots of a penalty contact.
+    /// Energy dissipated by the dashpots of a penalty contact.
     ContactDamping,
-    /// Waves that leave a body for good, of a model without the body's own waves.
+    /// Energy radiated by waves that do not return, in models without elastic waves of their own.
     Radiated,
-    /// Weight of the upper body: m g times the height of its mass centre above that at first touch.
+    /// Potential energy of the upper body: m g times the height of its mass centre above that at
+    /// first touch.
     Potential,
-    /// What earlier contacts have left in the bodies, vibrations and all that had not relaxed yet: the
-    /// next contact is computed as if they were at rest.
+    /// Energy that earlier contacts left in the bodies, in vibrations and in stress that had not
+    /// relaxed. The next contact is computed as if the bodies were at rest.
     LeftBefore,
 }
 
-/// On which side of the balance an account stands.
+/// The side of the energy balance on which an account is entered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BalanceSide {
-    /// The bodies have it and can give it back.
+    /// Energy stored in the bodies, which can be recovered.
     Held,
-    /// It has left them for good.
+    /// Energy that has been dissipated.
     Lost,
-    /// It has come to them from outside.
+    /// Energy supplied from outside.
     Given,
 }
 
-/// Which files show an account.
+/// The result files in which an account appears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShownIn {
-    /// Every summary and every history.
+    /// The account appears in every summary and every history.
     Always,
-    /// Every summary, and no history.
+    /// The account appears in every summary and in no history.
     InSummary,
-    /// The summary, history and report of a collision that fills it, and no other: the account of an
-    /// effect. Its column stands behind those that every history has.
+    /// The account belongs to an optional effect and appears only in the results of collisions that
+    /// fill it. Its column follows those that every history has.
     WhereFilled,
 }
 
@@ -75,43 +77,43 @@ const LINES: &[(Account, &str, BalanceSide, ShownIn)] = &[
 ];
 
 impl Account {
-    /// All of them, in the order of a balance.
+    /// Returns all accounts in the order of the balance.
     pub fn all() -> impl Iterator<Item = Self> {
         LINES.iter().map(|(account, ..)| *account)
     }
 
-    /// Its name in files, without the unit.
+    /// Returns the name used in result files, without the unit.
     pub fn name(self) -> &'static str {
         LINES[self as usize].1
     }
 
-    /// Its side of the balance.
+    /// Returns the side of the balance on which the account is entered.
     pub fn side(self) -> BalanceSide {
         LINES[self as usize].2
     }
 
-    /// Which files show it.
+    /// Returns the result files in which the account appears.
     pub fn shown(self) -> ShownIn {
         LINES[self as usize].3
     }
 }
 
-/// What is in each account, J; or the power that goes into each, W.
+/// Energy in each account, J, or power into each account, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyLedger([Option<f64>; LINES.len()]);
 
 impl EnergyLedger {
-    /// Nothing in any account.
+    /// A ledger without any filled account.
     pub const EMPTY: Self = Self([None; LINES.len()]);
 
-    /// Puts energy (J) into an account beside what is there.
+    /// Adds energy (J) to an account.
     #[inline]
     pub fn add(&mut self, account: Account, energy: f64) {
         let entry = &mut self.0[account as usize];
         *entry = Some(entry.map_or(energy, |there| there + energy));
     }
 
-    /// This book with an energy (J) put into an account beside what is there.
+    /// Returns this ledger with an energy (J) added to an account.
     #[must_use]
     #[inline]
     pub fn with(mut self, account: Account, energy: f64) -> Self {
@@ -119,35 +121,34 @@ impl EnergyLedger {
         self
     }
 
-    /// This book with what is in another one beside what is there.
+    /// Returns the sum of this ledger and another one.
     #[must_use]
     pub fn and(self, other: &Self) -> Self {
         other.entries().fold(self, |book, (account, energy)| book.with(account, energy))
     }
 
-    /// What is in an account; `None` of one that nobody fills.
+    /// Returns the energy in an account, or `None` if the model does not fill it.
     pub fn get(&self, account: Account) -> Option<f64> {
         self.0[account as usize]
     }
 
-    /// The accounts that are filled, and what is in them, in the order of a balance.
+    /// Returns the filled accounts and their energies in the order of the balance.
     pub fn entries(&self) -> impl Iterator<Item = (Account, f64)> {
         Account::all().zip(self.0).filter_map(|(account, energy)| Some((account, energy?)))
     }
 
-    /// Whether an account is filled.
+    /// Returns whether an account is filled.
     pub fn has(&self, account: Account) -> bool {
         self.get(account).is_some()
     }
 
-    /// What is in all accounts of a side, J; `None` if none of them is filled.
+    /// Returns the energy in all accounts of a side, J, or `None` if none of them is filled.
     pub fn total(&self, side: BalanceSide) -> Option<f64> {
         let own = self.entries().filter(|(account, _)| account.side() == side);
         own.map(|(_, energy)| energy).reduce(|sum, energy| sum + energy)
     }
 
-    /// What does not add up, J: held and lost less what was there at the start (J) and what was given
-    /// since.
+    /// Returns the energy residual, J: stored + dissipated − initial − external work.
     pub fn residual(&self, initial: f64) -> f64 {
         let on = |side: BalanceSide| {
             let own = self.entries().filter(move |(account, _)| account.side() == side);
@@ -160,7 +161,7 @@ impl EnergyLedger {
     }
 }
 
-/// Running sums of lost energies.
+/// Running sums of the dissipated energies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DissipatedEnergies {
     energies: EnergyLedger,
@@ -168,7 +169,7 @@ pub struct DissipatedEnergies {
 }
 
 impl DissipatedEnergies {
-    /// Takes the powers (W) at an instant, so long after the last one (s).
+    /// Adds the dissipation of a time step (s) that ends with these powers (W).
     #[inline]
     pub fn advance(&mut self, time: f64, power: EnergyLedger) {
         for (account, now) in power.entries() {
@@ -181,7 +182,7 @@ impl DissipatedEnergies {
         self.power = Some(power);
     }
 
-    /// What was lost since the first instant, J.
+    /// Returns the energies dissipated since the first instant, J.
     pub fn energies(&self) -> EnergyLedger {
         self.energies
     }

@@ -1,4 +1,4 @@
-//! After the last contact: how long a run goes on, and what is left in the bodies' vibrations.
+//! Vibration energy of the bodies after the last contact.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +11,8 @@ pub struct PostContactVibration {
 }
 
 impl PostContactVibration {
-    /// Takes an instant of a run whose bodies have touched: whether they do, and the kinetic energy of
-    /// each relative to its mass centre, J.
+    /// Adds an instant after first touch: whether the contact is closed, and the kinetic energy of
+    /// each body relative to its mass centre, J.
     pub fn observe(&mut self, is_closed: bool, vibration: [f64; 2]) {
         if is_closed {
             *self = Self::default();
@@ -24,8 +24,8 @@ impl PostContactVibration {
         }
     }
 
-    /// Energy left in the vibrations of both bodies, J: twice the mean kinetic energy, since half of a
-    /// vibration's energy is kinetic. `None` before the bodies have parted.
+    /// Returns the vibration energy of both bodies, J: twice the mean kinetic energy, since half of
+    /// the energy of a vibration is kinetic. `None` before the bodies have separated.
     pub fn vibration_energy(&self) -> Option<[f64; 2]> {
         (self.n > 0).then(|| self.sums.map(|sum| 2.0 * sum / self.n as f64))
     }

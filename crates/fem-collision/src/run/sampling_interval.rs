@@ -1,13 +1,13 @@
-//! At which steps of a run something is done: evenly, and not too often, however long the run is.
+//! Sampling of a run at an even stride that adapts to its length.
 
 use serde::{Deserialize, Serialize};
 
-/// So many more instants than expected, then every second one is given up.
+/// Ratio of samples to the expected number above which every second sample is dropped.
 const EXCESS: usize = 4;
-/// Fewer instants than this are not asked for.
+/// Smallest number of samples.
 const FEWEST: usize = 16;
 
-/// An even stride over the steps of a run, which doubles whenever too many instants came.
+/// An even stride over the steps of a run that doubles whenever there are too many samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SamplingInterval {
     stride: u64,
@@ -17,25 +17,27 @@ pub struct SamplingInterval {
 }
 
 impl SamplingInterval {
-    /// For about `n_instants` over `expected_steps` steps; at most four times as many.
+    /// Creates a stride for about `n_instants` samples over `expected_steps` steps; there are at
+    /// most four times as many.
     pub fn new(n_instants: usize, expected_steps: f64) -> Self {
         let stride = (expected_steps / n_instants.max(1) as f64).floor().max(1.0) as u64;
         Self { stride, n: 0, most: EXCESS.saturating_mul(n_instants.max(FEWEST)) }
     }
 
-    /// The same at the nearest stride: two thirds to three halves of the instants, where there are so many steps.
+    /// Creates the nearest stride: two thirds to three halves of the requested samples, if there
+    /// are enough steps.
     pub fn nearest(n_instants: usize, expected_steps: f64) -> Self {
         let stride = (expected_steps / n_instants.max(1) as f64).round().max(1.0) as u64;
         Self { stride, ..Self::new(n_instants, expected_steps) }
     }
 
-    /// Whether this step is due.
+    /// Returns whether this step is sampled.
     pub fn is_due(&self, step: u64) -> bool {
         step.is_multiple_of(self.stride)
     }
 
-    /// Counts an instant, a due one or another. Of too many every second one is forgotten and the
-    /// stride doubled: whether it was.
+    /// Counts a sample. If there are too many, halves the count, doubles the stride and returns
+    /// true.
     pub fn count(&mut self) -> bool {
         self.n = self.n.saturating_add(1);
         let too_many = self.n > self.most;
@@ -46,27 +48,27 @@ impl SamplingInterval {
         too_many
     }
 
-    /// Tells how many instants are left, if it is not every second one.
+    /// Sets the number of samples that are left, if it is not half of them.
     pub(crate) fn recount(&mut self, n: usize) {
         self.n = n;
     }
 
-    /// Instants so far, as it counts them.
+    /// Returns the number of samples so far.
     pub(crate) fn n(&self) -> usize {
         self.n
     }
 
-    /// The most that it counts to.
+    /// Returns the largest number of samples.
     pub(crate) fn most(&self) -> usize {
         self.most
     }
 
-    /// Steps from one instant to the next.
+    /// Returns the number of steps between samples.
     pub fn stride(&self) -> u64 {
         self.stride
     }
 
-    /// Whether a run can have left it like this.
+    /// Returns whether a restart state is consistent.
     pub fn is_sound(&self) -> bool {
         self.stride > 0 && self.n < usize::MAX
     }
