@@ -31,7 +31,7 @@ pub struct Case {
     defaults: Defaults,
 }
 
-/// What stands in for what a case leaves out.
+/// Defaults for keys that a case leaves out.
 #[derive(Clone, Debug)]
 struct Defaults {
     title: String,
@@ -43,7 +43,8 @@ impl Case {
     /// Reads a case file and applies overrides (`KEY=VALUE`), left to right.
     ///
     /// # Errors
-    /// What is wrong with file, overrides or the case that they make, all of it: [`CaseError::others`].
+    /// Returns all errors of the file, the overrides and the case that they make:
+    /// [`CaseError::others`].
     pub fn load(path: &Path, overrides: &[String]) -> Result<Case, CaseError> {
         let name = path.display().to_string();
         let text = text_at(path, &name)?;
@@ -56,7 +57,7 @@ impl Case {
     /// mesh files are looked for in `folder`.
     ///
     /// # Errors
-    /// As [`Case::load`].
+    /// The errors are those of [`Case::load`].
     pub fn parse(
         name: &str,
         text: &str,
@@ -71,7 +72,7 @@ impl Case {
     /// As [`Case::parse`], of a text that comes from elsewhere, such as the standard input.
     ///
     /// # Errors
-    /// As [`Case::load`].
+    /// The errors are those of [`Case::load`].
     pub fn read(
         source: impl Read,
         name: &str,

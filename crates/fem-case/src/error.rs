@@ -1,4 +1,4 @@
-//! The error of this crate: what is wrong with a case, where, and what is allowed there.
+//! The error of this crate: the fault of a case, its place, and the allowed values.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,8 +8,8 @@ use crate::source::key_path::join;
 /// Something wrong with a case file, with an override of it, or with a case made in code.
 ///
 /// It displays as a block of plain text: position and message, the line with the culprit
-/// underlined, and help. The parts are there for a prettier rendering. What code gave has no line:
-/// the key stands in its place.
+/// underlined, and help. The parts are there for a prettier rendering. A value given in code has no
+/// line; its key is shown instead.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.block())]
 pub struct CaseError {
@@ -21,7 +21,7 @@ pub struct CaseError {
     more: Box<More>,
 }
 
-/// What is seldom asked for; apart, so that errors stay small.
+/// Rarely used parts, boxed so that the error type stays small.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct More {
     /// A key that is missing in the table that the error is about.
@@ -124,8 +124,7 @@ impl CaseError {
         self.key.as_deref()
     }
 
-    /// What else is wrong with the same case, in the order in which a reader meets it; of a file or a
-    /// text, not of code.
+    /// Further errors of the same case in the order of the text; empty for cases made in code.
     pub fn others(&self) -> &[CaseError] {
         &self.more.others
     }
@@ -135,12 +134,12 @@ impl CaseError {
         std::mem::take(&mut self.more.others)
     }
 
-    /// What was found.
+    /// Value or text that was found.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// What is allowed, or what to do.
+    /// Allowed values, or the suggested fix.
     pub fn help(&self) -> Option<&str> {
         self.help.as_deref()
     }

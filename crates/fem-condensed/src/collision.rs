@@ -18,7 +18,7 @@ const REACH: f64 = 1.3;
 const LARGEST_PHASE: f64 = 0.5;
 /// Impact of an elastic pair: fewer steps than this do not follow it.
 const FEWEST_STEPS: usize = 8;
-/// Contact problems that are no discs, as a share of the steps, that are worth a word.
+/// Share of steps with a contact area that is not a disc above which a warning is given.
 const MANY_REPEATED: f64 = 0.01;
 
 impl CondensedPair {
@@ -122,7 +122,7 @@ impl CondensedPair {
     /// Approach and forces at a time (s) after first touch, to the nearest of [`Self::N_STEPS`].
     ///
     /// # Errors
-    /// As [`CondensedPair::impact`].
+    /// The errors are those of [`CondensedPair::impact`].
     pub fn collide_until<'a>(
         &self,
         speed: f64,

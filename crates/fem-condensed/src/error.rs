@@ -1,11 +1,11 @@
-//! Why a pair cannot be condensed, or its collision not be computed.
+//! Reasons why a pair cannot be condensed or its collision cannot be computed.
 
 use fem_collision::{ApproachError, Stop};
 use fem_contact::ContactError;
 use fem_material::engineering::show;
 use thiserror::Error;
 
-/// What went wrong, and where the condensed model ends.
+/// Errors of condensed pairs, and the limits of the model.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CondensedError {
     /// The surfaces make no contact.

@@ -33,7 +33,7 @@ const FIELDS_AT_ONCE: usize = 24;
 pub(crate) struct FieldCoordinates {
     /// Forces at the contact nodes of an elastic body, displacements of a relaxing one's springs.
     springs: Vec<f64>,
-    /// What the relaxing stress sees; empty for an elastic body.
+    /// Effective displacement for the relaxing stress; empty for an elastic body.
     effective: Vec<f64>,
     /// Modes of vibration, dynamic less static.
     vibration: Vec<f64>,
@@ -48,7 +48,7 @@ struct State {
     contact: Contact,
 }
 
-/// What acts between the bodies, or its rate.
+/// Contact forces between the bodies, or their rates.
 #[derive(Debug, Clone)]
 pub(crate) struct Contact {
     /// At the contact points, N.
@@ -70,7 +70,7 @@ impl CondensedPair {
     /// a run with this time step (s), speed, damping and ending left of every step.
     ///
     /// # Errors
-    /// As [`CondensedPair::collide`].
+    /// The errors are those of [`CondensedPair::collide`].
     pub(crate) fn snapshots(
         &self,
         frame: &Frame,
@@ -155,7 +155,7 @@ impl CondensedPair {
     /// [`CondensedPair::snapshots`].
     ///
     /// # Errors
-    /// As [`CondensedPair::collide`].
+    /// The errors are those of [`CondensedPair::collide`].
     pub(crate) fn probed(
         &self,
         frame: &Frame,

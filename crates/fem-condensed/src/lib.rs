@@ -14,12 +14,12 @@
 //! Elements, masses and penalty springs are those of the explicit model; contact acts along the
 //! common normal of the flattened interface, at matching nodes (the finer of two unlike meshes is
 //! projected on the nodes of the coarser), gaps are those of the true arcs. The contact problem of
-//! a step is solved exactly, without iteration (`disc`). Relaxing bodies are chains of scalar
-//! springs (`chain`): as many as contact nodes for constant Poisson's ratio, a Galerkin basis of
-//! twice that for a relaxing shear beside an elastic bulk modulus (`shear`). Modes of free
-//! vibration bring back the inertia that the quasi-static body lacks (`vibration`); of a body so
-//! large that its waves do not come back within the contact, a half-space say, what they take is an
-//! element of its own (`radiation`).
+//! a step is solved exactly, without iteration (`disc_contact`). Relaxing bodies are sets of scalar
+//! viscoelastic modes (`viscoelastic_modes`): as many as contact nodes for constant Poisson's
+//! ratio, a Galerkin basis of twice that for a relaxing shear beside an elastic bulk modulus
+//! (`shear`). Modes of free vibration bring back the inertia that the quasi-static body lacks
+//! (`vibration`); for a body so large that its waves do not return within the contact, such as a
+//! half-space, the radiated energy has an element of its own (`radiation`).
 //!
 //! A rigid sphere has no compliance: its curvature is in the gap and its mass in the reduced mass. A
 //! wall has neither.

@@ -25,12 +25,12 @@ use crate::settings::Damping;
 /// Share of the kinetic energy up to which work is given back at once.
 const SMALL_SHARE: f64 = 1e-2;
 
-/// What acts on one body beside its elastic compliance.
+/// State of one body beside its elastic compliance.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BodyState {
     /// Relaxing springs, if the body relaxes.
     pub springs: Option<ViscoelasticModes>,
-    /// What its surface slips, if it does.
+    /// State of the slip of its surface, if there is any.
     pub slip: Option<ViscoelasticModes>,
     /// The static response of the modes of vibration, taken away, and their dynamic response.
     pub vibration: Option<[ViscoelasticModes; 2]>,
@@ -54,7 +54,7 @@ pub(crate) struct ImpactMotion<'a> {
     pub momentum_of_joining: f64,
     /// What points that joined in it add to the change of the force a step at its end, N.
     pub missed_slope: f64,
-    /// What leaves the bodies as waves, if anything does.
+    /// Radiated waves of the bodies, if there are any.
     waves: Option<WaveRadiation>,
     solver: DiscContactSolver,
     /// With more points closed the contact may reach beyond the last one.

@@ -187,7 +187,7 @@ impl CondensedPair {
         Ok(Frame { approach: Approach::at(speed)?, masses, reduced_mass, gravity: 0.0 })
     }
 
-    /// What is known of the bodies before they collide.
+    /// Properties of the bodies before the collision.
     pub fn bodies_before(&self, frame: &Frame) -> [BodyResult; 2] {
         [0, 1].map(|side: usize| {
             let mesh = self.inputs[side].mesh();
@@ -211,7 +211,7 @@ impl CondensedPair {
         &self.inputs
     }
 
-    /// What the pair was condensed with.
+    /// Returns the settings of the condensation.
     pub fn settings(&self) -> &PairSettings {
         &self.settings
     }

@@ -1,4 +1,4 @@
-//! How a pair is condensed.
+//! Settings of the condensation and the dissipation of a pair.
 
 use crate::error::CondensedError;
 use crate::operators::slip::Slip;
@@ -14,7 +14,7 @@ pub enum ContactModel {
     Springs(f64),
 }
 
-/// What a pair is condensed with.
+/// Settings of the condensation of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairSettings {
     /// Radius out to which the surfaces are condensed, m; [`crate::CondensedPair::enlarge`] makes more.
@@ -50,7 +50,7 @@ impl PairSettings {
     }
 }
 
-/// What takes energy from both bodies, lower first. Relaxations alone stand for it:
+/// Dissipation in both bodies, the lower one first. Relaxations alone stand for it:
 ///
 /// ```
 /// use fem_condensed::Damping;

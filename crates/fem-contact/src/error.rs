@@ -1,4 +1,4 @@
-//! What can be wrong with a pair of surfaces.
+//! Errors of a pair of surfaces.
 
 use thiserror::Error;
 
@@ -17,9 +17,9 @@ pub enum ContactError {
     /// A number that must be positive and finite is not.
     #[error("{name} is {value}; it must be positive and finite")]
     NotPositive {
-        /// Which number.
+        /// Name of the number.
         name: &'static str,
-        /// Its value.
+        /// Value that was found.
         value: f64,
     },
 }

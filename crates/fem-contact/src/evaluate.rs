@@ -3,7 +3,7 @@
 use crate::interface::{ContactInterface, ContactPoint};
 use crate::surface::SurfaceProjection;
 
-/// What the contact does in one configuration.
+/// Contact forces and energy of one configuration.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ContactForces {
     /// Total force, ≥ 0, N.

@@ -57,12 +57,11 @@ pub struct ContactInterface {
 /// and cost as much as others.
 const SLIVER: f64 = 1e-3;
 
-/// How many times the penalty springs enter the critical time step. A closed
-/// spring is stable with one. One that opens and closes within a few steps
-/// changes the energy by up to the fraction s/4 each time, s = (ω Δt)², up or
-/// down, and chatter adds that up: with 2, an elastic glass pair at 50 times the
-/// default penalty gained 2 %; with 4 it keeps its energy to 7e-5, for a tenth
-/// more steps at the default penalty.
+/// Factor on the stiffness of the penalty springs in the critical time step. A closed spring is
+/// stable with one. One that opens and closes within a few steps changes the energy by up to the
+/// fraction s/4 each time, s = (ω Δt)², up or down, and chatter adds that up: with 2, an elastic
+/// glass pair at 50 times the default penalty gained 2 %; with 4 it keeps its energy to 7e-5, for a
+/// tenth more steps at the default penalty.
 pub(crate) const OPENING_SAFETY: f64 = 4.0;
 
 impl ContactInterface {
@@ -100,7 +99,7 @@ impl ContactInterface {
 
     /// With the bound of the stiffness shared between a rigid sphere and the other body by their
     /// masses, so that a heavy one shortens the time step no more than a wall does: `ratio` is its
-    /// mass over that of the other body, > 0. Of bodies that both deform nothing changes, nor of a
+    /// mass over that of the other body, > 0. Nothing changes if both bodies deform, or beside a
     /// wall.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
@@ -154,7 +153,7 @@ impl ContactInterface {
         self.add_weighted_bound(side, 1.0, bound, |_| 1.0);
     }
 
-    /// The same of springs that count so many times, with a factor of each point.
+    /// Adds the same bound with a factor on each spring and a factor per point.
     pub(crate) fn add_weighted_bound(
         &self,
         side: usize,

@@ -1,8 +1,8 @@
 //! Contact at the nodes of one surface, without overlap.
 //!
 //! Where two meshes match, each pair of nodes is a point. Where they do not, the coarser surface
-//! gives the points, so that no pressure is asked for that the points could not tell apart, and the
-//! displacement of the finer one is projected on them (mortar method):
+//! gives the points, so that the points resolve the pressure, and the displacement of the finer one
+//! is projected on them (mortar method):
 //!
 //! ```math
 //! u_k = \sum_j D_{kj} u_j, \qquad
@@ -30,8 +30,8 @@ pub struct NodalContact {
     pub points: Vec<ContactPoint>,
     /// The side whose nodes they are: 0 lower, 1 upper.
     pub side: usize,
-    /// Of each point the nodes of the other surface, counted from the axis outward, and their
-    /// shares, 1 in sum; none for a rigid body.
+    /// For each point the nodes of the other surface, counted from the axis outward, and their
+    /// weights, which sum to 1; empty for a rigid body.
     pub shares: Vec<Vec<(usize, f64)>>,
 }
 

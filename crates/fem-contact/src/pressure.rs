@@ -22,7 +22,7 @@ impl ContactInterface {
         })
     }
 
-    /// The side at whose nodes profiles are told.
+    /// The side whose nodes define the profile.
     pub(crate) fn coarser(&self) -> usize {
         coarser(self.surfaces.each_ref(), self.candidate_radius)
     }

@@ -1,4 +1,4 @@
-//! The contact from the axis outward: what results show of it at an instant.
+//! Contact profile at an instant, from the axis outward.
 //!
 //! Nodes are those at which pressures are read, of the coarser of the surfaces that deform. What is read there
 //! is the force on a node over its area, near the axis without what elements take off it

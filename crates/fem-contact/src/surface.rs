@@ -1,4 +1,4 @@
-//! One side of the contact: the part of a boundary that can touch.
+//! One side of the contact: the candidate part of a boundary.
 
 use fem_mesh::SphereMesh;
 

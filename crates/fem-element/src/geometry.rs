@@ -1,4 +1,4 @@
-//! What the corners of an axisymmetric quad decide.
+//! Geometry of an axisymmetric quadrilateral from its corners.
 
 use std::f64::consts::PI;
 
@@ -27,7 +27,7 @@ pub struct QuadGeometry {
     pub gradient_y: [f64; 4],
     /// Mean N_a/r, 1/m.
     pub hoop: [f64; 4],
-    /// γ_a, dimensionless.
+    /// Hourglass vector γ_a, dimensionless.
     pub hourglass: [f64; 4],
     /// ∫ (∂φ/∂r)² 2πr dA, ∫ (∂φ/∂y)² 2πr dA and ∫ ∂φ/∂r ∂φ/∂y 2πr dA of the
     /// field φ = ξη less its mean gradient, m.

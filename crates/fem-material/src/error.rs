@@ -1,4 +1,4 @@
-//! What can be wrong with material data.
+//! Errors of material data.
 
 use thiserror::Error;
 
@@ -10,7 +10,7 @@ pub enum MaterialError {
     NotPositive {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Value found.
+        /// Value that was found.
         value: f64,
     },
 
@@ -19,14 +19,14 @@ pub enum MaterialError {
     Negative {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Value found.
+        /// Value that was found.
         value: f64,
     },
 
     /// Poisson's ratio at or beyond a limit of stability, or not a number.
     #[error("poissons_ratio must lie in -1 < poissons_ratio < 0.5, found {value:?}")]
     PoissonsRatio {
-        /// Value found.
+        /// Value that was found.
         value: f64,
     },
 
@@ -68,14 +68,14 @@ pub enum MaterialError {
     RelaxationWeight {
         /// Index of the term, from 0.
         index: usize,
-        /// Weight found.
+        /// Weight that was found.
         value: f64,
     },
 
     /// Weights that leave a negative equilibrium modulus.
     #[error("relaxation weights must sum to at most 1, found {sum:?}")]
     RelaxationWeightSum {
-        /// Sum found.
+        /// Sum that was found.
         sum: f64,
     },
 

@@ -1,4 +1,4 @@
-//! What can be wrong with the description of a mesh, or with a mesh.
+//! Errors of a mesh or its description.
 
 use thiserror::Error;
 
@@ -8,7 +8,7 @@ pub enum MeshError {
     /// A length that must be positive and finite is not.
     #[error("{name} is {value:?} m; it must be positive and finite")]
     Length {
-        /// Which length.
+        /// Name of the length.
         name: &'static str,
         /// Its value, m.
         value: f64,

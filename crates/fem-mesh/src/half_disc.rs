@@ -57,7 +57,7 @@ impl HalfDisc {
     /// Number of elements that [`HalfDisc::build`] makes.
     ///
     /// # Errors
-    /// As [`HalfDisc::build`].
+    /// The errors are those of [`HalfDisc::build`].
     pub fn n_elements(&self) -> Result<usize, MeshError> {
         let layout = self.layout()?;
         Ok(2 * layout.n_block * layout.n_block + 2 * layout.n_block * layout.n_rings)

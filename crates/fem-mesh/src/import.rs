@@ -6,8 +6,8 @@ use crate::error::MeshError;
 use crate::quality::Quality;
 use crate::sphere_mesh::SphereMesh;
 
-/// How far a boundary node may lie off the true circle or the axis, as a
-/// fraction of the radius: files often store single precision.
+/// Tolerance of the distance of a boundary node from the true circle or the axis, as a fraction of
+/// the radius: files often store single precision.
 const POSITION_TOLERANCE: f64 = 2e-6;
 
 impl SphereMesh {

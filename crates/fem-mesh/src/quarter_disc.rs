@@ -56,7 +56,7 @@ impl QuarterDisc {
     /// Number of elements that [`QuarterDisc::build`] makes.
     ///
     /// # Errors
-    /// As [`QuarterDisc::build`].
+    /// The errors are those of [`QuarterDisc::build`].
     pub fn n_elements(&self) -> Result<usize, MeshError> {
         let layout = self.layout()?;
         Ok(layout.n_block * layout.n_block + 2 * layout.n_block * layout.n_rings)

@@ -18,7 +18,7 @@ pub(crate) const BLOCK_SIZE: usize = 32768;
 /// Level for what shrinks. VTK's default, 5, takes twice the time of a file for a tenth of its size.
 const LEVEL: Compression = Compression::new(1);
 
-/// Bytes from an array's middle that tell whether it shrinks.
+/// Sample size, in bytes, from the middle of an array that decides whether compression pays.
 const SAMPLE_SIZE: usize = 4096;
 
 /// An array that shrinks to more than this share is stored: deflate makes noisy mantissas 5 %
@@ -52,7 +52,7 @@ pub(crate) fn compress(bytes: &[u8]) -> io::Result<Compressed> {
     DEFLATE.with_borrow_mut(|deflate| deflate.compress(bytes))
 }
 
-/// What makes zlib streams, one after the other.
+/// Compressor of successive zlib streams.
 struct Deflate {
     shrinking: Compress,
     storing: Compress,

@@ -16,7 +16,7 @@ pub(crate) struct NamedArray<'a> {
     pub(crate) values: Values<'a>,
 }
 
-/// What a file holds, and how its bytes are written.
+/// Content of a file and the encoding of its bytes.
 pub(crate) struct Contents<'a> {
     pub(crate) grid: VtuGrid<'a>,
     /// The snapshot's time, s.

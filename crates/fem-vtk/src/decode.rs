@@ -61,7 +61,7 @@ pub(crate) fn place(entry: &ArrayEntry) -> String {
     format!("{} array {:?}", entry.section.name(), entry.name)
 }
 
-/// What was found and what is allowed.
+/// The value that was found and the allowed ones.
 type Claim = (String, String);
 
 fn truncated() -> Claim {

@@ -11,7 +11,7 @@ use quick_xml::reader::Reader;
 
 use crate::section::Section;
 
-/// What was found and what is allowed, at a place in the file.
+/// The value that was found and the allowed ones, at a place in the file.
 #[derive(Debug)]
 pub(crate) struct Fault {
     pub(crate) place: String,

@@ -10,8 +10,8 @@ use crate::blocks::Compressed;
 pub enum Encoding {
     /// Base64 inside each `DataArray` element.
     InlineBase64,
-    /// Base64 in one block at the end: what VTK's own writer does unless told otherwise. The file
-    /// is well-formed XML.
+    /// Base64 in one block at the end: the default of VTK's own writer. The file is well-formed
+    /// XML.
     #[default]
     AppendedBase64,
     /// Bytes in one block at the end: a quarter smaller, but no well-formed XML, and meshio needs

@@ -1,4 +1,4 @@
-//! What can go wrong, with the file, the array, the index and the value.
+//! Errors of reading and writing, with the file, the array, the index and the value.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ pub enum Error {
     /// The operating system refused.
     #[error("{}: {source}", path.display())]
     Io {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// The system's reason.
         source: std::io::Error,
@@ -18,7 +18,7 @@ pub enum Error {
     /// Nothing to write: no points, no cells, an array without values, a collection without files.
     #[error("{what}: empty, and readers crash on empty arrays; leave it out")]
     Empty {
-        /// What is empty.
+        /// Name of the empty item.
         what: String,
     },
 
@@ -29,7 +29,7 @@ pub enum Error {
     Name {
         /// `PointData`, `CellData` or `FieldData`.
         section: &'static str,
-        /// The name.
+        /// Name of the array.
         name: String,
     },
 
@@ -38,7 +38,7 @@ pub enum Error {
     DuplicateName {
         /// `PointData`, `CellData` or `FieldData`.
         section: &'static str,
-        /// The name.
+        /// Name of the array.
         name: String,
     },
 
@@ -50,7 +50,7 @@ pub enum Error {
     Components {
         /// `PointData`, `CellData` or `FieldData`.
         section: &'static str,
-        /// The name.
+        /// Name of the array.
         name: String,
         /// The number of components given.
         components: usize,
@@ -61,7 +61,7 @@ pub enum Error {
     Length {
         /// `PointData`, `CellData` or `FieldData`.
         section: &'static str,
-        /// The name.
+        /// Name of the array.
         name: String,
         /// The number of values given.
         found: usize,
@@ -74,13 +74,13 @@ pub enum Error {
     NotFinite {
         /// `Points`, `PointData`, `CellData` or `FieldData`.
         section: &'static str,
-        /// The name.
+        /// Name of the array.
         name: String,
         /// Point, cell or tuple.
         index: usize,
         /// Component within the tuple.
         component: usize,
-        /// The value.
+        /// Value that was found.
         value: f64,
     },
 
@@ -115,27 +115,27 @@ pub enum Error {
     /// A file name of a collection that is not relative to it.
     #[error("{file:?}: a collection lists relative file names with / between folders")]
     FileName {
-        /// The name.
+        /// Name of the array.
         file: String,
     },
 
     /// A file that is not what this crate reads, or is damaged.
     #[error("{}: {place}: found {found}; allowed: {allowed}", path.display())]
     Malformed {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// The XML element or array.
         place: String,
-        /// What is there.
+        /// Value that was found.
         found: String,
-        /// What may be there.
+        /// Allowed values.
         allowed: String,
     },
 
     /// An array that was asked for is not in the file.
     #[error("{}: {section} has no array {name:?}; it has: {available}", path.display())]
     MissingArray {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// `Points`, `Cells`, `PointData`, `CellData` or `FieldData`.
         section: &'static str,

@@ -1,11 +1,11 @@
 //! VTK XML files of quadrilateral meshes: an own writer and reader, no VTK library.
 //!
-//! What is written: one `.vtu` (`UnstructuredGrid` of `VTK_QUAD` cells) a snapshot with
-//! [`VtuWriter`] (a series on one [`VtuGrid`]), and a `.pvd` with its `.vtu.series` twin that gives the files their times with
-//! [`write_collection`]. They are for ParaView ≥ 5.11, VTK ≥ 9.2 and meshio 5.3;
+//! Writing: one `.vtu` (`UnstructuredGrid` of `VTK_QUAD` cells) a snapshot with [`VtuWriter`] (a
+//! series on one [`VtuGrid`]), and a `.pvd` with its `.vtu.series` twin that gives the files their
+//! times with [`write_collection`]. They are for ParaView ≥ 5.11, VTK ≥ 9.2 and meshio 5.3;
 //! `.ci/check_vtk.py` reads them with the last two.
 //!
-//! What is read: a `.vtu` of quadrilaterals from ParaView, VTK, meshio or this crate with
+//! Reading: a `.vtu` of quadrilaterals from ParaView, VTK, meshio or this crate with
 //! [`read_quad_mesh`], and any named array of such a file with [`VtuFile`]. Lengths that a file
 //! states are checked against the bytes that it has, before anything is allocated.
 //!

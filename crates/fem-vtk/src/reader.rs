@@ -83,7 +83,7 @@ impl VtuFile {
     ///
     /// # Errors
     ///
-    /// As [`VtuFile::open`].
+    /// The errors are those of [`VtuFile::open`].
     pub fn from_bytes(path: impl AsRef<Path>, bytes: Vec<u8>) -> Result<Self, Error> {
         let path = path.as_ref().to_path_buf();
         match Document::parse(&bytes) {

@@ -39,7 +39,7 @@ impl<'a> VtuWriter<'a> {
         self
     }
 
-    /// Where the bytes go; [`Encoding::AppendedBase64`] unless told otherwise.
+    /// Where the bytes go; [`Encoding::AppendedBase64`] by default.
     pub fn encoding(mut self, encoding: Encoding) -> Self {
         self.contents.encoding = encoding;
         self

@@ -1,8 +1,9 @@
 //! JSON schemas of case and sweep files, of the very structs that read them: for editors that complete
 //! keys and mark faults as they are typed.
 //!
-//! A schema knows keys, types, words, units, most ranges and which keys exclude each other. What spans the
-//! case, such as bodies that do not meet, only the reader knows: what a schema takes may still be refused.
+//! A schema knows keys, types, words, units, most ranges and which keys exclude each other. Rules
+//! across the whole case, such as bodies that do not meet, are checked by the reader only: a case
+//! that satisfies the schema may still be rejected.
 
 pub(crate) mod quantity_pattern;
 pub(crate) mod rules;
@@ -20,7 +21,7 @@ use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
 use crate::schema::{CaseFile, LawTable, ModelTable, SnapshotLabel, SnapshotsValue};
 use crate::sweep::file::SweepFile;
 
-/// Of a case file.
+/// Returns the schema of a case file.
 pub fn of_cases() -> Value {
     let mut schema = schema_of::<CaseFile>("A case of fem-run");
     rules::add_to(&mut schema, LawTable::NAMES);
@@ -36,7 +37,7 @@ fn or_name(schema: &mut Value, pointer: &str, names: &[&str]) {
     }
 }
 
-/// Of a sweep file.
+/// Returns the schema of a sweep file.
 pub fn of_sweeps() -> Value {
     schema_of::<SweepFile>("A sweep of fem-run")
 }

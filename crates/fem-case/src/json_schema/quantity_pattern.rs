@@ -16,7 +16,7 @@ const TIME: [i32; 4] = [0, 0, 1, 0];
 const FORCE: [i32; 4] = [1, 1, -2, 0];
 const VOLUME: [i32; 4] = [3, 0, 0, 0];
 
-/// What a string of a dimension (metre, kilogram, second, byte) looks like.
+/// Returns the regular expression of strings of a dimension (metre, kilogram, second, byte).
 pub(crate) fn pattern(dimension: [i32; 4]) -> String {
     let of = |dimension| symbols(|found| found == dimension);
     let (length, mass, time) = (of(LENGTH), of(MASS), of(TIME));

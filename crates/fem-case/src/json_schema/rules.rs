@@ -1,4 +1,4 @@
-//! What keys ask of their values and of each other, added to a schema: ranges, shapes of which one is
+//! Rules for the values of keys and between keys, added to a schema: ranges, shapes of which one is
 //! wanted, names of the library.
 //!
 //! The reader has all of it in [`crate::validate`], which is right where the two differ; a test holds every

@@ -27,7 +27,7 @@ pub(crate) const TEXT: &str = include_str!("library.toml");
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// What it is, in words.
+    /// Description of the material.
     pub title: String,
     /// Where its numbers are from.
     pub source: String,

@@ -12,7 +12,7 @@ use serde::{Serialize, Serializer};
 
 use crate::quantity::units::{Dimension, UnitError, parse_quantity};
 
-/// What a kind of quantity is called and how it is written.
+/// Name and notation of a kind of quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
     /// With its article: "a length".

@@ -35,7 +35,7 @@ pub enum UnitError {
     /// A symbol that is no unit, and a known one that looks like it.
     #[error("`{symbol}` is no unit that this program knows")]
     UnknownUnit {
-        /// What was found.
+        /// Value or text that was found.
         symbol: String,
         /// The nearest unit, if any is near.
         suggestion: Option<String>,

@@ -66,7 +66,7 @@ impl Body {
         }
     }
 
-    /// What it is to closed forms, moduli instantaneous.
+    /// Returns the body for closed forms, with instantaneous moduli.
     pub fn partner(&self) -> Partner {
         match &self.shape {
             Shape::Sphere { diameter, material, .. } if self.held => {
@@ -114,7 +114,7 @@ impl Body {
     }
 }
 
-/// What a body is.
+/// Shape of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A solid sphere.
@@ -123,12 +123,12 @@ pub enum Shape {
         diameter: f64,
         /// A mesh file instead of the built-in mesh.
         mesh: Option<PathBuf>,
-        /// What it is made of.
+        /// Material of the body.
         material: Material,
     },
     /// A block that never ends.
     HalfSpace {
-        /// What it is made of.
+        /// Material of the body.
         material: Material,
     },
     /// A solid sphere that does not deform: no case writes it, an effect makes it of a stiff one.

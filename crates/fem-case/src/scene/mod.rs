@@ -37,7 +37,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// What the case is about.
+    /// Title of the case.
     pub fn title(&self) -> &str {
         &self.title
     }
@@ -78,7 +78,8 @@ impl Scene {
         self.step_factor
     }
 
-    /// Largest mass that is moved as a fraction of the lighter body's mass, in [0, 0.1], where both give way alike.
+    /// Largest mass that is moved as a fraction of the lighter body's mass, in [0, 0.1], if both
+    /// bodies are equally compliant.
     pub fn mass_scaling(&self) -> Option<f64> {
         self.mass_scaling
     }
@@ -93,7 +94,7 @@ impl Scene {
         self.fields.as_ref().is_none_or(|fields| fields.contains(&field))
     }
 
-    /// Places of which is told what happens there over time.
+    /// Probes: places whose fields are recorded over time.
     pub fn probes(&self) -> &[Probe] {
         &self.probes
     }
@@ -108,7 +109,7 @@ impl Scene {
         &self.model
     }
 
-    /// How far results may be off.
+    /// Tolerances of the results.
     pub fn accuracy(&self) -> Accuracy {
         self.accuracy
     }
@@ -118,7 +119,7 @@ impl Scene {
         &self.effects
     }
 
-    /// What is too dear to start.
+    /// Limits of the cost of a run.
     pub fn limits(&self) -> Limits {
         self.limits
     }
@@ -172,8 +173,8 @@ impl Scene {
         Some(scene)
     }
 
-    /// Whether the bodies are spheres of one size and stuff, on meshes that are made here, and no
-    /// gravity tells them apart.
+    /// Whether the bodies are spheres of one size and stuff, on meshes that are made here, without
+    /// gravity.
     pub fn has_identical_bodies(&self) -> bool {
         let [lower, upper] = &self.bodies;
         if self.gravity.is_some() {
@@ -215,7 +216,7 @@ impl Scene {
         self.refinement
     }
 
-    /// This scene with so many times the elements across a length that the plan chooses.
+    /// Returns this scene with a factor on the number of elements across a length.
     pub fn with_refinement(mut self, refinement: f64) -> Self {
         self.refinement = refinement;
         self
@@ -311,7 +312,7 @@ pub struct Probe {
 pub enum Snapshots {
     /// Those with a name, each at most once; none if empty.
     Labels(Vec<SnapshotLabel>),
-    /// So many, ≥ 1, evenly over the contact.
+    /// A number of snapshots, ≥ 1, evenly over the contact.
     Count(usize),
     /// s, ≥ 0, ascending.
     Times(Vec<f64>),
@@ -320,9 +321,9 @@ pub enum Snapshots {
 /// `[accuracy]`: how far results may be off. All > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
-    /// Of the restitution, absolute.
+    /// Tolerance of the restitution, absolute.
     pub restitution: f64,
-    /// Of the contact time, relative.
+    /// Tolerance of the contact time, relative.
     pub contact_time: f64,
     /// Of the peak force, relative.
     pub peak_force: f64,

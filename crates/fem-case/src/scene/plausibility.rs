@@ -1,5 +1,5 @@
-//! Numbers of a scene that are possible and seldom meant: a unit that was forgotten; and what its numbers do
-//! not say. They are told, never refused.
+//! Plausibility checks: numbers of a scene that are possible but unlikely, such as after a
+//! forgotten unit; and what its numbers do not say. They are told, never refused.
 
 use crate::engineering::{number, show};
 use crate::scene::Scene;

@@ -30,10 +30,10 @@ pub enum ToleranceValue {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a share such as \"1 %\", or a table of shares")]
 pub struct ToleranceTable {
-    /// Of the restitution, absolute.
+    /// Tolerance of the restitution, absolute.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<Quantity<Number>>,
-    /// Of the contact time, relative.
+    /// Tolerance of the contact time, relative.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_time: Option<Quantity<Number>>,
     /// Of the peak force, relative.

@@ -63,13 +63,13 @@ pub struct CaseFile {
     /// Which model computes the collision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelTable>,
-    /// How far results may be off.
+    /// Tolerances of the results.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<AccuracyTable>,
     /// Numerical effects, forced or left to the plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effects: Option<EffectsTable>,
-    /// What is too dear to start.
+    /// Limits of the cost of a run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsTable>,
 }

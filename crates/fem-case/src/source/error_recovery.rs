@@ -1,4 +1,5 @@
-//! All faults of a case at once: behind the first, those that a case has where that is mended.
+//! Error recovery: all faults of a case at once. After the first one the case is repaired on trial
+//! and read again.
 //!
 //! The reader stops at a fault. Here its culprit is replaced by something sound of its kind, or left
 //! out, and the case is read again, until it is sound or nothing new is found. What only follows from

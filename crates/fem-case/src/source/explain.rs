@@ -1,4 +1,4 @@
-//! What serde says about a wrong tree, in the words of the case file.
+//! Translation of serde's errors to the terms of the case file.
 
 use toml::de::Error;
 

@@ -1,4 +1,4 @@
-//! Where the keys of a case come from, by dotted path (`body.0.sphere.diameter`): a stretch of a
+//! Source spans of the keys of a case by dotted path (`body.0.sphere.diameter`): a stretch of a
 //! text, or code.
 
 use std::collections::BTreeMap;

@@ -1,5 +1,4 @@
-//! What several readers of TOML want of its parser: spans that count from elsewhere, messages of one
-//! line.
+//! Helpers for readers of TOML: spans that count from elsewhere, messages of one line.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};

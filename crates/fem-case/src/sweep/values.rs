@@ -30,7 +30,7 @@ const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perha
 pub struct RowsFault {
     /// What was found, and in which line.
     pub message: String,
-    /// What is allowed, or what to do.
+    /// Allowed values, or the suggested fix.
     pub help: String,
 }
 

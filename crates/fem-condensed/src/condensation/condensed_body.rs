@@ -57,7 +57,7 @@ pub(crate) struct CondensedBody {
     pub compliance_factor: Mat<f64>,
 }
 
-/// What displacements of the whole body are found with.
+/// Data for the displacements of the whole body.
 #[derive(Debug)]
 pub(crate) struct BodySolver {
     pub factor: Factor,
@@ -141,10 +141,10 @@ impl CondensedBody {
         Elimination::new(ends, &elements, matrix, inertia, n_contact, keeps_factor)
     }
 
-    /// What displacements are found with, made when it is first asked for.
+    /// Data for displacements of the whole body, made at the first request.
     ///
     /// # Errors
-    /// Missing memory.
+    /// Returns an error if there is not enough memory.
     pub fn solver(&self) -> Result<&BodySolver, CondensedError> {
         if let Some(solver) = self.solver.get() {
             return Ok(solver);
@@ -174,7 +174,7 @@ impl CondensedBody {
     /// so that they are orthonormal in the stiffness: K⁻¹B̂ L_c⁻ᵀ, one a contact node.
     ///
     /// # Errors
-    /// Missing memory.
+    /// Returns an error if there is not enough memory.
     pub fn orthonormal_answers(&self) -> Result<Mat<f64>, CondensedError> {
         let (n, n_contact) = (self.numbering.n_equations, self.numbering.n_contact);
         let BodySolver { factor, inertia_response } = self.solver()?;
@@ -212,7 +212,7 @@ impl CondensedBody {
     /// Solves for balanced loads (N) in place; the ground stays at 0, m.
     ///
     /// # Errors
-    /// Missing memory.
+    /// Returns an error if there is not enough memory.
     pub fn solve_balanced(&self, loads: &mut Mat<f64>) -> Result<(), CondensedError> {
         let n = self.numbering.n_equations;
         loads.as_mut().row_mut(n).fill(0.0);

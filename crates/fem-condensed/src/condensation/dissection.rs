@@ -136,7 +136,7 @@ impl Direction {
     }
 }
 
-/// What parts a set: all nodes whose number is at least `from` and less than `to`.
+/// A separator: all nodes whose number is at least `from` and less than `to`.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     which: usize,

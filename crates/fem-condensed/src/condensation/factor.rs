@@ -55,7 +55,7 @@ struct Front {
     values: Range<usize>,
 }
 
-/// What is known before any number: which elements and which fronts add to a front.
+/// Symbolic factorisation: the elements and the fronts that add to each front.
 struct Symbolic {
     fronts: Vec<Front>,
     later: Vec<u32>,
@@ -68,9 +68,9 @@ struct Symbolic {
 }
 
 impl Elimination {
-    /// Of elements whose matrices are made when they are asked for. `ends` tells where each set of equations
-    /// ends that are eliminated together; the `n_trailing` last columns are among the last set's. Without
-    /// `keeps_factor` no more than the columns of one front are in memory.
+    /// Factors a stiffness whose element matrices are made on request. `ends` tells where each set
+    /// of equations ends that are eliminated together; the `n_trailing` last columns are among the
+    /// last set's. Without `keeps_factor` no more than the columns of one front are in memory.
     ///
     /// # Errors
     /// A matrix that is not positive definite; missing memory.

@@ -5,11 +5,12 @@
 //! ```
 //!
 //! E (m/N) is what a force at a point closes at all points, b (m) the overlap that the forces have
-//! to undo. Points are numbered outward. If contact is a disc, the first n of them, then with
-//! E = L Lᵀ and L y = b forward substitution meets y_k ≤ 0 first at k = n: y_k L_kk is the overlap
-//! left at point k once all before it are in contact, and what is then left at the points outside is
-//! their overlap. A step costs n² operations without iteration. What the disc assumes is checked: no
-//! tension inside, no overlap outside; if it fails, [`crate::complementarity`] takes over.
+//! to undo. Points are numbered outward. If contact is a disc, the first n of them, then with E = L
+//! Lᵀ and L y = b forward substitution meets y_k ≤ 0 first at k = n: y_k L_kk is the overlap left
+//! at point k once all before it are in contact, and what is then left at the points outside is
+//! their overlap. A step costs n² operations without iteration. The assumptions of a disc are
+//! checked, no tension inside and no overlap outside; if they fail, [`crate::complementarity`]
+//! takes over.
 
 use faer::Mat;
 
@@ -25,7 +26,8 @@ pub(crate) struct DiscContactSolver {
     n_factored: usize,
     /// y inside of the disc, overlap that is left outside, m.
     left: Vec<f64>,
-    /// Of each point the overlap once all before it are closed, m, in the last problem and in the one before.
+    /// Overlap of each point once all points before it are closed, m, in the last problem and in
+    /// the one before.
     reach: Vec<f64>,
     reach_before: Vec<f64>,
     /// s² of L s = 1, N/m: what a point adds to the stiffness of those before it.
@@ -47,7 +49,7 @@ pub(crate) struct ForceCurvature {
     pub missed: f64,
 }
 
-/// What a contact problem leaves beside the forces.
+/// Result of a contact problem beside the forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ContactDisc {
     /// Points from the axis outward up to the last with a force.
@@ -55,7 +57,7 @@ pub(crate) struct ContactDisc {
 }
 
 impl DiscContactSolver {
-    /// Of a symmetric positive definite compliance, m/N.
+    /// Creates a solver for a symmetric positive definite compliance, m/N.
     pub fn new(compliance: Mat<f64>) -> Self {
         let n = compliance.nrows();
         let mut solver = Self {

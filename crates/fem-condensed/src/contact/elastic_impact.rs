@@ -41,9 +41,9 @@ pub struct ElasticImpact {
 }
 
 impl ElasticCurve {
-    /// Of a compliance (m/N) and the initial gaps (m) at the points, the gap of the poles left out.
-    /// Where points would not join from the axis outward (penalty springs at Gauss points), one
-    /// that comes early waits for the others: then the curve is an estimate.
+    /// Creates the curve from a compliance (m/N) and the initial gaps (m) at the points, without
+    /// the gap of the poles. Where points would not join from the axis outward (penalty springs at
+    /// Gauss points), one that comes early waits for the others: then the curve is an estimate.
     pub fn new(compliance: &Mat<f64>, gaps: &[f64]) -> Option<Self> {
         let factor = cholesky(compliance)?;
         let n = gaps.len();

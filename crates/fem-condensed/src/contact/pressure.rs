@@ -45,7 +45,7 @@ impl CondensedPair {
         (radius, reading.pressure(of_axis))
     }
 
-    /// What keeps the surfaces apart.
+    /// The contact model: rigid forces or penalty springs.
     pub(crate) fn barrier(&self) -> ContactEnforcement {
         if self.nodal_side.is_some() {
             ContactEnforcement::Rigid

@@ -1,4 +1,4 @@
-//! The contact of condensed bodies from the axis outward.
+//! Contact profile of condensed bodies, from the axis outward.
 
 use fem_collision::{BodyFields, ContactProfile, ContactProfilePoint};
 use fem_contact::{Profile, facing};

@@ -1,4 +1,4 @@
-//! Two elastic bodies that a constant force presses together.
+//! Static compression of two elastic bodies by a constant force.
 
 use fem_collision::{StaticContact, Stop};
 

@@ -119,11 +119,11 @@ pub(crate) struct PressureNode {
     pub shares: Vec<(usize, f64)>,
 }
 
-/// Of meshes that are staggered the surface that has the smaller elements.
+/// For staggered meshes, the surface with the smaller elements.
 #[derive(Debug, Clone)]
 pub(crate) struct Staggered {
     pub nodes: Vec<PressureNode>,
-    /// Of the segments of both surfaces, m.
+    /// Lengths of the segments of both surfaces, m.
     pub lengths: [f64; 2],
 }
 

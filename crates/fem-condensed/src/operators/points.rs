@@ -1,4 +1,4 @@
-//! The contact points of a pair, and how they hang on the nodes of each body.
+//! The contact points of a pair and their interpolation from the nodes of each body.
 
 use faer::Mat;
 use fem_contact::{ContactInterface, ContactPoint, NodalContact, Surface};

@@ -1,4 +1,4 @@
-//! Waves that leave a body for good.
+//! Radiation of waves from a body so large that they do not return within the contact.
 //!
 //! A body that is much larger than the way of waves within the contact is a half-space. To first order
 //! in frequency its plane follows the force F on a small spot by
@@ -84,7 +84,7 @@ impl WaveRadiation {
         })
     }
 
-    /// What a force closes within a step at all points, m/N; negative.
+    /// Change of the gap at all points within a step per force, m/N; negative.
     pub fn compliance(&self) -> f64 {
         -self.stiffening
     }
@@ -163,7 +163,7 @@ mod tests {
         assert!((ratio - 4.0).abs() < 0.05, "{ratio}");
     }
 
-    /// What goes in is stored or radiated, whatever the force does.
+    /// The work of any force history is stored or radiated.
     #[test]
     fn energy_is_kept() {
         let imbalance = |n_steps: u32| {

@@ -1,4 +1,4 @@
-//! Surfaces of unlike materials that slip on each other.
+//! Slip between surfaces of unlike materials.
 //!
 //! Where the interface has the slope κr and the surfaces slip along r by Δu_r, the gap is wider by κr Δu_r,
 //! and pressure normal to the interface has a part along r, which moves the surfaces. In first order both
@@ -27,7 +27,7 @@ use fem_material::{ActsOn, ElasticModuli, PronySeries};
 
 use crate::operators::viscoelastic_modes::{ViscoelasticModes, ViscoelasticState};
 
-/// How the interface of two bodies bends, and which of them gives way.
+/// Curvature of the interface of two bodies and the share of each body in the compliance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
     /// κ, 1/m, upward from the axis.
@@ -37,7 +37,7 @@ pub struct Slip {
 }
 
 impl Slip {
-    /// What a side's q counts in the gap, 1/m.
+    /// Weight of the slip of a side in the gap, 1/m.
     fn weight(&self, side: usize) -> f64 {
         if side == 0 { -self.curvature } else { self.curvature }
     }

@@ -1,4 +1,4 @@
-//! Free vibrations of a body, for what a quasi-static contact lacks.
+//! Free vibrations of a body, the inertia that a quasi-static contact lacks.
 //!
 //! Lanczos' method on the flexibility of the free body, G = P K⁻¹ Pᵀ with P the projection that
 //! takes out the mean motion, in the inner product of the masses: G M φ = φ/ω². It begins with the
@@ -83,7 +83,7 @@ struct Lanczos<'a> {
     weighted: Mat<f64>,
     projected: Mat<f64>,
     count: usize,
-    /// What the flexibility makes of the last vector.
+    /// Product of the flexibility and the last vector.
     load: Mat<f64>,
     last_norm: f64,
     has_broken_down: bool,

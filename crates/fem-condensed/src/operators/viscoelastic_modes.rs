@@ -41,7 +41,7 @@ pub(crate) struct ViscoelasticState {
 }
 
 impl ViscoelasticState {
-    /// Of a series and a time step, s.
+    /// Creates a branch from a Prony series and a time step, s.
     pub fn new(series: &PronySeries, time_step: f64) -> Self {
         let branches: Vec<_> = series
             .terms()
@@ -106,9 +106,9 @@ pub(crate) struct ViscoelasticModes {
     pub displacement: Vec<f64>,
     /// q of each branch, one after another.
     branch: Vec<f64>,
-    /// What the springs would do without forces, −z.
+    /// Motion of the springs without forces, −z.
     past: Vec<f64>,
-    /// What they count: 1; −1 for springs that are taken away from a body.
+    /// Sign of the springs: 1, or −1 for springs that are subtracted from a body.
     weight: f64,
     inertia: Option<Inertia>,
 }
@@ -152,7 +152,7 @@ impl ViscoelasticModes {
         self.weighted(-1.0)
     }
 
-    /// The same springs, counted so many times.
+    /// Returns these springs with a factor.
     pub fn weighted(self, weight: f64) -> Self {
         Self { weight, ..self }
     }

@@ -1,4 +1,4 @@
-//! What a collision integrates over its steps, and what it tells of the instants between them.
+//! Integrals over the steps of a collision, and its samples between the steps.
 
 use super::ImpactRun;
 use crate::run::between_steps::StepParabola;

@@ -1,4 +1,4 @@
-//! What lies between the steps of a collision: a parabola through the last three.
+//! Interpolation between the steps of a collision by a parabola through the last three.
 //!
 //! With f₋, f₀ and f₁ a step before, at the begin and at the end of a step, 0 ≤ θ ≤ 1,
 //!
@@ -27,7 +27,7 @@ pub(crate) struct StepParabola {
 }
 
 impl StepParabola {
-    /// Of the values at begin and end, and a step before if that is known.
+    /// Creates a parabola from the values at begin and end, and one step before if that is known.
     pub fn new(before: Option<f64>, begin: f64, end: f64) -> Self {
         let bend = before.map_or(0.0, |before| end - 2.0 * begin + before);
         Self { begin, change: end - begin, bend }

@@ -1,4 +1,4 @@
-//! The instants that snapshots show.
+//! Selection of the instants of snapshots.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use fem_collision::{
 };
 use fem_material::engineering::show;
 
-/// What is remembered of every step.
+/// Approach and force of every step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RunTrace {
     /// m.

@@ -1,4 +1,4 @@
-//! The course of a collision: what is observed of each step, and when it ends.
+//! The run of a collision: samples of each step, and the criteria that end it.
 
 pub(crate) mod between_steps;
 pub(crate) mod instants;
@@ -18,14 +18,15 @@ use crate::run::between_steps::InterpolatedPeak;
 use crate::run::instants::RunTrace;
 use crate::run::sample::MotionSample;
 
-/// Energy that does not add up, over what is at stake: the run is no longer one.
+/// Relative energy residual above which a run is stopped.
 const LARGEST_IMBALANCE: f64 = 0.1;
-/// Rate of the approach over its first below which bodies creep; those have more time than was given.
+/// Rate of approach over the initial one below which bodies creep. Creeping bodies get more time.
 const CREEPING: f64 = 0.1;
-/// Creeping bodies may take so many times as long to part as they came closer.
+/// Largest time that creeping bodies may take to separate, over the time of compression.
 const SLOWEST_PARTING: f64 = 2.0;
 
-/// Instants of a contact at which force, radius and pressure are told at least: the window of their peaks is a 64th.
+/// Smallest number of samples of force, radius and pressure in a contact; the window of their peaks
+/// is a 64th of it.
 const INSTANTS: usize = 1000;
 /// The most of them within a step.
 const MOST_WITHIN_STEP: f64 = 8.0;
@@ -33,7 +34,7 @@ const MOST_WITHIN_STEP: f64 = 8.0;
 /// Steps for whose trace there is room from the beginning.
 const MOST_RESERVED: usize = 1 << 16;
 
-/// A collision under way.
+/// A collision that is being computed.
 pub(crate) struct ImpactRun<'a> {
     pair: &'a CondensedPair,
     frame: &'a Frame,
@@ -45,21 +46,21 @@ pub(crate) struct ImpactRun<'a> {
     was_closed: bool,
     /// Whether the bodies have moved apart since first touch.
     has_receded: bool,
-    /// What relaxation has taken, J, and ∫F dt, N s, by the trapezoidal rule.
+    /// Energy dissipated by relaxation, J, and ∫F dt, N s, by the trapezoidal rule.
     dissipated: f64,
-    /// What waves have taken out of each body, J, if any leave it.
+    /// Energy radiated from each body, J, if any.
     radiated: Option<[f64; 2]>,
     impulse: f64,
     /// The same of the force less what is the nodes' of it ([`ImpactMotion::swing`]).
     even_impulse: f64,
     /// See [`ImpactMotion::missed_slope`], of the step before.
     missed_slope: f64,
-    /// Instants of a step that are told, its end among them.
+    /// Samples per step, its end included.
     per_step: u64,
     worst_residual: f64,
     residual_since: Option<StepInstant>,
     growth: f64,
-    /// What the momentum that was exchanged is off the impulse, N s.
+    /// Difference of the exchanged momentum and the impulse, N s.
     worst_momentum: f64,
     approach: InterpolatedPeak,
     force: InterpolatedPeak,
@@ -82,7 +83,7 @@ pub(crate) struct ImpactRun<'a> {
     pressures: Pressures,
 }
 
-/// What came out of a run.
+/// Result of a run.
 pub(crate) struct FinishedRun {
     pub collision: Collision,
     /// Every step.

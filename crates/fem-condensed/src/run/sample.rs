@@ -1,4 +1,4 @@
-//! One instant of the relative motion, and what it is of both bodies.
+//! A sample of the relative motion and the corresponding motion of both bodies.
 
 use fem_collision::{Account, EnergyLedger, Frame, HistoryRow};
 
@@ -84,7 +84,7 @@ impl MotionSample {
         }
     }
 
-    /// What is in each account, J.
+    /// Energy in each account, J.
     pub fn energies(&self, frame: &Frame) -> EnergyLedger {
         let [lower, upper] = self.vibration;
         let mut book = EnergyLedger::EMPTY

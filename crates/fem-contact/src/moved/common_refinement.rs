@@ -14,7 +14,7 @@ pub(super) const GAUSS: [[f64; 2]; 3] =
 /// A piece of the radius over which neither surface has a node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece<'a> {
-    /// Of the lower and the upper surface.
+    /// Values of the lower and the upper surface.
     pub segments: [Segment<'a>; 2],
     /// Its ends, m.
     pub radii: [f64; 2],
@@ -33,7 +33,7 @@ pub(super) struct Point {
     pub area: f64,
     /// y of the upper less that of the lower surface, m.
     pub gap: f64,
-    /// Of the lower and the upper surface.
+    /// Values of the lower and the upper surface.
     pub places: [Place; 2],
 }
 

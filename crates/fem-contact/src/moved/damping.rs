@@ -11,8 +11,8 @@
 //! ```
 //!
 //! c is an impedance, Pa s/m, the same for any size of elements: k goes with 1/h, and the mass of a
-//! surface's own nodes, ½ρh of an area, with h. It never pulls. What it takes is the motion of that mass,
-//! which vanishes with the elements.
+//! surface's own nodes, ½ρh of an area, with h. It never pulls. They damp the motion of that mass,
+//! which vanishes with the element size.
 
 use super::MovedInterface;
 use super::common_refinement::GAUSS;

@@ -33,10 +33,10 @@
 //! overlap, y' of one surface less that of the other: both are exact normals of their own surface.
 //!
 //! Limits: the part of a surface that can touch has to be a graph over the radius. Where it turns
-//! over (r does not grow any more from node to node) the search ends; [`ContactForces`] tells if
-//! something touches there. The arc between two nodes is carried along y, not along the normal:
-//! on a coarse mesh where the surface turns by φ, the arc's height over its chord is 1/cos φ of the
-//! true one, of second order in h.
+//! over (r does not grow any more from node to node) the search ends; [`ContactForces`] reports
+//! whether something touches there. The arc between two nodes is carried along y, not along the
+//! normal: on a coarse mesh where the surface turns by φ, the arc's height over its chord is 1/cos
+//! φ of the true one, of second order in h.
 //!
 //! Springs alone ring; dashpots beside them take that ([`MovedInterface::with_damping`]).
 //!
@@ -62,21 +62,22 @@ use crate::surface::Surface;
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovedInterface {
     surfaces: [Surface; 2],
-    /// Of each the number of nodes that can touch, one more than lie within the candidate radius.
+    /// Number of nodes of each surface that can touch, one more than lie within the candidate
+    /// radius.
     n_nodes: [usize; 2],
-    /// Between the poles, m.
+    /// Gap between the poles, m.
     gap: f64,
     /// Penalty factor times contact modulus, Pa.
     stiffness: f64,
     candidate_radius: f64,
     springs: [f64; 2],
-    /// Of the dashpots, Pa s/m; 0 without.
+    /// Impedance of the dashpots, Pa s/m; 0 without dashpots.
     impedance: f64,
 }
 
 impl MovedInterface {
-    /// As [`ContactInterface::new`](crate::ContactInterface::new) has it, all lengths those of the
-    /// undeformed bodies.
+    /// Creates an interface like [`ContactInterface::new`](crate::ContactInterface::new); all
+    /// lengths are those of the undeformed bodies.
     ///
     /// # Errors
     /// Two rigid bodies or planes; a radius or a stiffness that is not positive and finite.
@@ -99,24 +100,25 @@ impl MovedInterface {
         Ok(Self { surfaces, n_nodes, gap, stiffness, candidate_radius, springs, impedance: 0.0 })
     }
 
-    /// See [`ContactInterface::with_rigid_mass`](crate::ContactInterface::with_rigid_mass).
+    /// Shares springs by mass beside a rigid sphere, as
+    /// [`ContactInterface::with_rigid_mass`](crate::ContactInterface::with_rigid_mass) does.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
         share_by_mass(&self.surfaces, ratio, &mut self.springs);
         self
     }
 
-    /// Undeformed radius out to which contact is looked for, m.
+    /// Returns the undeformed radius of the candidate region, m.
     pub fn candidate_radius(&self) -> f64 {
         self.candidate_radius
     }
 
-    /// Number of integration points of the undeformed surfaces.
+    /// Returns the number of integration points of the undeformed surfaces.
     pub fn n_points(&self) -> usize {
         self.points([|_| [0.0; 2]; 2]).count()
     }
 
-    /// Nodes of a side (0 lower, 1 upper) that can touch.
+    /// Returns the candidate nodes of a side (0 lower, 1 upper).
     pub fn candidate_nodes(&self, side: usize) -> impl Iterator<Item = u32> + '_ {
         let n = if self.surfaces[side].is_rigid() { 1 } else { self.n_nodes[side] };
         self.surfaces[side].nodes[..n].iter().copied()

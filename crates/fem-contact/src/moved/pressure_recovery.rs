@@ -1,4 +1,4 @@
-//! Contact radius and pressure of moved surfaces: true ones.
+//! Contact radius and pressure of moved surfaces in the deformed configuration.
 
 use super::MovedInterface;
 use super::common_refinement::{GAUSS, Piece};

@@ -2,7 +2,7 @@
 
 use crate::surface::Surface;
 
-/// What a parabola may be rounded by, generously.
+/// Generous bound of the rounding error of a parabola.
 const ROUNDED: f64 = 1.0 - 1e-9;
 
 /// A segment where it is now: a curve r → y(r). Of a rigid body it is the whole surface.

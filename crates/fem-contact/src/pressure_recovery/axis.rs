@@ -1,4 +1,4 @@
-//! The pressure on the axis.
+//! Recovery of the pressure on the axis.
 //!
 //! Node k has the mean of p over its hat, p(x̄) + ½ p″ var x in x = r², for areas are even in x. So p² is fitted by
 //!

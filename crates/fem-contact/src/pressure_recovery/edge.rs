@@ -1,4 +1,4 @@
-//! Where the contact ends.
+//! Recovery of the contact radius.
 
 use super::{ContactEnforcement, cells};
 

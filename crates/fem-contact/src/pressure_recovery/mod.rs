@@ -1,4 +1,4 @@
-//! Contact radius and pressure on the axis, read from forces at the nodes of a surface.
+//! Contact radius and pressure on the axis, recovered from forces at the nodes of a surface.
 //!
 //! Pressures at single points are noise: linear displacements under true arcs make springs swing by 30 %
 //! between a node and the middle of a segment. Forces gathered at nodes are not, and they are alike
@@ -24,21 +24,21 @@ pub use curve::{PressureCurve, places_inside};
 pub use edge::contact_radius;
 pub use staggered::Reading;
 
-/// What keeps the surfaces apart.
+/// The enforcement of the contact: rigid forces or penalty springs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactEnforcement {
-    /// Forces at points, as large as it takes for no overlap.
+    /// Forces at points that prevent any overlap.
     Rigid,
-    /// Springs that overlap by p h/E*, as the usual penalty factor of 1 makes them.
+    /// Penalty springs with an overlap of p h/E*, that of the usual penalty factor of 1.
     Springs,
 }
 
-/// A node and what it stands for: the mean over the disc or ring under its hat φ, weighted with φ.
+/// A node with the mean pressure under its hat function φ, weighted with φ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Cell {
-    /// Of the node, m.
+    /// Radius of the node, m.
     radius: f64,
-    /// Of the node before and of the next, m.
+    /// Radii of the previous and of the next node, m.
     neighbours: [Option<f64>; 2],
     /// Pa.
     pressure: f64,

@@ -6,9 +6,10 @@
 //! Q_{ik}(N) = A_{iJkL} N_J N_L, \qquad A = \frac{\partial P}{\partial F}
 //! ```
 //!
-//! (Truesdell & Noll 1965, section 71; Ogden 1984, section 6.2.7). Where the least eigenvalue of Q over all N
-//! is not positive, a band of elements gives way that the mesh chooses: ellipticity is lost. N and m are of
-//! the meridian plane, the only ones that bodies of revolution without twist have.
+//! (Truesdell & Noll 1965, section 71; Ogden 1984, section 6.2.7). Where the least eigenvalue of Q
+//! over all N is not positive, ellipticity is lost: strain localises in a band that depends on the
+//! mesh. N and m are of the meridian plane, the only ones that bodies of revolution without twist
+//! have.
 
 /// Directions over half a turn. Q is linear in the sine and cosine of twice the angle, so its least eigenvalue is
 /// met to ½ (2 · ½ π/64)² of the range of Q, 0.1 %.

@@ -67,7 +67,7 @@ pub struct Hyperelastic {
 }
 
 impl Hyperelastic {
-    /// Of a law that has these moduli at small strain.
+    /// Creates a law with these moduli at small strain.
     pub fn new(law: HyperelasticLaw, moduli: &ElasticModuli) -> Self {
         Self { law, bulk: moduli.bulk_modulus(), shear: moduli.shear_modulus() }
     }

@@ -1,5 +1,5 @@
-//! What laws ask of a deformation: the left Cauchy-Green tensor b, or that of an elastic part, as
-//! b − 1, and the way from Kirchhoff's stress to the first Piola-Kirchhoff stress.
+//! Kinematics of a deformation: the left Cauchy-Green tensor b, or that of an elastic part, as b −
+//! 1, and the way from Kirchhoff's stress to the first Piola-Kirchhoff stress.
 
 use super::number::Number;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};

@@ -1,4 +1,4 @@
-//! What a law computes with: one number, or several side by side.
+//! Numbers of the laws: one, or several side by side.
 //!
 //! A law that is written over [`Number`] runs on plain numbers and on the lanes of vector units of any
 //! kind: additions, multiplications, both at once, divisions, square roots and what is read from the bits

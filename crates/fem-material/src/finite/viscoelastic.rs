@@ -7,8 +7,8 @@
 //! + \tfrac13 \mathrm{tr}\,\tau_k\, (J_{e,k} - 1)\right]
 //! ```
 //!
-//! Every branch has the law's own form, scaled by its weight, and its own metric C_v, which flows as
-//! [`ViscousStep`] says. What is stored, W, and what is dissipated a second, D, are functions of the
+//! Every branch has the law's own form, scaled by its weight, and its own metric C_v, which flows
+//! as [`ViscousStep`] says. The stored energy W and the dissipated power D are functions of the
 //! state, and W grows by the work of P less D.
 //!
 //! [`ActsOn::All`]: shape and volume flow with the same times, so that Poisson's ratio stays.
@@ -51,7 +51,7 @@ struct Branch {
 }
 
 impl Viscoelastic {
-    /// Of a solid that has this law at once, and relaxes.
+    /// Creates a viscoelastic solid with this instantaneous law.
     pub fn new(instantaneous: &Hyperelastic, relaxation: &PronySeries) -> Self {
         let equilibrium_weight = relaxation.equilibrium_weight();
         let volume_flows = relaxation.acts_on() == ActsOn::All;
@@ -88,7 +88,7 @@ impl Viscoelastic {
         &self.together
     }
 
-    /// How many entries the history of a point has.
+    /// Number of entries in the history of a point.
     pub fn n_terms(&self) -> usize {
         self.branches.len()
     }
@@ -140,7 +140,7 @@ impl Viscoelastic {
         Ok(stress.times(1.0 / (1.0 + strain.volume_change)))
     }
 
-    /// What is dissipated a second per undeformed volume D, W/m³.
+    /// Returns the dissipated power per undeformed volume D, W/m³.
     ///
     /// # Errors
     /// det F is not positive.
