@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use fem::accuracy::{Ladder, Measurement, Rung};
+use fem::accuracy::{Measurement, Variant, Variants};
 use fem::{CaseError, Monitor, Progress, Shared};
 use fem_case::engineering::show;
 
@@ -33,28 +33,28 @@ pub struct Climb {
 /// # Errors
 /// A model rejects its variant; that was checked before.
 pub fn climb(
-    ladder: &Ladder,
+    variants: &Variants,
     budget: f64,
     interrupt: &Interrupt,
     quiet: bool,
 ) -> Result<Climb, CaseError> {
-    let progress = ItemProgress::new(interrupt.clone(), "variants", ladder.rungs.len(), quiet);
+    let progress = ItemProgress::new(interrupt.clone(), "variants", variants.all.len(), quiet);
     let started = Instant::now();
-    let mut measured = vec![None; ladder.rungs.len()];
+    let mut measured = vec![None; variants.all.len()];
     let mut forecast = Forecast { update: UPDATE, condensed: 0.0 };
     let mut left_out = 0;
-    for index in ladder.cheapest_first() {
-        let rung = &ladder.rungs[index];
+    for index in variants.cheapest_first() {
+        let variant = &variants.all[index];
         let left = budget - started.elapsed().as_secs_f64();
-        if interrupt.is_requested() || forecast.seconds(rung) > left {
+        if interrupt.is_requested() || forecast.seconds(variant) > left {
             left_out += 1;
-            progress.finish_item(&line(rung, None));
+            progress.finish_item(&line(variant, None));
             continue;
         }
         let end = started + Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX / 4);
-        let ran = time(rung, ladder.lengths.contact_radius, Deadline { end, interrupt })?;
-        forecast.learn(rung, &ran);
-        progress.finish_item(&line(rung, Some(ran.1)));
+        let ran = time(variant, variants.lengths.contact_radius, Deadline { end, interrupt })?;
+        forecast.learn(variant, &ran);
+        progress.finish_item(&line(variant, Some(ran.1)));
         if Instant::now() < end || ran.0.is_complete {
             measured[index] = Some(ran);
         } else {
@@ -67,7 +67,7 @@ pub fn climb(
 
 /// Returns the result of a variant and the median of its run times.
 fn time(
-    rung: &Rung,
+    variant: &Variant,
     contact_radius: f64,
     mut deadline: Deadline<'_>,
 ) -> Result<(Measurement, f64), CaseError> {
@@ -75,7 +75,8 @@ fn time(
     loop {
         let begin = Instant::now();
         // Nothing is shared, so each run pays for its meshes and factors.
-        let measurement = Measurement::of(rung, contact_radius, &Shared::default(), &mut deadline)?;
+        let measurement =
+            Measurement::of(variant, contact_radius, &Shared::default(), &mut deadline)?;
         let spent = begin.elapsed();
         seconds.push(spent.as_secs_f64());
         if seconds.len() == N_TIMES || spent > TIMED_THRICE {
@@ -107,23 +108,23 @@ struct Forecast {
 }
 
 impl Forecast {
-    fn seconds(&self, rung: &Rung) -> f64 {
-        match rung.price {
+    fn seconds(&self, variant: &Variant) -> f64 {
+        match variant.price {
             0 => NEXT_LEVEL * self.condensed,
             price => price as f64 * self.update,
         }
     }
 
-    fn learn(&mut self, rung: &Rung, (measurement, seconds): &(Measurement, f64)) {
+    fn learn(&mut self, variant: &Variant, (measurement, seconds): &(Measurement, f64)) {
         match measurement.element_updates {
-            None => self.condensed = if rung.value.is_some() { *seconds } else { 0.0 },
+            None => self.condensed = if variant.value.is_some() { *seconds } else { 0.0 },
             Some(updates) if updates > TELLING => self.update = seconds / updates as f64,
             Some(_) => {}
         }
     }
 }
 
-fn line(rung: &Rung, seconds: Option<f64>) -> String {
+fn line(variant: &Variant, seconds: Option<f64>) -> String {
     let took = seconds.map_or("no time left".to_string(), |seconds| show(seconds, "s"));
-    format!("{took:>12}  {}  {}", rung.series.name(), rung.describe())
+    format!("{took:>12}  {}  {}", variant.series.name(), variant.describe())
 }

@@ -1,6 +1,6 @@
 //! The results of a study of accuracy for programs: `accuracy.csv` and `accuracy.json`.
 
-use fem::accuracy::{Judged, Ladder, Measurement, Rung, Study};
+use fem::accuracy::{Measurement, Study, Variant, VariantErrors, Variants};
 use fem_case::{Accuracy, CaseFile};
 use fem_collision::QuantityOfInterest;
 use serde_json::{Value, json as object};
@@ -17,7 +17,7 @@ pub struct Findings<'a> {
     /// The tolerances of the case.
     pub accuracy: Accuracy,
     /// The variants that were run.
-    pub ladder: &'a Ladder,
+    pub variants: &'a Variants,
     /// Result and run time of each variant.
     pub measured: &'a [Option<(Measurement, f64)>],
     /// The evaluation of the results.
@@ -33,23 +33,23 @@ pub struct Line<'a> {
     /// Its index among the variants.
     pub index: usize,
     /// The setting of the variant.
-    pub rung: &'a Rung,
+    pub variant: &'a Variant,
     /// Its numbers.
     pub measurement: &'a Measurement,
     /// Its run time, s.
     pub seconds: f64,
     /// Its errors and whether they are small enough.
-    pub judged: Judged,
+    pub judged: VariantErrors,
 }
 
 impl Findings<'_> {
     /// Returns the variants that ran, in order.
     pub fn lines(&self) -> impl Iterator<Item = Line<'_>> {
-        let rungs = self.ladder.rungs.iter().zip(self.measured).enumerate();
-        rungs.filter_map(|(index, (rung, measured))| {
+        let variants = self.variants.all.iter().zip(self.measured).enumerate();
+        variants.filter_map(|(index, (variant, measured))| {
             let (measurement, seconds) = measured.as_ref()?;
             let judged = self.study.judged[index]?;
-            Some(Line { index, rung, measurement, seconds: *seconds, judged })
+            Some(Line { index, variant, measurement, seconds: *seconds, judged })
         })
     }
 }
@@ -68,8 +68,8 @@ pub fn write_csv(output: &mut CommandOutput, findings: &Findings<'_>) -> Result<
             .map(String::from)
             .into();
     header.extend(["memory_bytes", "seconds"].map(String::from));
-    header.extend(QuantityOfInterest::ALL.map(|headline| headline.key().to_string()));
-    header.extend(QuantityOfInterest::ALL.map(|headline| format!("{}_error", error_key(headline))));
+    header.extend(QuantityOfInterest::ALL.map(|quantity| quantity.key().to_string()));
+    header.extend(QuantityOfInterest::ALL.map(|quantity| format!("{}_error", error_key(quantity))));
     header.extend(
         ["stress_error", "worst_error", "in_tolerances", "is_on_frontier"].map(String::from),
     );
@@ -77,11 +77,11 @@ pub fn write_csv(output: &mut CommandOutput, findings: &Findings<'_>) -> Result<
     let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
     let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
     for line in findings.lines() {
-        let Line { rung, measurement, judged, .. } = &line;
+        let Line { variant, measurement, judged, .. } = &line;
         let mut cells = vec![
-            rung.series.name().to_string(),
-            rung.overrides().join(" "),
-            number(rung.elements_across),
+            variant.series.name().to_string(),
+            variant.overrides().join(" "),
+            number(variant.elements_across),
             count(Some(measurement.elements).filter(|n| *n > 0)),
             count(measurement.steps),
             count(measurement.element_updates),
@@ -101,25 +101,25 @@ pub fn write_csv(output: &mut CommandOutput, findings: &Findings<'_>) -> Result<
 }
 
 /// Returns the key of an error, which has no unit.
-fn error_key(headline: QuantityOfInterest) -> String {
-    headline.name().replace(' ', "_")
+fn error_key(quantity: QuantityOfInterest) -> String {
+    quantity.name().replace(' ', "_")
 }
 
 /// Returns `accuracy.json`: limits, orders and sources of error.
 pub fn json(findings: &Findings<'_>) -> Value {
     let by_name = |values: [Option<f64>; 6]| -> Value {
         let pairs = QuantityOfInterest::ALL.into_iter().zip(values);
-        pairs.map(|(headline, value)| (error_key(headline), object!(value))).collect()
+        pairs.map(|(quantity, value)| (error_key(quantity), object!(value))).collect()
     };
     let limits: Value = QuantityOfInterest::ALL
         .into_iter()
         .zip(findings.study.limits)
-        .map(|(headline, limit)| {
+        .map(|(quantity, limit)| {
             let limit = limit.map(|limit| {
                 object!({ "value": limit.value, "uncertainty": limit.uncertainty,
                     "condensed": limit.condensed, "explicit_adds": limit.added })
             });
-            (headline.key().to_string(), object!(limit))
+            (quantity.key().to_string(), object!(limit))
         })
         .collect();
     let orders = findings.study.orders.iter();
@@ -130,7 +130,7 @@ pub fn json(findings: &Findings<'_>) -> Value {
     let parts = parts.map(|part| (part.source.name().to_string(), by_name(part.errors)));
     object!({
         "title": findings.title,
-        "rungs": findings.ladder.rungs.len(),
+        "rungs": findings.variants.all.len(),
         "left_out": findings.left_out,
         "budget_s": findings.budget,
         "limits": limits,

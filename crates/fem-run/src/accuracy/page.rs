@@ -28,7 +28,7 @@ struct Rows {
 pub fn report(findings: &Findings<'_>) -> String {
     let mut text = format!("{}\n", one_line(findings.title));
     let parts = [
-        rungs(findings, "Most accurate for their time", |line| line.judged.is_on_frontier),
+        variants(findings, "Most accurate for their time", |line| line.judged.is_on_frontier),
         limits(findings),
         error_parts(findings),
     ];
@@ -60,7 +60,7 @@ pub fn markdown(findings: &Findings<'_>, has_picture: bool) -> String {
         limits(findings),
         error_parts(findings),
         orders(findings),
-        rungs(findings, "All", |_| true),
+        variants(findings, "All", |_| true),
     ];
     for Rows { heading, header, rows } in parts {
         if rows.is_empty() {
@@ -84,11 +84,11 @@ pub fn markdown(findings: &Findings<'_>, has_picture: bool) -> String {
 
 /// Returns errors for a table: absolute for the restitution, in percent for all others.
 fn errors(errors: [Option<f64>; 6]) -> impl Iterator<Item = String> {
-    QuantityOfInterest::ALL.into_iter().zip(errors).map(|(headline, error)| own(headline, error))
+    QuantityOfInterest::ALL.into_iter().zip(errors).map(|(quantity, error)| own(quantity, error))
 }
 
-fn own(headline: QuantityOfInterest, error: Option<f64>) -> String {
-    match (headline, error) {
+fn own(quantity: QuantityOfInterest, error: Option<f64>) -> String {
+    match (quantity, error) {
         (QuantityOfInterest::Restitution, Some(0.0)) => "0".to_string(),
         (QuantityOfInterest::Restitution, Some(error)) => format!("{error:+.1e}"),
         _ => percent(error),
@@ -103,7 +103,7 @@ fn percent(error: Option<f64>) -> String {
     })
 }
 
-fn rungs(
+fn variants(
     findings: &Findings<'_>,
     heading: &'static str,
     is_shown: impl Fn(&Line<'_>) -> bool,
@@ -112,8 +112,8 @@ fn rungs(
     let row = |line: Line<'_>| {
         let updates = line.measurement.element_updates;
         let mut cells = vec![
-            line.rung.series.name().to_string(),
-            line.rung.describe(),
+            line.variant.series.name().to_string(),
+            line.variant.describe(),
             show(line.seconds, "s"),
             updates.map_or(NONE.into(), |n| HumanCount(n).to_string()),
         ];
@@ -127,19 +127,19 @@ fn rungs(
 
 fn limits(findings: &Findings<'_>) -> Rows {
     let rows = QuantityOfInterest::ALL.into_iter().zip(findings.study.limits).filter_map(
-        |(headline, limit)| {
+        |(quantity, limit)| {
             let limit = limit?;
-            let quantity = |value: f64| match headline {
+            let in_unit = |value: f64| match quantity {
                 QuantityOfInterest::Restitution => format!("{value:.5}"),
-                _ => show(value, headline.unit()),
+                _ => show(value, quantity.unit()),
             };
-            let scale = headline.scale(limit.value);
+            let scale = quantity.scale(limit.value);
             Some(vec![
-                headline.name().to_string(),
-                quantity(limit.value),
-                own(headline, Some(limit.uncertainty / scale)).replacen('+', "±", 1),
-                limit.condensed.map_or(NONE.into(), quantity),
-                own(headline, limit.added.map(|added| added / scale)),
+                quantity.name().to_string(),
+                in_unit(limit.value),
+                own(quantity, Some(limit.uncertainty / scale)).replacen('+', "±", 1),
+                limit.condensed.map_or(NONE.into(), in_unit),
+                own(quantity, limit.added.map(|added| added / scale)),
             ])
         },
     );
@@ -176,19 +176,19 @@ fn orders(findings: &Findings<'_>) -> Rows {
 fn sentences(findings: &Findings<'_>) -> Vec<String> {
     let study = findings.study;
     let cheapest = |serves: &dyn Fn(usize) -> bool| {
-        let index = study.cheapest_within(findings.ladder, findings.measured, serves)?;
+        let index = study.cheapest_within(findings.variants, findings.measured, serves)?;
         findings.lines().find(|line| line.index == index)
     };
     let told = |line: &Line<'_>| {
-        let describe = line.rung.describe();
+        let describe = line.variant.describe();
         let gap = if describe.is_empty() { "" } else { ", " };
         let settings: Vec<String> =
-            line.rung.overrides().iter().map(|set| format!("--set '{set}'")).collect();
+            line.variant.overrides().iter().map(|set| format!("--set '{set}'")).collect();
         let settings = match settings.is_empty() {
             true => String::new(),
             false => format!(" (`{}`)", settings.join(" ")),
         };
-        let (name, time) = (line.rung.series.name(), show(line.seconds, "s"));
+        let (name, time) = (line.variant.series.name(), show(line.seconds, "s"));
         format!("{name}{gap}{describe}: {time}{settings}")
     };
     let asked = {
@@ -224,20 +224,20 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
             told(&line)
         ));
     }
-    let explicit = cheapest(&|index| findings.ladder.rungs[index].is_explicit());
+    let explicit = cheapest(&|index| findings.variants.all[index].is_explicit());
     if let Some(line) = &explicit {
         sentences.push(format!("With explicit elements: {}.", told(line)));
     }
-    let own = findings.lines().find(|line| line.rung.series == Series::AsWritten);
+    let own = findings.lines().find(|line| line.variant.series == Series::AsWritten);
     let is_told = |own: &Line<'_>| explicit.as_ref().is_some_and(|line| line.index == own.index);
     if let Some(own) = own.filter(|own| !is_told(own))
         && let Some(share) = own.judged.in_tolerances
     {
-        let goes_on = share > 1.0 && findings.ladder.is_open;
+        let goes_on = share > 1.0 && findings.variants.is_open;
         let goes_on = if goes_on { "; a run would refine the mesh" } else { "" };
         sentences.push(format!(
             "The case as written, {}: {}, {share:.2} times the tolerance{goes_on}.",
-            own.rung.describe(),
+            own.variant.describe(),
             show(own.seconds, "s")
         ));
     }
@@ -245,7 +245,7 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         sentences.push(format!(
             "{} of {} variants were left out: they would have exceeded the time budget of {}.",
             findings.left_out,
-            findings.ladder.rungs.len(),
+            findings.variants.all.len(),
             show(findings.budget, "s")
         ));
     }

@@ -21,9 +21,9 @@ const DRAWN: [Series; 7] = [
 
 /// Returns the figure; `None` without any variant.
 pub fn picture(findings: &Findings<'_>) -> Option<String> {
-    let uncertain = |headline: QuantityOfInterest| {
-        let limit = findings.study.limits[headline as usize]?;
-        Some((limit.uncertainty / headline.scale(limit.value)).max(LEAST))
+    let uncertain = |quantity: QuantityOfInterest| {
+        let limit = findings.study.limits[quantity as usize]?;
+        Some((limit.uncertainty / quantity.scale(limit.value)).max(LEAST))
     };
     let three = [
         QuantityOfInterest::Restitution,
@@ -31,9 +31,9 @@ pub fn picture(findings: &Findings<'_>) -> Option<String> {
         QuantityOfInterest::PeakForce,
     ];
     let worst = three.into_iter().filter_map(uncertain).fold(LEAST, f64::max);
-    let of = |headline: QuantityOfInterest, label: &str| {
-        let known = uncertain(headline).unwrap_or(LEAST);
-        panel(findings, label, known, |line| line.judged.sure[headline as usize])
+    let of = |quantity: QuantityOfInterest, label: &str| {
+        let known = uncertain(quantity).unwrap_or(LEAST);
+        panel(findings, label, known, |line| line.judged.sure[quantity as usize])
     };
     let panels = [
         panel(findings, "worst error of e, T and F", worst, |line| line.judged.worst),
@@ -54,7 +54,7 @@ fn panel(
     let lines: Vec<Line<'_>> = findings.lines().collect();
     let point = |line: &Line<'_>| Some((line.seconds, error(line)?.max(LEAST)));
     let of = |series| -> Vec<(f64, f64)> {
-        lines.iter().filter(|line| line.rung.series == series).filter_map(point).collect()
+        lines.iter().filter(|line| line.variant.series == series).filter_map(point).collect()
     };
     let axis = |label: &str| Axis::new(label).logarithmic();
     let mut chart = Chart::new(axis("time of a run [s]"), axis(label));
@@ -79,7 +79,7 @@ fn panel(
         let limit = vec![(from, known), (to, known)];
         chart = chart.with(Curve::dashed("uncertainty of the limit", limit).coloured(GREY));
     }
-    let choices = lines.iter().filter(|line| line.rung.series.is_choice());
+    let choices = lines.iter().filter(|line| line.variant.series.is_choice());
     let mut frontier: Vec<(f64, f64)> = choices.filter_map(point).collect();
     frontier.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut nearest = f64::INFINITY;

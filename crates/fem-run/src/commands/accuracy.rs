@@ -2,7 +2,7 @@
 
 use std::io::{Write, stderr};
 
-use fem::accuracy::{Ladder, Study};
+use fem::accuracy::{Study, Variants};
 use fem::{Identity, Simulation};
 use fem_case::engineering::show;
 use indicatif::HumanCount;
@@ -42,27 +42,27 @@ fn seconds(text: &str) -> Result<f64, String> {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let case = arguments.input.load_within(&arguments.within)?;
-    let ladder = Ladder::of(&case)?;
+    let variants = Variants::of(&case)?;
     let identity = Identity::of(&case)?;
     let stem = arguments.input.stem();
     let mut output = arguments.output.claim(&stem, "accuracy", &[&identity.case])?;
     if !arguments.output.quiet {
-        announce(&arguments.input.name(), &ladder, arguments.budget);
+        announce(&arguments.input.name(), &variants, arguments.budget);
     }
 
-    let climbed = climb(&ladder, arguments.budget, &interrupt, arguments.output.quiet)?;
+    let climbed = climb(&variants, arguments.budget, &interrupt, arguments.output.quiet)?;
     if interrupt.is_requested() {
         return Err(Failure::interrupted("interrupted: nothing was written")
             .with_help("--budget SECONDS ends the study after a time and keeps its results"));
     }
     let Climb { measured, left_out } = climbed;
-    let study = Study::of(&ladder, &measured, &case.scene().accuracy());
+    let study = Study::of(&variants, &measured, &case.scene().accuracy());
     let resolved = Simulation::resolve(&case)?;
     let findings = Findings {
         title: case.scene().title(),
         default: resolved,
         accuracy: case.scene().accuracy(),
-        ladder: &ladder,
+        variants: &variants,
         measured: &measured,
         study: &study,
         left_out,
@@ -83,13 +83,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Prints one line on stderr about the study.
-fn announce(case: &str, ladder: &Ladder, budget: f64) {
-    let updates = ladder.rungs.iter().fold(0u64, |sum, rung| sum.saturating_add(rung.price));
+fn announce(case: &str, variants: &Variants, budget: f64) {
+    let updates = variants.all.iter().fold(0u64, |sum, variant| sum.saturating_add(variant.price));
     let _ = writeln!(
         stderr(),
         "{}: {} variants, {} element updates in all, the cheapest first; ends after {}",
         one_line(case),
-        ladder.rungs.len(),
+        variants.all.len(),
         HumanCount(updates),
         show(budget, "s")
     );

@@ -1,8 +1,8 @@
-//! What a sequence of results converges to, as far as its own levels tell.
+//! The limit of a sequence of results on finer and finer meshes, estimated from its own levels.
 //!
 //! The limit is that of a [`PowerLaw`] through the finest levels where one rules over them; else the finest
-//! level stands for it. The order is told by how far levels are from the finest, (h_f, q_f), whose own error is not
-//! known:
+//! level stands for it. The order follows from the differences of the levels to the finest, (h_f, q_f),
+//! whose own error is not known:
 //!
 //! ```math
 //! \ln|q-q_f| = \ln C + \ln(h^p-h_f^p)
@@ -17,22 +17,22 @@ use super::power_law::PowerLaw;
 
 /// Orders that a sequence is believed to have.
 const ORDERS: std::ops::Range<f64> = 0.5..3.9;
-/// A limit lies at most so many times the last step beyond the finest level.
+/// Largest distance of the limit beyond the finest level, as a multiple of the last step.
 const FARTHEST: f64 = 2.0;
 /// Levels that a limit is made of.
 const N_LEVELS: usize = 6;
-/// Errors that are fewer times what is known of the limit tell of no order.
+/// Errors below this multiple of the limit's uncertainty are not used for the order.
 const CLEAR: f64 = 2.0;
 /// Errors that are less than this over the limit are rounding.
 const ROUNDING: f64 = 1e-6;
 /// Orders that are tried, and of that range what a slope is taken over.
 const TRIED: (f64, f64) = (0.1, 8.0);
 const SLOPE: f64 = 1e-5;
-/// Levels that tell of an order.
+/// Number of levels from which an order is estimated.
 const FEWEST: usize = 3;
 /// A slope with a larger standard error is none.
 const LOOSEST: f64 = 0.75;
-/// What is left of the way to the limit is not known better than to this share.
+/// Relative uncertainty of the remaining distance to the limit.
 const LEFT: f64 = 0.2;
 
 /// The limit of a sequence of levels (h, q), h in any unit and q in its own.
@@ -50,7 +50,7 @@ const LEFT: f64 = 0.2;
 pub struct Convergence {
     /// The limit, in the unit of q.
     pub limit: f64,
-    /// How far it may be off, in the unit of q; infinite of a single level.
+    /// Uncertainty of the limit, in the unit of q; infinite for a single level.
     pub uncertainty: f64,
     /// Whether it is extrapolated; else the finest level stands for it.
     pub is_extrapolated: bool,
@@ -70,7 +70,7 @@ pub struct ObservedOrder {
 }
 
 impl Convergence {
-    /// Of levels (h, q) in any order, h > 0; none without any.
+    /// Estimates the limit of levels (h, q) in any order, h > 0; `None` without any level.
     pub fn of(levels: &[(f64, f64)]) -> Option<Self> {
         let mut levels = levels.to_vec();
         levels.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -99,7 +99,7 @@ impl Convergence {
 }
 
 impl ObservedOrder {
-    /// Of levels, the finest first.
+    /// Estimates the limit of levels, the finest first.
     fn of(levels: &[(f64, f64)], uncertainty: f64) -> Option<Self> {
         let [(finest, of_finest), others @ ..] = levels else { return None };
         let least = (CLEAR * uncertainty).max(ROUNDING * of_finest.abs());

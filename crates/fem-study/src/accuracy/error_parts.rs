@@ -2,12 +2,13 @@
 
 use fem_collision::QuantityOfInterest;
 
-/// What an error comes from.
+/// The source of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorSource {
     /// Elements are of finite size: as condensed bodies have it on the same mesh.
     Mesh,
-    /// Springs between the surfaces give way: what is left with four times their stiffness, extrapolated.
+    /// The penalty springs between the surfaces are compliant: from a run with four times their stiffness,
+    /// extrapolated.
     ContactSprings,
     /// Mass is added for a longer step: against a run without.
     AddedMass,
@@ -37,10 +38,10 @@ impl ErrorSource {
 /// An error and its source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorPart {
-    /// Where it comes from.
+    /// The source of the error.
     pub source: ErrorSource,
-    /// What it adds to each number, in the order of [`QuantityOfInterest::ALL`]: the restitution's absolute, all
-    /// others relative.
+    /// Its contribution to each quantity, in the order of [`QuantityOfInterest::ALL`]: the restitution's
+    /// absolute, all others relative.
     pub errors: [Option<f64>; 6],
 }
 
@@ -53,9 +54,9 @@ impl ErrorPart {
         limits: [Option<f64>; 6],
         factor: f64,
     ) -> Self {
-        let errors = QuantityOfInterest::ALL.map(|headline| {
-            let k = headline as usize;
-            Some(factor * (values[k]? - others[k]?) / headline.scale(limits[k]?))
+        let errors = QuantityOfInterest::ALL.map(|quantity| {
+            let k = quantity as usize;
+            Some(factor * (values[k]? - others[k]?) / quantity.scale(limits[k]?))
         });
         Self { source, errors }
     }

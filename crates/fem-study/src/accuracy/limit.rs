@@ -1,4 +1,4 @@
-//! What the numbers of a scene tend to.
+//! Limits of the quantities of interest of a scene.
 //!
 //! Condensed bodies converge smoothly and at little cost, but have no waves and no large strains;
 //! explicit elements have all, and scatter. With the same springs between them both make the same errors
@@ -10,30 +10,30 @@
 //! D = q^{\rm explicit}(h) - q^{\rm springs}(h)
 //! ```
 //!
-//! with D of the finest mesh that both have. Its uncertainty is that of L, found by leaving one level
-//! out, and how far D moves from the next coarser mesh to the finest. Where D is less than its own
-//! uncertainty it is left out and counts as uncertain. Condensed bodies with springs between them, whose
-//! stiffness grows as elements become smaller, tend to the same L: by what both limits differ beyond what is
-//! known of them, L is uncertain, too.
+//! with D of the finest mesh that both have. Its uncertainty is that of L, found by leaving one level out,
+//! and how far D moves from the next coarser mesh to the finest. Where D is less than its own uncertainty
+//! it is left out and counts as uncertain. Condensed bodies with springs between them, whose stiffness
+//! grows as elements become smaller, tend to the same L: the difference of both limits beyond their
+//! uncertainties adds to the uncertainty of L.
 
 use super::convergence::Convergence;
 
-/// What a number tends to.
+/// The limit of a quantity of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// The limit, SI.
     pub value: f64,
-    /// How far it may be off, SI.
+    /// Uncertainty of the limit, SI.
     pub uncertainty: f64,
-    /// Of condensed bodies alone, SI; none where they were not computed.
+    /// Limit of condensed bodies alone, SI; `None` where they were not computed.
     pub condensed: Option<f64>,
-    /// What explicit elements add to them, SI: waves, vibrations, large strains.
+    /// Difference of explicit elements to them, SI: waves, vibrations, large strains.
     pub added: Option<f64>,
 }
 
 impl Limit {
-    /// Of values over the size of the elements (m, SI), in any order: of condensed bodies, of those with
-    /// springs, of explicit elements; none without any.
+    /// Estimates the limit from values over the element size (m, SI), in any order: of condensed bodies, of
+    /// those with springs, of explicit elements; `None` without any value.
     pub fn of(
         condensed: &[(f64, f64)],
         springs: &[(f64, f64)],
@@ -101,7 +101,7 @@ mod tests {
         assert!((limit.condensed.unwrap() - 3.0).abs() < 1e-4, "{limit:?}");
     }
 
-    /// What is lost in scatter is left out, and makes the limit less certain.
+    /// A difference within the scatter is left out, and increases the uncertainty of the limit.
     #[test]
     fn a_difference_that_is_scatter_is_no_part_of_the_limit() {
         let condensed = levels(&[8.0, 5.6, 4.0, 2.8, 2.0, 1.4, 1.0], |h| 3.0 + 0.01 * h * h);
@@ -110,7 +110,7 @@ mod tests {
         assert!((limit.value - 3.0).abs() < 1e-4 && limit.uncertainty >= 0.01, "{limit:?}");
     }
 
-    /// Levels that pass for converged where they go on: the same limit by another way tells.
+    /// Levels that seem converged but are not are detected by the other estimate of the same limit.
     #[test]
     fn a_limit_that_springs_do_not_share_is_less_certain() {
         let sizes = [8.0, 5.6, 4.0, 2.8, 2.0, 1.4, 1.0];

@@ -1,20 +1,20 @@
-//! What a rung gives.
+//! The results of a variant.
 
 use fem_case::CaseError;
 use fem_collision::{Monitor, OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest};
 
-use super::rung::Rung;
 use super::stress_places::StressPlaces;
+use super::variant::Variant;
 use fem_simulation::Simulation;
 use fem_simulation::{Cost, Shared};
 
-/// What a rung gives, SI.
+/// The results of a variant, SI.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
-    /// The numbers, in the order of [`QuantityOfInterest::ALL`]; none of what the model has not, nor where the
-    /// run did not end by itself.
+    /// The quantities of interest, in the order of [`QuantityOfInterest::ALL`]; `None` if the model does
+    /// not compute one, or the run did not end by itself.
     pub values: [Option<f64>; 6],
-    /// σ_yy at the largest approach, tension positive, Pa, at each of the study's places; none of a
+    /// σ_yy at the largest approach, tension positive, Pa, at each of the study's places; `None` for a
     /// model without fields.
     pub stress: Option<Vec<f64>>,
     /// Elements of both bodies.
@@ -30,17 +30,17 @@ pub struct Measurement {
 }
 
 impl Measurement {
-    /// Computes a rung, its fields at the largest approach too.
+    /// Computes a variant, its fields at the largest approach too.
     ///
     /// # Errors
-    /// What the model refuses.
+    /// The model does not support the variant.
     pub fn of(
-        rung: &Rung,
+        variant: &Variant,
         contact_radius: f64,
         shared: &Shared,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, CaseError> {
-        let mut simulation = Simulation::sharing(rung.case.clone(), shared)?;
+        let mut simulation = Simulation::sharing(variant.case.clone(), shared)?;
         let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
         let want = OutputRequest { snapshots, ..simulation.want().clone() };
         // A label more or less is no fault.
@@ -53,8 +53,8 @@ impl Measurement {
         };
         let is_complete = collision.is_complete();
         let finite = |value: f64| value.is_finite().then_some(value);
-        let value = |headline: QuantityOfInterest| match is_complete {
-            true => headline.of(&collision).and_then(finite),
+        let value = |quantity: QuantityOfInterest| match is_complete {
+            true => quantity.of(&collision).and_then(finite),
             false => None,
         };
         let snapshot = collision.snapshot(SnapshotInstant::Maximum).filter(|_| is_complete);
@@ -72,8 +72,8 @@ impl Measurement {
         })
     }
 
-    /// A value.
-    pub fn value(&self, headline: QuantityOfInterest) -> Option<f64> {
-        self.values[headline as usize]
+    /// Returns the value of a quantity of interest.
+    pub fn value(&self, quantity: QuantityOfInterest) -> Option<f64> {
+        self.values[quantity as usize]
     }
 }

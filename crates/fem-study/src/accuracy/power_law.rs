@@ -10,7 +10,7 @@
 //! sequence that has not begun to converge, or whose levels scatter, shows in
 //! [`PowerLaw::uncertainty`] and in an order at the end of the range.
 
-/// What a sequence converges to, and how fast.
+/// The limit of a sequence and its order of convergence.
 ///
 /// ```
 /// use fem_study::accuracy::PowerLaw;

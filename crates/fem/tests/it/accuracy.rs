@@ -1,6 +1,6 @@
-//! What accuracy costs: the ladder of a scene and what is made of it.
+//! The accuracy study: the variants of a scene and their comparison.
 
-use fem::accuracy::{ErrorSource, Ladder, Measurement, Series, Study};
+use fem::accuracy::{ErrorSource, Measurement, Series, Study, Variants};
 use fem::{Case, ErrorEstimator, Shared, Simulation};
 use fem_collision::QuantityOfInterest;
 
@@ -12,19 +12,19 @@ fn case(text: &str) -> Case {
     Case::parse("ball.toml", text, std::path::Path::new("."), &[]).unwrap()
 }
 
-/// The ladder of a case and what its rungs of at most so many element updates give; a second each.
-fn climb(text: &str, most_updates: u64) -> (Ladder, Vec<Option<(Measurement, f64)>>) {
-    let ladder = Ladder::of(&case(text)).unwrap();
-    let measure = |rung: &fem::accuracy::Rung| {
-        let across = rung.elements_across.unwrap_or_default();
-        let is_cheap = rung.price <= most_updates && across < 17.0;
-        let radius = ladder.lengths.contact_radius;
+/// Returns the variants of a case and the results of those with a limited number of element updates.
+fn climb(text: &str, most_updates: u64) -> (Variants, Vec<Option<(Measurement, f64)>>) {
+    let variants = Variants::of(&case(text)).unwrap();
+    let measure = |variant: &fem::accuracy::Variant| {
+        let across = variant.elements_across.unwrap_or_default();
+        let is_cheap = variant.price <= most_updates && across < 17.0;
+        let radius = variants.lengths.contact_radius;
         is_cheap.then(|| {
-            (Measurement::of(rung, radius, &Shared::default(), &mut ()).unwrap(), 1.0 + across)
+            (Measurement::of(variant, radius, &Shared::default(), &mut ()).unwrap(), 1.0 + across)
         })
     };
-    let measured = ladder.rungs.iter().map(measure).collect();
-    (ladder, measured)
+    let measured = variants.all.iter().map(measure).collect();
+    (variants, measured)
 }
 
 /// The limit of an elastic ball on a wall is Hertz' with the finite size of the ball, which is known to
@@ -32,52 +32,52 @@ fn climb(text: &str, most_updates: u64) -> (Ladder, Vec<Option<(Measurement, f64
 /// its elements.
 #[test]
 fn the_limit_is_that_of_theory_and_finer_is_nearer() {
-    let (ladder, measured) = climb(BALL, 4_000_000);
+    let (variants, measured) = climb(BALL, 4_000_000);
     let accuracy = case(BALL).scene().accuracy();
-    let study = Study::of(&ladder, &measured, &accuracy);
+    let study = Study::of(&variants, &measured, &accuracy);
     let mut theory =
-        ladder.rungs.iter().zip(&measured).filter(|(rung, _)| rung.series == Series::Hertz);
+        variants.all.iter().zip(&measured).filter(|(variant, _)| variant.series == Series::Hertz);
     let theory = &theory.next_back().unwrap().1.as_ref().unwrap().0;
-    for headline in [
+    for quantity in [
         QuantityOfInterest::ContactTime,
         QuantityOfInterest::PeakForce,
         QuantityOfInterest::MaxApproach,
     ] {
-        let limit = study.limits[headline as usize].unwrap();
-        let off = limit.value / theory.value(headline).unwrap() - 1.0;
-        assert!(off.abs() < 7e-4, "{headline:?} {off:e} {limit:?}");
+        let limit = study.limits[quantity as usize].unwrap();
+        let off = limit.value / theory.value(quantity).unwrap() - 1.0;
+        assert!(off.abs() < 7e-4, "{quantity:?} {off:e} {limit:?}");
         // Without the finite size it would be off by 0.3 % and more.
-        assert!(limit.uncertainty < 1e-3 * limit.value, "{headline:?} {limit:?}");
+        assert!(limit.uncertainty < 1e-3 * limit.value, "{quantity:?} {limit:?}");
     }
     let restitution = study.limits[QuantityOfInterest::Restitution as usize].unwrap();
     assert!((restitution.value - 1.0).abs() < 1e-4, "{restitution:?}");
 
     let sure = |series| {
-        let of_series = ladder.rungs.iter().zip(&study.judged);
-        let of_series = of_series.filter(move |(rung, _)| rung.series == series);
+        let of_series = variants.all.iter().zip(&study.judged);
+        let of_series = of_series.filter(move |(variant, _)| variant.series == series);
         of_series.filter_map(|(_, judged)| judged.map(|judged| judged.sure))
     };
     let condensed: Vec<_> = sure(Series::Condensed).collect();
     assert_eq!(condensed.len(), 7);
-    for headline in QuantityOfInterest::ALL {
+    for quantity in QuantityOfInterest::ALL {
         let errors: Vec<f64> =
-            condensed.iter().map(|sure| sure[headline as usize].unwrap()).collect();
-        assert!(errors.is_sorted_by(|coarse, fine| coarse >= fine), "{headline:?} {errors:?}");
+            condensed.iter().map(|sure| sure[quantity as usize].unwrap()).collect();
+        assert!(errors.is_sorted_by(|coarse, fine| coarse >= fine), "{quantity:?} {errors:?}");
     }
     // Force and pressure of first order or better: three elements across are off by several times what
     // eight are.
-    for headline in [QuantityOfInterest::PeakForce, QuantityOfInterest::PeakPressure] {
-        let k = headline as usize;
-        assert!(condensed[0][k].unwrap() > 2.5 * condensed[4][k].unwrap(), "{headline:?}");
+    for quantity in [QuantityOfInterest::PeakForce, QuantityOfInterest::PeakPressure] {
+        let k = quantity as usize;
+        assert!(condensed[0][k].unwrap() > 2.5 * condensed[4][k].unwrap(), "{quantity:?}");
     }
     let stress = |series, k: usize| {
-        let of_series = ladder.rungs.iter().zip(&study.judged);
-        let mut judged = of_series.filter(|(rung, _)| rung.series == series).map(|(_, j)| j);
+        let of_series = variants.all.iter().zip(&study.judged);
+        let mut judged = of_series.filter(|(variant, _)| variant.series == series).map(|(_, j)| j);
         judged.nth(k).unwrap().unwrap().stress_error
     };
     for series in [Series::Condensed, Series::Explicit] {
-        let of_series = ladder.rungs.iter().zip(&study.judged);
-        let of_series = of_series.filter(|(rung, _)| rung.series == series);
+        let of_series = variants.all.iter().zip(&study.judged);
+        let of_series = of_series.filter(|(variant, _)| variant.series == series);
         let sure = of_series.filter_map(|(_, judged)| judged.as_ref()?.sure_stress_error);
         let sure: Vec<f64> = sure.collect();
         assert!(sure.len() >= 3 && sure.is_sorted_by(|coarse, fine| coarse >= fine), "{sure:?}");
@@ -90,39 +90,39 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
 /// for decides.
 #[test]
 fn the_cheapest_within_the_tolerance_is_taken() {
-    let (ladder, measured) = climb(BALL, 500_000);
+    let (variants, measured) = climb(BALL, 500_000);
     let accuracy = case(BALL).scene().accuracy();
-    let study = Study::of(&ladder, &measured, &accuracy);
+    let study = Study::of(&variants, &measured, &accuracy);
     let taken = |serves: &dyn Fn(usize) -> bool| {
-        let index = study.cheapest_within(&ladder, &measured, serves)?;
-        Some(&ladder.rungs[index])
+        let index = study.cheapest_within(&variants, &measured, serves)?;
+        Some(&variants.all[index])
     };
     let all = taken(&|_| true).unwrap();
     assert_eq!(all.series, Series::Hertz);
-    let meshes = taken(&|index| ladder.rungs[index].elements_across.is_some()).unwrap();
+    let meshes = taken(&|index| variants.all[index].elements_across.is_some()).unwrap();
     assert_eq!(meshes.series, Series::Condensed);
     assert!(meshes.elements_across.unwrap() < 8.0, "{meshes:?}");
     let strict = fem_case::Accuracy::within(1e-6);
-    let study = Study::of(&ladder, &measured, &strict);
-    assert_eq!(study.cheapest_within(&ladder, &measured, |_| true), None);
+    let study = Study::of(&variants, &measured, &strict);
+    assert_eq!(study.cheapest_within(&variants, &measured, |_| true), None);
 }
 
 /// With a quarter of the stiffness springs give way by several times as much: contact time and approach
 /// grow. Each part is told for each number.
 #[test]
 fn parts_of_the_error_are_told() {
-    let (ladder, measured) = climb(BALL, 30_000_000);
-    let study = Study::of(&ladder, &measured, &case(BALL).scene().accuracy());
+    let (variants, measured) = climb(BALL, 30_000_000);
+    let study = Study::of(&variants, &measured, &case(BALL).scene().accuracy());
     let part = |source| study.parts.iter().find(|part| part.source == source).unwrap();
     for source in [ErrorSource::Mesh, ErrorSource::ContactSprings, ErrorSource::LeftOutByCondensed]
     {
         assert!(part(source).errors.iter().all(Option::is_some), "{source:?}");
     }
     let springs = part(ErrorSource::ContactSprings).errors;
-    for headline in [QuantityOfInterest::ContactTime, QuantityOfInterest::MaxApproach] {
+    for quantity in [QuantityOfInterest::ContactTime, QuantityOfInterest::MaxApproach] {
         // About 0.1 % at the default stiffness: docs/contact.md.
-        let error = springs[headline as usize].unwrap();
-        assert!((2e-4..5e-3).contains(&error), "{headline:?} {error:e}");
+        let error = springs[quantity as usize].unwrap();
+        assert!((2e-4..5e-3).contains(&error), "{quantity:?} {error:e}");
     }
 }
 
@@ -143,18 +143,19 @@ fn no_way_is_there_twice() {
         (&unlike, true, false),
         (&soft, false, true),
     ] {
-        let rungs = Ladder::of(&case(text)).unwrap().rungs;
-        for (k, rung) in rungs.iter().enumerate() {
-            let same = rungs[..k].iter().find(|other| other.case.scene() == rung.case.scene());
-            assert!(same.is_none(), "{text}: {:?} {same:?}", rung.overrides());
+        let variants = Variants::of(&case(text)).unwrap().all;
+        for (k, variant) in variants.iter().enumerate() {
+            let same =
+                variants[..k].iter().find(|other| other.case.scene() == variant.case.scene());
+            assert!(same.is_none(), "{text}: {:?} {same:?}", variant.overrides());
         }
-        let has = |series| rungs.iter().any(|rung| rung.series == series);
+        let has = |series| variants.iter().any(|variant| variant.series == series);
         assert_eq!(has(Series::NodeToSurface), !slips && !is_finite, "{text}");
         assert_eq!([has(Series::Penalty), has(Series::FiniteStrain)], [!is_finite; 2], "{text}");
         for series in [Series::Condensed, Series::CondensedSprings, Series::Explicit] {
-            let common = rungs.iter().filter(|rung| rung.has_common_elements);
+            let common = variants.iter().filter(|variant| variant.has_common_elements);
             assert_eq!(
-                common.filter(|rung| rung.series == series).count(),
+                common.filter(|variant| variant.series == series).count(),
                 1,
                 "{text}: {series:?}"
             );
@@ -162,15 +163,15 @@ fn no_way_is_there_twice() {
     }
 }
 
-/// A mesh of the user's own cannot be refined: what is left of the ladder runs, and the limit is not
-/// known.
+/// A mesh of the user's own cannot be refined: the other variants run, and the limit is not known.
 #[test]
 fn what_a_scene_does_not_call_for_is_no_rung() {
-    let ladder = Ladder::of(&case(BALL)).unwrap();
-    let has = |ladder: &Ladder, series| ladder.rungs.iter().any(|rung| rung.series == series);
-    assert!(!has(&ladder, Series::Ting) && has(&ladder, Series::AsWritten));
+    let variants = Variants::of(&case(BALL)).unwrap();
+    let has =
+        |variants: &Variants, series| variants.all.iter().any(|variant| variant.series == series);
+    assert!(!has(&variants, Series::Ting) && has(&variants, Series::AsWritten));
     // The case as written is what a run of it computes.
-    let own = ladder.rungs.iter().find(|rung| rung.series == Series::AsWritten).unwrap();
+    let own = variants.all.iter().find(|variant| variant.series == Series::AsWritten).unwrap();
     let simulation = Simulation::new(case(BALL)).unwrap();
     let run = ErrorEstimator::default().refine_before_run(simulation, || true).simulation;
     assert_eq!(own.case.file().mesh, run.resolved().mesh);
@@ -179,15 +180,15 @@ fn what_a_scene_does_not_call_for_is_no_rung() {
         "poissons_ratio = 0.33, relaxation = { acts_on = 'all', terms = [{ weight = 0.5, decay_rate = 1e4 }] } }",
     );
     let relaxing = relaxing + "\n[mesh]\ncontact_element_size = 1e-4\n";
-    let ladder = Ladder::of(&case(&relaxing)).unwrap();
-    assert!(has(&ladder, Series::Ting) && has(&ladder, Series::AsWritten));
+    let variants = Variants::of(&case(&relaxing)).unwrap();
+    assert!(has(&variants, Series::Ting) && has(&variants, Series::AsWritten));
     let sizes = |series| {
-        let of_series = ladder.rungs.iter().filter(move |rung| rung.series == series);
-        of_series.filter_map(|rung| rung.case.scene().mesh().contact_element_size)
+        let of_series = variants.all.iter().filter(move |variant| variant.series == series);
+        of_series.filter_map(|variant| variant.case.scene().mesh().contact_element_size)
     };
     assert_eq!(sizes(Series::AsWritten).collect::<Vec<_>>(), [1e-4]);
     // From coarse to fine.
     assert!(sizes(Series::Explicit).collect::<Vec<_>>().is_sorted_by(|a, b| a > b));
-    let order = ladder.cheapest_first();
-    assert!(order.iter().map(|k| ladder.rungs[*k].price).is_sorted());
+    let order = variants.cheapest_first();
+    assert!(order.iter().map(|k| variants.all[*k].price).is_sorted());
 }

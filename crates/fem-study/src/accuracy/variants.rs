@@ -1,9 +1,9 @@
-//! The ways in which a scene is computed.
+//! The variants of a scene that the accuracy study computes.
 
 use fem_case::schema::ContactMethod;
 use fem_case::{Case, CaseError, Scene};
 
-use super::rung::{Rung, Series};
+use super::variant::{Series, Variant};
 use fem_simulation::Estimate;
 use fem_simulation::Fineness;
 use fem_simulation::Simulation;
@@ -27,7 +27,7 @@ const STRAINED: [f64; 2] = [4.0, 8.0];
 pub(super) const COMMON: f64 = 8.0;
 /// Modes of each body that vibrates.
 const MODES: u8 = 12;
-/// Much mass that is moved, over what is beside a mesh: it shortens the run by half.
+/// Large mass scaling, as a multiple of the mesh's own: it halves the length of the run.
 const MUCH_MASS: f64 = 4.0;
 const PENALTY_FACTORS: [f64; 2] = [0.25, 4.0];
 const MASS_SCALINGS: [f64; 3] = [0.0, 1e-3, 2e-2];
@@ -38,38 +38,38 @@ const GROWN: f64 = 1.25;
 /// Lengths at the contact, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lengths {
-    /// Contact radius that closed forms foretell: what elements are counted across.
+    /// Contact radius by closed forms, m: elements are counted across it.
     pub contact_radius: f64,
-    /// What elements divide.
+    /// The length that elements divide, m.
     pub(super) divided: f64,
 }
 
 impl Lengths {
-    /// The length of elements that divide it into so many.
+    /// Returns the length of elements for a number of elements across the contact.
     pub(super) fn element(&self, across: f64) -> f64 {
         short(self.divided / across)
     }
 }
 
-/// A scene, computed in many ways.
+/// The variants of a scene.
 #[derive(Clone, Debug)]
-pub struct Ladder {
-    /// The ways, those of a series beside each other, from coarse to fine.
-    pub rungs: Vec<Rung>,
-    /// What elements are counted across and divide.
+pub struct Variants {
+    /// The variants, grouped by series, from coarse to fine.
+    pub all: Vec<Variant>,
+    /// Lengths at the contact that decide on element sizes.
     pub lengths: Lengths,
-    /// Whether a run of the case goes on with a finer mesh where that of its rung does not do.
+    /// Whether a run of the case refines its mesh if that of its variant does not meet the tolerance.
     pub is_open: bool,
-    /// The first of what was left out.
+    /// The first error among the variants that were left out.
     refused: Option<CaseError>,
 }
 
-impl Ladder {
-    /// The ladder of a case: of its first contact, where gravity brings its body back.
+impl Variants {
+    /// Creates the variants of a case, for its first contact if gravity brings its body back.
     ///
     /// # Errors
-    /// A case of which all models with elements refuse all meshes: the first refusal. What else is refused,
-    /// by the limits of the case for one, is left out.
+    /// No model with elements supports any mesh: the first such error. Single variants that fail, for
+    /// example by the limits of the case, are left out.
     pub fn of(case: &Case) -> Result<Self, CaseError> {
         let base = case.edited(|file| {
             (file.mesh, file.contact, file.time, file.output) = (None, None, None, None);
@@ -80,29 +80,29 @@ impl Ladder {
         // Of a contact as wide as its sphere the plan counts elements across less than all of it.
         let unit = contact_radius.min(divided_radius(&plan.estimate));
         let lengths = Lengths { contact_radius, divided: unit };
-        let mut ladder = Self { rungs: Vec::new(), lengths, is_open: false, refused: None };
+        let mut variants = Self { all: Vec::new(), lengths, is_open: false, refused: None };
         let own = case.edited(|file| (file.output, file.stop) = (None, first_contact(file)))?;
         match as_it_runs(own) {
             Ok((own, is_open)) => {
-                ladder.add(&own, Series::AsWritten, &[], None);
-                ladder.is_open = is_open;
+                variants.add(&own, Series::AsWritten, &[], None);
+                variants.is_open = is_open;
             }
-            Err(refused) => ladder.refused = Some(refused),
+            Err(refused) => variants.refused = Some(refused),
         }
         let add = |series, settings: &[Setting], value| {
-            ladder.add(&base, series, settings, value);
+            variants.add(&base, series, settings, value);
         };
         let made = plan.makes_meshes.then_some(plan.finer_body.is_some());
         Self::fill(&base, made, &lengths, add);
-        match ladder.refused.take() {
+        match variants.refused.take() {
             // What has only closed forms has no limit to tell.
-            Some(refused) if !ladder.rungs.iter().any(Rung::has_elements) => Err(refused),
-            _ => Ok(ladder),
+            Some(refused) if !variants.all.iter().any(Variant::has_elements) => Err(refused),
+            _ => Ok(variants),
         }
     }
 
-    /// The ways that the scene calls for, a series after the other, on meshes that are staggered or not,
-    /// unless they are read from files.
+    /// Adds the variants that the scene needs, series by series, on staggered meshes or not, unless meshes
+    /// are read from files.
     fn fill(
         base: &Case,
         made: Option<bool>,
@@ -168,27 +168,27 @@ impl Ladder {
         varied(Series::StepFactor, &STEP_FACTORS, Setting::StepFactor);
     }
 
-    /// Adds what is not refused.
+    /// Adds the variant if its model supports it.
     fn add(&mut self, base: &Case, series: Series, settings: &[Setting], value: Option<f64>) {
-        match Rung::new(base, series, settings.to_vec(), value, &self.lengths) {
-            Ok(rung) => self.rungs.push(rung),
+        match Variant::new(base, series, settings.to_vec(), value, &self.lengths) {
+            Ok(variant) => self.all.push(variant),
             Err(refused) => {
                 self.refused.get_or_insert(refused);
             }
         }
     }
 
-    /// Places of the rungs in the order in which they are computed: from cheap to dear, so that a run
-    /// that ends early has told most.
+    /// Returns the indices of the variants in the order in which they are computed, the cheapest first, so
+    /// that a study that ends early has the most variants.
     pub fn cheapest_first(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.rungs.len()).collect();
-        order.sort_by_key(|&k| self.rungs[k].price);
+        let mut order: Vec<usize> = (0..self.all.len()).collect();
+        order.sort_by_key(|&k| self.all[k].price);
         order
     }
 }
 
-/// A case with the model, the mesh and the settings with which it is run, as far as reference runs show them before the run; and whether
-/// more may follow.
+/// Returns a case with the model, mesh and settings with which it is run, as far as they are known before
+/// the run, and whether refinement may follow.
 fn as_it_runs(case: Case) -> Result<(Case, bool), CaseError> {
     let mut estimator = ErrorEstimator::default();
     let RefinedBeforeRun { simulation, is_open } =
@@ -220,8 +220,8 @@ fn is_finite(scene: &Scene) -> bool {
     Estimate::of(scene).is_ok_and(|estimate| FiniteStrain::laws(scene, &estimate) != [None; 2])
 }
 
-/// What goes with a mesh with so many elements across the contact, beside these settings: so many times the mass
-/// is moved that the plan would move for it, and meshes with springs between them are staggered where those of the scene are.
+/// Returns the settings that go with a mesh of a number of elements across the contact: mass scaling as a
+/// multiple of the plan's, and staggered meshes for penalty springs if those of the scene are.
 fn own(settings: &[Setting], across: f64, mass: f64, is_staggered: bool) -> Vec<Setting> {
     let has = |wanted: fn(&Setting) -> bool| settings.iter().any(wanted);
     let is_explicit = has(|it| matches!(it, Setting::Explicit));
@@ -238,7 +238,7 @@ fn own(settings: &[Setting], across: f64, mass: f64, is_staggered: bool) -> Vec<
     own
 }
 
-/// A length of four digits: as a user would write it.
+/// Rounds a length to four digits, as a user would write it.
 fn short(length: f64) -> f64 {
     format!("{length:.3e}").parse().unwrap_or(length)
 }

@@ -1,13 +1,13 @@
-//! One way to compute a scene.
+//! One variant of a scene: a model, a mesh and settings.
 
 use fem_case::{Case, CaseError, ModelChoice};
 
-use super::ladder::{COMMON, Lengths};
+use super::variants::{COMMON, Lengths};
 use fem_simulation::Simulation;
 use fem_simulation::chosen;
 use fem_simulation::error::Setting;
 
-/// Ways that differ in one thing.
+/// Variants that differ in one setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Series {
     /// Hertz' closed form, without and with the spheres' finite size.
@@ -43,7 +43,7 @@ pub enum Series {
 }
 
 impl Series {
-    /// All, from the cheapest to the dearest.
+    /// All series, from the cheapest to the most expensive.
     pub const ALL: [Self; 15] = [
         Self::Hertz,
         Self::Ting,
@@ -62,7 +62,7 @@ impl Series {
         Self::FiniteStrain,
     ];
 
-    /// Its name for readers.
+    /// Returns its name for readers.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hertz => "Hertz",
@@ -83,7 +83,7 @@ impl Series {
         }
     }
 
-    /// Whether its rungs differ in the size of their elements.
+    /// Whether its variants differ in element size.
     pub fn is_over_element_size(self) -> bool {
         matches!(
             self,
@@ -98,8 +98,8 @@ impl Series {
         )
     }
 
-    /// Whether a user would take it: what varies one setting alone, or makes condensed bodies as coarse
-    /// as explicit elements, is there to tell where errors come from.
+    /// Whether a user would choose it. The others vary a single setting, or make condensed bodies as coarse
+    /// as explicit elements, to separate the sources of errors.
     pub fn is_choice(self) -> bool {
         !matches!(
             self,
@@ -112,31 +112,31 @@ impl Series {
     }
 }
 
-/// One way to compute a scene.
+/// One variant of a scene.
 #[derive(Clone, Debug)]
-pub struct Rung {
-    /// What it belongs to.
+pub struct Variant {
+    /// The series that it belongs to.
     pub series: Series,
-    /// What in its series it differs by: an element size (m), a factor, a share; none where there is
-    /// one only.
+    /// The value that varies in its series: an element size (m), a factor, a share; `None` if the series
+    /// has one variant.
     pub value: Option<f64>,
     /// Elements across the contact radius, where the mesh is of this program.
     pub elements_across: Option<f64>,
     /// Whether its elements are as long as where one setting is varied by itself, of a mesh of this program.
     pub has_common_elements: bool,
-    /// What it has otherwise than the case.
+    /// Settings that differ from the case.
     pub settings: Vec<Setting>,
-    /// The case.
+    /// The case with these settings.
     pub case: Case,
-    /// Element updates to come; 0 of what has no such.
+    /// Estimated number of element updates; 0 without elements.
     pub price: u64,
 }
 
-impl Rung {
-    /// A scene with these settings.
+impl Variant {
+    /// Creates the variant of a scene with these settings.
     ///
     /// # Errors
-    /// What the method refuses.
+    /// The method does not support the variant.
     pub(super) fn new(
         base: &Case,
         series: Series,
@@ -159,7 +159,7 @@ impl Rung {
         Ok(Self { series, value, elements_across, has_common_elements, settings, case, price })
     }
 
-    /// What computes it; of a case that leaves it open, what is chosen.
+    /// Returns the model that computes it: the chosen one, if the case leaves the model open.
     fn model(&self) -> ModelChoice {
         let scene = self.case.scene();
         let chosen = chosen(scene).ok().flatten();
@@ -176,7 +176,7 @@ impl Rung {
         matches!(self.model(), ModelChoice::Fem | ModelChoice::Condensed(_))
     }
 
-    /// What in its series it is, in words.
+    /// Describes the variant within its series.
     pub fn describe(&self) -> String {
         let finite_size = "with finite size".to_string();
         let own = self.settings.iter().rev().find_map(|setting| match *setting {
@@ -195,7 +195,7 @@ impl Rung {
         [model, across, own].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// What to write beside the case's own keys for it: `--set KEY=VALUE`, in order.
+    /// Returns the overrides that make it of the case: `--set KEY=VALUE`, in order.
     pub fn overrides(&self) -> Vec<String> {
         self.settings.iter().map(|setting| setting.as_override()).collect()
     }
