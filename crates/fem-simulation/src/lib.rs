@@ -32,7 +32,7 @@ pub use models::{
 };
 pub use plan::contact_method::{contact_method, unread};
 pub use plan::contact_noise_advice::Quieter;
-pub use plan::fineness::Fineness;
+pub use plan::element_size::MeshRule;
 pub use plan::meshes::build_meshes;
 pub use plan::pair_cache::PairCache;
 pub use plan::{Plan, divided_radius};

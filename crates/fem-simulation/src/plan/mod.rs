@@ -3,14 +3,14 @@
 pub(crate) mod body_source;
 pub(crate) mod contact_method;
 pub(crate) mod contact_noise_advice;
-pub(crate) mod fineness;
+pub(crate) mod element_size;
 pub(crate) mod limits;
+pub(crate) mod mesh_offset;
 pub(crate) mod mesh_source;
 pub(crate) mod meshes;
 pub(crate) mod pair_cache;
 pub(crate) mod penalty_compliance;
 pub(crate) mod probes;
-pub(crate) mod stagger;
 
 use fem_case::schema::{
     ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable, SnapshotsValue,
@@ -28,8 +28,8 @@ use crate::effects::percent;
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::plan::contact_method::contact_method;
-use crate::plan::fineness::{Fineness, touches_at_nodes};
-use crate::plan::stagger::{finer_body, staggered};
+use crate::plan::element_size::{MeshRule, touches_at_nodes};
+use crate::plan::mesh_offset::{finer_body, staggered};
 use crate::refusal::Refusal;
 
 /// Half-width of the fine block over the contact radius.
@@ -111,10 +111,10 @@ impl Plan {
         let estimate = Estimate::checked(scene)?;
         viscous_flow::check(scene, &estimate)?;
         let finer_body = finer_body(scene);
-        let fineness = Fineness::of(scene, &estimate, finer_body.is_some());
+        let rule = MeshRule::of(scene, &estimate, finer_body.is_some());
         let is_shared = touches_at_nodes(scene.model());
         let contact_element_size = scene.mesh().contact_element_size.unwrap_or_else(|| {
-            let length = (divided_radius(&estimate) / fineness.across)
+            let length = (divided_radius(&estimate) / rule.across)
                 .min(estimate.smallest_radius / (12.0 * scene.refinement()));
             if is_shared { shared_length(length, estimate.smallest_radius) } else { length }
         });
@@ -156,12 +156,12 @@ impl Plan {
             warnings.push("mesh.far_radius has no effect: no body is a half-space".to_string());
         }
         let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
-        let out_of_reach = fineness.reached.filter(|_| is_chosen);
+        let out_of_reach = rule.reached.filter(|_| is_chosen);
         if let Some(reached) = out_of_reach {
             warnings.push(format!(
                 "accuracy.tolerance is out of reach: {:.0} elements across the contact are taken, for about \
                  {} of the peak force: allow more of it",
-                fineness.across,
+                rule.across,
                 percent(reached)
             ));
         }
@@ -171,7 +171,7 @@ impl Plan {
             gap: scene.gap().unwrap_or(0.0),
             contact_element_size,
             finer_body,
-            asked_by: fineness.asked_by,
+            asked_by: rule.asked_by,
             refined_radius,
             growth: scene.mesh().growth,
             far_radius,
@@ -182,7 +182,7 @@ impl Plan {
             penalty_factor,
             contact_stiffness,
             step_factor: scene.step_factor().unwrap_or(STEP_FACTOR),
-            mass_scaling: scene.mass_scaling().unwrap_or(fineness.mass_scaling),
+            mass_scaling: scene.mass_scaling().unwrap_or(rule.mass_scaling),
             snapshots: request(scene.snapshots()),
             max_elements: limits.elements.unwrap_or(MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(MAX_ELEMENT_UPDATES),

@@ -5,7 +5,7 @@ use fem_case::{Case, CaseError, Scene};
 
 use super::variant::{Series, Variant};
 use fem_simulation::Estimate;
-use fem_simulation::Fineness;
+use fem_simulation::MeshRule;
 use fem_simulation::Simulation;
 use fem_simulation::effects::FiniteStrain;
 use fem_simulation::error::{Setting, first_contact};
@@ -229,7 +229,7 @@ fn own(settings: &[Setting], across: f64, mass: f64, is_staggered: bool) -> Vec<
     let is_scaled = has(|it| matches!(it, Setting::MassScaling(_)));
     let mut own = Vec::new();
     if is_explicit && !is_scaled {
-        let mass = mass * Fineness::mass_scaling_beside(across);
+        let mass = mass * MeshRule::mass_scaling_beside(across);
         own.push(Setting::MassScaling(short(mass)));
     }
     if is_staggered && !at_nodes {

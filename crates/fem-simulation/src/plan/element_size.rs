@@ -1,14 +1,14 @@
-//! How fine elements and steps are for the tolerance of a case.
+//! The a-priori mesh rule: element size and mass scaling for the tolerance of a case.
 //!
-//! With k elements across the contact radius the peak force is off by
+//! With k elements across the contact radius the error of the peak force is
 //!
 //! ```math
 //! \Bigl|\frac{\Delta F}{F}\Bigr| \le \frac{C}{k^2} + c\,\mu, \qquad
 //! C = C_0 + C_1 s, \qquad c = \tfrac12,
 //! ```
 //!
-//! with μ the share of mass that is moved for a longer step. C₁ is the swing with the place of the contact's
-//! edge between two nodes, at most 3/16 by theory ([`stagger`](crate::plan::stagger)); s is what of it is left: all
+//! with μ the share of mass that is added for a longer step. C₁ is the swing with the place of the contact's
+//! edge between two nodes, at most 3/16 by theory ([`stagger`](crate::plan::mesh_offset)); s is what of it is left: all
 //! where the meshes are not staggered, else how much the bodies' shares in the compliance of the
 //! contact differ. All other numbers are off by less: contact time 0.06/k², restitution 0.04/k²,
 //! peak pressure 0.45/k².
@@ -31,35 +31,34 @@ use fem_collision::QuantityOfInterest;
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
 
-/// What is left without a swing, ...
+/// Error of the peak force times k² without a swing.
 const SMOOTH: f64 = 0.05;
-/// ... and what the swing adds, with springs between the surfaces; ...
+/// The part of the swing, with springs between the surfaces.
 const SWING: f64 = 0.10;
-/// ... of nodes that touch exactly, whose swing is taken off, together.
+/// Both for nodes that touch exactly, whose swing is subtracted.
 const AT_NODES: f64 = 0.05;
-/// Share of the tolerance that the mesh may take. Moved mass takes the rest, and relaxation, which shifts the
-/// edge, where no mass is moved.
+/// Share of the tolerance for the mesh. Added mass has the rest, and relaxation, which shifts the edge, where no mass is
+/// added.
 const OF_MESH: f64 = 0.75;
-/// Moved mass over the tolerance: it takes half of its own share of the force.
+/// Added mass over the tolerance: the force changes by half of its share.
 const MASS_OVER_TOLERANCE: f64 = 0.5;
-/// More mass is never moved unless the case says so: bodies with terms of relaxation that are nearly as fast as
-/// the step show it.
+/// Most mass that is added by default: bodies with relaxation times near the time step show more.
 const MOST_MASS: f64 = 1e-2;
-/// More elements are never chosen: 0.01 % of the force with springs and no swing taken away.
+/// Most elements across the contact radius: 0.01 % of the force with springs and the whole swing.
 const MOST: f64 = 45.0;
-/// Share of a tolerance that is served at finite strain without staggered meshes: of soft balls on walls contact
-/// time and pressure are off by twice the above.
+/// Share of the tolerance at finite strain on one mesh: contact time and pressure of soft balls on walls have twice the
+/// error above.
 const AT_FINITE_STRAIN: f64 = 0.5;
 /// Over the shear wave speed the speed of an impact below which waves have come and gone often enough. Faster,
 /// first and last touch are waves of few elements' length, and bulk viscosity takes its share of them: soft
 /// balls on walls at 0.06, 0.17 and 0.56 of it, ν 0.2 to 0.49, are within the tolerance with 7, 11 and 17
 /// elements across the contact.
 const QUIET: f64 = 0.03;
-/// Fewer elements do not carry a pressure: with 3.5 the radius is off by 8 % where bodies relax.
+/// Fewest elements across the contact radius: with 3.5 the radius of relaxing bodies has an error of 8 %.
 const FEWEST: f64 = 4.0;
-/// Of nodes that touch exactly: with 4.5 the radius is off by up to 1.2 %, with 5.5 by 0.7 %.
+/// The same for nodes that touch exactly: with 4.5 the error of the radius is up to 1.2 %, with 5.5 0.7 %.
 const FEWEST_AT_NODES: f64 = 5.45;
-/// Nodes that touch exactly of later contacts under gravity have this share of the elements at least: the mesh stays.
+/// Least share of the elements that later contacts under gravity have, for nodes that touch exactly: the mesh stays.
 const LATE: f64 = 0.75;
 /// Where between two nodes the swing of springs passes through zero.
 const LUCKY: f64 = 0.35;
@@ -68,21 +67,21 @@ const BOUNDS: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
 /// The same of nodes that touch exactly.
 const BOUNDS_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 
-/// How fine a computation is.
+/// The result of the a-priori mesh rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fineness {
+pub struct MeshRule {
     /// Elements across the contact radius.
     pub across: f64,
     /// Largest moved mass over the lighter body's mass.
     pub mass_scaling: f64,
-    /// The tolerance that these serve, where that of the case is out of reach.
+    /// The tolerance that is reached, if that of the case is out of reach.
     pub reached: Option<f64>,
     /// The quantity that asks for most, and its tolerance.
     pub asked_by: (QuantityOfInterest, f64),
 }
 
-impl Fineness {
-    /// Of a scene with the model that computes it, whose meshes are staggered or not.
+impl MeshRule {
+    /// Applies the rule to a scene with its model, on one mesh or on staggered meshes.
     pub fn of(scene: &Scene, estimate: &Estimate, is_staggered: bool) -> Self {
         // Condensed bodies have no finite strain.
         let is_finite =
@@ -118,24 +117,24 @@ impl Fineness {
         }
     }
 
-    /// The share of mass that is moved beside so many elements across the contact where nothing is staggered.
+    /// Returns the share of added mass that suits `across` elements across the contact on one mesh.
     pub fn mass_scaling_beside(across: f64) -> f64 {
         let tolerance = (SMOOTH + SWING) / (OF_MESH * across * across);
         (MASS_OVER_TOLERANCE * tolerance).min(MOST_MASS)
     }
 }
 
-/// Whether bodies touch exactly, at their nodes.
+/// Returns whether the bodies touch exactly, at their nodes.
 pub(crate) fn touches_at_nodes(model: &ModelChoice) -> bool {
     matches!(model, ModelChoice::Condensed(CondensedOptions { penalty_springs: false, .. }))
 }
 
-/// By how much elements are smaller beside waves that the impact is so many times slower than.
+/// Returns the ratio by which elements are smaller for an impact of this speed over the shear wave speed.
 fn of_waves(mach: f64) -> f64 {
     (mach / QUIET).cbrt().max(1.0)
 }
 
-/// The tolerance of the peak force at which all tolerances are met.
+/// Returns the tolerance of the peak force at which all tolerances are met.
 fn tolerance(accuracy: &Accuracy, bounds: &[f64; 4]) -> (f64, (QuantityOfInterest, f64)) {
     let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
     let all = [
@@ -157,18 +156,18 @@ mod tests {
     use fem_case::Case;
 
     use super::*;
-    use crate::plan::stagger::finer_body;
+    use crate::plan::mesh_offset::finer_body;
 
     const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
     const WALL: &str = "body.0={ name = 'striker', wall = {} }";
     const SMALL_STRAIN: &str = "effects.finite_strain='off'";
 
-    fn fineness(set: &[&str]) -> Fineness {
+    fn mesh_rule(set: &[&str]) -> MeshRule {
         let set: Vec<String> = set.iter().chain([&SMALL_STRAIN]).map(ToString::to_string).collect();
         let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
         let scene = case.scene();
         let estimate = Estimate::of(scene).unwrap();
-        Fineness::of(scene, &estimate, finer_body(scene).is_some())
+        MeshRule::of(scene, &estimate, finer_body(scene).is_some())
     }
 
     /// From a tolerance to k and µ by hand: √(0.05/0.75τ) staggered, the next place without swing above
@@ -188,7 +187,7 @@ mod tests {
             (&[], "20 %", 4.0, 1e-2),
         ] {
             let tolerance = format!("accuracy.tolerance='{tolerance}'");
-            let found = fineness(&[set, &[tolerance.as_str()]].concat());
+            let found = mesh_rule(&[set, &[tolerance.as_str()]].concat());
             assert!((found.across - across).abs() < 1e-3, "{set:?} {tolerance}: {found:?}");
             assert!(
                 (found.mass_scaling / mass - 1.0).abs() < 1e-9,
@@ -198,14 +197,14 @@ mod tests {
         }
     }
 
-    /// Whatever is asked for, less error is never less work, and the tightest of several tolerances counts.
+    /// A smaller tolerance never has fewer elements, and the tightest of several tolerances counts.
     #[test]
     fn less_error_is_no_less_work() {
         for set in [&[][..], &[WALL, "body.1.approach_speed=0.5"], &["model.condensed={}"]] {
-            let mut before: Option<Fineness> = None;
+            let mut before: Option<MeshRule> = None;
             for k in 0..60 {
                 let tolerance = format!("accuracy.tolerance={:e}", 0.4 * 0.8_f64.powi(k));
-                let now = fineness(&[set, &[tolerance.as_str()]].concat());
+                let now = mesh_rule(&[set, &[tolerance.as_str()]].concat());
                 assert!(now.across <= MOST + 1.0 && now.across >= FEWEST);
                 if let Some(before) = before {
                     assert!(now.across >= before.across && now.mass_scaling <= before.mass_scaling);
@@ -215,7 +214,7 @@ mod tests {
             assert!(before.unwrap().reached.is_some_and(|reached| reached < 2e-4));
         }
         let one = |key: &str, tolerance: f64| {
-            fineness(&[&format!("accuracy.tolerance.{key}={tolerance:e}")]).across
+            mesh_rule(&[&format!("accuracy.tolerance.{key}={tolerance:e}")]).across
         };
         let of_force = one("peak_force", 1e-3);
         assert!((one("peak_pressure", 3e-3) - of_force).abs() < 1e-9);
@@ -223,12 +222,12 @@ mod tests {
         assert!((one("restitution", 3e-4) - of_force).abs() < 1e-9);
     }
 
-    /// Where one body alone gives way nothing is left to stagger: the swing is that of a wall.
+    /// If one body alone is compliant, staggering has no effect: the swing is that of a wall.
     #[test]
     fn a_stiff_partner_leaves_the_swing() {
         let stiff = "material.stiff={ density=7800, youngs_modulus='63 TPa', poissons_ratio=0.3 }";
         let set = ["accuracy.tolerance='0.1 %'", stiff, "body.1.material='stiff'"];
-        let across = fineness(&[&set[..], &["effects.rigid_partner='off'"]].concat()).across;
+        let across = mesh_rule(&[&set[..], &["effects.rigid_partner='off'"]].concat()).across;
         assert!((13.9..14.2).contains(&across), "{across}");
     }
 }

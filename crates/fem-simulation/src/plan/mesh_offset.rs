@@ -1,4 +1,4 @@
-//! Staggered meshes: the nodes of one body lie between those of the other at the edge of the contact.
+//! Meshes offset by half an element: at the edge of the contact the nodes of one body lie between those of the other.
 //!
 //! The force that linear elements carry swings with the place of the contact's edge between two nodes, with
 //! the period of one element and by some (3/8)(h/a)² of it: a body is too stiff where the edge is at
@@ -14,10 +14,10 @@
 
 use fem_case::{Body, CondensedOptions, ModelChoice, Scene, Shape};
 
-/// Elements by which the meshes differ across the contact, to each side.
+/// Elements across the contact by which each mesh differs from the mean.
 const QUARTER: f64 = 0.25;
 
-/// The body with the smaller elements of a scene whose meshes are staggered.
+/// Returns the body with the smaller elements, if the meshes of the scene are staggered.
 pub(crate) fn finer_body(scene: &Scene) -> Option<usize> {
     // Elements that a case names stay as they are.
     let is_open = scene.mesh().contact_element_size.is_none();
@@ -25,8 +25,8 @@ pub(crate) fn finer_body(scene: &Scene) -> Option<usize> {
     if is_asked_for { smaller(scene) } else { None }
 }
 
-/// Of a scene that allows for it the smaller body, whose mesh has fewer rings, or the softer one of two of
-/// one size.
+/// Returns the smaller body, whose mesh has fewer rings, or the softer one of two of one size; `None` if the meshes cannot
+/// be staggered.
 fn smaller(scene: &Scene) -> Option<usize> {
     let between_points = match scene.model() {
         ModelChoice::Fem => true,
@@ -46,13 +46,13 @@ fn smaller(scene: &Scene) -> Option<usize> {
     }
 }
 
-/// Whether a body's mesh is made here.
+/// Returns whether the mesh of a body is made here.
 fn is_made_here(body: &Body) -> bool {
     matches!(body.shape(), Shape::Sphere { mesh: None, .. } | Shape::HalfSpace { .. })
 }
 
-/// Lengths of the elements of both bodies (m) about a length, one body's being the smaller, in a contact of
-/// this radius, m.
+/// Returns the element sizes of both bodies (m) about a mean size in a contact of this radius (m); those of `finer` are
+/// smaller.
 pub(crate) fn staggered(length: f64, contact_radius: f64, finer: usize) -> [f64; 2] {
     let across = contact_radius / length;
     [0, 1].map(|side| {
@@ -90,8 +90,8 @@ mod tests {
         }
     }
 
-    /// The smaller body, or the softer one of two of one size; whichever comes first. Not where there is one
-    /// mesh, where nodes touch exactly, or where elements are named.
+    /// The smaller body, or the softer one of two of one size, in any order; none with one mesh, with nodes that touch
+    /// exactly, or with a given element size.
     #[test]
     fn the_smaller_body_has_the_smaller_elements() {
         let swapped = ["body.0.sphere.diameter='1 cm'", "body.1.sphere.diameter='2 cm'"];
