@@ -105,15 +105,15 @@ FAULTS = [
     ("contour_levels", "fem-figure", "let candidates = [(1, power), (2, power), (5, power), (1, power + 1)];",
      "let candidates = [(1, power), (2, power), (4, power), (1, power + 1)];"),
     # Fits
-    ("cradle_angle", "fem-fit", "let e = (1.0 + ratio) * b / a - 1.0;", "let e = (1.0 + ratio) * b / a;"),
-    ("lammps_polynomial", "fem-fit", "2f64.sqrt() * polynomial(entered)", "polynomial(entered)"),
-    ("confidence_interval", "fem-fit", "true => (value * (-reach).exp(), value * reach.exp())",
+    ("cradle_angle", "fem-study", "let e = (1.0 + ratio) * b / a - 1.0;", "let e = (1.0 + ratio) * b / a;"),
+    ("lammps_polynomial", "fem-study", "2f64.sqrt() * polynomial(entered)", "polynomial(entered)"),
+    ("confidence_interval", "fem-study", "true => (value * (-reach).exp(), value * reach.exp())",
      "true => (value * (-reach).exp(), value)"),
     # A whole collision
-    ("summary_cost_unit", "fem:summary", "1e9 * spent.solve / updates as f64", "1e6 * spent.solve / updates as f64"),
+    ("summary_cost_unit", "fem-run:result_folder", "1e9 * spent.solve / updates as f64", "1e6 * spent.solve / updates as f64"),
     ("history_column", "fem-run:result_folder", '"contact_radius_m", "approach_m", "centre_pressure_pa"]',
      '"approach_m", "contact_radius_m", "centre_pressure_pa"]'),
-    ("contact_file_slip", "fem", "let slip = place.radial[1] - place.radial[0];",
+    ("contact_file_slip", "fem:contact_profile", "let slip = place.radial[1] - place.radial[0];",
      "let slip = place.radial[0] - place.radial[1];"),
     # The command
     ("exit_status_of_bad_input", "fem-run:bad_input", "BadInput = 2,", "BadInput = 3,"),

@@ -102,6 +102,9 @@ fn the_summary_has_the_keys_of_the_contract() {
         assert!((0.82..1.15).contains(&ratio), "{key}: {ratio}");
     }
     assert!((0.9..0.95).contains(&number(&summary["restitution"])));
+    let spent = &summary["cost"];
+    let expected = 1e9 * number(&spent["solve_s"]) / number(&summary["element_updates"]);
+    assert!((number(&spent["ns_per_element_update"]) / expected - 1.0).abs() < 1e-9);
 }
 
 #[test]
