@@ -63,8 +63,8 @@ impl Scene {
         let want =
             OutputRequest { snapshots: SnapshotRequest::Count(4), ..OutputRequest::history() };
         let collision = collide(&model, expected, &want, &mut ());
-        let text = format!("{collision:?}");
-        let digest = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
+        let bytes = postcard::to_allocvec(&collision)?;
+        let digest = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |digest, &byte| {
             (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
         let steps = collision.steps.unwrap_or_default();
