@@ -1,6 +1,6 @@
 //! The influence of finite strain on collisions, the plan's estimate of it, and its convergence with the mesh. Writes
 //! the tables of validation/finite_strain_tables.md and prints the numbers of the estimate,
-//! `fem-simulation/src/effects/finite_strain/measured.rs`.
+//! `fem-simulation/src/effects/material/finite_strain/measured.rs`.
 //!
 //! `cargo run --release -p fem-run --example finite_strain -- validation/finite_strain_tables.md`
 //!

@@ -12,29 +12,10 @@
 //! symmetry, too, transforms the scene, but has a way back to both bodies: methods with meshes call it
 //! themselves. [`EFFECTS`] lists them all, in the order in which results show them.
 
-mod answer;
-mod bulk_viscosity;
-mod contact_search;
-mod dashpot;
-mod doubt;
+mod bodies;
 mod effect;
-mod finite_size;
-mod finite_strain;
-mod gravity;
-mod hourglass_control;
-mod left_out;
-mod mass_scaling;
-mod mirror_symmetry;
-mod need;
-mod partner_waves;
-mod penalty_springs;
-mod plastic_yield;
-mod rigid_partner;
-mod speed;
-mod surface_slip;
-mod transformed;
-mod vibration;
-mod viscoelasticity;
+mod material;
+mod numerics;
 
 use fem_case::{ModelChoice, Scene, Switch};
 use fem_collision::Collision;
@@ -43,30 +24,19 @@ use serde::Serialize;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 
-pub use answer::Answer;
-pub use bulk_viscosity::BulkViscosity;
-pub use contact_search::ContactSearch;
-pub use dashpot::DashpotEffect;
-pub use doubt::{Doubt, Standing};
+pub use bodies::{FiniteSizeEffect, Gravity, PartnerWaves, RigidPartner, SurfaceSlip, Vibration};
 pub use effect::Effect;
-pub use finite_size::FiniteSizeEffect;
-pub use finite_strain::FiniteStrain;
-pub use gravity::Gravity;
-pub use hourglass_control::HourglassControl;
-pub use left_out::LeftOut;
-pub use mass_scaling::MassScaling;
-pub use mirror_symmetry::MirrorSymmetry;
-pub use need::{Need, percent};
-pub use partner_waves::PartnerWaves;
-pub use penalty_springs::PenaltySprings;
-pub use plastic_yield::PlasticYield;
-pub use rigid_partner::RigidPartner;
-pub use speed::QUASI_STATIC_LIMIT;
-pub use surface_slip::SurfaceSlip;
-pub(crate) use transformed::Computed;
-pub use transformed::Transformed;
-pub use vibration::Vibration;
-pub use viscoelasticity::Viscoelasticity;
+pub(crate) use effect::computed_scene::Computed;
+pub use effect::computed_scene::Transformed;
+pub use effect::model_form_error::{Doubt, Standing};
+pub use effect::neglect_error::LeftOut;
+pub use effect::relevance::{Need, QUASI_STATIC_LIMIT, percent};
+pub use effect::support::Answer;
+pub use material::{FiniteStrain, PlasticYield, Viscoelasticity};
+pub use numerics::{
+    BulkViscosity, ContactSearch, DashpotEffect, HourglassControl, MassScaling, MirrorSymmetry,
+    PenaltySprings,
+};
 
 /// All effects, in the order in which results show them.
 pub const EFFECTS: [&dyn Effect; 16] = [

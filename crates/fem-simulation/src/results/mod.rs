@@ -7,14 +7,8 @@ pub(crate) mod stress;
 pub(crate) mod warning_kinds;
 
 #[cfg(feature = "files")]
-mod contact;
+mod csv_files;
 mod energy;
-#[cfg(feature = "files")]
-mod history;
-#[cfg(feature = "files")]
-mod probes;
-#[cfg(feature = "files")]
-mod shown;
 #[cfg(feature = "files")]
 mod snapshots;
 mod summarise;
@@ -22,13 +16,11 @@ mod summary;
 
 pub use crate::error::ElasticNull;
 #[cfg(feature = "files")]
-pub use contact::{CONTACT_FILE, contact_csv, has_contact};
+pub use csv_files::{
+    CONTACT_FILE, HISTORY_FILE, PROBES_FILE, contact_csv, has_contact, history_csv, probes_csv,
+};
 pub(crate) use diagnostics::overlap_of_approach;
 pub use energy::{Accounts, Energy, energy_key};
-#[cfg(feature = "files")]
-pub use history::{HISTORY_FILE, history_csv};
-#[cfg(feature = "files")]
-pub use probes::{PROBES_FILE, probes_csv};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summarise::Spent;

@@ -6,12 +6,13 @@
 use std::path::Path;
 
 use fem_case::Field;
-use fem_collision::{Collision, Snapshot, StressRecovery, invariants};
+use fem_collision::{
+    Collision, Snapshot, SnapshotInstant, SnapshotRequest, StressRecovery, invariants,
+};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuGrid, VtuWriter, pad_vectors, write_collection};
 
-use super::shown::{Shown, shown};
 use crate::simulation::Simulation;
 
 /// The stress arrays, in the order of [`GridStress`]; readers show the first at first.
@@ -213,5 +214,45 @@ impl GridArrays {
             arrays.body_of_points.extend(mesh.nodes().iter().map(|_| side as i32));
         }
         arrays
+    }
+}
+
+/// Snapshots in the order of time, each with the label of its files.
+pub(super) struct Shown<'a> {
+    pub snapshots: Vec<(&'a Snapshot, &'static str)>,
+    /// What is left out, and why.
+    pub warnings: Vec<String>,
+}
+
+/// All but a last contact that was not the last, and a second one of the same instant: viewers draw two
+/// files of one time on top of each other.
+pub(super) fn shown<'a>(simulation: &Simulation, collision: &'a Collision) -> Shown<'a> {
+    let request = &simulation.want().snapshots;
+    let mut shown = Shown { snapshots: Vec::new(), warnings: Vec::new() };
+    for snapshot in &collision.snapshots {
+        let label = label(snapshot, request);
+        if snapshot.label == Some(SnapshotInstant::LastContact) && !collision.is_complete() {
+            let warning = format!("the run ended before the instant \"{label}\"; it is left out");
+            shown.warnings.push(warning);
+            continue;
+        }
+        if let Some((before, earlier)) = shown.snapshots.last()
+            && snapshot.time <= before.time
+        {
+            shown.warnings.push(format!(
+                "the snapshot \"{label}\" is of the same instant as \"{earlier}\"; it is left out"
+            ));
+            continue;
+        }
+        shown.snapshots.push((snapshot, label));
+    }
+    shown
+}
+
+fn label(snapshot: &Snapshot, request: &SnapshotRequest) -> &'static str {
+    match (snapshot.label, request) {
+        (Some(label), _) => label.name(),
+        (None, SnapshotRequest::Times(_)) => "time",
+        (None, _) => "even",
     }
 }

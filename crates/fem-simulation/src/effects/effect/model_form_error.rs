@@ -78,13 +78,13 @@ impl Doubt {
 
     /// With another size of one quantity.
     #[must_use]
-    pub(super) fn with(mut self, headline: QuantityOfInterest, size: f64) -> Self {
+    pub(in crate::effects) fn with(mut self, headline: QuantityOfInterest, size: f64) -> Self {
         self.0[headline as usize] = Some(size);
         self
     }
 
     /// Nothing in place of what is no number.
-    pub(super) fn checked(self) -> Self {
+    pub(in crate::effects) fn checked(self) -> Self {
         Self(self.0.map(|doubt| doubt.filter(|size| size.is_finite())))
     }
 

@@ -1,13 +1,20 @@
-//! What an effect is.
+//! The trait of an effect, and what it tells: relevance to a scene, support by a model, the error of
+//! neglecting it.
+
+pub(super) mod computed_scene;
+pub(super) mod model_form_error;
+pub(super) mod neglect_error;
+pub(super) mod relevance;
+pub(super) mod support;
 
 use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
-use super::answer::Answer;
-use super::doubt::{Doubt, Standing};
-use super::left_out::LeftOut;
-use super::need::Need;
-use super::transformed::Transformed;
+use self::computed_scene::Transformed;
+use self::model_form_error::{Doubt, Standing};
+use self::neglect_error::LeftOut;
+use self::relevance::Need;
+use self::support::Answer;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 

@@ -22,12 +22,12 @@
 use fem_case::{Body, ContactMethod, EffectsTable, Scene, Switch};
 use fem_material::Material;
 
-use super::doubt::{Doubt, Standing};
-use super::effect::Effect;
-use super::finite_strain::FiniteStrain;
-use super::left_out::LeftOut;
-use super::need::Need;
-use super::speed::{MACH_LIMIT, above, number};
+use crate::effects::effect::Effect;
+use crate::effects::effect::model_form_error::{Doubt, Standing};
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::Need;
+use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
+use crate::effects::material::finite_strain::FiniteStrain;
 use crate::estimate::Estimate;
 use crate::plan::contact_method::asked_for;
 

@@ -14,10 +14,10 @@ use fem_case::{Body, EffectsTable, ModelChoice, Scene, Shape, Switch};
 use fem_laws::{RelativeError, SlipSurface, SurfaceSlip as Slip};
 use fem_material::Material;
 
-use super::doubt::{Doubt, Standing};
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::{Need, percent};
+use crate::effects::effect::Effect;
+use crate::effects::effect::model_form_error::{Doubt, Standing};
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::{Need, percent};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
 

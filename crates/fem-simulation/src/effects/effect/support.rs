@@ -2,7 +2,7 @@
 
 use fem_case::Switch;
 
-use super::need::Need;
+use crate::effects::effect::relevance::Need;
 
 /// What a model has of an effect.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,12 +46,16 @@ impl Answer {
     }
 
     /// Whether the case's switch decides.
-    pub(super) fn obeys(&self) -> bool {
+    pub(in crate::effects) fn obeys(&self) -> bool {
         matches!(self, Self::Computes { .. })
     }
 
     /// Whether the effect is on, why, and what the user should know.
-    pub(super) fn of(self, need: Need, switch: Option<Switch>) -> (bool, String, Vec<String>) {
+    pub(in crate::effects) fn of(
+        self,
+        need: Need,
+        switch: Option<Switch>,
+    ) -> (bool, String, Vec<String>) {
         let Need { is_called_for, number, otherwise, left_open, warning } = need;
         let none = Vec::new;
         match self {

@@ -9,9 +9,9 @@ use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::{Need, percent};
+use crate::effects::effect::Effect;
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::{Need, percent};
 use crate::estimate::Estimate;
 
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do

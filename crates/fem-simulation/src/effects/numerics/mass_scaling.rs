@@ -10,9 +10,9 @@ use fem_case::{Body, Scene};
 use fem_collision::Collision;
 use fem_material::{Material, PronySeries};
 
-use super::answer::Answer;
-use super::effect::Effect;
-use super::need::percent;
+use crate::effects::effect::Effect;
+use crate::effects::effect::relevance::percent;
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 
 /// Moved mass over the lighter body's mass: of 1 % the peak force is off by up to half of that.

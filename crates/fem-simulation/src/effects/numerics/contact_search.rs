@@ -4,9 +4,9 @@ use fem_case::Scene;
 use fem_case::engineering::show;
 use fem_collision::{CandidateRegion, Collision};
 
-use super::answer::Answer;
-use super::effect::Effect;
-use super::left_out::LeftOut;
+use crate::effects::effect::Effect;
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 
 /// Where contact is looked for.

@@ -9,12 +9,12 @@
 use fem_case::engineering;
 use fem_case::{Body, EffectsTable, Scene, Switch};
 
-use super::answer::Answer;
-use super::doubt::{Doubt, Standing};
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::Need;
-use super::transformed::Transformed;
+use crate::effects::effect::Effect;
+use crate::effects::effect::computed_scene::Transformed;
+use crate::effects::effect::model_form_error::{Doubt, Standing};
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::Need;
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 

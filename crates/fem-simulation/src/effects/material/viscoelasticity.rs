@@ -8,11 +8,11 @@ use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
-use super::answer::Answer;
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::{Need, percent};
-use super::transformed::Transformed;
+use crate::effects::effect::Effect;
+use crate::effects::effect::computed_scene::Transformed;
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::{Need, percent};
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};
 use crate::refusal::Refusal;

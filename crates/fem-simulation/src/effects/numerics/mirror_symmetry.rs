@@ -13,10 +13,10 @@
 
 use fem_case::{EffectsTable, Scene, Switch};
 
-use super::answer::Answer;
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::Need;
+use crate::effects::effect::Effect;
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::Need;
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 

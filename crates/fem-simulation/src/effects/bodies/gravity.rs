@@ -15,9 +15,9 @@
 use fem_case::Scene;
 use fem_case::engineering::number;
 
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::Need;
+use crate::effects::effect::Effect;
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::Need;
 use crate::estimate::Estimate;
 
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.

@@ -10,17 +10,18 @@ use fem_case::{Body, EffectsTable, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Ting, radiated_share};
 use fem_material::Material;
 
-use super::answer::Answer;
-use super::doubt::{Doubt, Standing};
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::{Need, percent};
-use super::transformed::Computed;
-use super::vibration::ENOUGH_MODES;
+use crate::effects::effect::Effect;
+use crate::effects::effect::computed_scene::Computed;
+use crate::effects::effect::model_form_error::{Doubt, Standing};
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::{Need, percent};
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{Softened, left_at};
 use crate::estimate::ting_prediction::Expected;
 
+/// Modes that bring it back.
+pub(in crate::effects) const ENOUGH_MODES: usize = 12;
 /// Above this T c_s/D waves come back in time and give back what they took.
 const RETURN_LIMIT: f64 = 2.0;
 /// Below this T c_s/D nothing comes back in time: pressure waves, the first, take c_s/c_p of twice the
@@ -55,7 +56,7 @@ impl PartnerWaves {
     pub const NAME: &'static str = "partner waves";
 
     /// A scene with the case's switch in another place.
-    pub(super) fn switched(scene: &Scene, partner_waves: Option<Switch>) -> Scene {
+    pub(in crate::effects) fn switched(scene: &Scene, partner_waves: Option<Switch>) -> Scene {
         scene.clone().with_effects(EffectsTable { partner_waves, ..*scene.effects() })
     }
 
@@ -109,7 +110,7 @@ impl PartnerWaves {
 
     /// Restitution that waves take which come back within the contact, but not in its time: of elastic bodies, in
     /// whose vibrations it stays.
-    pub(super) fn left_ringing(scene: &Scene, estimate: &Estimate) -> f64 {
+    pub(in crate::effects) fn left_ringing(scene: &Scene, estimate: &Estimate) -> f64 {
         lost(taken(&crossed(scene, estimate), estimate, |passage| passage >= RETURN_LIMIT))
     }
 

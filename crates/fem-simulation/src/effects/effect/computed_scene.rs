@@ -2,8 +2,8 @@
 
 use fem_case::Scene;
 
-use super::EFFECTS;
-use super::answer::Answer;
+use crate::effects::EFFECTS;
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 

@@ -32,12 +32,12 @@ use fem_material::finite::HyperelasticLaw;
 
 use self::departure::Departure;
 use self::strained::Strained;
-use super::answer::Answer;
-use super::doubt::{Doubt, Standing};
-use super::effect::Effect;
-use super::left_out::LeftOut;
-use super::need::{Need, percent};
-use super::partner_waves::PartnerWaves;
+use crate::effects::bodies::partner_waves::PartnerWaves;
+use crate::effects::effect::Effect;
+use crate::effects::effect::model_form_error::{Doubt, Standing};
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::{Need, percent};
+use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 use crate::estimate::ting_prediction::Expected;
 use crate::refusal::Refusal;
@@ -196,7 +196,7 @@ fn with_relaxation(scene: &Scene, estimate: &Estimate, change: Departure) -> Dep
 }
 
 /// What relaxation takes of the restitution at small strain.
-pub(super) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
+pub(in crate::effects) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
     let mut materials = scene.bodies().iter().filter_map(Body::material);
     if !materials.any(|material| material.relaxation().is_some()) {
         return 0.0;

@@ -6,8 +6,8 @@ use fem_case::engineering::{Unit, number};
 use fem_case::{ModelChoice, Scene, Switch};
 use serde::Serialize;
 
-use super::partner_waves::PartnerWaves;
-use super::transformed::Computed;
+use crate::effects::bodies::partner_waves::PartnerWaves;
+use crate::effects::effect::computed_scene::Computed;
 use crate::estimate::Estimate;
 use crate::estimate::ting_prediction::Expected;
 

@@ -3,14 +3,14 @@
 use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
 
-use super::answer::Answer;
-use super::doubt::{Doubt, Standing};
-use super::effect::Effect;
-use super::finite_strain::relaxed_loss;
-use super::left_out::LeftOut;
-use super::need::percent;
-use super::transformed::Computed;
-use super::vibration::Vibration;
+use crate::effects::bodies::vibration::Vibration;
+use crate::effects::effect::Effect;
+use crate::effects::effect::computed_scene::Computed;
+use crate::effects::effect::model_form_error::{Doubt, Standing};
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::percent;
+use crate::effects::effect::support::Answer;
+use crate::effects::material::finite_strain::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::estimate::ting_prediction::Expected;
 

@@ -6,18 +6,16 @@
 use fem_case::{Body, Scene};
 use fem_collision::Collision;
 
-use super::answer::Answer;
-use super::effect::Effect;
-use super::finite_strain::relaxed_loss;
-use super::left_out::LeftOut;
-use super::need::{Need, percent};
-use super::partner_waves::PartnerWaves;
-use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
+use crate::effects::bodies::partner_waves::{ENOUGH_MODES, PartnerWaves};
+use crate::effects::effect::Effect;
+use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
+use crate::effects::effect::relevance::{Need, percent};
+use crate::effects::effect::support::Answer;
+use crate::effects::material::finite_strain::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
 
-/// Modes that bring it back.
-pub(super) const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
 const LARGEST_VIBRATION: f64 = 0.01;
 

@@ -1,0 +1,169 @@
+//! The CSV files of a result: the history, the contact at each snapshot, the probes.
+
+use std::io::{self, Write};
+
+use fem_case::Scene;
+use fem_collision::{Account, Collision, ContactProfile, HistoryRow, ProbeRequest, Snapshot};
+
+use super::energy::{energy_key, in_history};
+use super::snapshots::shown;
+use crate::simulation::Simulation;
+
+/// The file name of the history.
+pub const HISTORY_FILE: &str = "history.csv";
+
+/// Writes a history, a row an instant; accounts of effects that are on come last. Numbers are the
+/// shortest that read back as the same, what the model does not know is blank.
+///
+/// # Errors
+/// `to` cannot be written to.
+pub fn history_csv(mut to: impl Write, scene: &Scene, rows: &[HistoryRow]) -> io::Result<()> {
+    let velocities = scene.bodies().each_ref().map(|body| format!("velocity_{}_m_s", body.name()));
+    let books = rows.iter().map(|row| &row.energies);
+    let [energies, of_effects] = in_history(books, Account::shown);
+    let [keys, of_effects_keys] = [&energies, &of_effects]
+        .map(|those| those.iter().map(|account| energy_key(*account)).collect::<Vec<_>>());
+    let first =
+        ["time_s", "contact_force_n", "contact_radius_m", "approach_m", "centre_pressure_pa"];
+    let names = velocities.iter().chain(&keys).map(String::as_str);
+    let last = of_effects_keys.iter().map(String::as_str);
+    let header: Vec<&str> =
+        first.into_iter().chain(names).chain(["residual_j"]).chain(last).collect();
+    writeln!(to, "{}", header.join(","))?;
+    let mut line = Line::default();
+    for row in rows {
+        line.number(row.time);
+        line.number(row.contact_force);
+        line.known(row.contact_radius);
+        line.number(row.approach);
+        line.known(row.centre_pressure);
+        row.velocity.iter().for_each(|velocity| line.number(*velocity));
+        energies.iter().for_each(|account| line.known(row.energy(*account)));
+        line.known(row.residual);
+        of_effects.iter().for_each(|account| line.known(row.energy(*account)));
+        to.write_all(line.ended())?;
+        line.text.clear();
+    }
+    to.flush()
+}
+
+/// A line of numbers, which need no quotes: what writes any text takes as long for it as for the digits.
+#[derive(Default)]
+struct Line {
+    /// A comma after each.
+    text: Vec<u8>,
+}
+
+impl Line {
+    fn number(&mut self, number: f64) {
+        self.text.extend_from_slice(ryu::Buffer::new().format(number).as_bytes());
+        self.text.push(b',');
+    }
+
+    fn known(&mut self, number: Option<f64>) {
+        match number {
+            Some(number) => self.number(number),
+            None => self.text.push(b','),
+        }
+    }
+
+    fn ended(&mut self) -> &[u8] {
+        if let Some(last) = self.text.last_mut() {
+            *last = b'\n';
+        }
+        &self.text
+    }
+}
+
+/// The file name of the contact at each snapshot.
+pub const CONTACT_FILE: &str = "contact.csv";
+/// How far from the axis rows go, over the contact radius, and how many nodes beyond it at least.
+const REACH: f64 = 1.2;
+const NODES_BEYOND: usize = 3;
+
+/// Whether there is a contact to be written: only of models with snapshots.
+pub fn has_contact(collision: &Collision) -> bool {
+    collision.snapshots.iter().any(|snapshot| !snapshot.contact.places.is_empty())
+}
+
+/// Writes the contact of each snapshot from the axis outward: a row a node of the coarser surface out to 1.2
+/// contact radii and three nodes beyond the contact at least, a row where the contact ends, and rows between that
+/// make the pressure's integral the contact force. Pressure, gap (< 0 by what springs overlap), radial displacement
+/// of both bodies, slip of the surfaces on each other (upper less lower), and whether the row is a node's.
+/// Of surfaces that do not touch the nodes around the axis are all.
+///
+/// # Errors
+/// `to` cannot be written to.
+pub fn contact_csv(
+    to: impl Write,
+    simulation: &Simulation,
+    collision: &Collision,
+) -> csv::Result<()> {
+    let mut file = csv::Writer::from_writer(to);
+    let bodies = simulation.case().scene().bodies();
+    let radial = bodies.each_ref().map(|body| format!("u_r_{}_m", body.name()));
+    let first = ["time_s", "label", "r_m", "pressure_pa", "gap_m"];
+    let names = first.into_iter().chain(radial.iter().map(String::as_str));
+    file.write_record(names.chain(["slip_m", "is_node"]))?;
+    for (snapshot, label) in shown(simulation, collision).snapshots {
+        let contact = &snapshot.contact;
+        for place in &contact.places[..n_shown(contact)] {
+            let numbers = (place.radius, place.pressure, place.gap, place.radial);
+            let slip = place.radial[1] - place.radial[0];
+            file.serialize((snapshot.time, label, numbers, slip, u8::from(place.is_node)))?;
+        }
+    }
+    Ok(file.flush()?)
+}
+
+/// How many places of a contact have a row.
+fn n_shown(contact: &ContactProfile) -> usize {
+    let near = contact.places.partition_point(|place| place.radius <= REACH * contact.radius);
+    let beyond = contact
+        .places
+        .iter()
+        .enumerate()
+        .filter(|(_, place)| place.is_node && place.radius > contact.radius);
+    let last = beyond.take(NODES_BEYOND).last();
+    near.max(last.map_or(0, |(k, _)| k + 1))
+}
+
+/// The file name of the probes.
+pub const PROBES_FILE: &str = "probes.csv";
+
+/// What is told of a place, with its unit: displacement since the start of the case, velocity, Cauchy
+/// stress, tension positive.
+const QUANTITIES: [&str; 8] = [
+    "u_r_m",
+    "u_y_m",
+    "v_r_m_s",
+    "v_y_m_s",
+    "sigma_rr_pa",
+    "sigma_yy_pa",
+    "sigma_tt_pa",
+    "sigma_ry_pa",
+];
+
+/// Writes what probes saw, a row an instant, eight columns a probe. Numbers are the shortest that read
+/// back as the same.
+///
+/// # Errors
+/// `to` cannot be written to.
+pub fn probes_csv(to: impl Write, probes: &[ProbeRequest], seen: &[Snapshot]) -> csv::Result<()> {
+    let mut file = csv::Writer::from_writer(to);
+    let columns =
+        (0..probes.len()).flat_map(|k| QUANTITIES.map(|quantity| format!("probe_{k}_{quantity}")));
+    file.write_record(["time_s".to_string()].into_iter().chain(columns))?;
+    for one in seen {
+        let displacements = [0, 1].map(|side| one.displacement(side));
+        let of_probe = |(k, probe): (usize, &ProbeRequest)| {
+            let fields = &one.bodies[probe.side];
+            let ([u_r, u_y], [v_r, v_y]) = (displacements[probe.side][k], fields.velocity[k]);
+            let [rr, yy, tt, ry] = fields.stress[k];
+            [u_r, u_y, v_r, v_y, rr, yy, tt, ry]
+        };
+        let numbers: Vec<f64> = probes.iter().enumerate().flat_map(of_probe).collect();
+        file.serialize((one.time, numbers))?;
+    }
+    Ok(file.flush()?)
+}
