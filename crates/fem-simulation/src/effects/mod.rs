@@ -58,36 +58,36 @@ pub const EFFECTS: [&dyn Effect; 16] = [
     &MassScaling,
 ];
 
-/// Whether an effect is on, and why.
+/// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Verdict {
-    /// What the effect is called.
+    /// The effect's name.
     pub name: &'static str,
     /// Whether the run computes it.
     pub active: bool,
-    /// The number that decided.
+    /// The deciding number, as text.
     pub reason: String,
-    /// Whether the run lacks what it is: it is off in a model that could leave it out.
+    /// Whether the run lacks the effect: it is off in a model that could leave it out.
     #[serde(skip)]
     pub is_lacking: bool,
 }
 
-/// What was decided on all effects of a model.
+/// The decisions on all effects of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Decisions {
-    /// Of the effects that the model has an answer to, in the order of [`EFFECTS`].
+    /// Decisions on the effects that the model answers for, in the order of [`EFFECTS`].
     pub verdicts: Vec<Verdict>,
-    /// What the user should know of them, in the same order.
+    /// Warnings, in the same order.
     pub warnings: Vec<String>,
 }
 
 impl Decisions {
-    /// Whether an effect of this name is on.
+    /// Returns whether the effect of this name is on.
     pub(crate) fn is_active(&self, name: &str) -> bool {
         self.verdicts.iter().any(|verdict| verdict.name == name && verdict.active)
     }
 
-    /// Puts what a collision tells of effects better in place of what was decided before.
+    /// Replaces decisions by what the finished collision shows.
     pub(crate) fn take_what_was_found(&mut self, scene: &Scene, collision: &Collision) {
         for verdict in &mut self.verdicts {
             let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name);
@@ -99,7 +99,7 @@ impl Decisions {
     }
 }
 
-/// Decides on all effects of a scene, of which a model `has` an answer to some.
+/// Decides on all effects of a scene. `has` returns the model's answer for an effect, if it has one.
 ///
 /// # Errors
 /// An effect that the case forces on and the model lacks, or forces off and the model cannot leave out.

@@ -18,10 +18,6 @@ use crate::estimate::ting_prediction::Expected;
 /// finite size is within 0.02 % of finite elements at a/R* = 0.05.
 const SECOND_ORDER: f64 = 0.1;
 
-/// By how much the peak pressure differs from that of half-spaces with the same force, over (1 − 2ν) a/R*, at most: surfaces
-/// that are inclined to each other press each other sideways, too, which half-spaces answer with the displacement
-/// (1 − 2ν)/2G of their tractions (Johnson, *Contact Mechanics*, §3.6 (c)); Hertz has none of it. Explicit elements have 0.15
-/// of it at ν = −0.26, 0.13 at −0.08 and 0.09 at 0.12, and less than their own error at 0.25 to 0.48.
 const PRESSURE: f64 = 0.15;
 
 /// The spheres' own compliance.
@@ -37,10 +33,11 @@ const LARGEST_SHARE: f64 = 0.1;
 const LARGEST_KNOWN: f64 = 0.25;
 
 impl FiniteSizeEffect {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "finite size";
 
-    /// What a model has of it that adds it to first order, or does not, and why.
+    /// Returns the answer of a model that includes the first order of the effect, or does not, with the
+    /// reason.
     pub(crate) fn of_first_order(
         scene: &Scene,
         estimate: &Estimate,
@@ -73,7 +70,7 @@ impl FiniteSizeEffect {
         Some(LeftOut { restitution, ..LeftOut::shares(estimate, change, change) })
     }
 
-    /// By how much the pressure of half-spaces is off at most, as a share.
+    /// Returns the largest relative error of the half-space pressure.
     fn of_pressure(scene: &Scene, estimate: &Estimate) -> f64 {
         let materials = scene.bodies().iter().filter_map(Body::material);
         let sideways =
@@ -81,7 +78,7 @@ impl FiniteSizeEffect {
         PRESSURE * sideways.fold(0.0, f64::max) * estimate.strain
     }
 
-    /// What the spheres' own compliance adds to Hertz' approach, over it, with the moduli that the contact meets.
+    /// Returns the share of the spheres' own compliance in Hertz' approach, with the effective moduli.
     fn share(scene: &Scene, estimate: &Estimate) -> Option<f64> {
         let hertz = &estimate.softened.hertz;
         let size = estimate.softened.twin(scene).finite_size().ok()?;

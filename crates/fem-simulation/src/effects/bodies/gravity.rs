@@ -31,7 +31,7 @@ const NEGLIGIBLE: f64 = 1e-6;
 pub struct Gravity;
 
 impl Gravity {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "gravity";
 }
 
@@ -58,7 +58,7 @@ impl Effect for Gravity {
         Some(Need { is_called_for: true, number, ..Need::default() })
     }
 
-    /// In the first contact; without gravity there is no other.
+    /// Applies to the first contact; without gravity there is no other.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         let acceleration = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
         let hertz = &estimate.hertz;

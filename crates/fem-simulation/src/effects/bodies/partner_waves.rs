@@ -20,7 +20,7 @@ use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{Softened, left_at};
 use crate::estimate::ting_prediction::Expected;
 
-/// Modes that bring it back.
+/// Number of modes that return the wave energy.
 pub(in crate::effects) const ENOUGH_MODES: usize = 12;
 /// Above this T c_s/D waves come back in time and give back what they took.
 const RETURN_LIMIT: f64 = 2.0;
@@ -33,10 +33,10 @@ const RADIATION_LIMIT: f64 = 1.0;
 const RESOLVED_BY_MODES: f64 = 0.8;
 /// Share of the loss that a radiating body's own motion may be where it moves at once.
 const OWN_MOTION: f64 = 0.1;
-/// Restitution that waves take and that is worth a warning.
+/// Loss of restitution by waves that is worth a warning.
 const SMALL_LOSS: f64 = 1e-4;
 
-/// What a term for waves that do not come back is off by, over what they take, of elastic bodies.
+/// Relative error of a radiation term for elastic bodies.
 const RADIATION_ERROR: f64 = 0.15;
 /// Terms are smoothed over some of the times that waves take across the contact, for the stiffness that bodies have
 /// at once: of those that relax to the share κ of it they take too little by this times the share of the energy
@@ -47,15 +47,15 @@ const SMOOTHED: f64 = 2.0;
 /// own material at a/R* = 0.7.
 const SHARE_OF_LOSS: f64 = 0.2;
 
-/// Waves in a large partner.
+/// Waves radiated into a large partner.
 #[derive(Clone, Copy, Debug)]
 pub struct PartnerWaves;
 
 impl PartnerWaves {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "partner waves";
 
-    /// A scene with the case's switch in another place.
+    /// Returns the scene with another setting of the switch.
     pub(in crate::effects) fn switched(scene: &Scene, partner_waves: Option<Switch>) -> Scene {
         scene.clone().with_effects(EffectsTable { partner_waves, ..*scene.effects() })
     }
@@ -114,13 +114,13 @@ impl PartnerWaves {
         lost(taken(&crossed(scene, estimate), estimate, |passage| passage >= RETURN_LIMIT))
     }
 
-    /// What a term for them is off by, over what they take.
+    /// Returns the relative error of the radiation term.
     pub(crate) fn error_of_term(scene: &Scene, estimate: &Estimate) -> f64 {
         let missing = missing_of_term(&crossed(scene, estimate), estimate);
         RADIATION_ERROR + missing / (1.0 + missing)
     }
 
-    /// What a model has of it whose term has these bodies radiate.
+    /// Returns the answer of a model whose radiation term includes these bodies.
     pub(crate) fn of_term(
         scene: &Scene,
         estimate: &Estimate,
@@ -134,7 +134,8 @@ impl PartnerWaves {
         }
     }
 
-    /// What condensed bodies have of it: the term, or modes of vibration that resolve the waves.
+    /// Returns the answer of condensed bodies: the radiation term, or vibration modes that resolve the
+    /// waves.
     pub(crate) fn of_condensed(scene: &Scene, estimate: &Estimate) -> Answer {
         let mut crossed = crossed(scene, estimate).into_iter().flatten();
         let are_resolved = crossed.all(|body| body.passage >= RESOLVED_BY_MODES);
@@ -145,7 +146,7 @@ impl PartnerWaves {
     }
 }
 
-/// Modes of vibration of each body that a case asks condensed bodies for.
+/// Returns the number of vibration modes per body that a case asks condensed bodies for.
 fn n_modes(scene: &Scene) -> usize {
     match scene.model() {
         ModelChoice::Condensed(options) => options.vibration_modes,
@@ -153,7 +154,7 @@ fn n_modes(scene: &Scene) -> usize {
     }
 }
 
-/// The materials of bodies with a T c_s/D below a limit.
+/// Returns the materials of bodies with T c_s/D below a limit.
 fn large(crossed: [Option<Crossed>; 2], limit: f64) -> [Option<Material>; 2] {
     crossed.map(|body| body.filter(|body| body.passage < limit).map(|body| body.material))
 }
@@ -227,7 +228,7 @@ impl Effect for PartnerWaves {
         (share > 0.0).then(|| LeftOut::restitution(lost(share)))
     }
 
-    /// A term for them is off by a share of them; a mesh has them.
+    /// The radiation term has a relative error; a mesh resolves the waves.
     fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
         let &Standing { is_lacking, left_out } = standing;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
@@ -267,7 +268,8 @@ fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2
     })
 }
 
-/// What a term of such bodies takes too little, over what it takes; nothing of elastic ones. See [`SMOOTHED`].
+/// Returns the relative error of the radiation term of relaxing bodies, zero for elastic ones. See
+/// [`SMOOTHED`].
 fn missing_of_term(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
     let modulus = |hertz: &HertzImpact| hertz.pair().contact_modulus();
     let kept = modulus(&estimate.softened.hertz) / modulus(&estimate.hertz);
@@ -296,7 +298,7 @@ fn kept(passage: f64) -> f64 {
     passage.max(RADIATION_LIMIT).powi(-3)
 }
 
-/// Restitution that a share of the energy is worth.
+/// Returns the loss of restitution that belongs to a share of the energy.
 fn lost(share: f64) -> f64 {
     1.0 - (1.0 - share).max(0.0).sqrt()
 }

@@ -1,5 +1,5 @@
-//! A body that hardly gives way next to the other one is a rigid one of its own mass and curvature: one
-//! degree of freedom in place of its elements. A transformation of the scene.
+//! A body that is much stiffer than its partner is taken as rigid, with its own mass and curvature: one
+//! degree of freedom in place of its elements.
 //!
 //! Decided by the body's share s of the contact's compliance, s = k/(k₁+k₂), k = (1 − ν²)/E. Leaving it out
 //! makes the contact modulus larger by 1/(1 − s), and what that changes of elastic bodies Hertz' powers say
@@ -26,7 +26,7 @@ const RIGID_SHARE: f64 = 1e-4;
 pub struct RigidPartner;
 
 impl RigidPartner {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "rigid partner";
 }
 
@@ -91,7 +91,7 @@ impl Effect for RigidPartner {
     }
 }
 
-/// What taking the stiffer body as rigid changes.
+/// Returns the error of taking the stiffer body as rigid.
 fn change(scene: &Scene, estimate: &Estimate) -> LeftOut {
     let [rigid, whole] = [Some(Switch::On), Some(Switch::Off)].map(|rigid_partner| {
         let effects = EffectsTable { rigid_partner, ..*scene.effects() };
@@ -105,7 +105,7 @@ fn refused(message: &str) -> Refusal {
         .with_help("write \"auto\" or \"off\", or leave it out")
 }
 
-/// The body that gives way less.
+/// Returns the index of the stiffer body.
 struct Stiffer<'a> {
     body: &'a Body,
     side: usize,
@@ -130,7 +130,7 @@ impl Stiffer<'_> {
         self.share <= RIGID_SHARE
     }
 
-    /// The number that decides, in words.
+    /// Returns the deciding number, as text.
     fn number(&self) -> String {
         format!("{} has {} of the compliance", self.body.name(), engineering::number(self.share, 2))
     }

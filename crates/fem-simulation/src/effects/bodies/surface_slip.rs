@@ -29,15 +29,15 @@ const NEXT_ORDER: f64 = 2.0;
 /// Change of the contact time that is worth a warning where it is left out.
 const SMALL_SHARE: f64 = 1e-3;
 
-/// Surfaces that slip on each other.
+/// Tangential slip between the surfaces of unlike materials.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceSlip;
 
 impl SurfaceSlip {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "surface slip";
 
-    /// Whether a model that has it computes it, at whatever speed.
+    /// Returns whether a model that supports it computes it, at any speed.
     pub(crate) fn is_on(scene: &Scene) -> bool {
         match scene.effects().surface_slip {
             Some(Switch::On) => !has_wall(scene),
@@ -46,7 +46,7 @@ impl SurfaceSlip {
         }
     }
 
-    /// A scene with the case's switch in another place.
+    /// Returns the scene with another setting of the switch.
     pub(crate) fn switched(scene: &Scene, switch: Switch) -> Scene {
         let surface_slip = Some(switch);
         scene.clone().with_effects(EffectsTable { surface_slip, ..*scene.effects() })
@@ -85,7 +85,7 @@ impl Effect for SurfaceSlip {
         })
     }
 
-    /// Between Ting's impacts with and without; nothing between like bodies.
+    /// Difference between Ting's impacts with and without slip; zero between like bodies.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         if !is_called_for(scene) {
             return Some(LeftOut::NOTHING);
@@ -94,7 +94,7 @@ impl Effect for SurfaceSlip {
         Some(LeftOut::between(&with, &without, estimate.hertz.approach_speed()))
     }
 
-    /// Where it is a spring in series, the next order of it; elements have it whole.
+    /// The next order of the series spring is neglected; elements compute the slip fully.
     fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
         let share = match (standing.is_lacking, scene.model()) {
             (true, _) => 1.0,
@@ -130,7 +130,7 @@ fn is_called_for(scene: &Scene) -> bool {
     differs || first != second
 }
 
-/// The larger change of the instantaneous moduli and of what is left of them after the contact.
+/// Returns the larger of the changes with the instantaneous and with the relaxed moduli.
 fn change(scene: &Scene, estimate: &Estimate) -> RelativeError {
     let slip = largest(scene, estimate);
     let change = slip.change(estimate.contact_radius);
@@ -138,7 +138,7 @@ fn change(scene: &Scene, estimate: &Estimate) -> RelativeError {
     if is_number { change } else { RelativeError::default() }
 }
 
-/// κβ of the same moduli, 1/m.
+/// Returns κβ of the same moduli, in 1/m.
 fn mismatch(scene: &Scene, estimate: &Estimate) -> f64 {
     let mismatch = largest(scene, estimate).mismatch();
     if mismatch.is_finite() { mismatch } else { 0.0 }

@@ -43,7 +43,7 @@ const RINGING_WEAKENING: f64 = 0.25;
 pub struct Vibration;
 
 impl Vibration {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "vibration";
 }
 
@@ -99,8 +99,8 @@ impl Effect for Vibration {
 }
 
 impl Vibration {
-    /// What a model has of it with these numbers of modes, those asked for and those of each sphere
-    /// by its name: where they are few it lacks inertia, and shocks in any case.
+    /// Returns the answer of a model with these numbers of modes, asked for and per sphere by name. With
+    /// few modes it lacks inertia; shocks it always lacks.
     pub(crate) fn of_modes(
         estimate: &Estimate,
         n_asked: usize,
@@ -124,7 +124,7 @@ impl Vibration {
         Answer::is(n_asked > 0, reason).warning(warnings)
     }
 
-    /// What such a model leaves open because of the speed.
+    /// Returns what such a model leaves open because of the speed.
     pub(crate) fn doubts_of_speed(estimate: &Estimate, n_asked: usize) -> Vec<String> {
         let mut warnings = Vec::new();
         // Modes help only where nothing forms that they do not carry.
@@ -182,7 +182,7 @@ impl Vibration {
             .then_some("bulk waves are too slow for few modes")
     }
 
-    /// What a model of rigid bodies with one degree of freedom has of it.
+    /// Returns the answer of a model of rigid bodies with one degree of freedom.
     pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Answer {
         let warning = (estimate.softened_mach > MACH_LIMIT).then(|| {
             format!(

@@ -1,4 +1,4 @@
-//! Effects that act on the scene: the model is made of what they leave of it.
+//! Effects that transform the scene before the model is built.
 
 use fem_case::Scene;
 
@@ -7,26 +7,26 @@ use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 
-/// A scene as an effect has it computed.
+/// A scene transformed by one effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transformed {
-    /// What is computed.
+    /// The transformed scene.
     pub scene: Scene,
-    /// What the effect has of it: [`Answer::Is`].
+    /// The effect's answer, [`Answer::Is`].
     pub answer: Answer,
 }
 
-/// A scene as all effects have it computed, and which of them say what of it.
+/// A scene transformed by all effects, with their answers.
 #[derive(Clone, Debug)]
 pub(crate) struct Computed {
-    /// What is computed.
+    /// The transformed scene.
     pub scene: Scene,
-    /// Names and answers of the effects that changed the scene; none where it is as it was.
+    /// Names and answers of the effects that changed the scene; empty if none did.
     pub answers: Vec<(&'static str, Answer)>,
 }
 
 impl Computed {
-    /// Of a scene as it is given.
+    /// Transforms a given scene.
     ///
     /// # Errors
     /// A switch that the scene's bodies do not allow; a scene whose closed-form estimates are not
@@ -42,13 +42,13 @@ impl Computed {
         Ok(computed)
     }
 
-    /// The scene alone, for closed forms; none where a switch does not allow it.
+    /// Returns the transformed scene for closed forms, or `None` if a switch is not possible.
     pub fn quiet(given: &Scene) -> Option<Scene> {
         let estimate = Estimate::checked(given).ok()?;
         Self::without_warnings(given, &estimate).ok().map(|computed| computed.scene)
     }
 
-    /// As [`Computed::of`], and nobody is warned of what is switched off.
+    /// Transforms a scene without warnings about forced switches.
     fn without_warnings(given: &Scene, estimate: &Estimate) -> Result<Self, Refusal> {
         let mut computed = Self { scene: given.clone(), answers: Vec::new() };
         for effect in EFFECTS {

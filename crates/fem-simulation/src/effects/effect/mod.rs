@@ -1,5 +1,5 @@
-//! The trait of an effect, and what it tells: relevance to a scene, support by a model, the error of
-//! neglecting it.
+//! The trait of an effect: its relevance to a scene, a model's support for it, and the error of neglecting
+//! it.
 
 pub(super) mod computed_scene;
 pub(super) mod model_form_error;
@@ -18,23 +18,23 @@ use self::support::Answer;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 
-/// Something that a collision may show, or that a computation may need.
+/// A physical or numerical effect that a collision may show or a computation may need.
 pub trait Effect: Sync {
-    /// What it is called in results.
+    /// Returns the effect's name in results.
     fn name(&self) -> &'static str;
 
-    /// What the case says of it, if it is one that `[effects]` switches.
+    /// Returns the case's switch for it, if `[effects]` has one.
     fn switch(&self, _: &EffectsTable) -> Option<Switch> {
         None
     }
 
-    /// Whether a scene calls for it. `None` of one that only the built model can tell.
+    /// Returns whether the scene calls for the effect, or `None` if only the built model can decide.
     fn need(&self, _: &Scene, _: &Estimate) -> Option<Need> {
         None
     }
 
-    /// The scene as it has it computed; `None` where it leaves it as it is. The estimate is of the scene
-    /// as it is given.
+    /// Returns the scene with the effect applied, or `None` if the effect leaves the scene unchanged. The
+    /// estimate belongs to the given scene.
     ///
     /// # Errors
     /// A switch that the scene's bodies do not allow.
@@ -42,20 +42,19 @@ pub trait Effect: Sync {
         Ok(None)
     }
 
-    /// What the user should know of a scene that the case's switch has transformed otherwise than the plan
-    /// would.
+    /// Returns a warning if the case's switch transforms the scene differently from the plan's own choice.
     fn forced(&self, _: &Scene, _: &Estimate) -> Option<String> {
         None
     }
 
-    /// By how much the numbers of a collision change without it, whether or not it is called for;
-    /// `None` where closed forms do not tell.
+    /// Returns the change of restitution, contact time and peak force without the effect, whether or not it
+    /// is called for; `None` if closed forms cannot estimate it.
     fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {
         None
     }
 
-    /// By how much nature may differ from a result because of it, as a model stands to it: where the model
-    /// lacks it, because it is left out; nothing of what only the computation needs.
+    /// Returns the model-form error because of the effect. It is the error of neglecting the effect if the
+    /// model lacks it, and zero for purely numerical effects.
     fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
         if !standing.is_lacking {
             return Doubt::NOTHING;
@@ -68,13 +67,13 @@ pub trait Effect: Sync {
         }
     }
 
-    /// What a collision tells of it better than what was decided before: of an effect that depends on
-    /// the bodies as they were computed in the end.
+    /// Returns an answer taken from the finished collision, for an effect that depends on the bodies as
+    /// computed.
     fn found(&self, _: &Scene, _: &Collision) -> Option<Answer> {
         None
     }
 
-    /// What a collision shows of it that the user should know, and that nothing foretold.
+    /// Returns warnings that follow from the finished collision and could not be given before.
     fn after(&self, _: &Scene, _: &Estimate, _: &Collision) -> Vec<String> {
         Vec::new()
     }

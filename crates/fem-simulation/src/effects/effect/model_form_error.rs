@@ -1,47 +1,46 @@
-//! By how much nature may differ from a result because of what a model leaves out.
+//! Model-form error: the change of each result by the neglected effects.
 //!
-//! Of an effect that changes contact time and peak force by the shares t and f the other quantities
-//! follow as those of a contact that is softer: by Hertz' powers of E* (T, δ ∝ E*^(−2/5), a ∝ E*^(−1/5),
-//! F ∝ E*^(2/5), p₀ ∝ F/a²)
+//! If an effect changes contact time and peak force by the shares t and f, the other quantities follow from
+//! Hertz' powers of a softer contact's E* (T, δ ∝ E*^(−2/5), a ∝ E*^(−1/5), F ∝ E*^(2/5), p₀ ∝ F/a²):
 //!
 //! ```math
 //! \frac{\Delta\delta}\delta = t, \qquad \frac{\Delta a}a = \tfrac12 t, \qquad
 //! \frac{\Delta p_0}{p_0} = f + t .
 //! ```
 //!
-//! What several effects leave open is **the sum of their magnitudes**. Closed forms tell no signs, and the
-//! causes are not independent of each other, as a root of squares would want: all grow with the contact
-//! radius and the speed, and most make a contact softer.
+//! The errors of several effects are combined as **the sum of their magnitudes**. Closed forms give no
+//! signs, and the causes are not independent, as a root of squares would require: all grow with contact
+//! radius and speed, and most make the contact softer.
 
 use fem_collision::QuantityOfInterest;
 
 use crate::effects::LeftOut;
 use crate::estimate::Estimate;
 
-/// By how much each quantity of a result may be off, in the order of [`QuantityOfInterest::ALL`]; sizes in SI, `None`
-/// where closed forms do not tell.
+/// Model-form error of each quantity in the order of [`QuantityOfInterest::ALL`], in SI units; `None` if
+/// closed forms cannot estimate it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Doubt([Option<f64>; 6]);
 
-/// How a run stands to an effect.
+/// The status of an effect in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Standing {
-    /// Whether the run lacks it.
+    /// Whether the run lacks the effect.
     pub is_lacking: bool,
-    /// By how much the numbers change without it ([`Effect::left_out`](super::Effect::left_out)).
+    /// Error of neglecting the effect ([`Effect::left_out`](super::Effect::left_out)).
     pub left_out: Option<LeftOut>,
 }
 
 impl Doubt {
-    /// No doubt at all.
+    /// No error.
     pub const NOTHING: Self = Self([Some(0.0); 6]);
 
-    /// Of each quantity what `size` says.
+    /// Returns the error with the size of each quantity given by `size`.
     pub fn by(size: impl FnMut(QuantityOfInterest) -> Option<f64>) -> Self {
         Self(QuantityOfInterest::ALL.map(size))
     }
 
-    /// Of an effect that changes so much of the numbers of an estimate.
+    /// Returns the error that follows from neglecting an effect.
     pub fn of(left_out: &LeftOut, estimate: &Estimate) -> Self {
         let LeftOut { restitution, contact_time_s, peak_force_n } = *left_out;
         let sizes = &estimate.softened.sizes;
@@ -65,36 +64,36 @@ impl Doubt {
         doubt.checked()
     }
 
-    /// Of a loss that is not known: of the restitution. The other quantities go by the moduli, of whose
-    /// scatter nothing is said here.
+    /// Returns the error of an unknown loss: the restitution is unknown. The other quantities depend on the
+    /// moduli, whose scatter is not included.
     pub fn of_loss() -> Self {
         Self::by(|headline| (headline != QuantityOfInterest::Restitution).then_some(0.0))
     }
 
-    /// Of one quantity.
+    /// Returns the error of one quantity.
     pub fn size(&self, headline: QuantityOfInterest) -> Option<f64> {
         self.0[headline as usize]
     }
 
-    /// With another size of one quantity.
+    /// Replaces the error of one quantity.
     #[must_use]
     pub(in crate::effects) fn with(mut self, headline: QuantityOfInterest, size: f64) -> Self {
         self.0[headline as usize] = Some(size);
         self
     }
 
-    /// Nothing in place of what is no number.
+    /// Replaces values that are not finite by `None`.
     pub(in crate::effects) fn checked(self) -> Self {
         Self(self.0.map(|doubt| doubt.filter(|size| size.is_finite())))
     }
 
-    /// A share of it.
+    /// Multiplies all errors by a factor.
     #[must_use]
     pub fn times(self, share: f64) -> Self {
         Self(self.0.map(|doubt| doubt.map(|size| share * size)))
     }
 
-    /// Both together: the sum, untold where either is.
+    /// Adds two errors; `None` if either is.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self::by(|headline| {
@@ -102,7 +101,7 @@ impl Doubt {
         })
     }
 
-    /// What is told of it, nothing elsewhere: the sum of such is what doubts come to at least.
+    /// Replaces unknown errors by zero: sums of these are lower bounds.
     #[must_use]
     pub fn told(self) -> Self {
         Self(self.0.map(|doubt| doubt.or(Some(0.0))))

@@ -1,4 +1,4 @@
-//! What a result loses without an effect.
+//! Error of neglecting an effect.
 
 use std::fmt;
 
@@ -11,26 +11,27 @@ use crate::effects::effect::computed_scene::Computed;
 use crate::estimate::Estimate;
 use crate::estimate::ting_prediction::Expected;
 
-/// By how much a collision's numbers change where an effect is left out, as closed forms foretell it;
-/// magnitudes, `None` where they do not.
+/// Change of a collision's results if an effect is neglected, estimated by closed forms. All are
+/// magnitudes; `None` if there is no estimate.
 ///
-/// Good within a factor of three, which is what tests hold it to.
+/// The estimates are good within a factor of three; tests hold them to that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct LeftOut {
-    /// Of the restitution.
+    /// Change of the restitution.
     pub restitution: Option<f64>,
-    /// Of the contact time, s.
+    /// Change of the contact time, in seconds.
     pub contact_time_s: Option<f64>,
-    /// Of the peak force, N.
+    /// Change of the peak force, in newtons.
     pub peak_force_n: Option<f64>,
 }
 
 impl LeftOut {
-    /// Nothing changes.
+    /// No change.
     pub const NOTHING: Self =
         Self { restitution: Some(0.0), contact_time_s: Some(0.0), peak_force_n: Some(0.0) };
 
-    /// Shares of the contact time and of the peak force of an estimate, and a restitution that stays.
+    /// Returns changes given as shares of the estimate's contact time and peak force; the restitution is
+    /// unchanged.
     pub(crate) fn shares(estimate: &Estimate, contact_time: f64, peak_force: f64) -> Self {
         Self {
             restitution: Some(0.0),
@@ -39,18 +40,19 @@ impl LeftOut {
         }
     }
 
-    /// What is said where the case switches off an effect that it calls for.
+    /// Returns the warning for an effect that is called for but switched off.
     pub(crate) fn warning(&self, effect: &str) -> String {
         format!("{effect} is called for, but switched off, which leaves out {self}")
     }
 
-    /// Of the restitution alone.
+    /// Returns a change of the restitution, with the other two unknown.
     pub(crate) fn restitution(change: f64) -> Self {
         Self { restitution: finite(change), ..Self::default() }
     }
 
-    /// Between two scenes that meet at a speed (m/s), as they are computed in the end. Where waves take more
-    /// than a correction, without them; nothing where Ting's model has no answer.
+    /// Returns the difference between two scenes at the same approach speed (m/s), after all
+    /// transformations. Waves are left out where they are more than a correction; all is `None` where
+    /// Ting's model has no solution.
     pub(crate) fn between(with: &Scene, without: &Scene, speed: f64) -> Self {
         let [with, without] = [with, without].map(Computed::quiet);
         let Some((with, without)) = with.zip(without) else { return Self::default() };
@@ -66,7 +68,7 @@ impl LeftOut {
             .unwrap_or_default()
     }
 
-    /// Whether a scene's model has the spheres' own compliance.
+    /// Returns whether the scene's model includes the spheres' finite size.
     pub(crate) fn has_finite_size(scene: &Scene) -> bool {
         match scene.model() {
             ModelChoice::Fem | ModelChoice::Condensed(_) => true,
@@ -75,8 +77,8 @@ impl LeftOut {
         }
     }
 
-    /// Between two impacts. Bodies that stay together have no contact time; one that loses more than all
-    /// is none, as of a body faster than its waves.
+    /// Returns the difference between two impacts. Bodies that stay together have no contact time. A loss
+    /// of more than the whole energy counts as unknown.
     pub(crate) fn difference(with: &Expected, without: &Expected) -> Self {
         if (with.restitution - without.restitution).abs() > 1.0 {
             return Self::default();
@@ -90,7 +92,7 @@ impl LeftOut {
     }
 }
 
-/// The size of a number that is one.
+/// Returns the magnitude of a finite number.
 fn finite(change: f64) -> Option<f64> {
     change.is_finite().then_some(change.abs())
 }

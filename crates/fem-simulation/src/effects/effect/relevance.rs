@@ -1,25 +1,25 @@
-//! What a scene needs of an effect.
+//! The relevance of an effect to a scene.
 
 use fem_case::engineering;
 
 use crate::estimate::Estimate;
 
-/// What a scene needs of an effect.
+/// The relevance of an effect to a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Need {
     /// Whether the scene calls for it.
     pub is_called_for: bool,
-    /// The number that decides, in words.
+    /// The deciding number, as text.
     pub number: String,
-    /// What follows where it is not called for.
+    /// The consequence if the scene does not call for it, as text.
     pub otherwise: String,
-    /// What stays open in a model that lacks it.
+    /// The remaining uncertainty in a model that lacks the effect, as text.
     pub left_open: String,
-    /// What a user should know of a model that lacks it.
+    /// A warning for models that lack the effect.
     pub warning: Option<String>,
 }
 
-/// A share in per cent; of what would be 0.00, or many digits, the power of ten.
+/// Formats a share in per cent, with a power of ten if it would print as 0.00 or with many digits.
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     let is_plain = percent == 0.0 || (5e-3..1e5).contains(&percent.abs());
@@ -33,7 +33,7 @@ pub fn percent(share: f64) -> String {
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than
 /// 0.15 %: 0.05 % at 1.5e-3 and 0.45 % at 1.5e-2 were measured on the glass pair.
 pub const QUASI_STATIC_LIMIT: f64 = 5e-3;
-/// Above this share of the shear wave speed an impact sends shocks.
+/// Approach speed over shear wave speed above which an impact sends shocks.
 pub(in crate::effects) const MACH_LIMIT: f64 = 0.02;
 
 /// Returns the approach speed over the shear wave speed, as the deciding number in words.

@@ -1,42 +1,42 @@
-//! What a model has of an effect, and what follows from that and from what a scene needs.
+//! A model's support for an effect, combined with the scene's need for it.
 
 use fem_case::Switch;
 
 use crate::effects::effect::relevance::Need;
 
-/// What a model has of an effect.
+/// A model's support for an effect.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
-    /// It computes the effect where it is called for; what follows where it is not.
+    /// The model computes the effect where the scene calls for it.
     Computes {
-        /// Said after the number of a scene that does not call for it; may be empty.
+        /// Text that follows the deciding number if the scene does not call for the effect; may be empty.
         idle: &'static str,
     },
-    /// It has the effect wherever a scene calls for it, and cannot leave it out.
+    /// The model always includes the effect and cannot leave it out.
     Inherent {
-        /// Said after the number of a scene that does not call for it; may be empty.
+        /// Text that follows the deciding number if the scene does not call for the effect; may be empty.
         idle: &'static str,
     },
-    /// It lacks the effect; a scene that calls for it is warned about.
+    /// The model lacks the effect; a scene that calls for it gets a warning.
     Lacks,
-    /// It decides by itself.
+    /// The model decides by itself.
     Is {
         /// Whether the effect is on.
         active: bool,
-        /// Why, or what it is.
+        /// The reason, or a description.
         reason: String,
-        /// What the user should know.
+        /// Warnings for the user.
         warnings: Vec<String>,
     },
 }
 
 impl Answer {
-    /// The effect is on or off, and why.
+    /// Returns an answer of a model that decides by itself.
     pub fn is(active: bool, reason: impl Into<String>) -> Self {
         Self::Is { active, reason: reason.into(), warnings: Vec::new() }
     }
 
-    /// This answer with what the user should know; of one that decides by itself.
+    /// Adds warnings to an answer of a model that decides by itself.
     #[must_use]
     pub fn warning(mut self, more: impl IntoIterator<Item = String>) -> Self {
         if let Self::Is { warnings, .. } = &mut self {
@@ -45,12 +45,12 @@ impl Answer {
         self
     }
 
-    /// Whether the case's switch decides.
+    /// Returns whether the case's switch decides.
     pub(in crate::effects) fn obeys(&self) -> bool {
         matches!(self, Self::Computes { .. })
     }
 
-    /// Whether the effect is on, why, and what the user should know.
+    /// Returns whether the effect is on, the reason, and the warnings.
     pub(in crate::effects) fn of(
         self,
         need: Need,

@@ -1,4 +1,4 @@
-//! Plastic flow, which no model here has: where it would begin, and how far it matters.
+//! Plastic yield, which no model here computes: its onset, and how strongly it matters.
 //!
 //! Decided by the peak pressure of Hertz over that of first yield ([`FirstYield`]). Without a yield
 //! strength the strength that would be reached is told, and a peak pressure that few materials bear
@@ -21,12 +21,12 @@ const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
 /// modulus and strength).
 const ELASTOMER: f64 = 0.1e9;
 
-/// Plastic flow.
+/// Plastic yield of the bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct PlasticYield;
 
 impl PlasticYield {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "plastic yield";
 }
 
@@ -44,7 +44,7 @@ impl Effect for PlasticYield {
         })
     }
 
-    /// The middle of what closed forms give.
+    /// Central estimate of the closed forms.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
         let (_, first) = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))?;
@@ -82,7 +82,7 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Need {
     }
 }
 
-/// Whether a material is of a kind that flows: as soft as rubber, or of a hyperelastic law, it is not.
+/// Returns whether a material can yield. Materials as soft as rubber and hyperelastic ones cannot.
 fn may_yield(material: &Material) -> bool {
     material.named_law().is_none() && material.instantaneous().youngs_modulus() >= ELASTOMER
 }

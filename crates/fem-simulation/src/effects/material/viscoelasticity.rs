@@ -22,7 +22,7 @@ use crate::refusal::Refusal;
 const LARGEST_FOLDED: f64 = 1e-4;
 /// The same over what relaxation takes of the restitution, so that small losses stay right themselves.
 const SHARE_OF_LOSS: f64 = 0.01;
-/// Nobody asks for less.
+/// Smallest tolerance.
 const LEAST_FOLDED: f64 = 1e-7;
 /// Accuracy of the loss that decides on it.
 const LOSS_TOLERANCE: f64 = 1e-5;
@@ -32,7 +32,7 @@ const LOSS_TOLERANCE: f64 = 1e-5;
 pub struct Viscoelasticity;
 
 impl Viscoelasticity {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "viscoelasticity";
 }
 
@@ -93,7 +93,8 @@ impl Effect for Viscoelasticity {
         left_out.map(|left_out| left_out.unwrap_or_default().warning(Self::NAME))
     }
 
-    /// Between Ting's impacts of relaxing and of elastic bodies, with the waves that leave either.
+    /// Difference between Ting's impacts of relaxing and of elastic bodies, with the waves radiated by
+    /// each.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         if relaxing(scene).is_empty() {
             return Some(LeftOut::NOTHING);
@@ -111,7 +112,7 @@ impl Effect for Viscoelasticity {
 }
 
 impl Viscoelasticity {
-    /// The materials without the terms that need not be followed; nothing where all are.
+    /// Returns the materials without the terms that need not be followed, or `None` if all are followed.
     fn folded(&self, scene: &Scene, estimate: &Estimate) -> Option<FastSlowLimits> {
         // What is too slow for a contact is not for a ball that rests on it.
         if scene.gravity().is_some() {
@@ -132,7 +133,7 @@ impl Viscoelasticity {
     }
 }
 
-/// What relaxation takes of the restitution of half-spaces, by all terms.
+/// Returns the loss of restitution of half-spaces by all relaxation terms.
 fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
     let hertz = &estimate.hertz;
     let ting =
@@ -141,7 +142,7 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
     Some((relaxing - hertz.restitution()).abs())
 }
 
-/// How many terms are followed, and what the others are worth.
+/// Returns how many terms are followed and the effect of the others, as text.
 fn in_words(need: &Need, folded: &FastSlowLimits, estimate: &Estimate, n_kept: usize) -> String {
     let sum = |counts: [usize; 2]| counts.iter().sum::<usize>();
     let (n_fast, n_slow) = (sum(folded.n_fast), sum(folded.n_slow));
@@ -167,7 +168,7 @@ fn materials(scene: &Scene) -> [Option<&Material>; 2] {
     scene.bodies().each_ref().map(Body::material)
 }
 
-/// The scene with bodies of other materials.
+/// Returns the scene with other materials.
 fn made_of(scene: &Scene, materials: [Option<Material>; 2]) -> Scene {
     let [first, second] = scene.bodies();
     let [lower, upper] = materials;
@@ -178,7 +179,7 @@ fn made_of(scene: &Scene, materials: [Option<Material>; 2]) -> Scene {
     scene.clone().with_shapes([shape(first, lower), shape(second, upper)])
 }
 
-/// Names of the bodies that relax.
+/// Returns the names of the relaxing bodies.
 fn relaxing(scene: &Scene) -> Vec<&str> {
     let relaxes = |body: &&Body| body.material().and_then(Material::relaxation).is_some();
     scene.bodies().iter().filter(relaxes).map(Body::name).collect()

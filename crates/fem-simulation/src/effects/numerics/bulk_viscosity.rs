@@ -40,16 +40,16 @@ const LOSS: f64 = 0.005;
 /// Approach speed over shear wave speed above which these say nothing.
 const LARGEST_MACH: f64 = 0.1;
 
-/// Artificial viscosity against steep fronts.
+/// Artificial bulk viscosity against steep fronts.
 #[derive(Clone, Copy, Debug)]
 pub struct BulkViscosity;
 
 impl BulkViscosity {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "bulk viscosity";
 
-    /// Whether a model that has it computes it, for bodies that meet at so many times the shear wave
-    /// speed and may be computed at finite strain.
+    /// Returns whether a model that supports it computes it, for an approach speed over the shear wave
+    /// speed and possibly finite strain.
     pub(crate) fn is_on(scene: &Scene, mach: f64, is_finite: bool) -> bool {
         match scene.effects().bulk_viscosity {
             Some(Switch::On) => true,
@@ -63,7 +63,7 @@ fn is_called_for(scene: &Scene, mach: f64, is_finite: bool) -> bool {
     mach > MACH_LIMIT && rings(scene, is_finite)
 }
 
-/// Whether the contact rings without it: at finite strain springs pull at nodes with mass.
+/// Returns whether the contact rings without it. At finite strain springs act on nodes with mass.
 fn rings(scene: &Scene, is_finite: bool) -> bool {
     is_finite || asked_for(scene) != ContactMethod::Massless
 }
@@ -97,7 +97,7 @@ impl Effect for BulkViscosity {
         })
     }
 
-    /// It is the mesh's, not nature's.
+    /// It belongs to the mesh, not to the physical system.
     fn doubt(&self, _: &Scene, _: &Estimate, _: &Standing) -> Doubt {
         Doubt::NOTHING
     }

@@ -1,4 +1,4 @@
-//! Contact is looked for near the axis only, and free flight is not stepped: a decision of the plan.
+//! Contact is searched near the axis only, and free flight is not stepped: decisions of the plan.
 
 use fem_case::Scene;
 use fem_case::engineering::show;
@@ -9,15 +9,15 @@ use crate::effects::effect::neglect_error::LeftOut;
 use crate::effects::effect::support::Answer;
 use crate::estimate::Estimate;
 
-/// Where contact is looked for.
+/// The candidate region of the contact search.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactSearch;
 
 impl ContactSearch {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "contact search";
 
-    /// What a model has of it that looks for contact here.
+    /// Returns the answer of a model that searches this region.
     pub(crate) fn within(searched: &CandidateRegion) -> Answer {
         let CandidateRegion { radius, n_points, at_nodes } = searched;
         let points = if *at_nodes { "points" } else { "integration points" };
@@ -38,7 +38,7 @@ impl Effect for ContactSearch {
         Some(LeftOut::NOTHING)
     }
 
-    /// The region may have been made larger on the way.
+    /// The region may have grown during the run.
     fn found(&self, _: &Scene, collision: &Collision) -> Option<Answer> {
         collision.searched.as_ref().map(Self::within)
     }

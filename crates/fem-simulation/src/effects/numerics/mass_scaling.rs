@@ -31,15 +31,15 @@ fn left(body: &Body) -> f64 {
     1.0 - terms.map(|term| term.weight).sum::<f64>()
 }
 
-/// Mass moved for a longer time step.
+/// Mass scaling: mass moved to light nodes for a longer time step.
 #[derive(Clone, Copy, Debug)]
 pub struct MassScaling;
 
 impl MassScaling {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "mass scaling";
 
-    /// How many times as much mass may be moved in each body of a scene as in one that gives way like the other.
+    /// Returns the factor on the moved mass in each body relative to bodies of equal compliance.
     pub(crate) fn times(scene: &Scene) -> [f64; 2] {
         let moduli = scene.bodies().each_ref().map(|body| body.partner().plane_strain_modulus());
         std::array::from_fn(|side| {
@@ -51,8 +51,8 @@ impl MassScaling {
         })
     }
 
-    /// What a model has of it whose bodies have these masses (kg; a wall or a half-space none), in which so
-    /// much is moved, kg, and whose time step is so many times longer for it.
+    /// Returns the answer of a model with these body masses (kg; none for a wall or half-space), moved
+    /// masses (kg) and gain in time step.
     pub(crate) fn of(
         scene: &Scene,
         masses: [Option<f64>; 2],

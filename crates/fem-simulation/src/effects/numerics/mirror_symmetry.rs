@@ -25,7 +25,7 @@ use crate::refusal::Refusal;
 pub struct MirrorSymmetry;
 
 impl MirrorSymmetry {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "mirror symmetry";
 
     /// Half of a scene whose bodies are identical: the lower one, against a rigid plane. `None` of a

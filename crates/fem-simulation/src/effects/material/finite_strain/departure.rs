@@ -1,5 +1,4 @@
-//! What finite strain changes of a collision, foretold from collisions that were computed with and
-//! without it.
+//! Change of a collision by finite strain, interpolated from computed collisions with and without it.
 
 use std::iter::Sum;
 use std::ops::{Add, Mul};
@@ -9,7 +8,7 @@ use fem_material::finite::HyperelasticLaw;
 
 use super::measured::{CHANGES, POISSONS_RATIOS, STRAINS};
 
-/// The flattest sphere that was computed: contact radius over its radius.
+/// Contact radius over sphere radius of the flattest computed sphere.
 pub(super) const FLATTEST: f64 = STRAINS[STRAINS.len() - 1];
 
 /// What finite strain changes: of the restitution as it is, of the others as shares.
@@ -21,7 +20,7 @@ pub(super) struct Departure {
     pub peak_pressure: f64,
 }
 
-/// How far a body is deformed.
+/// Deformation of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Deformation {
     /// Of the contact radius over the effective radius the share that it has of the compliance.
@@ -56,7 +55,7 @@ impl Departure {
         })
     }
 
-    /// Of each the larger size.
+    /// Returns the larger magnitude of each.
     pub fn or(self, other: Self) -> Self {
         let larger = |a: f64, b: f64| a.abs().max(b.abs());
         Self {
@@ -82,7 +81,7 @@ impl Departure {
         less * ((1.0 - weight) * change(row) + weight * change(row + 1))
     }
 
-    /// The largest change over what a case allows of it.
+    /// Returns the largest change in units of the case's tolerance.
     pub fn over(&self, accuracy: &Accuracy) -> f64 {
         let shares = [
             self.restitution / accuracy.restitution,
@@ -207,7 +206,6 @@ mod tests {
         assert!(n_collapsed > 0);
     }
 
-    /// Half as strained as flat: half of the first order at once, and of what comes then nothing less.
     #[test]
     fn the_first_order_goes_with_the_strain() {
         let of = |strain: f64, flatness: f64| {

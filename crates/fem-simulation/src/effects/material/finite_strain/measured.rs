@@ -1,11 +1,11 @@
-//! What finite strain changed of collisions that were computed: elastic spheres on a rigid wall, which the
-//! example `finite_strain` of fem-run collides again. Contact time, force and pressure are those of the whole
-//! pulse, by its second moment and its top: to some 1e-4 at small strain, 1e-2 where the sphere is pressed by
-//! half, and pressures of nearly incompressible spheres to a third beyond that.
+//! Computed changes by finite strain: elastic spheres on a rigid wall. The example `finite_strain` of
+//! fem-run computes them again. Contact time, force and pressure belong to the whole pulse (second moment
+//! and maximum). They are accurate to about 1e-4 at small strain and 1e-2 where the sphere is pressed by
+//! half; pressures of nearly incompressible spheres beyond that to a third.
 
-/// Contact radius over the sphere's radius, as Hertz foretells it.
+/// Contact radius over sphere radius, after Hertz.
 pub(super) const STRAINS: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85];
-/// Poisson's ratios.
+/// Poisson's ratios of the table.
 pub(super) const POISSONS_RATIOS: [f64; 5] = [0.0, 0.2, 0.33, 0.45, 0.49];
 
 /// Of the restitution, and shares of contact time, peak force and peak pressure (true against nominal): by law, in the order of

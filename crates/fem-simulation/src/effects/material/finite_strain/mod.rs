@@ -64,12 +64,12 @@ const LEFT_FAR_AWAY: f64 = 0.03;
 /// Contact radii within which all elements are at finite strain, whatever the case allows.
 const NEAREST: f64 = 3.0;
 
-/// Large strains and rotations.
+/// Finite strain and rotations.
 #[derive(Clone, Copy, Debug)]
 pub struct FiniteStrain;
 
 impl FiniteStrain {
-    /// Its name in results.
+    /// The effect's name in results.
     pub const NAME: &'static str = "finite strain";
 
     /// The laws of both bodies of a scene whose strains are those of an estimate; `None` of one that is
@@ -110,7 +110,7 @@ impl FiniteStrain {
         Err(Refusal::new("effects.finite_strain", message).with_help(help))
     }
 
-    /// What explicit elements have of it.
+    /// Returns the answer of explicit elements.
     pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Answer {
         let strained = Strained::of_both(scene, estimate).into_iter().flatten();
         let mut unborne =
@@ -131,7 +131,7 @@ impl FiniteStrain {
 }
 
 impl FiniteStrain {
-    /// Of a scene that has it near the contact alone.
+    /// Returns the text for a scene with finite strain near the contact only.
     fn of_nearness(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
         (Self::laws(scene, estimate) != [None; 2]).then_some(())?;
         let within = Self::within(scene, estimate)?;
@@ -152,7 +152,7 @@ impl FiniteStrain {
         Some(Answer::is(true, format!("{number}; {nearness}")))
     }
 
-    /// Of a scene that calls for it, and whose laws are foretold not to bear it.
+    /// Returns the text for a scene whose laws are expected to lose stability.
     fn of_stability(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
         let computed = Self::laws(scene, estimate);
         if !is_called_for(scene, estimate) || computed == [None; 2] {
@@ -176,26 +176,26 @@ impl FiniteStrain {
     }
 }
 
-/// What leaving it out changes of elastic bodies, in sizes.
+/// Returns the error of neglecting it for elastic bodies, as magnitudes.
 fn departure(scene: &Scene, estimate: &Estimate) -> Departure {
     let both = Strained::of_both(scene, estimate).into_iter().flatten();
     with_waves(scene, estimate, both.map(|strained| strained.departure).sum())
 }
 
-/// With what the waves take less or more of a contact that is longer or shorter.
+/// Adds the changed radiation of a longer or shorter contact.
 fn with_waves(scene: &Scene, estimate: &Estimate, change: Departure) -> Departure {
     let loss = PartnerWaves::loss(scene, estimate);
     let restitution = change.restitution + RADIATED_OVER_TIME * loss * change.contact_time;
     Departure { restitution, ..change }
 }
 
-/// With what relaxation takes less or more.
+/// Adds the changed loss by relaxation.
 fn with_relaxation(scene: &Scene, estimate: &Estimate, change: Departure) -> Departure {
     let lost = RELAXED_OVER_TIME * relaxed_loss(scene, estimate) * change.contact_time;
     Departure { restitution: change.restitution + lost, ..change }
 }
 
-/// What relaxation takes of the restitution at small strain.
+/// Returns the loss of restitution by relaxation at small strain.
 pub(in crate::effects) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
     let mut materials = scene.bodies().iter().filter_map(Body::material);
     if !materials.any(|material| material.relaxation().is_some()) {
@@ -210,7 +210,7 @@ pub(in crate::effects) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f6
     (loss - PartnerWaves::loss(scene, estimate)).max(0.0)
 }
 
-/// How far the laws that the case leaves open are apart in the contact time, as a share.
+/// Returns the spread of the contact time over the laws that the case leaves open, as a share.
 fn spread(scene: &Scene, estimate: &Estimate) -> f64 {
     Strained::of_both(scene, estimate).iter().flatten().map(Strained::spread).sum()
 }
@@ -219,18 +219,18 @@ fn is_forced_on(scene: &Scene) -> bool {
     scene.effects().finite_strain == Some(Switch::On)
 }
 
-/// Whether leaving it out would change more than the case allows, or nothing tells how much.
+/// Returns whether neglecting it would exceed the case's tolerance, or cannot be estimated.
 fn is_called_for(scene: &Scene, estimate: &Estimate) -> bool {
     is_beyond(scene, estimate) || departure(scene, estimate).over(&scene.accuracy()) > 1.0
 }
 
-/// Whether a body is flatter than anything is foretold of.
+/// Returns whether a body is flatter than all reference spheres.
 fn is_beyond(scene: &Scene, estimate: &Estimate) -> bool {
     let both = Strained::of_both(scene, estimate);
     both.iter().flatten().any(Strained::is_beyond)
 }
 
-/// What leaving it out changes, in words.
+/// Returns the error of neglecting it, as text.
 fn in_words(scene: &Scene, estimate: &Estimate) -> String {
     match is_beyond(scene, estimate) {
         true => "an amount that nothing foretells".to_string(),
@@ -238,7 +238,7 @@ fn in_words(scene: &Scene, estimate: &Estimate) -> String {
     }
 }
 
-/// The laws of a scene's bodies, and how much they would matter if nobody gave them.
+/// Returns the laws of the bodies, and how much they would matter if the case names none.
 fn laws_in_words(scene: &Scene, estimate: &Estimate) -> String {
     let materials: Vec<&Material> = scene.bodies().iter().filter_map(Body::material).collect();
     let mut names: Vec<&str> = materials.iter().map(|material| material.law().name()).collect();
@@ -330,7 +330,7 @@ impl Effect for FiniteStrain {
             .checked()
     }
 
-    /// The estimate warns of what it expects; this is what came.
+    /// The estimate warns before the run; this warns of the strains that occurred.
     fn after(&self, scene: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
         let radius = estimate.hertz.pair().effective_radius();
         let strain = collision.max_contact_radius.unwrap_or_default() / radius;

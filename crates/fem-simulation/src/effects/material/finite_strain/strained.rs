@@ -1,4 +1,4 @@
-//! What large strains do to one body of a collision.
+//! Effect of finite strain on one body of a collision.
 
 use fem_case::Scene;
 use fem_explicit::MOST_FINITE_STRAIN_TERMS;
@@ -15,19 +15,19 @@ const LARGEST_POISSONS_RATIO: f64 = 0.4999;
 /// Share of the tolerance below which a body's own strain is left small.
 const OWN_SHARE: f64 = 0.1;
 
-/// A body that gives way, of which finite strain changes something.
+/// A deformable body to which finite strain matters.
 pub(super) struct Strained<'a> {
     pub name: &'a str,
     pub material: &'a Material,
-    /// Of the compliance of the contact.
+    /// Share of the contact's compliance.
     pub share: f64,
     pub deformation: Deformation,
-    /// What its own strain changes of the collision, elastic and without waves.
+    /// Change of the collision by the body's own strain, elastic and without waves.
     pub departure: Departure,
 }
 
 impl<'a> Strained<'a> {
-    /// Both bodies of a scene; `None` of a rigid one.
+    /// Returns both bodies of a scene, with `None` for a rigid one.
     pub fn of_both(scene: &'a Scene, estimate: &Estimate) -> [Option<Self>; 2] {
         let shares = scene.compliance_shares();
         let radius = estimate.strain * estimate.hertz.pair().effective_radius();
@@ -44,22 +44,22 @@ impl<'a> Strained<'a> {
         })
     }
 
-    /// The laws that it may follow for all that the case says.
+    /// Returns the hyperelastic laws that the case leaves open.
     pub fn possible_laws(&self) -> Vec<HyperelasticLaw> {
         self.material.named_law().map_or(HyperelasticLaw::ALL.to_vec(), |law| vec![law])
     }
 
-    /// Whether it is flatter than any sphere that was computed: nothing is foretold.
+    /// Returns whether the body is flatter than all reference spheres, so that there is no estimate.
     pub fn is_beyond(&self) -> bool {
         self.deformation.flatness > FLATTEST
     }
 
-    /// Whether it may follow another law than the one that was computed.
+    /// Returns whether the material may follow another law than the computed one.
     pub fn may_differ_from(&self, computed: Option<HyperelasticLaw>) -> bool {
         self.possible_laws().into_iter().any(|law| Some(law) != computed)
     }
 
-    /// How far the laws that it may follow are apart in what it changes of the contact time, as a share.
+    /// Returns the spread of the contact time over the possible laws, as a share.
     pub fn spread(&self) -> f64 {
         let nu = self.material.instantaneous().poissons_ratio();
         let times = self.possible_laws().into_iter();
@@ -69,7 +69,8 @@ impl<'a> Strained<'a> {
         self.share * (most - least)
     }
 
-    /// How far any law that it may follow is from the one that was computed; none is small strain.
+    /// Returns the largest distance of a possible law from the computed one; with no law it is small
+    /// strain.
     pub fn doubt(&self, computed: Option<HyperelasticLaw>) -> Departure {
         let nu = self.material.instantaneous().poissons_ratio();
         let laws = self.possible_laws().into_iter();
@@ -94,14 +95,14 @@ impl<'a> Strained<'a> {
         !stiffness.is_ok_and(|stiffness| stiffness > 0.0)
     }
 
-    /// Whether elements bear it at large strain.
+    /// Returns whether elements can compute the body at large strain.
     pub fn is_borne(&self) -> bool {
         // Made of two moduli it is rounded.
         let nu = self.material.instantaneous().poissons_ratio();
         nu <= LARGEST_POISSONS_RATIO + 1e-9 && self.n_terms() <= MOST_FINITE_STRAIN_TERMS
     }
 
-    /// Prony terms whose history would be kept.
+    /// Returns the number of Prony terms with a history.
     pub fn n_terms(&self) -> usize {
         self.material.relaxation().map_or(0, |series| series.terms().len())
     }
@@ -123,7 +124,7 @@ impl<'a> Strained<'a> {
         )
     }
 
-    /// Whether its own strain is worth its price.
+    /// Returns whether finite strain of the body is worth its cost.
     pub fn matters(&self, scene: &Scene) -> bool {
         self.departure.over(&scene.accuracy()) > OWN_SHARE
     }
