@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use fem::effects::{Effect, RigidPartner};
-use fem::{Estimate, Explicit, Model, Setup, Simulation};
+use fem::{Estimate, Explicit, Model, ModelSetup, Simulation};
 use fem_case::{Case, CaseFile, ModelChoice};
 use fem_collision::{Collision, Monitor, Progress};
 use fem_laws::HertzImpact;
@@ -154,7 +154,7 @@ impl<'a> Laboratory<'a> {
 
     fn run_explicit(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
         let explicit = Explicit::new(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
-        let Setup { approach, want, estimate, .. } = explicit.setup();
+        let ModelSetup { approach, want, estimate, .. } = explicit.setup();
         let collide = |listener: &mut dyn Monitor| explicit.collide(approach, want, listener);
         let run = self.collide(case, estimate.hertz, collide)?;
         let model = explicit.bodies_of(&run.collision)?;

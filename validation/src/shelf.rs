@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use fem::Shared;
+use fem::SharedModels;
 
 use crate::error::StudyError;
 use crate::run::{ExplicitRun, Run};
@@ -36,5 +36,5 @@ pub struct Shelf {
     /// Runs of all other models.
     pub(crate) others: Slots<Run>,
     /// Data shared by runs at several speeds or relaxations.
-    pub(crate) shared: Shared,
+    pub(crate) shared: SharedModels,
 }

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fem::results::Spent;
+use fem::results::RunCost;
 use fem::schema::ModelTable;
 use fem::{
-    Case, CaseError, Collision, Course, HistoryRow, OutputRequest, OutputRequestError, PairCache,
-    Shared, Simulation, SnapshotRequest, Summary,
+    Case, CaseError, Collision, HistoryRow, OutputRequest, OutputRequestError, PairCache,
+    SharedModels, Simulation, SnapshotRequest, Stepper, Summary,
 };
 
 use crate::charts::Charts;
@@ -36,17 +36,18 @@ pub struct RecordedAmount {
 
 /// The last case and its collision, and what cases share.
 pub struct Session {
-    shared: Shared,
+    shared: SharedModels,
     simulation: Option<Simulation>,
     ask: Option<RecordedAmount>,
-    course: Option<Box<dyn Course>>,
+    course: Option<Box<dyn Stepper>>,
     collision: Option<Collision>,
 }
 
 impl Default for Session {
     fn default() -> Self {
         let pairs = || Arc::new(PairCache::with_max_bytes(MOST_KEPT));
-        let shared = Shared { pairs: pairs(), reference_pairs: pairs(), ..Shared::default() };
+        let shared =
+            SharedModels { pairs: pairs(), reference_pairs: pairs(), ..SharedModels::default() };
         Self { shared, simulation: None, ask: None, course: None, collision: None }
     }
 }
@@ -102,7 +103,7 @@ impl Session {
     pub fn finish(&mut self, seconds: f64) -> Option<RunOutcome> {
         let simulation = self.simulation.as_ref()?;
         let collision = self.course.take()?.finish();
-        let spent = Spent { wall: seconds, solve: seconds, threads: 1, ..Spent::default() };
+        let spent = RunCost { wall: seconds, solve: seconds, threads: 1, ..RunCost::default() };
         let errors = simulation.estimate_errors(&collision);
         let warnings = simulation.warnings_with(&collision, &errors);
         let hertz = self.hertz(simulation, &collision).unwrap_or_default();

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use fem::ComputedCollision;
 use fem::results::Summary;
 use fem::sweep::{Checked, Columns, Member, Observer, Row, Runner, check};
-use fem::{Case as FemCase, CaseError, Shared};
+use fem::{Case as FemCase, CaseError, SharedModels};
 use fem_collision::{Monitor, Progress};
 use fem_command::{Failure, Stopwatch, Timed};
 use pyo3::prelude::*;
@@ -100,7 +100,7 @@ fn run(
     let Checked { members, left, .. } =
         pool.install(|| check(cases, |_| true, |_| false, |_, _| ()))?;
     *locked(&found.identities) = members.iter().map(Member::identity).collect();
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let runner = Runner::new(cases, &shared).without_fields();
     let observer = MemberObserver {
         watch,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Identity, Memory, Simulation, checkpoint, memory_of};
+use fem::{Case, Identity, Memory, Simulation, checkpoint, restart_state_of};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
@@ -107,7 +107,7 @@ impl Target for Checkpoint {
     fn take(&self, input: &[u8]) -> Result<Taken, String> {
         let Some((k, bytes)) = input.split_first() else { return Ok(Taken::Refused) };
         let run = &self.runs[usize::from(*k) % self.runs.len()];
-        let memory = match memory_of(bytes, &run.identity) {
+        let memory = match restart_state_of(bytes, &run.identity) {
             Err(error) => return refused(&error.to_string().replace(char::is_control, " ")),
             Ok(memory) => memory,
         };

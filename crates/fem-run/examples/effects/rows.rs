@@ -1,7 +1,7 @@
 //! The rows of the table of the effects' cost: one per effect, off and on.
 
 use fem::{
-    Case, Course, Explicit, Model, OutputRequest, Simulation, SnapshotInstant, SnapshotRequest,
+    Case, Explicit, Model, OutputRequest, Simulation, SnapshotInstant, SnapshotRequest, Stepper,
 };
 use std::path::Path;
 
@@ -171,7 +171,7 @@ impl Side {
     }
 
     /// Starts the run of one contact, or of the simulation if it has only one.
-    pub fn start(&self, contact: Option<&Explicit>, simulation: &Simulation) -> Box<dyn Course> {
+    pub fn start(&self, contact: Option<&Explicit>, simulation: &Simulation) -> Box<dyn Stepper> {
         match contact {
             Some(model) => {
                 let course = model.start(&model.setup().approach, &self.want());
@@ -194,7 +194,7 @@ impl Side {
 }
 
 /// Returns the bytes of the restart state.
-pub fn n_bytes(course: &dyn Course) -> usize {
+pub fn n_bytes(course: &dyn Stepper) -> usize {
     let memory = course.memory().expect("explicit elements have a memory");
     postcard::to_stdvec(memory.contact()).expect("a memory is bytes").len()
 }

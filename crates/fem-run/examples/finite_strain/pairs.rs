@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use fem::effects::{EFFECTS, Effect, LeftOut};
+use fem::effects::{EFFECTS, Effect, NeglectError};
 
 use crate::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
 
@@ -132,7 +132,7 @@ fn in_series(a: f64, b: Option<f64>) -> f64 {
 }
 
 /// Returns the plan's estimate of the changes without finite strain.
-fn foretold(simulation: &fem::Simulation) -> Result<LeftOut, Fault> {
+fn foretold(simulation: &fem::Simulation) -> Result<NeglectError, Fault> {
     let effect = EFFECTS.iter().find(|effect| effect.name() == "finite strain");
     let estimate = &simulation.setup().estimate;
     let left_out = |effect: &&dyn Effect| effect.left_out(simulation.case().scene(), estimate);

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use fem::accuracy::{Measurement, Variant, Variants};
-use fem::{CaseError, Monitor, Progress, Shared};
+use fem::{CaseError, Monitor, Progress, SharedModels};
 use fem_case::engineering::show;
 
 use crate::progress::ItemProgress;
@@ -76,7 +76,7 @@ fn time(
         let begin = Instant::now();
         // Nothing is shared, so each run pays for its meshes and factors.
         let measurement =
-            Measurement::of(variant, contact_radius, &Shared::default(), &mut deadline)?;
+            Measurement::of(variant, contact_radius, &SharedModels::default(), &mut deadline)?;
         let spent = begin.elapsed();
         seconds.push(spent.as_secs_f64());
         if seconds.len() == N_TIMES || spent > TIMED_THRICE {

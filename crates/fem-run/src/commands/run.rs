@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use fem::results::Summary;
-use fem::{Cost, ErrorEstimator, Identity, Memory, RefinedBeforeRun, Simulation, remedy_of};
+use fem::{
+    Cost, ErrorEstimator, Identity, RefinedBeforeRun, RestartState, Simulation, stop_advice,
+};
 use fem_case::Keep;
 use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
@@ -132,7 +134,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
 
 /// Returns the restart state in the result folder. If the default folder belongs to another case, the state
 /// is looked for in this case's own folder; if there is none either, the other case's file is rejected.
-fn memory(place: &ResultPath, identity: &Identity) -> Result<Option<Memory>, Failure> {
+fn memory(place: &ResultPath, identity: &Identity) -> Result<Option<RestartState>, Failure> {
     let own = read_restart(&place.out, identity)?;
     match (&own, &place.taken) {
         (None, Some(taken)) => read_restart(taken, identity),
@@ -143,7 +145,7 @@ fn memory(place: &ResultPath, identity: &Identity) -> Result<Option<Memory>, Fai
 /// Returns the collision, and the names of files that the run has left in the folder.
 fn compute(
     simulation: &Simulation,
-    memory: Option<Memory>,
+    memory: Option<RestartState>,
     writer: &mut RestartWriter<'_>,
     monitor: &mut dyn Monitor,
 ) -> Result<(Collision, &'static [&'static str]), Failure> {
@@ -237,7 +239,7 @@ fn price(
 
 /// Returns why a run stopped early; `kept` says where its results are.
 pub fn stopped(stop: &Stop, summary: &Summary, kept: &str) -> Failure {
-    let Some(remedy) = remedy_of(stop) else {
+    let Some(remedy) = stop_advice(stop) else {
         return Failure::interrupted(stop.to_string()).with_help(kept);
     };
     let between: Vec<&str> = summary.bodies.iter().map(|body| body.name.as_str()).collect();

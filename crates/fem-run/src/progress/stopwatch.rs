@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use fem::results::Spent;
+use fem::results::RunCost;
 use fem::{ErrorEstimator, Simulation};
 use fem_collision::{Monitor, Phase, Progress};
 
@@ -63,8 +63,8 @@ impl<M: Monitor> Monitor for Timed<M> {
 
 impl Stopwatch {
     /// Returns what has been spent until now.
-    pub fn spent(&self) -> Spent {
-        Spent {
+    pub fn spent(&self) -> RunCost {
+        RunCost {
             wall: self.started.elapsed().as_secs_f64(),
             setup: self.setup.as_secs_f64(),
             trials: self.trials.as_secs_f64(),

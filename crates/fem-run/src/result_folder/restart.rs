@@ -5,7 +5,7 @@ use std::io::{Write, stderr};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use fem::{Course, Identity, Memory, Simulation, checkpoint, memory_of};
+use fem::{Identity, RestartState, Simulation, Stepper, checkpoint, restart_state_of};
 use fem_case::engineering::show;
 
 use super::ResultFolder;
@@ -36,7 +36,7 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
 ///
 /// # Errors
 /// The file belongs to another case or build, is damaged, or cannot be read.
-pub fn read_restart(folder: &Path, identity: &Identity) -> Result<Option<Memory>, Failure> {
+pub fn read_restart(folder: &Path, identity: &Identity) -> Result<Option<RestartState>, Failure> {
     let path = folder.join(RESTART_FILE);
     let refused = |what: &dyn std::fmt::Display| {
         let name = one_line(&path.display().to_string());
@@ -48,12 +48,12 @@ pub fn read_restart(folder: &Path, identity: &Identity) -> Result<Option<Memory>
     match fs::read(&path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(refused(&error)),
-        Ok(bytes) => memory_of(&bytes, identity).map(Some).map_err(|error| refused(&error)),
+        Ok(bytes) => restart_state_of(&bytes, identity).map(Some).map_err(|error| refused(&error)),
     }
 }
 
 /// Prints one line about the state from which the run continues.
-pub fn announce_restart(state: Option<&Memory>) {
+pub fn announce_restart(state: Option<&RestartState>) {
     let text = match state {
         Some(state) => format!(
             "continuing from step {} of the contact at t = {}",
@@ -90,7 +90,7 @@ impl<'a> RestartWriter<'a> {
     }
 
     /// Warns if the model has no restart state.
-    pub fn begin(&self, course: &dyn Course) {
+    pub fn begin(&self, course: &dyn Stepper) {
         if self.arguments.checkpoint_every.is_some() && course.memory().is_none() {
             let text = "this model computes its result at once: it leaves no restart file";
             let _ = writeln!(stderr(), "warning: {text}");
@@ -98,12 +98,12 @@ impl<'a> RestartWriter<'a> {
     }
 
     /// Updates the file if it is time.
-    pub fn update(&mut self, simulation: &Simulation, course: &dyn Course) {
+    pub fn update(&mut self, simulation: &Simulation, course: &dyn Stepper) {
         let every = self.arguments.checkpoint_every;
         if every.is_none_or(|every| self.last.elapsed() < every) {
             return;
         }
-        let Some(memory) = simulation.memory_of(course) else { return };
+        let Some(memory) = simulation.restart_state_of(course) else { return };
         let written = self.folder.write_ahead(RESTART_FILE, &checkpoint(self.identity, &memory));
         self.last = Instant::now();
         if let Err(error) = written
@@ -116,8 +116,8 @@ impl<'a> RestartWriter<'a> {
     }
 
     /// Writes the file of an interrupted run into its result; returns whether there is one.
-    pub fn leave(&self, simulation: &Simulation, course: &dyn Course) -> bool {
-        let Some(memory) = simulation.memory_of(course) else { return false };
+    pub fn leave(&self, simulation: &Simulation, course: &dyn Stepper) -> bool {
+        let Some(memory) = simulation.restart_state_of(course) else { return false };
         let path = self.folder.path().join(RESTART_FILE);
         fs::write(path, checkpoint(self.identity, &memory)).is_ok()
     }

@@ -6,7 +6,7 @@ use std::time::Instant;
 use fem::ComputedCollision;
 use fem::results::Summary;
 use fem::sweep::{Member, Observer, Runner};
-use fem::{CaseError, Shared};
+use fem::{CaseError, SharedModels};
 use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
 use fem_report::number_text::elapsed;
@@ -57,7 +57,7 @@ pub fn run_members(job: &SweepJob<'_>, left: &[usize]) -> Result<(), Failure> {
     let progress = ItemProgress::new(job.interrupt.clone(), "members", left.len(), job.quiet);
     let pack = job.folder.pack(job.shard);
     let keeper = ResultKeeper { job, progress: &progress, pack, first_failure: Mutex::new(None) };
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let runner = Runner::new(job.sweep, &shared);
     let runner = if job.sweep.keep == Keep::All { runner } else { runner.without_fields() };
     job.pool.install(|| runner.run_all(left, &keeper));

@@ -4,9 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::effects::{LeftOut, Verdict};
+use fem::effects::{EffectDecision, NeglectError};
 use fem::results::{BodySummary, BounceSummary, Parts, RestSummary, Summary};
-use fem::{Considered, ExpectedError};
+use fem::{ExpectedError, ModelCandidate};
 use fem_case::engineering::{Unit, number, show};
 use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
 use indicatif::{DecimalBytes, HumanCount};
@@ -248,14 +248,14 @@ fn price(summary: &Summary) -> String {
 }
 
 /// Returns the models that were considered, their expected errors, and why one was chosen.
-pub fn models(considered: &[Considered]) -> String {
+pub fn models(considered: &[ModelCandidate]) -> String {
     let header = ["", "model", "restitution", "contact time", "peak force", "peak pressure", ""]
         .map(String::from);
-    let row = |considered: &Considered| {
+    let row = |considered: &ModelCandidate| {
         let ExpectedError { restitution, contact_time_s, peak_force_n, peak_pressure_pa } =
             considered.error;
         let [restitution, time, force] =
-            changes(&LeftOut { restitution, contact_time_s, peak_force_n });
+            changes(&NeglectError { restitution, contact_time_s, peak_force_n });
         let pressure = change(peak_pressure_pa, &|change| show(change, "Pa"));
         let mark = if considered.chosen { "chosen" } else { "" };
         let model = considered.model.to_string();
@@ -266,8 +266,8 @@ pub fn models(considered: &[Considered]) -> String {
 }
 
 /// Returns the changes of restitution, contact time and peak force.
-pub fn changes(changes: &LeftOut) -> [String; 3] {
-    let LeftOut { restitution, contact_time_s, peak_force_n } = *changes;
+pub fn changes(changes: &NeglectError) -> [String; 3] {
+    let NeglectError { restitution, contact_time_s, peak_force_n } = *changes;
     [
         change(restitution, &|change| number(change, 2)),
         change(contact_time_s, &|change| show(change, "s")),
@@ -284,15 +284,15 @@ fn change(change: Option<f64>, show: &dyn Fn(f64) -> String) -> String {
 }
 
 /// Returns for each effect whether it is on or off, and why.
-pub fn effects<'a>(effects: impl Iterator<Item = &'a Verdict>) -> String {
-    let row = |effect: &Verdict| {
+pub fn effects<'a>(effects: impl Iterator<Item = &'a EffectDecision>) -> String {
+    let row = |effect: &EffectDecision| {
         [on_or_off(effect).to_string(), effect.name.to_string(), effect.reason.clone()]
     };
     table(&[Left, Left, Left], effects.map(row))
 }
 
 /// Returns "on" or "off".
-pub fn on_or_off(effect: &Verdict) -> &'static str {
+pub fn on_or_off(effect: &EffectDecision) -> &'static str {
     if effect.active { "on" } else { "off" }
 }
 

@@ -1,6 +1,6 @@
 //! A run that continues from a wrong motion stops at once and says when, where and why.
 
-use fem::{Identity, Memory, checkpoint, memory_of};
+use fem::{Identity, RestartState, checkpoint, restart_state_of};
 use serde_json::Value;
 
 use crate::common::Place;
@@ -28,7 +28,7 @@ const SCENES: [(&str, &[&str]); 3] = [
 ];
 
 /// Returns the restart state that a killed run of this scene leaves, and its identity.
-fn left_in(place: &Place, set: &[&str]) -> (Memory, Identity) {
+fn left_in(place: &Place, set: &[&str]) -> (RestartState, Identity) {
     let mut bytes = Vec::new();
     // The file of a short run may exist too briefly to be read.
     for _ in 0..100 {
@@ -48,11 +48,11 @@ fn left_in(place: &Place, set: &[&str]) -> (Memory, Identity) {
     let head: Value = serde_json::from_slice(&bytes[..line]).unwrap();
     let text = |key: &str| head[key].as_str().unwrap().to_string();
     let identity = Identity { case: text("case"), result: text("result") };
-    (memory_of(&bytes, &identity).unwrap(), identity)
+    (restart_state_of(&bytes, &identity).unwrap(), identity)
 }
 
 /// Returns the velocities of the lower body in a restart state, in the order of its bytes.
-fn velocities(memory: &Memory) -> Vec<f64> {
+fn velocities(memory: &RestartState) -> Vec<f64> {
     let memory = serde_json::to_value(memory).unwrap();
     let list = memory["contact"]["state"]["bodies"][0]["velocity"].as_array().unwrap();
     list.iter().flat_map(|v| v.as_array().unwrap()).map(|v| v.as_f64().unwrap()).collect()
@@ -62,7 +62,7 @@ fn velocities(memory: &Memory) -> Vec<f64> {
 type Change = fn(usize, f64) -> f64;
 
 /// Returns a restart state with other velocities of the lower body; NaN can only be set in its bytes.
-fn with(memory: &Memory, change: Change) -> Memory {
+fn with(memory: &RestartState, change: Change) -> RestartState {
     let mut bytes = postcard::to_stdvec(memory).unwrap();
     let old = velocities(memory);
     let as_bytes = |values: &[f64]| -> Vec<u8> {
@@ -76,7 +76,12 @@ fn with(memory: &Memory, change: Change) -> Memory {
 }
 
 /// Continues from a restart state; returns the messages and the summary.
-fn gone_on(place: &Place, set: &[&str], memory: &Memory, identity: &Identity) -> (String, Value) {
+fn gone_on(
+    place: &Place,
+    set: &[&str],
+    memory: &RestartState,
+    identity: &Identity,
+) -> (String, Value) {
     let _ = std::fs::remove_dir_all(place.path("out"));
     std::fs::create_dir(place.path("out")).unwrap();
     std::fs::write(place.path("out").join(RESTART_FILE), checkpoint(identity, memory)).unwrap();

@@ -16,22 +16,23 @@ mod bodies;
 mod effect;
 mod material;
 mod numerics;
+pub(crate) mod ting_prediction;
 
 use fem_case::{ModelChoice, Scene, Switch};
 use fem_collision::Collision;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 pub use bodies::{FiniteSizeEffect, Gravity, PartnerWaves, RigidPartner, SurfaceSlip, Vibration};
 pub use effect::Effect;
-pub(crate) use effect::computed_scene::Computed;
-pub use effect::computed_scene::Transformed;
-pub use effect::model_form_error::{Doubt, Standing};
-pub use effect::neglect_error::LeftOut;
-pub use effect::relevance::{Need, QUASI_STATIC_LIMIT, percent};
-pub use effect::support::Answer;
+pub(crate) use effect::computed_scene::ComputedScene;
+pub use effect::computed_scene::TransformedScene;
+pub use effect::model_form_error::{EffectStatus, ModelFormError};
+pub use effect::neglect_error::NeglectError;
+pub use effect::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
+pub use effect::support::Support;
 pub use material::{FiniteStrain, PlasticYield, Viscoelasticity};
 pub use numerics::{
     BulkViscosity, ContactSearch, DashpotEffect, HourglassControl, MassScaling, MirrorSymmetry,
@@ -60,7 +61,7 @@ pub const EFFECTS: [&dyn Effect; 16] = [
 
 /// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Verdict {
+pub struct EffectDecision {
     /// The effect's name.
     pub name: &'static str,
     /// Whether the run computes it.
@@ -74,14 +75,14 @@ pub struct Verdict {
 
 /// The decisions on all effects of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Decisions {
+pub struct EffectDecisions {
     /// Decisions on the effects that the model answers for, in the order of [`EFFECTS`].
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<EffectDecision>,
     /// Warnings, in the same order.
     pub warnings: Vec<String>,
 }
 
-impl Decisions {
+impl EffectDecisions {
     /// Returns whether the effect of this name is on.
     pub(crate) fn is_active(&self, name: &str) -> bool {
         self.verdicts.iter().any(|verdict| verdict.name == name && verdict.active)
@@ -92,7 +93,7 @@ impl Decisions {
         for verdict in &mut self.verdicts {
             let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name);
             let found = effect.and_then(|effect| effect.found(scene, collision));
-            if let Some(Answer::Is { active, reason, .. }) = found {
+            if let Some(Support::Is { active, reason, .. }) = found {
                 (verdict.active, verdict.reason) = (active, reason);
             }
         }
@@ -106,26 +107,26 @@ impl Decisions {
 pub fn decide(
     scene: &Scene,
     estimate: &Estimate,
-    has: impl Fn(&dyn Effect) -> Option<Answer>,
-) -> Result<Decisions, Refusal> {
-    let mut decisions = Decisions::default();
+    has: impl Fn(&dyn Effect) -> Option<Support>,
+) -> Result<EffectDecisions, Rejection> {
+    let mut decisions = EffectDecisions::default();
     for effect in EFFECTS {
         let answer = has(effect);
         let switch = effect.switch(scene.effects());
-        if switch == Some(Switch::On) && matches!(answer, None | Some(Answer::Lacks)) {
+        if switch == Some(Switch::On) && matches!(answer, None | Some(Support::Lacks)) {
             return Err(lacking(scene, effect));
         }
         let Some(answer) = answer else { continue };
         let need = effect.need(scene, estimate).unwrap_or_default();
         let obeys = answer.obeys();
         let (is_called_for, doubt) = (need.is_called_for, need.warning.clone());
-        let is_inherent = matches!(answer, Answer::Inherent { .. });
+        let is_inherent = matches!(answer, Support::Inherent { .. });
         let (active, reason, warnings) = answer.of(need, switch);
         if switch == Some(Switch::Off) && active {
             return Err(inherent(scene, effect, &reason));
         }
         let is_lacking = !active && !is_inherent;
-        decisions.verdicts.push(Verdict { name: effect.name(), active, reason, is_lacking });
+        decisions.verdicts.push(EffectDecision { name: effect.name(), active, reason, is_lacking });
         decisions.warnings.extend(warnings);
         if switch == Some(Switch::On) && obeys && !is_called_for {
             let left_out = effect.left_out(scene, estimate).unwrap_or_default();
@@ -147,18 +148,18 @@ pub fn decide(
 }
 
 /// An effect that is forced on must be one that the model computes.
-fn lacking(scene: &Scene, effect: &dyn Effect) -> Refusal {
+fn lacking(scene: &Scene, effect: &dyn Effect) -> Rejection {
     let key = key_of(effect);
     let model = scene.model().name();
     let message = format!("effect `{key}` is not available in model {model}");
-    Refusal::new(format!("effects.{key}"), message).with_help(match scene.model() {
+    Rejection::new(format!("effects.{key}"), message).with_help(match scene.model() {
         ModelChoice::Fem => "write \"auto\" or \"off\", or leave it out",
         _ => "write \"auto\" or \"off\", leave it out, or compute the case with model.fem",
     })
 }
 
 /// An effect that is forced off must be one that the model can leave out.
-fn inherent(scene: &Scene, effect: &dyn Effect, reason: &str) -> Refusal {
+fn inherent(scene: &Scene, effect: &dyn Effect, reason: &str) -> Rejection {
     let key = key_of(effect);
     let model = scene.model().name();
     if effect.name() == SurfaceSlip::NAME && *scene.model() == ModelChoice::Fem {
@@ -168,10 +169,10 @@ fn inherent(scene: &Scene, effect: &dyn Effect, reason: &str) -> Refusal {
              and effect `{key}` cannot be left out ({reason})"
         );
         let help = "write \"auto\" or \"on\", leave it out, or write effects.finite_strain = \"off\" beside it";
-        return Refusal::new(format!("effects.{key}"), message).with_help(help);
+        return Rejection::new(format!("effects.{key}"), message).with_help(help);
     }
     let message = format!("model {model} cannot leave out effect `{key}` ({reason})");
-    Refusal::new(format!("effects.{key}"), message)
+    Rejection::new(format!("effects.{key}"), message)
         .with_help("write \"auto\" or \"on\", or leave it out")
 }
 

@@ -11,7 +11,7 @@ use super::elastic_null::{ElasticNull, elastic_null};
 use super::noise_floor::{noise, noise_floor};
 use super::reference_runs::{ReferenceRuns, Subject, Values};
 use super::refinement::NotRefined;
-use crate::effects::{Doubt, FiniteStrain, MassScaling, Verdict};
+use crate::effects::{EffectDecision, FiniteStrain, MassScaling, ModelFormError};
 use crate::models::explicit::cost::needs_own_reference;
 use crate::models::method::Cost;
 use crate::results::overlap_of_approach;
@@ -55,7 +55,7 @@ pub struct ErrorEstimator {
 /// The estimated errors of a collision.
 #[derive(Debug, Default)]
 pub struct ErrorEstimate {
-    pub(crate) bars: Doubt,
+    pub(crate) bars: ModelFormError,
     parts: [Option<BarParts>; 6],
     /// The loss without relaxation, for relaxing bodies.
     pub elastic_null: Option<ElasticNull>,
@@ -132,7 +132,7 @@ impl ErrorEstimator {
             Hertz { .. } => of_tolerance(collision, CLOSED_FORM),
             Ting { tolerance, .. } | Law { tolerance, .. } => of_tolerance(collision, tolerance),
             // Its choice is one of the others.
-            Auto => Doubt::default(),
+            Auto => ModelFormError::default(),
         };
         let element_updates = self.runs.element_updates();
         ErrorEstimate { bars, parts, element_updates, ..ErrorEstimate::default() }
@@ -289,11 +289,15 @@ fn bar_parts(
 }
 
 /// Returns error bars, SI: the sum of their parts, and no less than the noise that the run itself shows.
-fn summed(simulation: &Simulation, collision: &Collision, parts: &[Option<BarParts>; 6]) -> Doubt {
+fn summed(
+    simulation: &Simulation,
+    collision: &Collision,
+    parts: &[Option<BarParts>; 6],
+) -> ModelFormError {
     let is_unresolved = is_unresolved(simulation, collision);
     let overlap = overlap_of_approach(simulation, collision).unwrap_or(0.0);
     let is_early = early_pressure_radius(simulation, collision).is_some();
-    Doubt::by(|headline| {
+    ModelFormError::by(|headline| {
         let mut floor = noise_floor(collision, headline);
         if headline == QuantityOfInterest::MaxApproach {
             floor = floor.max(overlap);
@@ -313,8 +317,8 @@ fn summed(simulation: &Simulation, collision: &Collision, parts: &[Option<BarPar
 }
 
 /// Returns the errors of a model without elements, from its tolerance.
-fn of_tolerance(collision: &Collision, tolerance: f64) -> Doubt {
-    Doubt::by(|headline| {
+fn of_tolerance(collision: &Collision, tolerance: f64) -> ModelFormError {
+    ModelFormError::by(|headline| {
         let share = match headline {
             QuantityOfInterest::Restitution
             | QuantityOfInterest::ContactTime
@@ -327,7 +331,9 @@ fn of_tolerance(collision: &Collision, tolerance: f64) -> Doubt {
 
 fn is_at_finite_strain(simulation: &Simulation, collision: &Collision) -> bool {
     let verdicts = simulation.decisions(collision).verdicts;
-    verdicts.iter().any(|verdict: &Verdict| verdict.name == FiniteStrain::NAME && verdict.active)
+    verdicts
+        .iter()
+        .any(|verdict: &EffectDecision| verdict.name == FiniteStrain::NAME && verdict.active)
 }
 
 /// Returns the most mass that is added to a body over that of the lighter one; for a stiffer body that share over its

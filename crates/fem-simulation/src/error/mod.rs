@@ -44,7 +44,7 @@ pub(crate) use model_form::uncertainty;
 pub(crate) use noise_floor::{LARGEST_NOISE, excess_of_restitution, noise, unbalanced_energy};
 pub use reference_runs::{CONDENSED_REFERENCE_TIME, first_contact};
 pub(crate) use refinement::refined_because;
-pub use refinement::{Level, RefinedBeforeRun};
+pub use refinement::{RefinedBeforeRun, RefinementLevel};
 pub use refinement_cost_bound::RefinementBound;
 pub(crate) use refinement_cost_bound::refinement_bound;
 pub use setting::Setting;

@@ -2,14 +2,14 @@
 //!
 //! The discretisation error bounds the distance from the solution of the continuum problem that the model poses; the
 //! model-form error bounds what that problem leaves out. It is the change by effects that the model lacks
-//! ([`crate::effects::Doubt`]) and the distance of the laws that a material may follow beyond Hooke's where the case
+//! ([`crate::effects::ModelFormError`]) and the distance of the laws that a material may follow beyond Hooke's where the case
 //! names none: closed forms, right within a factor of three. The restitution of a library material whose loss in an
 //! impact is not published is unknown. Contact laws' own numbers are the user's.
 
 use fem_collision::Collision;
 
 use super::estimator::ErrorEstimate;
-use crate::effects::{Doubt, EFFECTS, Standing};
+use crate::effects::{EFFECTS, EffectStatus, ModelFormError};
 use crate::results::{EffectSummary, Parts, Quantities, UncertaintySummary};
 use crate::simulation::Simulation;
 
@@ -22,11 +22,13 @@ pub(crate) fn uncertainty(
     effects: &[EffectSummary],
 ) -> UncertaintySummary {
     let all = model_form_errors(simulation, collision, effects);
-    let sum = |errors: &mut dyn Iterator<Item = Doubt>| errors.fold(Doubt::NOTHING, Doubt::and);
+    let sum = |errors: &mut dyn Iterator<Item = ModelFormError>| {
+        errors.fold(ModelFormError::NOTHING, ModelFormError::and)
+    };
     let model = sum(&mut all.iter().copied());
-    let known = sum(&mut all.iter().copied().map(Doubt::told));
+    let known = sum(&mut all.iter().copied().map(ModelFormError::told));
     UncertaintySummary::by(|headline| {
-        let of = |error: &Doubt| numbers.number(headline).and(error.size(headline));
+        let of = |error: &ModelFormError| numbers.number(headline).and(error.size(headline));
         let model = of(&model);
         let known = of(&known).filter(|known| model.is_none() && *known > 0.0);
         Parts { discretisation: of(&errors.bars), model, model_at_least: known }
@@ -38,15 +40,18 @@ fn model_form_errors(
     simulation: &Simulation,
     collision: &Collision,
     effects: &[EffectSummary],
-) -> Vec<Doubt> {
-    let Some(estimate) = simulation.estimate(collision) else { return vec![Doubt::default()] };
+) -> Vec<ModelFormError> {
+    let Some(estimate) = simulation.estimate(collision) else {
+        return vec![ModelFormError::default()];
+    };
     let estimate = estimate.as_came(collision);
     let scene = simulation.scene_of_model();
     let error = |EffectSummary { verdict, error_if_left_out }: &EffectSummary| {
-        let standing = Standing { is_lacking: verdict.is_lacking, left_out: *error_if_left_out };
+        let standing =
+            EffectStatus { is_lacking: verdict.is_lacking, left_out: *error_if_left_out };
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
         Some(effect.doubt(&scene, &estimate, &standing))
     };
-    let loss = simulation.case().scene().unpublished_loss().map(|_| Doubt::of_loss());
+    let loss = simulation.case().scene().unpublished_loss().map(|_| ModelFormError::of_loss());
     effects.iter().filter_map(error).chain(loss).collect()
 }

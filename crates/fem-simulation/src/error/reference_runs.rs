@@ -39,7 +39,7 @@ pub fn first_contact(file: &CaseFile) -> Option<StopTable> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum FarMesh {
     AsGiven,
-    Chosen,
+    SelectedModel,
 }
 
 /// A reference run and its result.
@@ -132,7 +132,7 @@ impl ReferenceRuns {
             let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
             let coarse = self.values(subject, &settings, FarMesh::AsGiven)?;
             let near = errors(values, extrapolated(coarse, values, ratio));
-            let chosen = self.values(subject, &settings, FarMesh::Chosen)?;
+            let chosen = self.values(subject, &settings, FarMesh::SelectedModel)?;
             let (far, of_condensed) = (errors(coarse, chosen), self.far_mesh(subject));
             Some(std::array::from_fn(|k| {
                 let of_condensed = of_condensed.and_then(|of| of[k]).unwrap_or(0.0);
@@ -146,7 +146,7 @@ impl ReferenceRuns {
         subject.far_mesh_key()?;
         let settings = [condensed(true), Setting::ElementSize(subject.size)];
         let given = self.values(subject, &settings, FarMesh::AsGiven)?;
-        let chosen = self.values(subject, &settings, FarMesh::Chosen)?;
+        let chosen = self.values(subject, &settings, FarMesh::SelectedModel)?;
         Some(errors(given, chosen))
     }
 
@@ -181,7 +181,7 @@ impl ReferenceRuns {
         let mut on = |size: f64| {
             let settings =
                 [condensed(false), Setting::ElementSize(size), Setting::Staggered(false)];
-            self.values(subject, &settings, FarMesh::Chosen)
+            self.values(subject, &settings, FarMesh::SelectedModel)
         };
         let (coarse, fine) = (on(size)?, on(0.5 * size)?);
         Some(errors(values, extrapolated(coarse, fine, 2.0)))
@@ -264,7 +264,7 @@ fn collide(
         for setting in settings {
             setting.apply(file);
         }
-        if let (FarMesh::Chosen, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
+        if let (FarMesh::SelectedModel, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
             (mesh.growth, mesh.refined_radius) = (None, None);
             // What is chosen goes by the speed.
             *file = simulation.meeting(file.clone(), approach);

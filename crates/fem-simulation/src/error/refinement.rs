@@ -44,7 +44,7 @@ const SAME_REFINEMENT: f64 = 0.01;
 
 /// A mesh that was too coarse.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Level {
+pub struct RefinementLevel {
     /// Edge length of its elements at the contact.
     pub contact_element_size_m: f64,
     /// Element updates of its collision; `None` if the collision was not computed on it or takes none.
@@ -233,14 +233,15 @@ impl ErrorEstimator {
         {
             return Err(NotRefined::TooExpensive { updates: Some(updates) });
         }
-        let level = Level {
+        let level = RefinementLevel {
             contact_element_size_m: elements.plan.contact_element_size,
             element_updates: met.and_then(|collision| collision.element_updates),
             quantity: miss.headline.key().to_string(),
             error: miss.error,
             tolerance: miss.tolerance,
         };
-        let levels: Vec<Level> = simulation.levels().iter().cloned().chain([level]).collect();
+        let levels: Vec<RefinementLevel> =
+            simulation.levels().iter().cloned().chain([level]).collect();
         let on = |by: f64| {
             let refinement = by * simulation.refinement;
             simulation.refined(refinement, levels.clone()).map_err(NotRefined::Rejected)

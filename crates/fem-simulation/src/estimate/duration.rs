@@ -1,4 +1,4 @@
-//! How long a run will take: from first touch until the bodies have parted, or stay together.
+//! Estimates the duration of a run: from first touch until the bodies have parted or stay together.
 //!
 //! Ting's model knows it of bodies that relax, within 2 %: a contact that relaxes lasts several times as
 //! long as closed forms tell, and bodies of which nothing is left creep into each other until the same
@@ -23,7 +23,7 @@ pub(crate) fn expected_duration(scene: &Scene, estimate: &Estimate, approach: &A
     told.unwrap_or(by_estimate)
 }
 
-/// The same of an impact that has been foretold, s.
+/// Returns the duration for a predicted impact, in seconds.
 pub(crate) fn duration_of(
     scene: &Scene,
     estimate: &Estimate,

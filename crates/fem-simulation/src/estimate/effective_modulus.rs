@@ -30,21 +30,21 @@ const DECADES: f64 = 12.0;
 /// The size of a collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
-    /// s.
+    /// Contact time, in seconds.
     pub contact_time: f64,
-    /// N.
+    /// Peak force, in newtons.
     pub peak_force: f64,
     /// m.
     pub max_approach: f64,
     /// m.
     pub max_contact_radius: f64,
-    /// Pa.
+    /// Peak pressure, in pascals.
     pub peak_pressure: f64,
 }
 
 /// A contact as relaxation makes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Softened {
+pub struct EffectiveModuli {
     /// Time t_s after a sudden load when the moduli are those that the contact meets, s; 0 of elastic bodies.
     pub after: f64,
     /// Hertz with these moduli.
@@ -55,14 +55,15 @@ pub struct Softened {
     pub pressure_radius: f64,
 }
 
-impl Softened {
-    /// Of bodies that hardly relax, or not at all: as they are at a time, s.
+impl EffectiveModuli {
+    /// Returns the moduli of bodies that hardly relax, at a time (s).
     pub(crate) fn little(hertz: &HertzImpact, after: f64) -> Self {
         let pressure_radius = hertz.max_contact_radius();
         Self { after, hertz: *hertz, sizes: Sizes::from(hertz), pressure_radius }
     }
 
-    /// Of bodies that relax to little, in an impact that is elastic with their instantaneous moduli.
+    /// Returns the moduli of bodies that relax strongly, for an impact that is elastic with the
+    /// instantaneous moduli.
     ///
     /// # Errors
     /// A motion that Ting's model has no answer to.
@@ -105,7 +106,8 @@ impl Softened {
 }
 
 impl Sizes {
-    /// Of an impact; bodies that stay together have the contact time of elastic ones that are as soft.
+    /// Returns the sizes for an impact. Bodies that stay together have the contact time of equally soft
+    /// elastic ones.
     fn of(impact: &Impact, softened: &HertzImpact) -> Self {
         Self {
             contact_time: impact.contact_time.unwrap_or_else(|| softened.contact_time()),

@@ -1,11 +1,10 @@
-//! What closed forms say about a scene before anything is computed.
+//! Closed-form estimates of a collision before the run.
 
 pub(crate) mod approach;
 pub(crate) mod duration;
 pub(crate) mod effective_modulus;
 pub(crate) mod quasi_static;
 pub(crate) mod semi_infinite_partner;
-pub(crate) mod ting_prediction;
 pub(crate) mod viscous_flow;
 
 use fem_case::{Body, Scene, Shape};
@@ -14,8 +13,8 @@ use fem_laws::{HertzImpact, LawError, Pair, Partner};
 use fem_material::engineering::number;
 use fem_material::{ElasticModuli, Material};
 
-use crate::estimate::effective_modulus::Softened;
-use crate::refusal::Refusal;
+use crate::estimate::effective_modulus::EffectiveModuli;
+use crate::rejection::Rejection;
 
 /// Least share of a modulus that the estimate counts with: a body that relaxes
 /// within the contact is stopped by its first, stiff response.
@@ -47,7 +46,7 @@ pub struct Estimate {
     /// modulus that is lost over the contact.
     pub relaxed: f64,
     /// The contact as relaxation makes it, by which effects are judged: Hertz' of elastic bodies.
-    pub softened: Softened,
+    pub softened: EffectiveModuli,
     /// As [`Estimate::mach`], of the moduli that the contact meets.
     pub softened_mach: f64,
     /// As [`Estimate::ringing`], of the moduli that the contact meets.
@@ -55,13 +54,13 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Of a scene that a model is made for.
+    /// Returns the estimate of a scene for which a model is built.
     ///
     /// # Errors
     /// As [`Estimate::of`], as a fault of the scene; masses that no f64 holds.
-    pub fn checked(scene: &Scene) -> Result<Self, Refusal> {
+    pub fn checked(scene: &Scene) -> Result<Self, Rejection> {
         let refused = |why: String| {
-            Refusal::new("body", format!("the collision cannot be estimated: {why}"))
+            Rejection::new("body", format!("the collision cannot be estimated: {why}"))
                 .with_help("check sizes, densities, moduli and speeds, and their units")
         };
         // What overflows would count as a wall, and products of masses have to be numbers too.
@@ -97,7 +96,7 @@ impl Estimate {
         Expectation { contact_time: self.contact_time, approach: self.approach }
     }
 
-    /// What closed forms say of a scene.
+    /// Returns the closed-form estimate of a scene.
     ///
     /// # Errors
     /// Numbers so extreme that Hertz' values leave the range of f64.
@@ -105,7 +104,7 @@ impl Estimate {
         Self::at(scene, scene.approach_speed())
     }
 
-    /// What closed forms say of the bodies of a scene that meet at this speed, m/s.
+    /// Returns the closed-form estimate at another approach speed (m/s).
     ///
     /// # Errors
     /// As [`Estimate::of`].
@@ -131,11 +130,11 @@ impl Estimate {
             .map(|series| 1.0 - series.relaxation(contact_time))
             .fold(0.0, f64::max);
         let softened = match relaxed > MUCH {
-            true => Softened::much(scene, &hertz).ok(),
+            true => EffectiveModuli::much(scene, &hertz).ok(),
             false => None,
         };
         let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
-        let softened = softened.unwrap_or_else(|| Softened::little(&relaxed_impact, middle));
+        let softened = softened.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
         let twin = softened.twin(scene);
         Ok(Self {
             hertz,

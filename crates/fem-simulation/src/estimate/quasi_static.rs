@@ -20,11 +20,11 @@ pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impa
     ting_of(scene, pair, true, size)?.impact(scene.approach_speed())
 }
 
-/// Accuracy of an impact that only foretells.
+/// Relative accuracy of an impact used for prediction only.
 const FORECAST: f64 = 1e-3;
 
-/// Ting's impact of a scene on half-spaces at a speed (m/s), to foretell how far bodies come and how long they
-/// take.
+/// Returns Ting's impact of the scene between half-spaces at a speed (m/s), to predict approach and contact
+/// time.
 ///
 /// # Errors
 /// Numbers that the law refuses.
@@ -58,7 +58,7 @@ type Known = (Ting, f64, Result<Rc<Impact>, LawError>);
 thread_local! {
     /// The impacts of this thread that were computed last.
     static LAST: RefCell<Vec<Known>> = const { RefCell::new(Vec::new()) };
-    /// How many were computed.
+    /// Number of computed impacts.
     #[cfg(test)]
     static COMPUTED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
@@ -122,7 +122,7 @@ mod tests {
     use fem_case::Case;
 
     use super::*;
-    use crate::models::Chosen;
+    use crate::models::SelectedModel;
 
     /// Far outside of Ting's range: ten terms over ten decades, between bodies of which one is 1e15 times as stiff.
     const EXTREME: &str = "
@@ -160,10 +160,10 @@ mod tests {
     fn no_impact_is_foretold_twice() {
         let case = Case::parse("extreme.toml", EXTREME, Path::new("."), &[]).unwrap();
         let before = COMPUTED.get();
-        let _ = Chosen::of(case.scene());
+        let _ = SelectedModel::of(case.scene());
         let once = COMPUTED.get() - before;
         assert!((1..=REMEMBERED).contains(&once), "{once}");
-        let _ = Chosen::of(case.scene());
+        let _ = SelectedModel::of(case.scene());
         assert_eq!(COMPUTED.get() - before, once);
         let known = LAST.with_borrow(|last| last.iter().filter(|(.., came)| came.is_err()).count());
         assert!(known > 0, "a scene beyond what Ting's model has an answer to");

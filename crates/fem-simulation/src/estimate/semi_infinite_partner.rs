@@ -54,7 +54,7 @@ pub(crate) fn radiating_impact(
 struct Partner {
     /// 0 the lower one.
     side: usize,
-    /// Of the body beside it, kg.
+    /// Mass of the other body, in kilograms.
     mass: f64,
     /// The body's mass over its own.
     mass_ratio: f64,

@@ -1,4 +1,4 @@
-//! How far bodies come together that relax to little or nothing, before any model computes it.
+//! Approach of bodies that relax to a small modulus or none, estimated before the run.
 //!
 //! A body that flows is stopped by its viscosity alone, in a time and by a contact that elastic closed forms
 //! know nothing of: with βT = 10⁴ the contact grows to fourteen times that of the elastic bodies, in a
@@ -16,7 +16,7 @@ use crate::estimate::Estimate;
 use crate::estimate::approach::approach_of;
 use crate::estimate::duration::{duration_of, expected_duration};
 use crate::estimate::quasi_static::{foretold_impact, ting_of};
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Bodies that keep more than the rest of their moduli over the contact are stopped by them.
 const RELAXED: f64 = 0.5;
@@ -24,7 +24,7 @@ const RELAXED: f64 = 0.5;
 const WIDEST: f64 = 0.3;
 /// Contacts that relaxation has widened by less are as wide by the speed.
 const WIDENED: f64 = 3.0;
-/// Runs give up after so many times what is foretold.
+/// Runs stop after this multiple of the predicted duration.
 const PATIENCE: f64 = 3.0;
 /// Bodies that come less further than this together than elastic ones are stopped by the clock of those.
 const SLOWED: f64 = 3.0;
@@ -52,7 +52,7 @@ pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
 ///
 /// # Errors
 /// Blames the materials.
-pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Refusal> {
+pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
     let impact = match impact(scene, estimate) {
         Some(Ok(impact)) => impact,
         Some(Err(LawError::NotFinished { .. })) if flows(scene, estimate) => {
@@ -73,9 +73,9 @@ pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Refusal> {
     )))
 }
 
-fn refused(how: String) -> Refusal {
+fn refused(how: String) -> Rejection {
     let found = format!("the bodies relax so fast that they flow into each other: {how}");
-    Refusal::new("material", found).with_help(format!(
+    Rejection::new("material", found).with_help(format!(
         "at most {WIDEST} are allowed; check the relaxation times, decay rates and weights of \
          material.NAME.relaxation and their units: weights whose sum is below 1 leave a lasting stiffness"
     ))
@@ -87,7 +87,7 @@ fn flows(scene: &Scene, estimate: &Estimate) -> bool {
     ting.is_ok_and(|ting| ting.equilibrium_weight() <= 0.0)
 }
 
-/// So many times the elastic contact time a run of finite elements goes on before it gives up.
+/// Multiple of the elastic contact time after which a finite-element run stops.
 pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
     if !relaxes(scene, estimate) {
         return OutputRequest::GIVE_UP_AFTER;
@@ -106,7 +106,7 @@ pub(crate) struct Slower {
     pub end: f64,
 }
 
-/// How much slower a contact is that relaxation decides: 1 of others.
+/// Returns the factor by which relaxation slows the contact, 1 if it does not.
 pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slower {
     let Some(Ok(impact)) = impact(scene, estimate) else { return Slower { stop: 1.0, end: 1.0 } };
     let hertz = &estimate.hertz;

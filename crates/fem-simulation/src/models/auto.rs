@@ -15,14 +15,14 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    Answer, Doubt, Effect, FiniteSizeEffect, FiniteStrain, PartnerWaves, Standing, Vibration,
-    Viscoelasticity,
+    Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, ModelFormError, PartnerWaves, Support,
+    Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::estimate::viscous_flow::widest_contact;
-use crate::models::method::{Method, Model, Shared};
-use crate::refusal::Refusal;
+use crate::models::method::{Method, Model, SharedModels};
+use crate::rejection::Rejection;
 
 /// The cheapest that serves, `[model] auto = {}`.
 #[derive(Clone, Copy, Debug)]
@@ -33,46 +33,46 @@ impl Method for AutoMethod {
         "auto"
     }
 
-    fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
+    fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         let chosen = left_open(scene)?;
         method_of(&chosen).build(&chosen, shared)
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
         let chosen = left_open(scene)?;
         method_of(&chosen).price(&chosen)
     }
 
     /// The case names the model that was chosen.
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let chosen = left_open(scene)?;
         method_of(&chosen).resolve(&chosen, file)
     }
 }
 
 /// A scene that leaves its model open, with the one that serves.
-fn left_open(scene: &Scene) -> Result<Scene, Refusal> {
+fn left_open(scene: &Scene) -> Result<Scene, Rejection> {
     match scene.model() {
-        ModelChoice::Auto => Ok(Chosen::of(scene)?.scene),
-        _ => Err(Refusal::chose_another(scene, "auto")),
+        ModelChoice::Auto => Ok(SelectedModel::of(scene)?.scene),
+        _ => Err(Rejection::chose_another(scene, "auto")),
     }
 }
 
-/// What a model is expected to be off by; magnitudes, `None` where nothing foretells it.
+/// Expected error of a model, as magnitudes; `None` where it cannot be estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ExpectedError {
-    /// Of the restitution.
+    /// Error of the restitution.
     pub restitution: Option<f64>,
-    /// Of the contact time, s.
+    /// Error of the contact time, in seconds.
     pub contact_time_s: Option<f64>,
-    /// Of the peak force, N.
+    /// Error of the peak force, in newtons.
     pub peak_force_n: Option<f64>,
-    /// Of the peak pressure, Pa.
+    /// Error of the peak pressure, in pascals.
     pub peak_pressure_pa: Option<f64>,
 }
 
-impl From<&Doubt> for ExpectedError {
-    fn from(doubt: &Doubt) -> Self {
+impl From<&ModelFormError> for ExpectedError {
+    fn from(doubt: &ModelFormError) -> Self {
         Self {
             restitution: doubt.size(QuantityOfInterest::Restitution),
             contact_time_s: doubt.size(QuantityOfInterest::ContactTime),
@@ -84,12 +84,12 @@ impl From<&Doubt> for ExpectedError {
 
 /// A model that was considered for a case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Considered {
+pub struct ModelCandidate {
     /// The model, as `[model]` would say it.
     pub model: &'static str,
     /// Whether it computes the collision.
     pub chosen: bool,
-    /// What it is expected to be off by.
+    /// Expected error.
     pub error: ExpectedError,
     /// Why it serves or does not.
     pub reason: String,
@@ -97,21 +97,21 @@ pub struct Considered {
 
 /// A scene with the model that computes it.
 #[derive(Clone, Debug)]
-pub struct Chosen {
+pub struct SelectedModel {
     /// The scene, of which the model is no longer open.
     pub scene: Scene,
-    /// All models, from the cheapest to the dearest; none where the case named its own.
-    pub considered: Vec<Considered>,
+    /// All models, from the cheapest to the most expensive; empty if the case names its own.
+    pub considered: Vec<ModelCandidate>,
     /// That none serves.
     pub warning: Option<String>,
 }
 
-impl Chosen {
+impl SelectedModel {
     /// Chooses, where the case leaves it open.
     ///
     /// # Errors
     /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
-    pub fn of(scene: &Scene) -> Result<Self, Refusal> {
+    pub fn of(scene: &Scene) -> Result<Self, Rejection> {
         if *scene.model() != ModelChoice::Auto {
             return Ok(Self { scene: scene.clone(), considered: Vec::new(), warning: None });
         }
@@ -122,8 +122,8 @@ impl Chosen {
         let best = serves.unwrap_or_else(|| closest(&judged));
         let excess = judged[best].excess;
         let considered = judged.into_iter().zip(CANDIDATES).enumerate();
-        let considered: Vec<Considered> = considered
-            .map(|(k, (judged, candidate))| Considered {
+        let considered: Vec<ModelCandidate> = considered
+            .map(|(k, (judged, candidate))| ModelCandidate {
                 model: candidate.name,
                 chosen: k == best,
                 error: judged.error,
@@ -157,12 +157,12 @@ struct Candidate {
     has_fields: bool,
     /// Whether it has the spheres' own compliance to first order in the contact's size.
     is_first_order: bool,
-    /// What its approximations are known to cost at default settings: of the restitution, of the
-    /// contact time, of the peak force and of the peak pressure.
+    /// Known errors of the model's approximations at default settings: restitution, contact time, peak
+    /// force, peak pressure.
     own: [f64; 4],
 }
 
-/// From the cheapest to the dearest. A contact law is none of them: its numbers are the user's.
+/// The candidates, from the cheapest to the most expensive.
 const CANDIDATES: [Candidate; 6] = [
     Candidate {
         name: "hertz = {}",
@@ -220,7 +220,7 @@ const CANDIDATES: [Candidate; 6] = [
 /// Share of the default tolerances down to which meshes are made as fine as a case asks.
 const FINEST: f64 = 0.05;
 
-/// What a candidate is expected to be off by.
+/// Returns the expected error of a candidate.
 struct Judged {
     error: ExpectedError,
     /// The worst of it, in tolerances; infinite where it is not known.
@@ -231,7 +231,7 @@ struct Judged {
     unfit: Option<String>,
 }
 
-/// The candidate that is off by least, of those that can be had.
+/// Returns the most accurate candidate that is available.
 fn closest(judged: &[Judged]) -> usize {
     let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
     let closest = possible.min_by(|(_, a), (_, b)| a.excess.total_cmp(&b.excess));
@@ -281,14 +281,14 @@ impl Candidate {
         };
         let unfit = unfit.or_else(|| self.called_out(estimate).map(str::to_string));
         let (error, excess) = match unknown {
-            Some(_) => (Doubt::default(), f64::INFINITY),
+            Some(_) => (ModelFormError::default(), f64::INFINITY),
             None => (error, told),
         };
         Judged { error: (&error).into(), excess, is_possible: impossible.is_none(), unfit }
     }
 
-    /// What its approximations cost.
-    fn own_error(&self, scene: &Scene, estimate: &Estimate) -> Doubt {
+    /// Returns the errors of the model's approximations.
+    fn own_error(&self, scene: &Scene, estimate: &Estimate) -> ModelFormError {
         let sizes = &estimate.softened.sizes;
         let accuracy = scene.accuracy();
         let default = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
@@ -317,25 +317,33 @@ impl Candidate {
             let is_followed = is_made_finer && (FINEST..1.0).contains(&share);
             Some(own * scale * if is_followed { share } else { 1.0 })
         };
-        let of_size = Standing { is_lacking: false, left_out: None };
+        let of_size = EffectStatus { is_lacking: false, left_out: None };
         let of_size = match self.is_first_order {
             true => FiniteSizeEffect.doubt(scene, estimate, &of_size),
-            false => Doubt::NOTHING,
+            false => ModelFormError::NOTHING,
         };
-        Doubt::by(own).and(of_size)
+        ModelFormError::by(own).and(of_size)
     }
 
-    /// What leaving an effect out changes of it; `None` where that is called for and nothing tells.
-    fn without(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Doubt> {
+    /// Returns the model-form error by a neglected effect, `None` if the effect is called for and its size
+    /// cannot be estimated.
+    fn without(
+        &self,
+        effect: &dyn Effect,
+        scene: &Scene,
+        estimate: &Estimate,
+    ) -> Option<ModelFormError> {
         let is_called_for = || effect.need(scene, estimate).is_some_and(|need| need.is_called_for);
         let left_out = effect.left_out(scene, estimate);
         let doubt = match &left_out {
             None if is_called_for() => return None,
-            None => return Some(Doubt::NOTHING),
+            None => return Some(ModelFormError::NOTHING),
             // A material's law is taken as it is given: by how much laws differ tells no model from another.
-            Some(left_out) if effect.name() == FiniteStrain::NAME => Doubt::of(left_out, estimate),
+            Some(left_out) if effect.name() == FiniteStrain::NAME => {
+                ModelFormError::of(left_out, estimate)
+            }
             Some(_) => {
-                let standing = Standing { is_lacking: true, left_out };
+                let standing = EffectStatus { is_lacking: true, left_out };
                 effect.doubt(scene, estimate, &standing)
             }
         };
@@ -350,7 +358,7 @@ impl Candidate {
         is_known.then(|| doubt.told().times(part))
     }
 
-    /// Why its result would itself advise another model, whatever the tolerance.
+    /// Returns the reason why its result would advise another model at any tolerance.
     fn called_out(&self, estimate: &Estimate) -> Option<&'static str> {
         match self.choice() {
             ModelChoice::Condensed(options) => {
@@ -360,7 +368,7 @@ impl Candidate {
         }
     }
 
-    /// Share of what waves in a large partner take that it is off by.
+    /// Relative error of the loss by waves in a large partner.
     fn own_waves(&self, scene: &Scene, estimate: &Estimate) -> f64 {
         let scene = scene.clone().with_model(self.choice());
         let answer = match scene.model() {
@@ -368,10 +376,10 @@ impl Candidate {
                 PartnerWaves::of_term(&scene, estimate, PartnerWaves::radiating)
             }
             ModelChoice::Condensed(_) => PartnerWaves::of_condensed(&scene, estimate),
-            _ => Answer::Lacks,
+            _ => Support::Lacks,
         };
         match answer {
-            Answer::Lacks => 1.0,
+            Support::Lacks => 1.0,
             _ => PartnerWaves::error_of_term(&scene, estimate),
         }
     }
@@ -404,7 +412,7 @@ impl Candidate {
         disobeyed.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
     }
 
-    /// What keeps it from a scene whatever the tolerance.
+    /// Returns the reason why it cannot compute the scene at any tolerance.
     fn impossible(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
         if let Some(effect) = self.disobeyed(scene) {
             return Some(format!("cannot obey the switch of {effect}"));
@@ -418,7 +426,7 @@ impl Candidate {
 }
 
 /// The largest error over the tolerance.
-fn excess(error: &Doubt, estimate: &Estimate, accuracy: &Accuracy) -> f64 {
+fn excess(error: &ModelFormError, estimate: &Estimate, accuracy: &Accuracy) -> f64 {
     let sizes = &estimate.softened.sizes;
     let over =
         |headline: QuantityOfInterest, allowed: f64| error.size(headline).unwrap_or(0.0) / allowed;

@@ -1,4 +1,4 @@
-//! What a way to compute collisions is to the rest of the house, and what it makes of a scene.
+//! The interface of a method: the traits `Method` and `Model`, and a model's setup and cost.
 //!
 //! A [`Method`] turns a scene into a [`Model`], which computes its collision at any approach. There
 //! is one file a method in `models/`, where [`METHODS`](crate::METHODS) lists them.
@@ -10,14 +10,14 @@ use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
 use fem_mesh::SphereMesh;
 
-use crate::effects::{Answer, Decisions, Effect};
+use crate::effects::{Effect, EffectDecisions, Support};
 use crate::estimate::Estimate;
-use crate::models::restart_state::Memory;
-use crate::models::stepper::Course;
+use crate::models::restart_state::RestartState;
+use crate::models::stepper::Stepper;
 use crate::plan::Plan;
-use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::contact_noise_advice::ContactNoiseAdvice;
 use crate::plan::pair_cache::PairCache;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// A way to compute collisions.
 pub trait Method: Sync {
@@ -28,26 +28,26 @@ pub trait Method: Sync {
     ///
     /// # Errors
     /// A scene that the method cannot compute, or not within the scene's limits.
-    fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal>;
+    fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection>;
 
     /// Element updates to come, what runs are ordered by, of a scene that could run: meshes are made
     /// and no factors, and what takes milliseconds counts as nothing.
     ///
     /// # Errors
     /// As [`Method::build`], but for what only the making shows.
-    fn price(&self, scene: &Scene) -> Result<u64, Refusal>;
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection>;
 
     /// The case as written with the method's defaults filled in, which makes the same model; what
     /// the method does not read stays as it is.
     ///
     /// # Errors
     /// As [`Method::price`].
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal>;
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection>;
 }
 
-/// What the models of several scenes share; a clone shares the same.
+/// Caches that the models of several scenes share; clones share the same caches.
 #[derive(Clone, Debug, Default)]
-pub struct Shared {
+pub struct SharedModels {
     /// Condensed pairs of bodies.
     pub pairs: Arc<PairCache>,
     /// Condensed pairs of reference runs, which estimate errors.
@@ -56,7 +56,7 @@ pub struct Shared {
     pub is_of_reference_runs: bool,
 }
 
-impl Shared {
+impl SharedModels {
     /// Returns what reference runs share.
     pub(crate) fn for_reference_runs(&self) -> Self {
         let pairs = || self.reference_pairs.clone();
@@ -67,12 +67,12 @@ impl Shared {
 /// A scene ready to be computed, at any approach and from any number of threads: what a collision
 /// gives does not depend on those before it.
 pub trait Model: fmt::Debug + Send + Sync {
-    /// What was decided on the scene as it is.
-    fn setup(&self) -> &Setup;
+    /// Returns the decisions on the scene.
+    fn setup(&self) -> &ModelSetup;
 
     /// What it has of an effect in a collision of which closed forms say this; `None` of an effect
     /// that means nothing to it.
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer>;
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support>;
 
     /// Computes a collision of the scene's bodies, as far as it gets; one that asks for what no run
     /// keeps ([`OutputRequest::check`]) does not begin. Where the contact outgrows the region in which it is
@@ -86,7 +86,7 @@ pub trait Model: fmt::Debug + Send + Sync {
 
     /// Begins a collision that goes on in steps, as far as whoever has the course lets it go; `None` of
     /// a model that computes all in one go.
-    fn start(&self, _: &Approach, _: &OutputRequest) -> Option<Box<dyn Course>> {
+    fn start(&self, _: &Approach, _: &OutputRequest) -> Option<Box<dyn Stepper>> {
         None
     }
 
@@ -94,9 +94,9 @@ pub trait Model: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// A memory of another model, or a model that goes on from none.
-    fn resume(&self, _: Memory) -> Result<Box<dyn Course>, Refusal> {
+    fn resume(&self, _: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         let message = format!("{} goes on from no memory", self.setup().description);
-        Err(Refusal::new("model", message).with_help("compute the collision anew"))
+        Err(Rejection::new("model", message).with_help("compute the collision anew"))
     }
 
     /// The contact of the scene's bodies under a force (N) that stays, all having relaxed; `None` of
@@ -104,7 +104,7 @@ pub trait Model: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// A contact that the model cannot compute.
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal>;
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection>;
 
     /// The meshes; a wall has none, nor has a model without elements.
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
@@ -112,35 +112,35 @@ pub trait Model: fmt::Debug + Send + Sync {
     }
 }
 
-/// What was decided on a scene before its collision is computed.
+/// The decisions on a scene before its collision is computed.
 #[derive(Clone, Debug)]
-pub struct Setup {
+pub struct ModelSetup {
     /// In a few words: what computes the collision.
     pub description: String,
     /// How the scene's bodies meet.
     pub approach: Approach,
-    /// What a run of the scene is asked for.
+    /// Output request of the run.
     pub want: OutputRequest,
-    /// What closed forms say.
+    /// Closed-form estimate.
     pub estimate: Estimate,
     /// Which effects are on, and why.
-    pub decisions: Decisions,
-    /// Of keys that the case gives and the model does not read.
+    pub decisions: EffectDecisions,
+    /// Warnings about keys that the case sets and the model does not read.
     pub unread: Vec<String>,
-    /// What the run will take.
+    /// Cost of the run.
     pub cost: Cost,
-    /// Of a model with meshes.
+    /// Setup of the elements, for a model with meshes.
     pub elements: Option<ElementSetup>,
 }
 
-impl Setup {
-    /// What the user should know before the run.
+impl ModelSetup {
+    /// Returns the warnings before the run.
     pub fn warnings(&self) -> Vec<String> {
         self.decisions.warnings.iter().chain(&self.unread).cloned().collect()
     }
 }
 
-/// What was decided on finite elements.
+/// The decisions on finite elements.
 #[derive(Clone, Debug)]
 pub struct ElementSetup {
     /// Mesh, contact and time step.
@@ -149,11 +149,11 @@ pub struct ElementSetup {
     pub has_springs: bool,
     /// Mass that is moved for a longer step, over that of the lighter body: the larger one of both bodies'.
     pub added_share: f64,
-    /// What makes the contact quieter.
-    pub quieter: Quieter,
+    /// Advice against contact noise.
+    pub quieter: ContactNoiseAdvice,
 }
 
-/// What a run will take.
+/// Cost of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cost {
     /// Every element is computed at every step.
@@ -162,7 +162,7 @@ pub enum Cost {
         elements: u64,
         /// Nodes of both bodies.
         nodes: u64,
-        /// Until separation.
+        /// Duration until separation.
         steps: u64,
         /// Elements times steps.
         element_updates: u64,
@@ -174,7 +174,7 @@ pub enum Cost {
         reference_memory: Option<u64>,
         /// Time step, s.
         time_step: f64,
-        /// What it would be without mass scaling, s.
+        /// Time step without mass scaling, in seconds.
         plain_time_step: f64,
     },
     /// The bodies are factored once.
@@ -200,11 +200,11 @@ pub enum Cost {
 /// F = K ξ^γ + C ξⁿ ξ̇, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceLaw {
-    /// Stiffness K.
+    /// Stiffness coefficient K.
     pub stiffness: f64,
     /// Exponent γ of the spring.
     pub elastic_exponent: f64,
-    /// Damping C.
+    /// Damping coefficient C.
     pub damping: f64,
     /// Exponent n of the dashpot.
     pub damping_exponent: f64,

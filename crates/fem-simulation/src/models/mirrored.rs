@@ -9,25 +9,25 @@ use fem_collision::{
 };
 use fem_mesh::{Side, SphereMesh};
 
-use crate::effects::{Answer, Effect, MirrorSymmetry, decide};
+use crate::effects::{Effect, MirrorSymmetry, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::approach_of;
-use crate::models::method::{ElementSetup, Model, Setup};
-use crate::models::restart_state::Memory;
-use crate::models::stepper::{Course, stopped};
+use crate::models::method::{ElementSetup, Model, ModelSetup};
+use crate::models::restart_state::RestartState;
+use crate::models::stepper::{Stepper, stopped};
 use crate::plan::{Plan, candidate_radius};
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// The whole of a scene of which half is computed.
 #[derive(Debug)]
 pub(super) struct Mirrored<M> {
     half: M,
-    setup: Setup,
+    setup: ModelSetup,
     image: Option<SphereMesh>,
 }
 
 /// The plan of the half of a scene: meshes, snapshots and limits of the whole.
-pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Refusal> {
+pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Rejection> {
     let Plan { estimate, contact_stiffness, gap, .. } = Plan::of(half)?;
     let candidate_radius = candidate_radius(&estimate, whole.contact_element_size);
     let speed_share = 0.5 * whole.speed_share;
@@ -35,24 +35,25 @@ pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Refusal> 
 }
 
 impl<M: Model> Mirrored<M> {
-    /// Of the model of the lower half, a sphere against a rigid plane, and the plan of the whole.
+    /// Builds the whole from the model of the lower half, a sphere against a rigid plane, and the plan of
+    /// the whole.
     ///
     /// # Errors
     /// An effect that the case forces on and the half's model lacks.
-    pub fn new(half: M, scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
+    pub fn new(half: M, scene: &Scene, plan: Plan) -> Result<Self, Rejection> {
         let image = half.meshes()[0].map(|mesh| mesh.clone().on_side(Side::Above));
         let own = half.setup().clone();
         let estimate = plan.estimate;
         let decisions = decide(scene, &estimate, |effect| has(effect, &half, &estimate))?;
         let elements = own.elements.map(|elements| ElementSetup { plan, ..elements });
         let approach = approach_of(scene)?;
-        let setup = Setup { approach, estimate, decisions, elements, ..own };
+        let setup = ModelSetup { approach, estimate, decisions, elements, ..own };
         Ok(Self { half, setup, image })
     }
 }
 
-/// What the whole has of an effect: what the half has, and the symmetry.
-fn has(effect: &dyn Effect, half: &impl Model, estimate: &Estimate) -> Option<Answer> {
+/// Returns the support of the whole for an effect: that of the half, and the symmetry.
+fn has(effect: &dyn Effect, half: &impl Model, estimate: &Estimate) -> Option<Support> {
     match effect.name() {
         MirrorSymmetry::NAME => Some(MirrorSymmetry::of_half()),
         _ => half.has(effect, estimate),
@@ -60,11 +61,11 @@ fn has(effect: &dyn Effect, half: &impl Model, estimate: &Estimate) -> Option<An
 }
 
 impl<M: Model> Model for Mirrored<M> {
-    fn setup(&self) -> &Setup {
+    fn setup(&self) -> &ModelSetup {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
         has(effect, &self.half, estimate)
     }
 
@@ -83,7 +84,7 @@ impl<M: Model> Model for Mirrored<M> {
         }
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
         let whole = Whole::of(approach);
         match half_of(approach) {
             Ok(half) => {
@@ -94,15 +95,15 @@ impl<M: Model> Model for Mirrored<M> {
         }
     }
 
-    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
+    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         let whole = memory.met;
-        let met = half_of(&whole).map_err(|stop| Refusal::new("body", stop.to_string()))?;
-        let half = self.half.resume(Memory { met, ..memory })?;
+        let met = half_of(&whole).map_err(|stop| Rejection::new("body", stop.to_string()))?;
+        let half = self.half.resume(RestartState { met, ..memory })?;
         Ok(Box::new(MirroredCourse { half, whole: Whole::of(&whole) }))
     }
 
     /// No gravity leaves both bodies alike.
-    fn static_contact(&self, _: f64) -> Result<Option<StaticContact>, Refusal> {
+    fn static_contact(&self, _: f64) -> Result<Option<StaticContact>, Rejection> {
         Ok(None)
     }
 
@@ -111,7 +112,7 @@ impl<M: Model> Model for Mirrored<M> {
     }
 }
 
-/// What the half is asked for: a place in the upper body is the mirrored one in the lower.
+/// Returns the output request of the half: places in the upper body are mirrored to the lower one.
 fn in_half(want: &OutputRequest) -> OutputRequest {
     let mut want = want.clone();
     for probe in want.probes.iter_mut().filter(|probe| probe.side == 1) {
@@ -129,11 +130,11 @@ fn half_of(approach: &Approach) -> Result<Approach, Stop> {
 
 /// The whole of a collision of which half is under way.
 struct MirroredCourse {
-    half: Box<dyn Course>,
+    half: Box<dyn Stepper>,
     whole: Whole,
 }
 
-impl Course for MirroredCourse {
+impl Stepper for MirroredCourse {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         self.half.advance(monitor)
     }
@@ -142,8 +143,8 @@ impl Course for MirroredCourse {
         self.half.progress()
     }
 
-    fn memory(&self) -> Option<Memory> {
-        Some(Memory { met: self.whole.approach, ..self.half.memory()? })
+    fn memory(&self) -> Option<RestartState> {
+        Some(RestartState { met: self.whole.approach, ..self.half.memory()? })
     }
 
     fn finish(self: Box<Self>) -> Collision {
@@ -232,7 +233,7 @@ impl Whole {
     }
 }
 
-/// What both bodies have of what is in the accounts of one.
+/// Returns the accounts of both bodies from those of one.
 fn twice(book: &EnergyLedger) -> EnergyLedger {
     book.and(book)
 }

@@ -15,20 +15,20 @@ pub(crate) mod stepper;
 use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
-use crate::effects::Computed;
-use crate::models::method::{Method, Model, Shared};
-use crate::refusal::Refusal;
+use crate::effects::ComputedScene;
+use crate::models::method::{Method, Model, SharedModels};
+use crate::rejection::Rejection;
 
 pub(crate) use bouncing::Bounces;
 use bouncing::Bouncing;
 use simplified::Simplified;
 
-pub use auto::{AutoMethod, Chosen, Considered, ExpectedError};
+pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
 pub use reduced::{HertzMethod, LawMethod, Reduced, TingMethod};
 
-/// All methods, from the cheapest to the dearest, and the one that chooses among them.
+/// All methods, from the cheapest to the most expensive, and the one that selects among them.
 pub const METHODS: [&dyn Method; 6] =
     [&HertzMethod, &LawMethod, &TingMethod, &CondensedMethod, &ExplicitMethod, &AutoMethod];
 
@@ -49,9 +49,9 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
 ///
 /// # Errors
 /// What effects and the scene's method refuse.
-pub fn model_of(scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
-    let Computed { scene: computed, answers } = Computed::of(scene)?;
-    let computed = Chosen::of(&computed)?.scene;
+pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+    let ComputedScene { scene: computed, answers } = ComputedScene::of(scene)?;
+    let computed = SelectedModel::of(&computed)?.scene;
     let model = method_of(&computed).build(&computed, shared)?;
     let model = match scene.gravity() {
         Some(gravity) => Box::new(Bouncing::new(&computed, gravity, model)?),
@@ -67,9 +67,9 @@ pub fn model_of(scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusa
 ///
 /// # Errors
 /// What effects refuse; a scene whose closed-form estimates are not finite.
-pub fn chosen(scene: &Scene) -> Result<Option<Chosen>, Refusal> {
+pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
     match scene.model() {
-        ModelChoice::Auto => Chosen::of(&Computed::of(scene)?.scene).map(Some),
+        ModelChoice::Auto => SelectedModel::of(&ComputedScene::of(scene)?.scene).map(Some),
         _ => Ok(None),
     }
 }
@@ -78,8 +78,8 @@ pub fn chosen(scene: &Scene) -> Result<Option<Chosen>, Refusal> {
 ///
 /// # Errors
 /// As [`Method::price`].
-pub(crate) fn price_of(scene: &Scene) -> Result<u64, Refusal> {
-    let one = method_of(scene).price(&Computed::of(scene)?.scene)?;
+pub(crate) fn price_of(scene: &Scene) -> Result<u64, Rejection> {
+    let one = method_of(scene).price(&ComputedScene::of(scene)?.scene)?;
     let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
     Ok(one.saturating_mul(contacts))
 }
@@ -88,8 +88,8 @@ pub(crate) fn price_of(scene: &Scene) -> Result<u64, Refusal> {
 ///
 /// # Errors
 /// As [`Method::resolve`].
-pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-    let mut file = method_of(scene).resolve(&Computed::of(scene)?.scene, file)?;
+pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
+    let mut file = method_of(scene).resolve(&ComputedScene::of(scene)?.scene, file)?;
     if let Some(gravity) = scene.gravity() {
         let bounces = Quantity::from_si(gravity.bounces as f64);
         file.stop = Some(StopTable { bounces: Some(bounces) });
@@ -103,13 +103,13 @@ impl Reduced {
     /// # Errors
     /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
     /// contact too large for the finite-size correction; a law that cannot be made of this pair.
-    pub fn new(scene: &Scene) -> Result<Self, Refusal> {
+    pub fn new(scene: &Scene) -> Result<Self, Rejection> {
         match scene.model() {
             ModelChoice::Hertz { .. } => reduced::hertz::build(scene),
             ModelChoice::Law { .. } => reduced::law::build(scene),
             ModelChoice::Ting { .. } => reduced::ting::build(scene),
             ModelChoice::Condensed(_) | ModelChoice::Fem | ModelChoice::Auto => {
-                Err(Refusal::new("model", "finite elements are no reduced model"))
+                Err(Rejection::new("model", "finite elements are no reduced model"))
             }
         }
     }

@@ -1,34 +1,34 @@
-//! All that a collision under way knows beside its model, to be put away and taken up again.
+//! The restart state of a collision, to be stored and resumed.
 
 use fem_collision::Approach;
 use serde::{Deserialize, Serialize};
 
-use crate::error::Level;
+use crate::error::RefinementLevel;
 use crate::models::Bounces;
 
-/// The memory of a [`Course`](crate::Course) between two advances. A course that goes on from it ends
-/// with the same bits.
+/// The restart state of a [`Stepper`](crate::Stepper) between two advances. A stepper that resumes from it
+/// ends with the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Memory {
-    /// Of the contact under way, by explicit elements.
+pub struct RestartState {
+    /// State of the present contact, by explicit elements.
     pub(crate) contact: fem_explicit::RestartState,
-    /// Of a ball that gravity brings back: the contacts before.
+    /// Results of earlier contacts, for a ball that gravity brings back.
     pub(crate) bounces: Option<Box<Bounces>>,
-    /// How the bodies met in the contact under way; they are computed in the frame of their mass centre.
+    /// Approach of the bodies in the present contact, which is computed in the frame of their mass centre.
     pub(crate) met: Approach,
-    /// Elements across a length over those that the plan takes at first.
+    /// Refinement: elements per length over those of the first plan.
     pub(crate) refinement: f64,
-    /// Coarser meshes with which the collision was computed before.
-    pub(crate) levels: Vec<Level>,
+    /// Coarser meshes of earlier computations.
+    pub(crate) levels: Vec<RefinementLevel>,
 }
 
-impl Memory {
-    /// Of the contact under way.
+impl RestartState {
+    /// Returns the state of the present contact.
     pub fn contact(&self) -> &fem_explicit::RestartState {
         &self.contact
     }
 
-    /// Steps of the contact under way that are done.
+    /// Returns the number of steps done in the present contact.
     pub fn step(&self) -> u64 {
         self.contact.step()
     }

@@ -5,19 +5,19 @@ use fem_case::Scene;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
 use fem_mesh::SphereMesh;
 
-use crate::effects::{Answer, Effect, decide};
+use crate::effects::{Effect, Support, decide};
 use crate::estimate::Estimate;
-use crate::models::method::{Model, Setup};
-use crate::models::restart_state::Memory;
-use crate::models::stepper::Course;
-use crate::refusal::Refusal;
+use crate::models::method::{Model, ModelSetup};
+use crate::models::restart_state::RestartState;
+use crate::models::stepper::Stepper;
+use crate::rejection::Rejection;
 
 /// The model of a simplified scene.
 #[derive(Debug)]
 pub(super) struct Simplified {
     model: Box<dyn Model>,
-    setup: Setup,
-    answers: Vec<(&'static str, Answer)>,
+    setup: ModelSetup,
+    answers: Vec<(&'static str, Support)>,
 }
 
 impl Simplified {
@@ -28,13 +28,13 @@ impl Simplified {
     pub fn new(
         model: Box<dyn Model>,
         given: &Scene,
-        answers: Vec<(&'static str, Answer)>,
-    ) -> Result<Self, Refusal> {
+        answers: Vec<(&'static str, Support)>,
+    ) -> Result<Self, Rejection> {
         let own = model.setup().clone();
         let estimate = Estimate::checked(given)?;
         let has = |effect: &dyn Effect| has(effect, &answers, model.as_ref(), &estimate);
         let decisions = decide(given, &estimate, has)?;
-        let setup = Setup { estimate, decisions, ..own };
+        let setup = ModelSetup { estimate, decisions, ..own };
         Ok(Self { model, setup, answers })
     }
 }
@@ -42,20 +42,20 @@ impl Simplified {
 /// What the effects that simplified the scene say, and else what the model has.
 fn has(
     effect: &dyn Effect,
-    answers: &[(&'static str, Answer)],
+    answers: &[(&'static str, Support)],
     model: &dyn Model,
     estimate: &Estimate,
-) -> Option<Answer> {
+) -> Option<Support> {
     let own = answers.iter().find(|(name, _)| *name == effect.name());
     own.map(|(_, answer)| answer.clone()).or_else(|| model.has(effect, estimate))
 }
 
 impl Model for Simplified {
-    fn setup(&self) -> &Setup {
+    fn setup(&self) -> &ModelSetup {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
         has(effect, &self.answers, self.model.as_ref(), estimate)
     }
 
@@ -68,15 +68,15 @@ impl Model for Simplified {
         self.model.collide(approach, want, monitor)
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
         self.model.start(approach, want)
     }
 
-    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
+    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         self.model.resume(memory)
     }
 
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         self.model.static_contact(force)
     }
 

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, Progress, Stop};
 
 use crate::models::method::Model;
-use crate::models::restart_state::Memory;
+use crate::models::restart_state::RestartState;
 
 /// A collision under way.
-pub trait Course {
+pub trait Stepper {
     /// Goes on for a while: some steps of a model that steps, all that there is of another one. Whether
     /// there is more to compute.
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool;
@@ -19,7 +19,7 @@ pub trait Course {
 
     /// All that a restart needs, of a model that goes on from it; see
     /// [`Model::resume`](crate::Model::resume).
-    fn memory(&self) -> Option<Memory> {
+    fn memory(&self) -> Option<RestartState> {
         None
     }
 
@@ -32,7 +32,7 @@ pub(crate) fn begun(
     model: &Arc<dyn Model>,
     approach: &Approach,
     want: &OutputRequest,
-) -> Box<dyn Course> {
+) -> Box<dyn Stepper> {
     model.start(approach, want).unwrap_or_else(|| {
         let (model, approach, want) = (model.clone(), *approach, want.clone());
         let collide = move |monitor: &mut dyn Monitor| model.collide(&approach, &want, monitor);
@@ -41,13 +41,13 @@ pub(crate) fn begun(
 }
 
 /// Goes on to the end, or until `monitor` interrupts it.
-pub(crate) fn to_the_end(mut course: Box<dyn Course>, monitor: &mut dyn Monitor) -> Collision {
+pub(crate) fn to_the_end(mut course: Box<dyn Stepper>, monitor: &mut dyn Monitor) -> Collision {
     while monitor.report(course.progress()) && course.advance(monitor) {}
     course.finish()
 }
 
 /// A collision that cannot begin, and why.
-pub(crate) fn stopped(approach: Approach, stop: Stop) -> Box<dyn Course> {
+pub(crate) fn stopped(approach: Approach, stop: Stop) -> Box<dyn Stepper> {
     Box::new(InOneGo::of(approach, move |_| Collision::stopped(approach, stop.clone())))
 }
 
@@ -65,7 +65,7 @@ impl<F: Fn(&mut dyn Monitor) -> Collision> InOneGo<F> {
     }
 }
 
-impl<F: Fn(&mut dyn Monitor) -> Collision> Course for InOneGo<F> {
+impl<F: Fn(&mut dyn Monitor) -> Collision> Stepper for InOneGo<F> {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         if self.collision.is_none() {
             self.collision = Some((self.collide)(monitor));

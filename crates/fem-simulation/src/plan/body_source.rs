@@ -1,4 +1,4 @@
-//! What a body of a scene is made of, for a model with meshes, before any mesh is made.
+//! The source of a body with a mesh: mesh source, material and placement, before the mesh is built.
 
 use fem_case::{Body, Scene, Shape};
 use fem_collision::BodyInput;
@@ -7,16 +7,16 @@ use fem_material::Material;
 use crate::plan::Plan;
 use crate::plan::limits::check_size;
 use crate::plan::mesh_source::{MeshSource, half_disc, import, mesh_refusal, quarter_disc};
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
-/// What a body is made of; equal ones make equal bodies.
+/// The source of a body; equal sources give equal bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum BodySource {
     /// A meshed body.
     Meshed {
-        /// What its mesh is made from.
+        /// Source of the mesh.
         mesh: MeshSource,
-        /// Its material.
+        /// Material of the body.
         material: Material,
     },
     /// A rigid sphere.
@@ -31,17 +31,17 @@ pub(crate) enum BodySource {
 }
 
 impl BodySource {
-    /// Of both bodies of a scene. Mesh files are read.
+    /// Returns the sources of both bodies of a scene.
     ///
     /// # Errors
     /// Meshes that cannot be made or read, or are too large.
-    pub fn of_scene(scene: &Scene, plan: &Plan) -> Result<[Self; 2], Refusal> {
+    pub fn of_scene(scene: &Scene, plan: &Plan) -> Result<[Self; 2], Rejection> {
         check_size(scene, plan)?;
         let [lower, upper] = scene.bodies();
         Ok([Self::of(lower, 0, plan)?, Self::of(upper, 1, plan)?])
     }
 
-    fn of(body: &Body, side: usize, plan: &Plan) -> Result<Self, Refusal> {
+    fn of(body: &Body, side: usize, plan: &Plan) -> Result<Self, Rejection> {
         Ok(match body.shape() {
             Shape::Sphere { diameter, mesh, material } => {
                 let mesh = match mesh {
@@ -69,11 +69,11 @@ impl BodySource {
         }
     }
 
-    /// How many elements it has, without making them.
+    /// Returns the number of elements without building the mesh.
     ///
     /// # Errors
     /// A mesh that cannot be made.
-    pub fn n_elements(&self) -> Result<usize, Refusal> {
+    pub fn n_elements(&self) -> Result<usize, Rejection> {
         match self {
             Self::Meshed { mesh, .. } => mesh.n_elements().map_err(|error| mesh_refusal(&error)),
             Self::Rigid { .. } | Self::Wall => Ok(0),
@@ -84,7 +84,7 @@ impl BodySource {
     ///
     /// # Errors
     /// A mesh that cannot be made.
-    pub fn build(&self, side: usize) -> Result<BodyInput, Refusal> {
+    pub fn build(&self, side: usize) -> Result<BodyInput, Rejection> {
         Ok(match self {
             Self::Meshed { mesh, material } => {
                 let mesh = mesh.build(side).map_err(|error| mesh_refusal(&error))?;

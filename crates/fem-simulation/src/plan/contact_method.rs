@@ -4,14 +4,13 @@ use fem_case::{ContactMethod, Scene, Switch};
 
 use crate::effects::SurfaceSlip;
 
-/// As the case names it, or a boundary without mass: it gains no energy whatever the stiffness, and does not
-/// ring (docs/contact.md).
+/// Returns the contact method of the case. The default is a massless boundary, which gains no energy at any
+/// penalty stiffness and does not ring (docs/contact.md).
 pub(crate) fn asked_for(scene: &Scene) -> ContactMethod {
     scene.contact_method().unwrap_or(ContactMethod::Massless)
 }
 
-/// As it is computed at small strain. A boundary without mass is in balance with forces of displacements;
-/// bulk viscosity pulls by velocities. Springs at nodes do not turn with surfaces that slip.
+/// Returns the contact method at small strain.
 pub fn contact_method(scene: &Scene) -> ContactMethod {
     match asked_for(scene) {
         ContactMethod::Massless if !massless_is_possible(scene) => ContactMethod::Penalty,
@@ -25,7 +24,7 @@ pub(crate) fn massless_is_possible(scene: &Scene) -> bool {
     scene.effects().bulk_viscosity != Some(Switch::On)
 }
 
-/// What is said of a method that a case names and its scene does not allow, at large strain or small.
+/// Returns a warning if the case names a method that the scene does not allow, at large or small strain.
 pub fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
     if is_at_finite_strain {
         let word = scene.contact_method()?.word();

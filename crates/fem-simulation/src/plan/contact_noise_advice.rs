@@ -1,4 +1,4 @@
-//! What helps against a contact that rattles or gains energy.
+//! Advice against contact chatter and spurious energy growth.
 //!
 //! A boundary without mass does neither: the force scatters by 0.01 % of its peak. Where springs pull at nodes
 //! with mass, at finite strain and beside bulk viscosity, softer springs help: with the usual ones ([`USUAL`])
@@ -12,11 +12,11 @@ use crate::plan::contact_method::massless_is_possible;
 
 /// Factor of the usual springs.
 const USUAL: f64 = 1.0;
-/// Factor of springs below which the surfaces overlap by more than is worth a word.
+/// Penalty factor below which the overlap of the surfaces is reported.
 const SOFTEST: f64 = 0.25;
-/// What makes a contact quieter, of one that is computed.
+/// The settings that reduce contact noise in a computed run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Quieter {
+pub enum ContactNoiseAdvice {
     /// Smaller steps, of condensed bodies.
     MoreSteps,
     /// Smaller steps, of a boundary without mass.
@@ -25,13 +25,13 @@ pub enum Quieter {
     Massless,
     /// Softer springs than those with this factor.
     Softer {
-        /// Of the springs that it has.
+        /// Advice about the penalty springs.
         penalty_factor: f64,
     },
 }
 
-impl Quieter {
-    /// Of a plan of explicit elements.
+impl ContactNoiseAdvice {
+    /// Returns the advice for a run with explicit elements.
     pub(crate) fn of_elements(scene: &Scene, plan: &Plan) -> Self {
         let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
         let is_possible = massless_is_possible(scene) && !is_finite;
@@ -78,10 +78,14 @@ mod tests {
     /// Softer springs do not help against energy that steps lose, nor shorter steps against noise.
     #[test]
     fn noise_and_energy_have_remedies_of_their_own() {
-        let softer = |penalty_factor| Quieter::Softer { penalty_factor };
+        let softer = |penalty_factor| ContactNoiseAdvice::Softer { penalty_factor };
         for (quieter, of_noise, of_energy) in [
-            (Quieter::MoreSteps, "raise model.condensed.steps", "raise model.condensed.steps"),
-            (Quieter::ShorterSteps, "lower time.step_factor", "lower time.step_factor"),
+            (
+                ContactNoiseAdvice::MoreSteps,
+                "raise model.condensed.steps",
+                "raise model.condensed.steps",
+            ),
+            (ContactNoiseAdvice::ShorterSteps, "lower time.step_factor", "lower time.step_factor"),
             (softer(10.0), "write contact.penalty_factor = 1", "write contact.penalty_factor = 1"),
             (softer(1.0), "write contact.penalty_factor = 0.25", "lower time.step_factor"),
             (softer(0.25), "write time.mass_scaling = 0", "lower time.step_factor"),

@@ -9,7 +9,7 @@ use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
 use crate::plan::Plan;
 use crate::plan::mesh_source::{half_disc, mesh_refusal, quarter_disc};
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Growth from element to element below which it is what makes elements many.
 const SLOW_GROWTH: f64 = 1.01;
@@ -55,7 +55,7 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
 ///
 /// # Errors
 /// More elements or memory than the limits allow; a mesh that cannot be made.
-pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
+pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
     let (mut elements, mut branches) = (0, 0);
     for (side, body) in scene.bodies().iter().enumerate() {
         let made = match body.shape() {
@@ -93,7 +93,7 @@ fn state_memory(plan: &Plan, elements: u64) -> u64 {
 ///
 /// # Errors
 /// Blames the element size, or the limit.
-pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Result<(), Refusal> {
+pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Result<(), Rejection> {
     if elements <= plan.max_elements {
         return Ok(());
     }
@@ -102,7 +102,7 @@ pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Resul
         "the meshes would have {elements} elements, {} long at the contact",
         show(plan.contact_element_size, "m")
     );
-    let refusal = Refusal::new(key, found).with_help(format!(
+    let refusal = Rejection::new(key, found).with_help(format!(
         "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",
         plan.max_elements
     ));
@@ -118,7 +118,7 @@ pub(crate) fn check_memory(
     plan: &Plan,
     elements: u64,
     memory: u64,
-) -> Result<(), Refusal> {
+) -> Result<(), Rejection> {
     if memory <= plan.max_memory {
         return Ok(());
     }
@@ -135,7 +135,7 @@ pub(crate) fn check_memory(
         megabytes(memory),
         megabytes(states)
     );
-    Err(Refusal::new(key, found).with_help(format!(
+    Err(Rejection::new(key, found).with_help(format!(
         "at most {} are allowed; {remedy} or raise limits.memory",
         megabytes(plan.max_memory)
     )))
@@ -150,7 +150,7 @@ pub(crate) fn check_updates(
     plan: &Plan,
     steps: f64,
     elements: u64,
-) -> Result<(), Refusal> {
+) -> Result<(), Rejection> {
     let element_updates = steps * elements as f64;
     // What is no number is above every limit.
     if element_updates <= plan.max_element_updates as f64 {
@@ -162,11 +162,11 @@ pub(crate) fn check_updates(
     );
     let allowed = format!("at most {:.1e} are allowed", plan.max_element_updates as f64);
     Err(match odd_step(scene) {
-        Some((key, help)) => Refusal::new(key, found)
+        Some((key, help)) => Rejection::new(key, found)
             .with_help(format!("{allowed}; {help}, or raise limits.element_updates")),
         None => {
             let key = blamed(scene, "limits.element_updates", scene.limits().element_updates);
-            Refusal::new(key, found).with_help(format!(
+            Rejection::new(key, found).with_help(format!(
                 "{allowed}; use a larger mesh.contact_element_size or more time.mass_scaling, or raise \
                  limits.element_updates"
             ))
@@ -175,10 +175,10 @@ pub(crate) fn check_updates(
 }
 
 /// A growth of elements so small that it is what makes them many.
-fn of_elements(scene: &Scene, refusal: Refusal) -> Refusal {
+fn of_elements(scene: &Scene, refusal: Rejection) -> Rejection {
     match scene.mesh().growth {
         Some(growth) if growth < SLOW_GROWTH => {
-            Refusal::new("mesh.growth", refusal.message).with_help(format!(
+            Rejection::new("mesh.growth", refusal.message).with_help(format!(
                 "elements grow too slowly; use a mesh.growth of at least {SLOW_GROWTH}, or leave it out"
             ))
         }
@@ -217,7 +217,7 @@ mod tests {
 
     const BALL: &str = include_str!("../../../../cases/soft_sphere.toml");
 
-    /// What the plan counts for a run, and the bytes of what the run knows, late in the contact.
+    /// Compares the planned memory of a run with the bytes of its state late in the contact.
     fn counted_and_kept(switch: &str, terms: usize) -> [f64; 2] {
         let term = "{ weight = 0.01, relaxation_time = '3 ms' }";
         let set = [

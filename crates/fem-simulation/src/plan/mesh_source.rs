@@ -1,13 +1,13 @@
-//! What the mesh of a body is made from: a half disc made here, or a file.
+//! The source of a body's mesh: a generated half disc or quarter disc, or a file.
 
 use std::path::Path;
 
 use fem_mesh::{HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
 
 use crate::plan::Plan;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
-/// What a mesh is made from; equal ones make equal meshes.
+/// The source of a mesh; equal sources give equal meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum MeshSource {
     /// A sphere's, made here.
@@ -19,7 +19,7 @@ pub(crate) enum MeshSource {
 }
 
 impl MeshSource {
-    /// How many elements the mesh has, without making it.
+    /// Returns the number of elements without building the mesh.
     ///
     /// # Errors
     /// As [`HalfDisc::n_elements`].
@@ -45,7 +45,7 @@ impl MeshSource {
     }
 }
 
-/// What the plan makes a sphere of this diameter (m) of, the lower body, 0, or the upper one.
+/// Returns the half disc that the plan chooses for a sphere of this diameter (m), lower (0) or upper (1).
 pub(crate) fn half_disc(plan: &Plan, side: usize, diameter: f64) -> HalfDisc {
     HalfDisc {
         radius: 0.5 * diameter,
@@ -55,7 +55,7 @@ pub(crate) fn half_disc(plan: &Plan, side: usize, diameter: f64) -> HalfDisc {
     }
 }
 
-/// What the plan makes a half-space of, the lower body, 0, or the upper one.
+/// Returns the quarter disc that the plan chooses for a half-space, lower (0) or upper (1).
 pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
     QuarterDisc {
         far_radius: plan.far_radius.unwrap_or_default(),
@@ -66,14 +66,14 @@ pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
 }
 
 /// The key that is to blame for a mesh that cannot be made.
-pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
+pub(crate) fn mesh_refusal(error: &MeshError) -> Rejection {
     let key = match error {
         MeshError::RefinedRadius { .. } => "mesh.refined_radius",
         MeshError::Growth(_) => "mesh.growth",
         MeshError::FarRadius { .. } => "mesh.far_radius",
         _ => "mesh.contact_element_size",
     };
-    let refusal = Refusal::new(key, error.to_string());
+    let refusal = Rejection::new(key, error.to_string());
     match error {
         MeshError::TooLarge(_) => refusal.with_help("use a larger mesh.contact_element_size"),
         _ => refusal,
@@ -84,9 +84,9 @@ pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
 ///
 /// # Errors
 /// A file that holds none.
-pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Refusal> {
+pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Rejection> {
     read_sphere(diameter, path).map_err(|found| {
-        let refusal = Refusal::new(format!("body.{k}.sphere.mesh"), format!("mesh {found}"));
+        let refusal = Rejection::new(format!("body.{k}.sphere.mesh"), format!("mesh {found}"));
         refusal.with_help(
             "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
              r >= 0 of the sphere with its contact pole at the origin; \

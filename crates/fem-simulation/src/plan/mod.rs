@@ -30,7 +30,7 @@ use crate::estimate::viscous_flow;
 use crate::plan::contact_method::contact_method;
 use crate::plan::element_size::{MeshRule, touches_at_nodes};
 use crate::plan::mesh_offset::{finer_body, staggered};
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Half-width of the fine block over the contact radius.
 const REFINED_OVER_CONTACT: f64 = 1.2;
@@ -53,7 +53,7 @@ const MAX_MEMORY: u64 = 8_000_000_000;
 /// Everything that is decided before meshes are made. SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// What closed forms say.
+    /// Closed-form estimate.
     pub estimate: Estimate,
     /// Share of the scene's approach speed with which the computed bodies meet: ½ where half of a scene
     /// is computed.
@@ -107,7 +107,7 @@ impl Plan {
     ///
     /// # Errors
     /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
-    pub fn of(scene: &Scene) -> Result<Self, Refusal> {
+    pub fn of(scene: &Scene) -> Result<Self, Rejection> {
         let estimate = Estimate::checked(scene)?;
         viscous_flow::check(scene, &estimate)?;
         let finer_body = finer_body(scene);
@@ -135,7 +135,7 @@ impl Plan {
             let found = format!(
                 "springs of contact.penalty_factor = {penalty_factor:e} have {per_area:e} Pa/m"
             );
-            return Err(Refusal::new("contact.penalty_factor", found)
+            return Err(Rejection::new("contact.penalty_factor", found)
                 .with_help("it must be positive and finite; 1 is the default, leave it out"));
         }
         let made_here = |body: &Body| {
@@ -223,7 +223,7 @@ impl Plan {
         }
     }
 
-    /// What a run is asked for.
+    /// Returns the output request of a run.
     pub fn want(&self) -> OutputRequest {
         OutputRequest {
             snapshots: self.snapshots.clone(),

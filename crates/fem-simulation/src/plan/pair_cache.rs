@@ -15,7 +15,7 @@ const MAX_BYTES: usize = 1_000_000_000;
 /// Numbers an equation that are neither factor nor field: mesh, places and values of the stiffness.
 const NUMBERS_PER_EQUATION: usize = 32;
 
-/// What a pair is made from; equal ones make equal pairs.
+/// The source of a pair; equal sources give equal pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PairKey {
     /// Lower and upper body, without relaxation.
@@ -54,12 +54,12 @@ impl PairCache {
         Self { max_bytes, entries: Mutex::default(), n_made: AtomicUsize::new(0) }
     }
 
-    /// How many pairs were factored.
+    /// Returns the number of factored pairs.
     pub fn n_made(&self) -> usize {
         self.n_made.load(Ordering::Relaxed)
     }
 
-    /// How many pairs are kept.
+    /// Returns the number of kept pairs.
     pub fn n_kept(&self) -> usize {
         lock(&self.entries).len()
     }

@@ -1,4 +1,4 @@
-//! How much longer a contact lasts whose springs give way.
+//! Lengthening of a contact by compliant penalty springs.
 
 use crate::plan::Plan;
 
@@ -22,8 +22,8 @@ pub(crate) fn lengthening(plan: &Plan) -> f64 {
     if ratio > LEAST { ratio } else { 1.0 }
 }
 
-/// By how much springs that are softer than the usual ones lengthen the contact, over its time; nothing of
-/// the usual ones, which are part of what a mesh is off by.
+/// Returns the relative lengthening by springs softer than the default, `None` for the default ones, whose
+/// compliance is part of the discretisation error.
 pub(crate) fn softness(plan: &Plan) -> Option<f64> {
     (plan.penalty_factor < 1.0).then(|| ratio(plan) - 1.0)
 }

@@ -4,16 +4,16 @@ use fem_case::Scene;
 use fem_collision::{ProbeRequest, Probes};
 use fem_mesh::SphereMesh;
 
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
-/// What a run is asked for; nothing of a model without meshes, which says so.
+/// Returns the probe requests of a run; a model without meshes has none and says so.
 ///
 /// # Errors
 /// A place that the mesh of its body does not have, or a body that is computed without.
 pub(crate) fn probes_of(
     scene: &Scene,
     meshes: [Option<&SphereMesh>; 2],
-) -> Result<Vec<ProbeRequest>, Refusal> {
+) -> Result<Vec<ProbeRequest>, Rejection> {
     if meshes.iter().all(Option::is_none) {
         return Ok(Vec::new());
     }
@@ -24,9 +24,9 @@ pub(crate) fn probes_of(
     let (side, key) = (requests[k].side, format!("output.probe.{k}"));
     let name = scene.bodies()[side].name();
     Err(match meshes[side] {
-        Some(_) => Refusal::new(key, format!("the mesh of \"{name}\" does not reach this place"))
+        Some(_) => Rejection::new(key, format!("the mesh of \"{name}\" does not reach this place"))
             .with_help("a half-space is meshed out to mesh.far_radius"),
-        None => Refusal::new(key, format!("\"{name}\" is computed as a rigid body"))
+        None => Rejection::new(key, format!("\"{name}\" is computed as a rigid body"))
             .with_help("set effects.rigid_partner = \"off\""),
     })
 }

@@ -12,8 +12,8 @@ use crate::simulation::Simulation;
 /// The file name of the history.
 pub const HISTORY_FILE: &str = "history.csv";
 
-/// Writes a history, a row an instant; accounts of effects that are on come last. Numbers are the
-/// shortest that read back as the same, what the model does not know is blank.
+/// Writes the history, one row per instant. Accounts of effects that are on come last. Numbers are the
+/// shortest that read back to the same bits; unknown values are blank.
 ///
 /// # Errors
 /// `to` cannot be written to.
@@ -77,7 +77,8 @@ impl Line {
 
 /// The file name of the contact at each snapshot.
 pub const CONTACT_FILE: &str = "contact.csv";
-/// How far from the axis rows go, over the contact radius, and how many nodes beyond it at least.
+/// Range of the rows from the axis, over the contact radius, and the least number of nodes beyond the
+/// contact.
 const REACH: f64 = 1.2;
 const NODES_BEYOND: usize = 3;
 
@@ -86,11 +87,11 @@ pub fn has_contact(collision: &Collision) -> bool {
     collision.snapshots.iter().any(|snapshot| !snapshot.contact.places.is_empty())
 }
 
-/// Writes the contact of each snapshot from the axis outward: a row a node of the coarser surface out to 1.2
-/// contact radii and three nodes beyond the contact at least, a row where the contact ends, and rows between that
-/// make the pressure's integral the contact force. Pressure, gap (< 0 by what springs overlap), radial displacement
-/// of both bodies, slip of the surfaces on each other (upper less lower), and whether the row is a node's.
-/// Of surfaces that do not touch the nodes around the axis are all.
+/// Writes the contact of each snapshot from the axis outward: one row per node of the coarser surface out
+/// to 1.2 contact radii, with at least three nodes beyond the contact, one row at the contact's edge, and
+/// rows in between that make the pressure's integral equal the contact force. Columns: pressure, gap (< 0
+/// where springs overlap), radial displacement of both bodies, slip of the surfaces (upper less lower), and
+/// whether the row is a node. Without contact the nodes around the axis are written.
 ///
 /// # Errors
 /// `to` cannot be written to.
@@ -116,7 +117,7 @@ pub fn contact_csv(
     Ok(file.flush()?)
 }
 
-/// How many places of a contact have a row.
+/// Returns the number of written contact places.
 fn n_shown(contact: &ContactProfile) -> usize {
     let near = contact.places.partition_point(|place| place.radius <= REACH * contact.radius);
     let beyond = contact
@@ -131,8 +132,8 @@ fn n_shown(contact: &ContactProfile) -> usize {
 /// The file name of the probes.
 pub const PROBES_FILE: &str = "probes.csv";
 
-/// What is told of a place, with its unit: displacement since the start of the case, velocity, Cauchy
-/// stress, tension positive.
+/// Quantities of a probe with their units: displacement since the start of the case, velocity, Cauchy
+/// stress (tension positive).
 const QUANTITIES: [&str; 8] = [
     "u_r_m",
     "u_y_m",
@@ -144,8 +145,8 @@ const QUANTITIES: [&str; 8] = [
     "sigma_ry_pa",
 ];
 
-/// Writes what probes saw, a row an instant, eight columns a probe. Numbers are the shortest that read
-/// back as the same.
+/// Writes the probes, one row per instant and eight columns per probe. Numbers are the shortest that read
+/// back to the same bits.
 ///
 /// # Errors
 /// `to` cannot be written to.

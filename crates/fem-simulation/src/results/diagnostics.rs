@@ -1,4 +1,4 @@
-//! How far a result can be trusted: what the run itself shows, in numbers.
+//! Diagnostics of a finished run: warnings about what the run itself shows.
 
 use std::f64::consts::PI;
 
@@ -13,7 +13,7 @@ use crate::error::{
 };
 use crate::models::method::ElementSetup;
 use crate::plan::Plan;
-use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::contact_noise_advice::ContactNoiseAdvice;
 use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
 
@@ -21,15 +21,14 @@ use crate::simulation::Simulation;
 const LARGEST_PENETRATION: f64 = 0.01;
 /// Springs as stiff as usual overlap by less on the meshes that are chosen, and are advised wherever softer ones might do.
 const USUAL: f64 = 1.0;
-/// So much stiffer springs are advised than would just do. Soft springs widen the contact, so that their
-/// overlap falls slower than they grow stiffer: with the power 0.6 to 0.9 of their factor, from 0.02 to 1.
+/// Safety factor on the advised stiffness of springs.
 const ROOM_OF_ADVICE: f64 = 1.2;
 /// Power by which elements become shorter for an overlap that is so many times smaller: it falls with their 0.85th.
 const SHORTER: f64 = 1.2;
 
 /// Returns warnings about a finished collision: numbers that no collision can have, errors of the elements that exceed
 /// the tolerance, and effects that show in it.
-pub fn assess(
+pub fn diagnose(
     simulation: &Simulation,
     collision: &Collision,
     errors: &ErrorEstimate,
@@ -44,7 +43,7 @@ pub fn assess(
     warnings
 }
 
-/// By how much of the approach the surfaces overlap, where that is too much.
+/// Overlap of the surfaces as a share of the approach, if it is too large.
 pub(crate) fn overlap_of_approach(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let overlap = Run::of(simulation, collision)?.overlap()?;
     (overlap.of_approach > LARGEST_PENETRATION).then_some(overlap.of_approach)
@@ -75,7 +74,7 @@ fn of_elements(
     [mesh, penetration, run.noise(), early].into_iter().flatten().collect()
 }
 
-/// What holds of every model.
+/// Returns the warnings that apply to every model.
 fn of_numbers(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let remedy = match &simulation.setup().elements {
         Some(elements) => elements.quieter.advice_on_energy(),
@@ -139,7 +138,7 @@ struct Run<'a> {
     meshes: [Option<&'a SphereMesh>; 2],
     /// Whether springs keep the surfaces apart.
     has_springs: bool,
-    quieter: Quieter,
+    quieter: ContactNoiseAdvice,
 }
 
 impl<'a> Run<'a> {
@@ -184,8 +183,8 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// What helps beside stiffer springs against an overlap of so many times the largest. Of springs that are softer than
-    /// usual these are at fault, and not the mesh.
+    /// Returns further advice against an overlap of this multiple of the limit. If springs are softer than
+    /// the default, they are the cause and not the mesh.
     fn shorter_elements(&self, excess: f64) -> String {
         let size = self.plan.contact_element_size / (ROOM_OF_ADVICE * excess.powf(SHORTER));
         match self.plan.makes_meshes {

@@ -10,17 +10,17 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 pub struct Energy {
     /// At the start, walls not counted.
     pub initial_j: Option<f64>,
-    /// What is in each account, under [`energy_key`].
+    /// Energy of each account, under [`energy_key`].
     #[serde(flatten)]
     pub accounts: Accounts,
-    /// What does not add up.
+    /// Energy residual: stored + dissipated − initial − external work.
     pub residual_j: Option<f64>,
     /// Worst imbalance over the run / initial kinetic energy in the centre-of-mass frame.
     pub residual_relative: Option<f64>,
 }
 
 impl Energy {
-    /// What is in an account at the end, J.
+    /// Energy of an account at the end, in joules.
     pub fn get(&self, account: Account) -> Option<f64> {
         self.accounts.0.get(account)
     }

@@ -1,5 +1,5 @@
-//! What is kept of a collision: names, order and units of a summary's keys, of a history's columns
-//! and of a snapshot's arrays.
+//! The stored results of a collision: keys and units of the summary, columns of the history, arrays of the
+//! snapshots.
 
 pub(crate) mod diagnostics;
 pub(crate) mod stop_advice;
@@ -23,7 +23,7 @@ pub(crate) use diagnostics::overlap_of_approach;
 pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
-pub use summarise::Spent;
+pub use summarise::RunCost;
 pub use summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Parts, Quantities,
     RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,

@@ -25,11 +25,11 @@ const STRESSES: [Field; 6] = [
     Field::VonMises,
 ];
 
-/// What is drawn of a collision.
+/// The bodies as they are written.
 struct Drawing<'a> {
     meshes: [Option<&'a SphereMesh>; 2],
     materials: [Option<&'a Material>; 2],
-    /// m.
+    /// Gap, in metres.
     gap: f64,
 }
 
@@ -66,12 +66,12 @@ struct GridArrays {
     body_of_points: Vec<i32>,
 }
 
-/// What all snapshots share.
+/// The parts that all snapshots share.
 struct Scene<'a> {
     grid: VtuGrid<'a>,
     arrays: &'a GridArrays,
     case: &'a fem_case::Scene,
-    /// Of the bodies with a mesh.
+    /// Materials of the bodies with a mesh.
     recoveries: Vec<StressRecovery<'a>>,
 }
 
@@ -220,7 +220,7 @@ impl GridArrays {
 /// Snapshots in the order of time, each with the label of its files.
 pub(super) struct Shown<'a> {
     pub snapshots: Vec<(&'a Snapshot, &'static str)>,
-    /// What is left out, and why.
+    /// Left-out snapshots, with the reason.
     pub warnings: Vec<String>,
 }
 

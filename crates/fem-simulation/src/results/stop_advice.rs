@@ -4,15 +4,15 @@ use fem_collision::Stop;
 
 /// Likely cause and remedy of a stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Remedy {
-    /// What most often lies behind it.
+pub struct StopAdvice {
+    /// Most frequent cause.
     pub cause: &'static str,
-    /// What to change.
+    /// Suggested change.
     pub remedy: &'static str,
 }
 
 /// Likely cause and remedy; none for a run that the user stopped.
-pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
+pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
     let (cause, remedy) = match stop {
         Stop::Interrupted { .. } => return None,
         Stop::EnergyGrowth { .. } | Stop::NoNumber { .. } => (
@@ -100,5 +100,5 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
              material.NAME.density and the moduli, and their units",
         ),
     };
-    Some(Remedy { cause, remedy })
+    Some(StopAdvice { cause, remedy })
 }

@@ -8,15 +8,15 @@ use super::summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
     Summary,
 };
-use crate::effects::{FiniteStrain, Verdict};
+use crate::effects::{EffectDecision, FiniteStrain};
 use crate::error::{ErrorEstimate, uncertainty};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 use crate::simulation::numerics::NUMERICS;
 
-/// What a run took; whoever ran it has the clock.
+/// The cost of a run, measured by the caller.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spent {
+pub struct RunCost {
     /// All of it, s.
     pub wall: f64,
     /// Until the collision could begin, s.
@@ -38,7 +38,7 @@ impl Summary {
         simulation: &Simulation,
         collision: &Collision,
         errors: &ErrorEstimate,
-        spent: Spent,
+        spent: RunCost,
         warnings: Vec<String>,
         files: Vec<String>,
     ) -> Self {
@@ -104,7 +104,7 @@ fn all_element_updates(
 
 fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary> {
     let estimate = simulation.estimate(collision);
-    let worth = |verdict: Verdict| {
+    let worth = |verdict: EffectDecision| {
         let left_out =
             estimate.as_ref().and_then(|estimate| simulation.left_out(&verdict, estimate));
         EffectSummary { verdict, error_if_left_out: left_out }
@@ -121,7 +121,7 @@ fn radius_and_pressure(effects: &[EffectSummary]) -> &'static str {
 
 /// Keeps numbers that are not finite out of the summary.
 struct Numbers {
-    /// Their keys.
+    /// Returns the keys.
     not_finite: Vec<String>,
 }
 

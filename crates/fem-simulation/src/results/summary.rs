@@ -5,30 +5,30 @@ use fem_collision::QuantityOfInterest;
 use serde::{Serialize, Serializer};
 
 use super::energy::Energy;
-use crate::effects::{LeftOut, Verdict};
-use crate::error::{ElasticNull, Level};
-use crate::models::Considered;
+use crate::effects::{EffectDecision, NeglectError};
+use crate::error::{ElasticNull, RefinementLevel};
+use crate::models::ModelCandidate;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";
 /// The value of `program`, by which a result folder is known.
 pub const PROGRAM: &str = "fem-run";
 
-/// What a run found. SI; `None` is written as `null`: it has no meaning, or no value.
+/// The summary of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// What the collision is known by.
+    /// Identity of the collision.
     #[serde(flatten)]
     pub collision: Quantities,
     /// Largest contact force of a single step, in models that step.
     pub peak_force_raw_n: Option<f64>,
     /// `"true"`, of the deformed bodies, at finite strain; else `"nominal"`, of undeformed area.
     pub radius_and_pressure: &'static str,
-    /// Of a relaxing run, what its mesh and settings lose with relaxation off.
+    /// Loss of a relaxing run's mesh and settings with relaxation off.
     pub elastic_null: Option<ElasticNull>,
     /// Closed contacts, openings in between not counted.
     pub contact_episodes: u64,
-    /// What Hertz' theory says of these quantities, with instantaneous moduli.
+    /// Hertz' values of these quantities, with instantaneous moduli.
     pub hertz: Quantities,
     /// The ledger at the end of the run.
     pub energy: Energy,
@@ -36,28 +36,28 @@ pub struct Summary {
     pub momentum_residual_relative: Option<f64>,
     /// With gravity each contact, of which all keys above and the bodies are the first one's.
     pub bounces: Option<Vec<BounceSummary>>,
-    /// Of a ball that has come to rest: what bears it once all has relaxed.
+    /// Static equilibrium of a ball at rest, once all has relaxed.
     pub rest: Option<RestSummary>,
     /// Lower and upper body.
     pub bodies: Vec<BodySummary>,
-    /// Of a model with a fixed step.
+    /// Step of a model with a fixed step.
     pub time_step_s: Option<f64>,
     /// Steps done by such a model.
     pub steps: Option<u64>,
     /// Elements times steps.
     pub element_updates: Option<u64>,
-    /// What the run took.
+    /// Cost of the run.
     pub cost: CostSummary,
     /// Which effects were on, why, and what they are worth.
     pub effects: Vec<EffectSummary>,
-    /// How far the quantities may be off.
+    /// Uncertainty of the quantities.
     pub uncertainty: UncertaintySummary,
     /// Meshes that were too coarse for the tolerance of the case, the first one first; none where the first
     /// one does.
-    pub coarser_meshes: Option<Vec<Level>>,
-    /// Where the case leaves the model open: which were considered, from the cheapest to the dearest.
-    pub models_considered: Option<Vec<Considered>>,
-    /// What the user should know.
+    pub coarser_meshes: Option<Vec<RefinementLevel>>,
+    /// The candidate models if the case leaves the choice open, from the cheapest to the most expensive.
+    pub models_considered: Option<Vec<ModelCandidate>>,
+    /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Whether the run ended by itself.
     pub complete: bool,
@@ -82,12 +82,12 @@ pub struct Summary {
 pub struct EffectSummary {
     /// Whether it is on, and why.
     #[serde(flatten)]
-    pub verdict: Verdict,
-    /// As closed forms foretell it; nothing where they do not.
-    pub error_if_left_out: Option<LeftOut>,
+    pub verdict: EffectDecision,
+    /// Estimate by closed forms, if there is one.
+    pub error_if_left_out: Option<NeglectError>,
 }
 
-/// What a collision is known by.
+/// Identity of a collision.
 #[derive(Clone, Debug, Serialize)]
 pub struct Quantities {
     /// Relative velocity after over before.
@@ -143,12 +143,12 @@ impl Quantities {
 pub struct UncertaintySummary([Parts; 6]);
 
 impl UncertaintySummary {
-    /// Of each quantity what `parts` says.
+    /// Returns quantities with the values given by the function.
     pub fn by(parts: impl FnMut(QuantityOfInterest) -> Parts) -> Self {
         Self(QuantityOfInterest::ALL.map(parts))
     }
 
-    /// Of one quantity.
+    /// Returns one quantity.
     pub fn parts(&self, headline: QuantityOfInterest) -> Parts {
         self.0[headline as usize]
     }
@@ -207,7 +207,7 @@ pub struct BounceSummary {
 pub struct RestSummary {
     /// When the ball was seen not to leave any more, since the start of the case.
     pub time_s: Option<f64>,
-    /// The weight.
+    /// Weight of the body, in newtons.
     pub static_force_n: Option<f64>,
     /// Where the pressure falls to zero.
     pub contact_radius_m: Option<f64>,
@@ -220,13 +220,13 @@ pub struct RestSummary {
 /// One body; a wall has no mass and no vibration, a reduced model no elements.
 #[derive(Clone, Debug, Serialize)]
 pub struct BodySummary {
-    /// As the case names it.
+    /// Name in the case.
     pub name: String,
     /// Elements of its mesh.
     pub elements: Option<usize>,
     /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// Mass.
+    /// Mass, in kilograms.
     pub mass_kg: Option<f64>,
     /// Mass added to light nodes by scaling, from others of the body.
     pub added_mass_kg: Option<f64>,
@@ -238,12 +238,12 @@ pub struct BodySummary {
     pub vibration_energy_j: Option<f64>,
 }
 
-/// What the run took.
+/// Cost of the run.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostSummary {
     /// The process up to now.
     pub wall_s: f64,
-    /// Until the first collision could begin: case, meshes, factors, and what tells the mesh that is needed.
+    /// Time until the first collision could begin: case, meshes, factors, reference runs.
     pub setup_s: f64,
     /// Collisions whose mesh or region of contact did not do, with what told that; 0 where the first did.
     pub trials_s: f64,

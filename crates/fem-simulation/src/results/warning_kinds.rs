@@ -9,9 +9,9 @@ pub struct WarningKind {
     kind: String,
     /// The first of them.
     pub first: String,
-    /// Whose it is.
+    /// Owner of the warnings.
     pub place: usize,
-    /// How many there are.
+    /// Number of warnings.
     pub count: usize,
 }
 
@@ -50,7 +50,7 @@ impl WarningKinds {
         }
     }
 
-    /// How many warnings are of kinds that are not kept.
+    /// Returns the number of warnings of kinds that are not kept.
     pub fn n_others(&self) -> usize {
         self.n_others
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use crate::models::restart_state::Memory;
+use crate::models::restart_state::RestartState;
 use crate::results::PROGRAM;
 use crate::simulation::identity::Identity;
 use crate::simulation::numerics::NUMERICS;
@@ -63,7 +63,7 @@ pub enum CheckpointError {
 /// # use fem_case::schema::{BodyTable, MaterialTable, MeshTable};
 /// # use fem_case::{Case, CaseFile};
 /// # use fem_simulation::Simulation;
-/// use fem_simulation::{Identity, checkpoint, memory_of};
+/// use fem_simulation::{Identity, checkpoint, restart_state_of};
 /// # let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
 /// # let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.2 m/s");
 /// # let mut file = CaseFile::of_bodies(ball, BodyTable::wall("floor")).with_material("ice", ice);
@@ -81,7 +81,7 @@ pub enum CheckpointError {
 /// assert!(memory_of(&bytes, &other).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn checkpoint(run: &Identity, memory: &Memory) -> Vec<u8> {
+pub fn checkpoint(run: &Identity, memory: &RestartState) -> Vec<u8> {
     // A memory has lists, numbers and texts, all of which can be written.
     let body = postcard::to_stdvec(memory).unwrap_or_default();
     let head = CheckpointHead {
@@ -110,7 +110,7 @@ pub fn checkpoint_head(bytes: &[u8]) -> Result<CheckpointHead, CheckpointError> 
 ///
 /// # Errors
 /// Bytes that are no whole checkpoint; one of another build or case.
-pub fn memory_of(bytes: &[u8], run: &Identity) -> Result<Memory, CheckpointError> {
+pub fn restart_state_of(bytes: &[u8], run: &Identity) -> Result<RestartState, CheckpointError> {
     let (head, body) = split(bytes)?;
     if head.numerics != NUMERICS {
         return Err(CheckpointError::OtherNumerics { found: head.numerics });

@@ -16,22 +16,22 @@ use fem_collision::{
 };
 
 use crate::effects::FiniteStrain;
-use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
+use crate::effects::{EFFECTS, Effect, EffectDecision, EffectDecisions, NeglectError, decide};
 use crate::error::{
-    ErrorEstimate, ErrorEstimator, Level, RefinementBound, refined_because, refinement_bound,
-    unresolved_warning,
+    ErrorEstimate, ErrorEstimator, RefinementBound, RefinementLevel, refined_because,
+    refinement_bound, unresolved_warning,
 };
 use crate::estimate::{Estimate, mach};
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
-use crate::models::method::{Cost, Model, Setup, Shared};
-use crate::models::restart_state::Memory;
-use crate::models::stepper::{Course, begun};
-use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
+use crate::models::method::{Cost, Model, ModelSetup, SharedModels};
+use crate::models::restart_state::RestartState;
+use crate::models::stepper::{Stepper, begun};
+use crate::models::{ModelCandidate, SelectedModel, chosen, model_of, price_of, resolved};
 use crate::plan::penalty_compliance::softness;
 use crate::plan::probes::probes_of;
-use crate::refusal::Refusal;
-use crate::results::diagnostics::assess;
-use crate::results::{Spent, Summary};
+use crate::rejection::Rejection;
+use crate::results::diagnostics::diagnose;
+use crate::results::{RunCost, Summary};
 use crate::simulation::identity::identity_of;
 
 /// The collision of a case, by the model that it asks for, within its tolerance.
@@ -82,7 +82,7 @@ impl ComputedCollision {
     /// Returns the summary with all warnings, without cost and files.
     pub fn summary(&self) -> Summary {
         let Self { simulation, collision, errors } = self;
-        let (spent, warnings) = (Spent::default(), self.warnings());
+        let (spent, warnings) = (RunCost::default(), self.warnings());
         Summary::of(simulation, collision, errors, spent, warnings, Vec::new())
     }
 }
@@ -92,14 +92,14 @@ impl ComputedCollision {
 pub struct Simulation {
     case: Case,
     model: Arc<dyn Model>,
-    chosen: Option<Chosen>,
+    chosen: Option<SelectedModel>,
     want: OutputRequest,
     resolved: CaseFile,
-    shared: Shared,
+    shared: SharedModels,
     /// Elements across a length over those that the plan takes at first.
     pub(crate) refinement: f64,
     /// Coarser meshes that did not do.
-    pub(crate) levels: Vec<Level>,
+    pub(crate) levels: Vec<RefinementLevel>,
 }
 
 impl Simulation {
@@ -108,7 +108,7 @@ impl Simulation {
     /// # Errors
     /// What the model refuses, at its place in the case.
     pub fn new(case: Case) -> Result<Self, CaseError> {
-        Self::sharing(case, &Shared::default())
+        Self::sharing(case, &SharedModels::default())
     }
 
     /// Builds the model that the case asks for; what other cases have made already is taken from
@@ -116,19 +116,19 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::new`].
-    pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
+    pub fn sharing(case: Case, shared: &SharedModels) -> Result<Self, CaseError> {
         Self::at(case, shared, 1.0, Vec::new())
     }
 
     /// The case with so many times the elements across a length, which these meshes were too coarse for.
     fn at(
         case: Case,
-        shared: &Shared,
+        shared: &SharedModels,
         refinement: f64,
-        levels: Vec<Level>,
+        levels: Vec<RefinementLevel>,
     ) -> Result<Self, CaseError> {
         let scene = case.scene().clone().with_refinement(refinement);
-        let of_case = |refusal: Refusal| refusal.in_case(&case);
+        let of_case = |refusal: Rejection| refusal.in_case(&case);
         let model: Arc<dyn Model> = Arc::from(model_of(&scene, shared).map_err(of_case)?);
         let resolved = resolved(&scene, case.file().clone()).map_err(of_case)?;
         let chosen = chosen(&scene).map_err(of_case)?;
@@ -138,7 +138,11 @@ impl Simulation {
     }
 
     /// The same on a finer mesh, asked for the same.
-    pub(crate) fn refined(&self, refinement: f64, levels: Vec<Level>) -> Result<Self, CaseError> {
+    pub(crate) fn refined(
+        &self,
+        refinement: f64,
+        levels: Vec<RefinementLevel>,
+    ) -> Result<Self, CaseError> {
         let mut finer = Self::at(self.case.clone(), &self.shared, refinement, levels)?;
         let probes = std::mem::take(&mut finer.want.probes);
         finer.want = self.want.clone();
@@ -152,7 +156,7 @@ impl Simulation {
     ///
     /// # Errors
     /// What the model refuses.
-    pub fn as_in(self, memory: &Memory) -> Result<Self, CaseError> {
+    pub fn as_in(self, memory: &RestartState) -> Result<Self, CaseError> {
         match memory.levels.is_empty() {
             true => Ok(self),
             false => self.refined(memory.refinement, memory.levels.clone()),
@@ -160,9 +164,9 @@ impl Simulation {
     }
 
     /// What a course of it knows, with the mesh that it has.
-    pub fn memory_of(&self, course: &dyn Course) -> Option<Memory> {
+    pub fn restart_state_of(&self, course: &dyn Stepper) -> Option<RestartState> {
         let (refinement, levels) = (self.refinement, self.levels.clone());
-        Some(Memory { refinement, levels, ..course.memory()? })
+        Some(RestartState { refinement, levels, ..course.memory()? })
     }
 
     /// The case with every default filled in, without the cost of building its model.
@@ -192,7 +196,7 @@ impl Simulation {
     }
 
     /// Which models were considered, from the cheapest to the dearest; none where the case names its own.
-    pub fn considered(&self) -> &[Considered] {
+    pub fn considered(&self) -> &[ModelCandidate] {
         self.chosen.as_ref().map_or(&[], |chosen| &chosen.considered)
     }
 
@@ -250,7 +254,7 @@ impl Simulation {
         warnings.extend(self.choice_warning());
         warnings.extend(self.decisions(collision).warnings);
         warnings.extend(self.setup().unread.iter().cloned());
-        warnings.extend(assess(self, collision, errors));
+        warnings.extend(diagnose(self, collision, errors));
         warnings.extend(collision.warnings.iter().cloned());
         warnings
     }
@@ -269,7 +273,7 @@ impl Simulation {
     pub fn summary(&self, collision: &Collision) -> Summary {
         let errors = self.estimate_errors(collision);
         let warnings = self.warnings_with(collision, &errors);
-        Summary::of(self, collision, &errors, Spent::default(), warnings, Vec::new())
+        Summary::of(self, collision, &errors, RunCost::default(), warnings, Vec::new())
     }
 
     /// That the run takes long, and that the condensed model, which has fields too and is expected to serve
@@ -281,9 +285,9 @@ impl Simulation {
         if seconds < LONG || *scene.model() != ModelChoice::Fem {
             return None;
         }
-        let open = Chosen::of(&scene.clone().with_model(ModelChoice::Auto)).ok()?;
+        let open = SelectedModel::of(&scene.clone().with_model(ModelChoice::Auto)).ok()?;
         // It has fields to draw, as explicit elements do.
-        let serves = |it: &&Considered| {
+        let serves = |it: &&ModelCandidate| {
             it.model.starts_with("condensed") && (it.chosen || it.reason.starts_with("serves"))
         };
         let other = open.considered.iter().find(serves).filter(|_| open.warning.is_none())?;
@@ -301,12 +305,12 @@ impl Simulation {
     }
 
     /// What was decided on the case as it is.
-    pub fn setup(&self) -> &Setup {
+    pub fn setup(&self) -> &ModelSetup {
         self.model.setup()
     }
 
     /// What models of other cases made, and made for them.
-    pub(crate) fn shared(&self) -> &Shared {
+    pub(crate) fn shared(&self) -> &SharedModels {
         &self.shared
     }
 
@@ -374,7 +378,7 @@ impl Simulation {
     }
 
     /// Returns the coarser meshes before this one, the first one first.
-    pub fn levels(&self) -> &[Level] {
+    pub fn levels(&self) -> &[RefinementLevel] {
         &self.levels
     }
 
@@ -426,7 +430,7 @@ impl Simulation {
     /// assert_eq!(resumed.finish(), simulation.run(&mut ()));
     /// # Ok::<(), fem_case::CaseError>(())
     /// ```
-    pub fn start(&self) -> Box<dyn Course> {
+    pub fn start(&self) -> Box<dyn Stepper> {
         begun(&self.model, &self.setup().approach, &self.want)
     }
 
@@ -434,7 +438,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A memory of another case, or a model that goes on from none.
-    pub fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, CaseError> {
+    pub fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, CaseError> {
         self.model.resume(memory).map_err(|refusal| refusal.in_case(&self.case))
     }
 
@@ -448,7 +452,7 @@ impl Simulation {
     }
 
     /// By how much the numbers of a collision of which closed forms say this change without an effect.
-    pub fn left_out(&self, verdict: &Verdict, estimate: &Estimate) -> Option<LeftOut> {
+    pub fn left_out(&self, verdict: &EffectDecision, estimate: &Estimate) -> Option<NeglectError> {
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
         effect.left_out(&self.scene_of_model(), estimate)
     }
@@ -464,7 +468,7 @@ impl Simulation {
 
     /// Which effects were on in a collision of the case's bodies, and why; and what was to be known
     /// of them before it.
-    pub fn decisions(&self, collision: &Collision) -> Decisions {
+    pub fn decisions(&self, collision: &Collision) -> EffectDecisions {
         let setup = self.setup();
         let anew = self.estimate(collision).filter(|_| collision.approach != setup.approach);
         let decided = anew.and_then(|estimate| {

@@ -6,7 +6,7 @@ use fem_collision::{Monitor, OutputRequest, QuantityOfInterest, SnapshotInstant,
 use super::stress_places::StressPlaces;
 use super::variant::Variant;
 use fem_simulation::Simulation;
-use fem_simulation::{Cost, Shared};
+use fem_simulation::{Cost, SharedModels};
 
 /// The results of a variant, SI.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,7 +37,7 @@ impl Measurement {
     pub fn of(
         variant: &Variant,
         contact_radius: f64,
-        shared: &Shared,
+        shared: &SharedModels,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, CaseError> {
         let mut simulation = Simulation::sharing(variant.case.clone(), shared)?;

@@ -16,7 +16,7 @@ use super::speed_span::{SpeedDoubt, SpeedSpan};
 use super::target::Target;
 use crate::measured::{MeasuredPair, MeasuredPairs};
 use fem_simulation::Condensed;
-use fem_simulation::{Model, Shared};
+use fem_simulation::{Model, SharedModels};
 
 /// The key that decides on the element size: it is named in the error if there is no mesh.
 const OF_ELEMENT_SIZE: [&str; 3] =
@@ -129,7 +129,7 @@ fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
             file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
         }
     })?;
-    let condensed = Condensed::new(fastest.scene(), &Shared::default());
+    let condensed = Condensed::new(fastest.scene(), &SharedModels::default());
     let condensed = condensed.map_err(|refusal| {
         let error = refusal.in_case(&fastest);
         if is_given { error.into() } else { no_mesh(error, size, span) }

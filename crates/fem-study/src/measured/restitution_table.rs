@@ -129,7 +129,7 @@ fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUnce
     let (mut of_points, mut of_rows) = (is_kept.iter(), is_kept.iter());
     points.retain(|_| of_points.next().is_some_and(|kept| *kept));
     rows.retain(|_| of_rows.next().is_some_and(|kept| *kept));
-    Some(UnevenUncertainties::LeftOut { n_without })
+    Some(UnevenUncertainties::NeglectError { n_without })
 }
 
 const SPEED: [i32; 3] = [1, 0, -1];

@@ -36,7 +36,7 @@ pub struct Restitutions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnevenUncertainties {
     /// So few rows lacked it that they were left out.
-    LeftOut {
+    NeglectError {
         /// Number of rows without an uncertainty.
         n_without: usize,
     },
@@ -98,7 +98,7 @@ impl Restitutions {
             warnings.push(format!("{rows} without a speed or a restitution left out"));
         }
         match self.uneven {
-            Some(UnevenUncertainties::LeftOut { n_without }) => {
+            Some(UnevenUncertainties::NeglectError { n_without }) => {
                 warnings.push(format!("{} without an uncertainty left out", rows(n_without)));
             }
             Some(UnevenUncertainties::NotUsed { n_with }) => warnings.push(format!(

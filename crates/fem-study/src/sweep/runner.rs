@@ -7,7 +7,7 @@ use super::observer::Observer;
 use fem_case::CaseError;
 use fem_collision::Monitor;
 use fem_simulation::ComputedCollision;
-use fem_simulation::Shared;
+use fem_simulation::SharedModels;
 use fem_simulation::Simulation;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
@@ -15,13 +15,13 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 #[derive(Clone, Copy, Debug)]
 pub struct Runner<'a, M: ?Sized> {
     members: &'a M,
-    shared: &'a Shared,
+    shared: &'a SharedModels,
     has_fields: bool,
 }
 
 impl<'a, M: Members + ?Sized> Runner<'a, M> {
     /// Runs members that take from `shared` what others have made already.
-    pub fn new(members: &'a M, shared: &'a Shared) -> Self {
+    pub fn new(members: &'a M, shared: &'a SharedModels) -> Self {
         Self { members, shared, has_fields: true }
     }
 

@@ -3,7 +3,7 @@
 use super::members::Members;
 use super::runner::{Runner, most_expensive_first};
 use fem_case::{Case, CaseError, CaseFile};
-use fem_simulation::Shared;
+use fem_simulation::SharedModels;
 use fem_simulation::results::Summary;
 
 /// A case with one value after the other put in.
@@ -106,7 +106,7 @@ pub fn sweep<V: Clone + Sync>(
     edit: impl Fn(&mut CaseFile, V) + Sync,
 ) -> Vec<Result<Summary, CaseError>> {
     let members = Variations::of(case, values, edit);
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let runner = Runner::new(&members, &shared).without_fields();
     let kept = runner.run(&most_expensive_first(&members), &(), |ran| ran.summary());
     kept.into_iter().map(|(_, summary)| summary).collect()

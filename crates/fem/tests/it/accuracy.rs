@@ -1,7 +1,7 @@
 //! The accuracy study: the variants of a scene and their comparison.
 
 use fem::accuracy::{ErrorSource, Measurement, Series, Study, Variants};
-use fem::{Case, ErrorEstimator, Shared, Simulation};
+use fem::{Case, ErrorEstimator, SharedModels, Simulation};
 use fem_collision::QuantityOfInterest;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
@@ -20,7 +20,7 @@ fn climb(text: &str, most_updates: u64) -> (Variants, Vec<Option<(Measurement, f
         let is_cheap = variant.price <= most_updates && across < 17.0;
         let radius = variants.lengths.contact_radius;
         is_cheap.then(|| {
-            (Measurement::of(variant, radius, &Shared::default(), &mut ()).unwrap(), 1.0 + across)
+            (Measurement::of(variant, radius, &SharedModels::default(), &mut ()).unwrap(), 1.0 + across)
         })
     };
     let measured = variants.all.iter().map(measure).collect();

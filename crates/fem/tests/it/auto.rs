@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fem::effects::{Effect, FiniteSizeEffect, Standing};
+use fem::effects::{Effect, EffectStatus, FiniteSizeEffect};
 use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 /// Two spheres, the first of which strikes the second.
@@ -367,7 +367,7 @@ fn the_pressure_of_half_spaces_is_off_by_what_it_says() {
     ] {
         let run = simulation(text, &[more, model]);
         let collision = run.run(&mut ());
-        let standing = Standing { is_lacking: false, left_out: None };
+        let standing = EffectStatus { is_lacking: false, left_out: None };
         let doubt = FiniteSizeEffect.doubt(run.case().scene(), &run.setup().estimate, &standing);
         let bar = doubt.size(QuantityOfInterest::PeakPressure).unwrap();
         let error = (collision.peak_pressure.unwrap() - truth).abs();

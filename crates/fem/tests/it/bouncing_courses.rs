@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Memory, Monitor, Progress, Simulation};
+use fem::{Case, Collision, Monitor, Progress, RestartState, Simulation};
 
 const BALL: &str = include_str!("rubber_ball.toml");
 /// Three elements across the first contact.
@@ -30,7 +30,7 @@ fn in_pieces(overrides: &[&str], n_pieces: usize) -> (Collision, Vec<usize>) {
         n_put_away[(course.progress().fraction * n_contacts) as usize] += 1;
         let memory = course.memory().unwrap();
         let bytes = postcard::to_stdvec(&memory).unwrap();
-        let read: Memory = postcard::from_bytes(&bytes).unwrap();
+        let read: RestartState = postcard::from_bytes(&bytes).unwrap();
         assert_eq!(read, memory);
         course = simulation(overrides).resume(read).unwrap();
     }

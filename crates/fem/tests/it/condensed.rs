@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fem::{Condensed, Model, PairCache, Shared, Simulation};
+use fem::{Condensed, Model, PairCache, SharedModels, Simulation};
 use fem_case::{Case, CondensedOptions, ModelChoice};
 use fem_collision::{Account, Collision, QuantityOfInterest};
 
@@ -122,7 +122,7 @@ fn a_resolved_case_computes_the_same() {
 #[test]
 fn cases_share_a_pair() {
     let mesh = ["mesh.contact_element_size='50 um'", "mesh.refined_radius='0.4 mm'", CONDENSED];
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let cache = &shared.pairs;
     let condensed_of = |extra: &str| {
         let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
@@ -176,18 +176,19 @@ fn nine_pairings(speed_is_slow: bool) -> Vec<Case> {
     (0..18).map(index).map(|(speed, pairing)| case(speed, pairing)).collect()
 }
 
-fn restitution(case: Case, shared: &Shared) -> f64 {
+fn restitution(case: Case, shared: &SharedModels) -> f64 {
     Simulation::sharing(case, shared).unwrap().run(&mut ()).restitution.unwrap()
 }
 
 /// A pairing is factored once, whatever the order, and the order changes no bit.
 #[test]
 fn nine_pairings_take_nine_factors_in_any_order() {
-    let run = |speed_is_slow: bool, shared: &Shared| -> Vec<f64> {
+    let run = |speed_is_slow: bool, shared: &SharedModels| -> Vec<f64> {
         nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, shared)).collect()
     };
-    let [slow, fast] = [Shared::default(), Shared::default()];
-    let tight = Shared { pairs: PairCache::with_max_bytes(1).into(), ..Shared::default() };
+    let [slow, fast] = [SharedModels::default(), SharedModels::default()];
+    let tight =
+        SharedModels { pairs: PairCache::with_max_bytes(1).into(), ..SharedModels::default() };
     let (by_speed, by_pairing) = (run(true, &slow), run(false, &fast));
     assert_eq!((slow.pairs.n_made(), fast.pairs.n_made()), (9, 9));
     assert_eq!(slow.pairs.n_kept(), 9);
@@ -213,7 +214,7 @@ fn speeds_and_relaxations_share_meshes() {
             parse(&[CONDENSED, &speed, &rate]).unwrap()
         })
     };
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     for (k, case) in members().enumerate() {
         let simulation = Simulation::sharing(case.clone(), &shared).unwrap();
         let collision = simulation.run(&mut ());
@@ -235,7 +236,7 @@ fn speeds_and_relaxations_share_meshes() {
 /// Threads that want the same pair wait for the one that makes it.
 #[test]
 fn threads_do_not_factor_a_pair_twice() {
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let barrier = std::sync::Barrier::new(4);
     std::thread::scope(|scope| {
         for _ in 0..4 {
@@ -252,7 +253,7 @@ fn threads_do_not_factor_a_pair_twice() {
 /// A contact beyond the condensed region enlarges the pair of that case alone.
 #[test]
 fn an_enlarged_pair_is_not_put_back() {
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let soft = |weight: f64| {
         let terms = format!(
             "material.glass.relaxation={{acts_on='all', terms=[{{weight={weight}, \

@@ -1,6 +1,6 @@
 //! A collision in pieces is the collision in one go.
 
-use fem::{Approach, Collision, Ending, METHODS, Memory, OutputRequest, Simulation, Stop};
+use fem::{Approach, Collision, Ending, METHODS, OutputRequest, RestartState, Simulation, Stop};
 
 use crate::coarse::simulation;
 
@@ -43,7 +43,7 @@ fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Coll
         course.advance(&mut ());
     }
     let text = serde_json::to_string(&course.memory().unwrap()).unwrap();
-    let memory: Memory = serde_json::from_str(&text).unwrap();
+    let memory: RestartState = serde_json::from_str(&text).unwrap();
     let mut resumed = model.resume(memory).unwrap();
     while resumed.advance(&mut ()) {}
     resumed.finish()

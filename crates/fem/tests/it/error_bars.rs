@@ -1,7 +1,7 @@
 //! What results may be off by from the limit of their model, against theory.
 
 use fem::results::{Parts, Summary};
-use fem::{Case, Estimate, QuantityOfInterest, Shared, Simulation};
+use fem::{Case, Estimate, QuantityOfInterest, SharedModels, Simulation};
 use fem_mesh::HalfDisc;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
@@ -262,7 +262,7 @@ fn bars_cost_a_counted_number_of_factors() {
     for (model, own, of_bars) in
         [("model.condensed={}", 1, [1, 1, 1]), ("model.fem={}", 0, [3, 5, 7])]
     {
-        let shared = Shared::default();
+        let shared = SharedModels::default();
         for (speed, of_bars) in ["0.2", "0.19", "0.18"].into_iter().zip(of_bars) {
             let speed = format!("body.0.approach_speed={speed}");
             let mesh = ["mesh.contact_element_size='60 um'", "mesh.refined_radius='0.5 mm'"];

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::effects::{Effect, FiniteStrain, LeftOut, Standing, Verdict};
+use fem::effects::{Effect, EffectDecision, EffectStatus, FiniteStrain, NeglectError};
 use fem::{Case, QuantityOfInterest, Simulation};
 
 /// Rubber that is squeezed to a contact radius of some half of its own, on a wall.
@@ -51,7 +51,7 @@ fn simulation(set: &[&str]) -> Result<Simulation, fem::CaseError> {
     Simulation::new(Case::parse("rubber.toml", RUBBER, Path::new("."), &set).unwrap())
 }
 
-fn verdict(simulation: &Simulation) -> Verdict {
+fn verdict(simulation: &Simulation) -> EffectDecision {
     let verdicts = &simulation.setup().decisions.verdicts;
     verdicts.iter().find(|verdict| verdict.name == "finite strain").unwrap().clone()
 }
@@ -198,7 +198,7 @@ fn stops_and_is_helped(stopped: Vec<&str>, words: [&str; 3], helped: Vec<&str>) 
     };
     let text = stop.to_string();
     assert!(words.iter().all(|word| text.contains(word)), "{text}");
-    let remedy = fem::remedy_of(stop).unwrap().remedy;
+    let remedy = fem::stop_advice(stop).unwrap().remedy;
     let key = if stopped.contains(&SVK) { "hyperelastic" } else { "approach_speed" };
     assert!(remedy.contains(key), "{remedy}");
     let kept = collision.snapshots.last().unwrap();
@@ -265,8 +265,8 @@ fn flatter_than_what_was_computed_nothing_is_foretold() {
         let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
         let is_lacking = !verdict(&simulation).active;
         let left_out = FiniteStrain.left_out(scene, estimate);
-        let doubt = FiniteStrain.doubt(scene, estimate, &Standing { is_lacking, left_out });
-        let is_known = left_out.is_some_and(|left_out| left_out != LeftOut::default());
+        let doubt = FiniteStrain.doubt(scene, estimate, &EffectStatus { is_lacking, left_out });
+        let is_known = left_out.is_some_and(|left_out| left_out != NeglectError::default());
         [is_known, QuantityOfInterest::ALL.iter().all(|headline| doubt.size(*headline).is_some())]
     };
     // a/R of 0.81 and 0.87.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::effects::Verdict;
+use fem::effects::EffectDecision;
 use fem::{Case, Collision, Simulation};
 
 /// Ten terms over as many decades, as a fit of a polymer's master curve gives them.
@@ -46,7 +46,7 @@ fn simulation(text: &str, set: &[&str]) -> Simulation {
     Simulation::new(Case::parse("polymer.toml", text, Path::new("."), &set).unwrap()).unwrap()
 }
 
-fn verdict(simulation: &Simulation) -> &Verdict {
+fn verdict(simulation: &Simulation) -> &EffectDecision {
     let verdicts = &simulation.setup().decisions.verdicts;
     verdicts.iter().find(|verdict| verdict.name == "viscoelasticity").unwrap()
 }

@@ -1,14 +1,14 @@
 //! A program that knows the crate `fem` alone: every name that it needs is here.
 
-use fem::results::{Energy, Spent, energy_key};
+use fem::results::{Energy, RunCost, energy_key};
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, SnapshotLabel, TermTable};
 use fem::sweep::{Members, Variations};
 use fem::{
     Account, Approach, ApproachError, BalanceSide, Body, BodyFields, BodyResult, BodyStress, Case,
     CaseError, CaseFile, Collision, ComputedCollision, Cost, Ending, EnergyLedger, ErrorEstimate,
-    HertzImpact, HistoryRow, Material, ModelChoice, Monitor, OutputRequest, Phase, Progress,
-    Quantity, Scene, Setup, Shape, ShownIn, Simulation, Snapshot, SnapshotInstant, SnapshotRequest,
-    SphereMesh, Stop, StressField, Summary, invariants, remedy_of,
+    HertzImpact, HistoryRow, Material, ModelChoice, ModelSetup, Monitor, OutputRequest, Phase,
+    Progress, Quantity, Scene, Shape, ShownIn, Simulation, Snapshot, SnapshotInstant,
+    SnapshotRequest, SphereMesh, Stop, StressField, Summary, invariants, stop_advice,
 };
 
 /// Notes the phases of a run, and ends it after so many reports.
@@ -53,7 +53,7 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     assert!(material.is_some() && matches!(scene.model(), ModelChoice::Condensed(_)));
 
     let mut simulation = Simulation::new(case)?;
-    let setup: &Setup = simulation.setup();
+    let setup: &ModelSetup = simulation.setup();
     assert!(matches!(setup.cost, Cost::Factors { .. }));
     let hertz: &HertzImpact = &setup.estimate.hertz;
     assert!(hertz.contact_time() > 0.0 && setup.approach.speed() == 0.1);
@@ -92,7 +92,7 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     // The summary.
     let errors: ErrorEstimate = simulation.estimate_errors(&collision);
     let summary: Summary =
-        Summary::of(&simulation, &collision, &errors, Spent::default(), Vec::new(), Vec::new());
+        Summary::of(&simulation, &collision, &errors, RunCost::default(), Vec::new(), Vec::new());
     let energy: &Energy = &summary.energy;
     assert_eq!(energy.get(Account::Kinetic), book.get(Account::Kinetic));
     assert_eq!(energy_key(Account::Kinetic), "kinetic_j");
@@ -105,7 +105,7 @@ fn a_run_is_ended_and_begun_elsewhere() -> Result<(), CaseError> {
     let mut panel = Panel { phases: Vec::new(), reports_left: 2 };
     let stopped = simulation.run(&mut panel);
     let stop: &Stop = stopped.stop().unwrap();
-    assert!(stopped.is_interrupted() && remedy_of(stop).is_none());
+    assert!(stopped.is_interrupted() && stop_advice(stop).is_none());
 
     let refused: ApproachError = Approach::at(-1.0).unwrap_err();
     assert!(refused.to_string().contains("-1"));
@@ -123,7 +123,7 @@ fn members_of_a_sweep_are_run() -> Result<(), CaseError> {
         file.body[1].approach_speed = Some(speed.into());
     });
     assert_eq!(members.n_members(), 2);
-    let shared = fem::Shared::default();
+    let shared = fem::SharedModels::default();
     let ran: ComputedCollision = fem::sweep::Runner::new(&members, &shared).run_one(1, &mut ())?;
     assert!(ran.summary().complete);
     Ok(())

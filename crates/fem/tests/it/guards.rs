@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Simulation, Stop, assess, remedy_of};
+use fem::{Case, Collision, Simulation, Stop, diagnose, stop_advice};
 use fem_collision::{Ending, StepInstant};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
@@ -40,7 +40,7 @@ fn run(case: &str, overrides: &[&str]) -> (Simulation, Collision) {
 /// What a run says with some word in it.
 fn said(case: &str, overrides: &[&str], word: &str) -> Option<String> {
     let (simulation, collision) = run(case, overrides);
-    assess(&simulation, &collision, &simulation.estimate_errors(&collision))
+    diagnose(&simulation, &collision, &simulation.estimate_errors(&collision))
         .into_iter()
         .find(|text| text.contains(word))
 }
@@ -149,7 +149,7 @@ fn keeps_its_energy(method: &str, factor: f64, mesh: &str) {
 fn energy_that_does_not_add_up_is_told_with_its_time() {
     let (simulation, mut collision) = run(GLASS, &[COARSE, "contact.method='penalty'"]);
     let about_energy = |collision: &Collision| {
-        let messages = assess(&simulation, collision, &simulation.estimate_errors(collision));
+        let messages = diagnose(&simulation, collision, &simulation.estimate_errors(collision));
         messages.into_iter().find(|text| text.contains("add up"))
     };
     assert_eq!(about_energy(&collision), None);
@@ -190,7 +190,7 @@ fn a_run_at_its_limit_goes_on_where_that_is_raised() {
     let collision = simulation.run(&mut ());
     let stop = collision.stop().expect("a stop");
     assert!(matches!(stop, Stop::TooManyUpdates { .. }), "{stop}");
-    assert!(remedy_of(stop).unwrap().remedy.starts_with("raise limits.element_updates"));
+    assert!(stop_advice(stop).unwrap().remedy.starts_with("raise limits.element_updates"));
     assert_eq!(run(GLASS, &mesh).1.stop(), None);
 }
 

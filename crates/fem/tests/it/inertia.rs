@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::effects::{Effect, LeftOut, Vibration};
+use fem::effects::{Effect, NeglectError, Vibration};
 use fem::{Case, Simulation};
 
 /// A ball, of which Young's modulus (Pa), Poisson's ratio, density (kg/m³), diameter (m) and speed (m/s) are given.
@@ -38,7 +38,7 @@ fn foretold(text: &str) -> [f64; 3] {
     let simulation = simulation(text, &["model.hertz={}"]);
     let estimate = &simulation.setup().estimate;
     let told = Vibration.left_out(simulation.case().scene(), estimate).unwrap();
-    let LeftOut { restitution, contact_time_s, peak_force_n } = told;
+    let NeglectError { restitution, contact_time_s, peak_force_n } = told;
     let (time, force) = (estimate.hertz.contact_time(), estimate.hertz.peak_force());
     [restitution.unwrap(), contact_time_s.unwrap() / time, peak_force_n.unwrap() / force]
 }

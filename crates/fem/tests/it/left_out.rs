@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::effects::LeftOut;
+use fem::effects::NeglectError;
 use fem::{Case, Collision, Simulation};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -16,7 +16,7 @@ fn run(text: &str, set: &[&str]) -> Collision {
     simulation(text, set).run(&mut ())
 }
 
-fn foretold(text: &str, set: &[&str], effect: &str) -> LeftOut {
+fn foretold(text: &str, set: &[&str], effect: &str) -> NeglectError {
     let simulation = simulation(text, set);
     let setup = simulation.setup();
     let verdict = setup.decisions.verdicts.iter().find(|verdict| verdict.name == effect).unwrap();
@@ -205,7 +205,7 @@ fn extreme_scenes_have_numbers_or_none() {
                     let setup = simulation.setup();
                     for verdict in &setup.decisions.verdicts {
                         let left_out = simulation.left_out(verdict, &setup.estimate);
-                        let LeftOut { restitution, contact_time_s, peak_force_n } =
+                        let NeglectError { restitution, contact_time_s, peak_force_n } =
                             left_out.unwrap_or_default();
                         let told = [restitution, contact_time_s, peak_force_n];
                         let is_number = |change: &f64| change.is_finite() && *change >= 0.0;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Debug;
 use std::path::Path;
 
-use fem::{Case, Identity, Memory, Simulation, checkpoint, memory_of};
+use fem::{Case, Identity, RestartState, Simulation, checkpoint, restart_state_of};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -32,7 +32,7 @@ fn simulations() -> Vec<(&'static str, Simulation)> {
 }
 
 /// After this share of the run.
-fn memory_at(simulation: &Simulation, fraction: f64) -> Memory {
+fn memory_at(simulation: &Simulation, fraction: f64) -> RestartState {
     let mut course = simulation.start();
     while course.progress().fraction < fraction && course.advance(&mut ()) {}
     course.memory().unwrap()
@@ -110,7 +110,7 @@ fn a_checkpoint_keeps_every_bit() {
         let run = Identity::of(simulation.case()).unwrap();
         for fraction in [0.0, 0.3, 0.9] {
             let memory = memory_at(&simulation, fraction);
-            let read = memory_of(&checkpoint(&run, &memory), &run).unwrap();
+            let read = restart_state_of(&checkpoint(&run, &memory), &run).unwrap();
             assert_eq!(format!("{read:?}"), format!("{memory:?}"), "{name}");
         }
     }
@@ -129,8 +129,8 @@ fn a_changed_checkpoint_is_refused() {
         let mut changed = bytes.clone();
         changed[at] ^= 1;
         // Whose folder it lies in is not asked here.
-        n_same += usize::from(memory_of(&changed, &run).is_ok());
-        assert!(memory_of(&bytes[..at], &run).is_err(), "{at}");
+        n_same += usize::from(restart_state_of(&changed, &run).is_ok());
+        assert!(restart_state_of(&bytes[..at], &run).is_err(), "{at}");
     }
     assert_eq!(n_same, run.case.len());
 }

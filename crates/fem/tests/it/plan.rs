@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Explicit, Model, Plan, Setup, Simulation};
+use fem::{Explicit, Model, ModelSetup, Plan, Simulation};
 use fem_case::schema::LawTable;
 use fem_case::{Case, CaseError};
 
@@ -149,7 +149,7 @@ fn a_contact_that_outgrows_the_searched_region_is_run_again() {
     // Half of the largest contact radius, 0.223 mm.
     plan.candidate_radius = 0.11e-3;
     let explicit = Explicit::with_plan(case.scene(), plan).unwrap();
-    let Setup { approach, want, .. } = explicit.setup().clone();
+    let ModelSetup { approach, want, .. } = explicit.setup().clone();
     let collision = explicit.collide(&approach, &want, &mut ());
     assert!(collision.is_complete());
     assert!(collision.searched.unwrap().radius > 0.223e-3);

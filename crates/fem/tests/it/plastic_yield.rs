@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::Simulation;
-use fem::effects::Verdict;
+use fem::effects::EffectDecision;
 use fem_case::Case;
 
 /// 5 mm steel spheres at 5 m/s: real steel yields at some cm/s.
@@ -33,7 +33,7 @@ const MODELS: [&str; 5] = [
     "model.law.falcon.c=0",
 ];
 
-fn told(text: &str, overrides: &[&str]) -> (Verdict, String) {
+fn told(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     let case = Case::parse("pair.toml", text, Path::new("."), &overrides).unwrap();
     let simulation = Simulation::new(case).unwrap();

@@ -1,6 +1,6 @@
 //! What lies beyond the range of a model is said, whichever the model.
 
-use fem::{Simulation, assess};
+use fem::{Simulation, diagnose};
 
 use crate::coarse::{refused, simulation};
 
@@ -33,7 +33,7 @@ fn numbers_of_every_model_are_judged() {
         let simulation = simulation(method.name(), &[]);
         let mut collision = simulation.run(&mut ());
         let said = |collision: &fem::Collision, text: &str| {
-            assess(&simulation, collision, &simulation.estimate_errors(collision))
+            diagnose(&simulation, collision, &simulation.estimate_errors(collision))
                 .iter()
                 .any(|one| one.contains(text))
         };

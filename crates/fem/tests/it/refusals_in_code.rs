@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{METHODS, Shared, Simulation};
+use fem::{METHODS, SharedModels, Simulation};
 use fem_case::schema::MeshTable;
 use fem_case::{Case, CaseError, CaseFile};
 
@@ -50,7 +50,7 @@ fn a_method_refuses_a_scene_that_chose_another() {
         let case = Case::parse("pair.toml", GLASS, Path::new("."), &set).unwrap();
         let scene = case.scene();
         for method in METHODS {
-            let made = method.build(scene, &Shared::default());
+            let made = method.build(scene, &SharedModels::default());
             if method.name() == scene.model().name() {
                 made.unwrap();
             } else {

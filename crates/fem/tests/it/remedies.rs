@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Stop, remedy_of};
+use fem::{Case, Stop, stop_advice};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const PAGE: &str = include_str!("../../../../docs/cases.md");
@@ -95,7 +95,7 @@ fn is_known(key: &str) -> bool {
 #[test]
 fn a_remedy_names_keys_that_there_are() {
     for stop in stops() {
-        let Some(remedy) = remedy_of(&stop) else {
+        let Some(remedy) = stop_advice(&stop) else {
             assert!(matches!(stop, Stop::Interrupted { .. }), "{stop:?} has no remedy");
             continue;
         };
@@ -114,7 +114,7 @@ fn a_remedy_names_keys_that_there_are() {
 /// Memory that there is not is no fault of a mesh file.
 #[test]
 fn each_cause_is_its_own() {
-    let cause = |stop: &Stop| remedy_of(stop).unwrap().cause;
+    let cause = |stop: &Stop| stop_advice(stop).unwrap().cause;
     let [not_made, no_memory] =
         [Stop::NotMade, Stop::OutOfMemory].map(|stop| cause(&stop(String::new())));
     assert!(not_made.contains("mesh") && !no_memory.contains("mesh"), "{no_memory}");

@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use fem::{Case, OutputRequest, Simulation, remedy_of};
+use fem::{Case, OutputRequest, Simulation, stop_advice};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
@@ -161,7 +161,7 @@ fn failure(case: &str, overrides: &[&str], want: Option<f64>) -> Option<(String,
     }
     let collision = simulation.run(&mut ());
     let stop = collision.stop()?;
-    Some((stop.to_string(), remedy_of(stop).map_or("", |it| it.remedy).to_string()))
+    Some((stop.to_string(), stop_advice(stop).map_or("", |it| it.remedy).to_string()))
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::effects::Verdict;
+use fem::effects::EffectDecision;
 use fem::{Case, CaseError, Collision, Simulation};
 
 /// A soft ball between elastic and relaxing, and a steel one: 1 to 4e4 in stiffness.
@@ -44,7 +44,7 @@ fn run(set: &[&str]) -> Collision {
     simulation(set).unwrap().run(&mut ())
 }
 
-fn verdict(simulation: &Simulation) -> &Verdict {
+fn verdict(simulation: &Simulation) -> &EffectDecision {
     let verdicts = &simulation.setup().decisions.verdicts;
     verdicts.iter().find(|verdict| verdict.name == "rigid partner").unwrap()
 }

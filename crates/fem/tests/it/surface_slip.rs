@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::effects::{Effect, Standing, SurfaceSlip, Verdict};
+use fem::effects::{Effect, EffectDecision, EffectStatus, SurfaceSlip};
 use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 use crate::coarse;
@@ -53,7 +53,7 @@ fn run(set: &[&str]) -> Collision {
     simulation(set).run(&mut ())
 }
 
-fn verdict(simulation: &Simulation) -> Verdict {
+fn verdict(simulation: &Simulation) -> EffectDecision {
     let verdicts = &simulation.setup().decisions.verdicts;
     verdicts.iter().find(|verdict| verdict.name == "surface slip").unwrap().clone()
 }
@@ -196,7 +196,7 @@ fn the_next_order_is_a_doubt_of_models_that_have_the_first() {
             let simulation = simulation(&set);
             let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
             let left_out = SurfaceSlip.left_out(scene, estimate);
-            let doubt = SurfaceSlip.doubt(scene, estimate, &Standing { is_lacking, left_out });
+            let doubt = SurfaceSlip.doubt(scene, estimate, &EffectStatus { is_lacking, left_out });
             let hertz = &estimate.hertz;
             let scales = [hertz.contact_time(), hertz.peak_force(), hertz.max_approach()];
             let numbers = [

@@ -12,7 +12,7 @@ use fem::sweep::{
     COLUMNS, Member, Members, Observer, Row, Runner, Variations, check, column_unit, column_words,
     columns, load, most_expensive_first, sweep_csv,
 };
-use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
+use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, SharedModels, Simulation, sweep};
 
 const SPEEDS: [f64; 3] = [0.3, 0.1, 0.2];
 
@@ -96,7 +96,7 @@ fn members_of_a_file_are_those_of_code() {
     assert_ne!(expected[0], expected[1]);
 
     fn histories(members: &(impl Members + ?Sized)) -> Vec<Vec<fem::HistoryRow>> {
-        let shared = Shared::default();
+        let shared = SharedModels::default();
         let runner = Runner::new(members, &shared).without_fields();
         let kept = runner.run(&[0, 1, 2], &(), |ran| ran.collision.history);
         assert_eq!(shared.pairs.n_made(), 1, "equal bodies share their factors");
@@ -241,7 +241,7 @@ impl<'a> Observer for &'a Looker {
 fn who_looks_on_sees_all_and_can_end_it() {
     let case = pair(ModelTable::fem());
     let members = Variations::of(&case, [0.2, -1.0, 0.3, 0.4], set_speed);
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let run = |most_reports: usize| {
         let looker = Looker { most_reports, ..Looker::default() };
         let runner = Runner::new(&members, &shared).without_fields();
@@ -269,7 +269,7 @@ fn who_looks_on_sees_all_and_can_end_it() {
 fn rows_are_summaries() {
     let case = pair(ModelTable::condensed());
     let members = Variations::of(&case, SPEEDS, set_speed);
-    let shared = Shared::default();
+    let shared = SharedModels::default();
     let runner = Runner::new(&members, &shared);
     let member = Member::of(1, &members.case(1).unwrap()).unwrap();
     let ran = runner.run_one(1, &mut ()).unwrap();

@@ -215,7 +215,7 @@ fn a_finer_mesh_goes_on_from_its_memory() {
     let finer = ErrorEstimator::default().refine(&first, &collision).unwrap();
     let mut course = finer.start();
     while course.progress().fraction < 0.3 && course.advance(&mut ()) {}
-    let memory = finer.memory_of(course.as_ref()).unwrap();
+    let memory = finer.restart_state_of(course.as_ref()).unwrap();
     let memory = postcard::to_stdvec(&memory).unwrap();
     let memory = postcard::from_bytes(&memory).unwrap();
     let again = simulation(RUBBER, &[FEM, FAST]).as_in(&memory).unwrap();

@@ -7,7 +7,7 @@
 //! `unexplained`, those with default settings as `beyond_bars`, unless the cheaper model warned of its result.
 //! `NAME.median` is the median |Δe| of a pair of models.
 
-use fem::effects::{LeftOut, PartnerWaves, Verdict};
+use fem::effects::{EffectDecision, NeglectError, PartnerWaves};
 use fem::{Estimate, Simulation};
 use fem_case::{Case, CaseError};
 use fem_collision::{Collision, QuantityOfInterest};
@@ -256,7 +256,7 @@ fn waves(theirs: &Ran) -> [f64; 3] {
 }
 
 /// Returns the changes of restitution, and of contact time and peak force over Hertz' values.
-fn shares(left_out: &LeftOut, estimate: &Estimate) -> [Option<f64>; 3] {
+fn shares(left_out: &NeglectError, estimate: &Estimate) -> [Option<f64>; 3] {
     let hertz = &estimate.hertz;
     [
         left_out.restitution,
@@ -287,7 +287,7 @@ impl Ran {
         !self.simulation.warnings(&self.collision).is_empty()
     }
 
-    fn verdicts(&self) -> Vec<Verdict> {
+    fn verdicts(&self) -> Vec<EffectDecision> {
         self.simulation.decisions(&self.collision).verdicts
     }
 }

@@ -5,14 +5,14 @@ use fem_collision::QuantityOfInterest;
 
 use crate::effects::bodies::vibration::Vibration;
 use crate::effects::effect::Effect;
-use crate::effects::effect::computed_scene::Computed;
-use crate::effects::effect::model_form_error::{Doubt, Standing};
-use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::computed_scene::ComputedScene;
+use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::percent;
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::support::Support;
 use crate::effects::material::finite_strain::relaxed_loss;
+use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
-use crate::estimate::ting_prediction::Expected;
 
 /// Second order of the contact's size over the spheres', of contact time and peak force: Ting's with
 /// finite size is within 0.02 % of finite elements at a/R* = 0.05.
@@ -42,7 +42,7 @@ impl FiniteSizeEffect {
         scene: &Scene,
         estimate: &Estimate,
         (is_there, reason): (bool, &str),
-    ) -> Answer {
+    ) -> Support {
         let share = Self::share(scene, estimate).unwrap_or_default();
         let warning = (share > LARGEST_SHARE).then(|| {
             let doubt = match is_there {
@@ -56,18 +56,18 @@ impl FiniteSizeEffect {
                 Vibration::models_that_serve(estimate)
             )
         });
-        Answer::is(is_there, reason).warning(warning)
+        Support::is(is_there, reason).warning(warning)
     }
 
     /// What it changes where its first order does not go through the collision, as of contacts that relaxation makes
     /// wide: a share s of the approach makes a contact stiffer or softer by (1 − s)^(−3/2), of which contact time and
     /// force follow with the power 2/5. Spheres that relax to 3 % and less are 5 to 10 % off without it where this
     /// has 6 to 12 %. What relaxation takes of the restitution changes with the time it has.
-    fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let share = Self::share(scene, estimate).filter(|share| *share < LARGEST_KNOWN)?;
         let change = 0.6 * share;
         let restitution = Some(change * relaxed_loss(scene, estimate));
-        Some(LeftOut { restitution, ..LeftOut::shares(estimate, change, change) })
+        Some(NeglectError { restitution, ..NeglectError::shares(estimate, change, change) })
     }
 
     /// Returns the largest relative error of the half-space pressure.
@@ -92,22 +92,26 @@ impl Effect for FiniteSizeEffect {
         Self::NAME
     }
 
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let scene = Computed::quiet(scene)?;
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+        let scene = ComputedScene::quiet(scene)?;
         let speed = estimate.hertz.approach_speed();
-        let [with, without] = [true, false].map(|size| Expected::of(&scene, speed, size).ok());
+        let [with, without] =
+            [true, false].map(|size| TingPrediction::of(&scene, speed, size).ok());
         match with.zip(without) {
-            Some((with, without)) => Some(LeftOut::difference(&with, &without)),
+            Some((with, without)) => Some(NeglectError::difference(&with, &without)),
             None => Self::by_stiffness(&scene, estimate),
         }
     }
 
     /// Where it is a term it is its first order; of the pressure no model of half-spaces has it.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
         let second_order = SECOND_ORDER * estimate.strain.powi(2);
         let of_size = match standing.is_lacking {
-            true => Doubt::of(&standing.left_out.unwrap_or_default(), estimate),
-            false => Doubt::of(&LeftOut::shares(estimate, second_order, second_order), estimate),
+            true => ModelFormError::of(&standing.left_out.unwrap_or_default(), estimate),
+            false => ModelFormError::of(
+                &NeglectError::shares(estimate, second_order, second_order),
+                estimate,
+            ),
         };
         let pressure = Self::of_pressure(scene, estimate) * estimate.softened.sizes.peak_pressure;
         match of_size.size(QuantityOfInterest::PeakPressure) {

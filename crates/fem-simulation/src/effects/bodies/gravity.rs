@@ -16,8 +16,8 @@ use fem_case::Scene;
 use fem_case::engineering::number;
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::Need;
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::Relevance;
 use crate::estimate::Estimate;
 
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.
@@ -40,9 +40,12 @@ impl Effect for Gravity {
         Self::NAME
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let Some(gravity) = scene.gravity() else {
-            return Some(Need { number: "the case has none".to_string(), ..Need::default() });
+            return Some(Relevance {
+                number: "the case has none".to_string(),
+                ..Relevance::default()
+            });
         };
         let hertz = &estimate.hertz;
         let weight = gravity.acceleration * hertz.pair().effective_mass() / hertz.peak_force();
@@ -55,14 +58,14 @@ impl Effect for Gravity {
         if weight.max(fall * fall) < NEGLIGIBLE {
             number += "; in the contact it changes nothing, the flight needs it";
         }
-        Some(Need { is_called_for: true, number, ..Need::default() })
+        Some(Relevance { is_called_for: true, number, ..Relevance::default() })
     }
 
     /// Applies to the first contact; without gravity there is no other.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let acceleration = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
         let hertz = &estimate.hertz;
         let share = acceleration * hertz.max_approach() / hertz.approach_speed().powi(2);
-        Some(LeftOut::shares(estimate, TIME_SHARE * share, FORCE_SHARE * share))
+        Some(NeglectError::shares(estimate, TIME_SHARE * share, FORCE_SHARE * share))
     }
 }

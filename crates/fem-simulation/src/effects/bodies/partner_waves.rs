@@ -11,14 +11,14 @@ use fem_laws::{HertzImpact, Ting, radiated_share};
 use fem_material::Material;
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::computed_scene::Computed;
-use crate::effects::effect::model_form_error::{Doubt, Standing};
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::{Need, percent};
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::computed_scene::ComputedScene;
+use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::{Relevance, percent};
+use crate::effects::effect::support::Support;
+use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
-use crate::estimate::effective_modulus::{Softened, left_at};
-use crate::estimate::ting_prediction::Expected;
+use crate::estimate::effective_modulus::{EffectiveModuli, left_at};
 
 /// Number of modes that return the wave energy.
 pub(in crate::effects) const ENOUGH_MODES: usize = 12;
@@ -125,22 +125,22 @@ impl PartnerWaves {
         scene: &Scene,
         estimate: &Estimate,
         radiating: fn(&Scene, &Estimate) -> [Option<Material>; 2],
-    ) -> Answer {
+    ) -> Support {
         // Where it is switched off it is there to be switched off.
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
         match radiating(&Self::switched(scene, switch), estimate) {
-            [None, None] => Answer::Lacks,
-            _ => Answer::Computes { idle: "" },
+            [None, None] => Support::Lacks,
+            _ => Support::Computes { idle: "" },
         }
     }
 
     /// Returns the answer of condensed bodies: the radiation term, or vibration modes that resolve the
     /// waves.
-    pub(crate) fn of_condensed(scene: &Scene, estimate: &Estimate) -> Answer {
+    pub(crate) fn of_condensed(scene: &Scene, estimate: &Estimate) -> Support {
         let mut crossed = crossed(scene, estimate).into_iter().flatten();
         let are_resolved = crossed.all(|body| body.passage >= RESOLVED_BY_MODES);
         if n_modes(scene) >= ENOUGH_MODES && are_resolved {
-            return Answer::Inherent { idle: "" };
+            return Support::Inherent { idle: "" };
         }
         Self::of_term(scene, estimate, Self::radiating_at_rest)
     }
@@ -168,14 +168,14 @@ impl Effect for PartnerWaves {
         effects.partner_waves
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let crossed = crossed(scene, estimate);
         let share = radiated(&crossed, estimate);
         let largest =
             crossed.iter().flatten().min_by(|one, other| one.passage.total_cmp(&other.passage))?;
         let (name, least) = (largest.body.name(), largest.passage);
         let lost = lost(share);
-        let term = Self::of_term(scene, estimate, Self::radiating) != Answer::Lacks;
+        let term = Self::of_term(scene, estimate, Self::radiating) != Support::Lacks;
         let warning = (lost > SMALL_LOSS).then(|| {
             format!(
                 "{name} is so large that waves from the contact do not come back within it (contact \
@@ -187,7 +187,7 @@ impl Effect for PartnerWaves {
                 if term { "models fem and ting have" } else { "model fem has" }
             )
         });
-        Some(Need {
+        Some(Relevance {
             is_called_for: least < RETURN_LIMIT,
             number: format!(
                 "contact time × shear wave speed / diameter of {name} = {least:.2}, the times that a wave \
@@ -201,9 +201,9 @@ impl Effect for PartnerWaves {
 
     /// Between Ting's impacts with and without; where they are no term, or no correction any more, what
     /// a half-space takes of the restitution.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
-        let with = Computed::quiet(&Self::switched(scene, switch))?;
+        let with = ComputedScene::quiet(&Self::switched(scene, switch))?;
         let without = Self::switched(&with, Some(Switch::Off));
         let speed = estimate.hertz.approach_speed();
         let estimate = Estimate::at(&with, speed).ok()?;
@@ -212,12 +212,12 @@ impl Effect for PartnerWaves {
             let is_term = Self::radiating_at_rest(&with, &estimate) != [None, None];
             let whole = with.clone().with_model(ModelChoice::Fem);
             let own = if is_term { &with } else { &whole };
-            let impacts = [own, &without].map(|scene| Expected::of(scene, speed, false));
+            let impacts = [own, &without].map(|scene| TingPrediction::of(scene, speed, false));
             if let [Ok(one), Ok(without)] = impacts {
                 let missing = missing_of_term(&crossed(&with, &estimate), &estimate);
-                let told = LeftOut::difference(&one, &without);
+                let told = NeglectError::difference(&one, &without);
                 let whole = |part: f64| (part * (1.0 + missing)).clamp(-1.0, 1.0);
-                return Some(LeftOut { restitution: told.restitution.map(whole), ..told });
+                return Some(NeglectError { restitution: told.restitution.map(whole), ..told });
             }
             // What relaxes takes part of what the waves would.
             if relaxes(&with.bodies().each_ref().map(Body::material)) {
@@ -225,26 +225,26 @@ impl Effect for PartnerWaves {
             }
         }
         let share = radiated(&crossed(&with, &estimate), &estimate);
-        (share > 0.0).then(|| LeftOut::restitution(lost(share)))
+        (share > 0.0).then(|| NeglectError::restitution(lost(share)))
     }
 
     /// The radiation term has a relative error; a mesh resolves the waves.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
-        let &Standing { is_lacking, left_out } = standing;
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+        let &EffectStatus { is_lacking, left_out } = standing;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
         let Some(left_out) = left_out.filter(|_| !is_of_mesh) else {
-            return Doubt::NOTHING;
+            return ModelFormError::NOTHING;
         };
         let part = if is_lacking { 1.0 } else { Self::error_of_term(scene, estimate) };
         // Where closed forms tell the loss alone.
         let others = SHARE_OF_LOSS * left_out.restitution.unwrap_or(f64::NAN);
-        let shares = LeftOut::shares(estimate, others, others);
-        let told = LeftOut {
+        let shares = NeglectError::shares(estimate, others, others);
+        let told = NeglectError {
             contact_time_s: left_out.contact_time_s.or(shares.contact_time_s),
             peak_force_n: left_out.peak_force_n.or(shares.peak_force_n),
             ..left_out
         };
-        Doubt::of(&told, estimate).times(part)
+        ModelFormError::of(&told, estimate).times(part)
     }
 }
 
@@ -259,7 +259,7 @@ struct Crossed<'a> {
 
 /// The bodies that waves cross: those of a material.
 fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2] {
-    let Softened { after, hertz, .. } = &estimate.softened;
+    let EffectiveModuli { after, hertz, .. } = &estimate.softened;
     scene.bodies().each_ref().map(|body| {
         let material = left_at(body.material()?, *after);
         let way = hertz.contact_time() * material.shear_wave_speed();

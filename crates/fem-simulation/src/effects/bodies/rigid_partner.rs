@@ -10,13 +10,13 @@ use fem_case::engineering;
 use fem_case::{Body, EffectsTable, Scene, Switch};
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::computed_scene::Transformed;
-use crate::effects::effect::model_form_error::{Doubt, Standing};
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::Need;
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::computed_scene::TransformedScene;
+use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::Relevance;
+use crate::effects::effect::support::Support;
 use crate::estimate::Estimate;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Share of the compliance below which a body is rigid: 4e-5 of the contact time.
 const RIGID_SHARE: f64 = 1e-4;
@@ -40,13 +40,17 @@ impl Effect for RigidPartner {
     }
 
     /// It saves work and changes next to nothing: a scene may allow it, none calls for it.
-    fn need(&self, scene: &Scene, _: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number =
             stiffer(scene).map_or_else(|| "the partner is rigid".to_string(), |s| s.number());
-        Some(Need { number, ..Need::default() })
+        Some(Relevance { number, ..Relevance::default() })
     }
 
-    fn transform(&self, scene: &Scene, _: &Estimate) -> Result<Option<Transformed>, Refusal> {
+    fn transform(
+        &self,
+        scene: &Scene,
+        _: &Estimate,
+    ) -> Result<Option<TransformedScene>, Rejection> {
         let is_forced = scene.effects().rigid_partner == Some(Switch::On);
         let stiffer = stiffer(scene).filter(|_| scene.effects().rigid_partner != Some(Switch::Off));
         let Some(stiffer) = stiffer.filter(|stiffer| is_forced || stiffer.is_rigid()) else {
@@ -59,12 +63,12 @@ impl Effect for RigidPartner {
             return Err(refused("rigid_partner and mirror_symmetry are both \"on\""));
         }
         let number = stiffer.number();
-        let answer = Answer::is(true, format!("{number}: it is rigid, with its own mass"));
+        let answer = Support::is(true, format!("{number}: it is rigid, with its own mass"));
         let mut shapes = scene.bodies().each_ref().map(|body| body.shape().clone());
         shapes[stiffer.side] = stiffer.body.rigid();
         let effects = EffectsTable { rigid_partner: None, ..*scene.effects() };
         let scene = scene.clone().with_shapes(shapes).with_effects(effects);
-        Ok(Some(Transformed { scene, answer }))
+        Ok(Some(TransformedScene { scene, answer }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
@@ -75,33 +79,33 @@ impl Effect for RigidPartner {
     }
 
     /// Nature has none: it is what taking a body as rigid changes.
-    fn doubt(&self, _: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
-        Doubt::of(&standing.left_out.unwrap_or_default(), estimate)
+    fn doubt(&self, _: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+        ModelFormError::of(&standing.left_out.unwrap_or_default(), estimate)
     }
 
     /// Of a body that is taken as rigid: what it gives way, relaxes and radiates.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().rigid_partner;
         let taken = stiffer(scene).filter(|stiffer| match switch {
             Some(Switch::On) => true,
             Some(Switch::Off) => false,
             _ => stiffer.is_rigid(),
         });
-        Some(taken.map_or(LeftOut::NOTHING, |_| change(scene, estimate)))
+        Some(taken.map_or(NeglectError::NOTHING, |_| change(scene, estimate)))
     }
 }
 
 /// Returns the error of taking the stiffer body as rigid.
-fn change(scene: &Scene, estimate: &Estimate) -> LeftOut {
+fn change(scene: &Scene, estimate: &Estimate) -> NeglectError {
     let [rigid, whole] = [Some(Switch::On), Some(Switch::Off)].map(|rigid_partner| {
         let effects = EffectsTable { rigid_partner, ..*scene.effects() };
         scene.clone().with_effects(effects)
     });
-    LeftOut::between(&rigid, &whole, estimate.hertz.approach_speed())
+    NeglectError::between(&rigid, &whole, estimate.hertz.approach_speed())
 }
 
-fn refused(message: &str) -> Refusal {
-    Refusal::new("effects.rigid_partner", message)
+fn refused(message: &str) -> Rejection {
+    Rejection::new("effects.rigid_partner", message)
         .with_help("write \"auto\" or \"off\", or leave it out")
 }
 

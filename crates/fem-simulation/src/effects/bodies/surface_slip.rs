@@ -15,9 +15,9 @@ use fem_laws::{RelativeError, SlipSurface, SurfaceSlip as Slip};
 use fem_material::Material;
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::model_form_error::{Doubt, Standing};
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::{Need, percent};
+use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::{Relevance, percent};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
 
@@ -62,7 +62,7 @@ impl Effect for SurfaceSlip {
         effects.surface_slip
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let RelativeError { contact_time, peak_force, .. } = change(scene, estimate);
         let [time, force] = [contact_time, peak_force].map(|share| percent(share.abs()));
         let slope = estimate.contact_radius * mismatch(scene, estimate).abs();
@@ -73,7 +73,7 @@ impl Effect for SurfaceSlip {
                  fem, condensed and ting have it"
             )
         });
-        Some(Need {
+        Some(Relevance {
             is_called_for: is_called_for(scene),
             number: format!(
                 "slope of the interface × mismatch of the materials = {}",
@@ -86,25 +86,25 @@ impl Effect for SurfaceSlip {
     }
 
     /// Difference between Ting's impacts with and without slip; zero between like bodies.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if !is_called_for(scene) {
-            return Some(LeftOut::NOTHING);
+            return Some(NeglectError::NOTHING);
         }
         let [with, without] = [Switch::On, Switch::Off].map(|to| Self::switched(scene, to));
-        Some(LeftOut::between(&with, &without, estimate.hertz.approach_speed()))
+        Some(NeglectError::between(&with, &without, estimate.hertz.approach_speed()))
     }
 
     /// The next order of the series spring is neglected; elements compute the slip fully.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
         let share = match (standing.is_lacking, scene.model()) {
             (true, _) => 1.0,
             (false, ModelChoice::Fem) => 0.0,
             (false, _) => NEXT_ORDER * estimate.strain,
         };
         match &standing.left_out {
-            _ if share == 0.0 || !is_called_for(scene) => Doubt::NOTHING,
-            Some(left_out) => Doubt::of(left_out, estimate).times(share),
-            None => Doubt::default(),
+            _ if share == 0.0 || !is_called_for(scene) => ModelFormError::NOTHING,
+            Some(left_out) => ModelFormError::of(left_out, estimate).times(share),
+            None => ModelFormError::default(),
         }
     }
 }

@@ -8,10 +8,10 @@ use fem_collision::Collision;
 
 use crate::effects::bodies::partner_waves::{ENOUGH_MODES, PartnerWaves};
 use crate::effects::effect::Effect;
-use crate::effects::effect::neglect_error::LeftOut;
+use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
-use crate::effects::effect::relevance::{Need, percent};
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::relevance::{Relevance, percent};
+use crate::effects::effect::support::Support;
 use crate::effects::material::finite_strain::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
@@ -52,23 +52,23 @@ impl Effect for Vibration {
         Self::NAME
     }
 
-    fn need(&self, _: &Scene, estimate: &Estimate) -> Option<Need> {
-        Some(Need {
+    fn need(&self, _: &Scene, estimate: &Estimate) -> Option<Relevance> {
+        Some(Relevance {
             is_called_for: estimate.softened_mach.max(estimate.softened_ringing)
                 > QUASI_STATIC_LIMIT,
             number: match estimate.softened_ringing > estimate.softened_mach {
                 true => "bulk waves are slow, Poisson's ratio is negative".to_string(),
                 false => number(estimate),
             },
-            ..Need::default()
+            ..Relevance::default()
         })
     }
 
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let mach = own_mach(scene, estimate);
         let slowness = slowness(scene, estimate);
         let ringing = estimate.softened_ringing;
-        let lengths = LeftOut::shares(
+        let lengths = NeglectError::shares(
             estimate,
             LENGTHENING * slowness + RINGING_LENGTHENING * ringing,
             WEAKENING * slowness + RINGING_WEAKENING * ringing,
@@ -77,7 +77,7 @@ impl Effect for Vibration {
         // Fronts take more of it, the faster the more.
         let own = (LOSS * mach * (1.0 + mach)).max(PartnerWaves::left_ringing(scene, estimate));
         let loss = own + RINGING_LOSS * ringing;
-        Some(LeftOut { restitution: Some(loss * relaxed), ..lengths })
+        Some(NeglectError { restitution: Some(loss * relaxed), ..lengths })
     }
 
     fn after(&self, _: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
@@ -105,7 +105,7 @@ impl Vibration {
         estimate: &Estimate,
         n_asked: usize,
         spheres: &[(&str, usize)],
-    ) -> Answer {
+    ) -> Support {
         let reason = match n_asked {
             0 => format!("quasi-static: {}", number(estimate)),
             _ => {
@@ -121,7 +121,7 @@ impl Vibration {
                  for, the others are left out: use a smaller mesh.contact_element_size for more"
             )
         }));
-        Answer::is(n_asked > 0, reason).warning(warnings)
+        Support::is(n_asked > 0, reason).warning(warnings)
     }
 
     /// Returns what such a model leaves open because of the speed.
@@ -183,14 +183,14 @@ impl Vibration {
     }
 
     /// Returns the answer of a model of rigid bodies with one degree of freedom.
-    pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Answer {
+    pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Support {
         let warning = (estimate.softened_mach > MACH_LIMIT).then(|| {
             format!(
                 "{} the bodies vibrate, which this model leaves out",
                 above(estimate, MACH_LIMIT)
             )
         });
-        Answer::is(false, "the bodies move as a whole: quasi-static contact").warning(warning)
+        Support::is(false, "the bodies move as a whole: quasi-static contact").warning(warning)
     }
 }
 

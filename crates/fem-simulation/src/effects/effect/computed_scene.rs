@@ -3,35 +3,35 @@
 use fem_case::Scene;
 
 use crate::effects::EFFECTS;
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::support::Support;
 use crate::estimate::Estimate;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// A scene transformed by one effect.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Transformed {
+pub struct TransformedScene {
     /// The transformed scene.
     pub scene: Scene,
-    /// The effect's answer, [`Answer::Is`].
-    pub answer: Answer,
+    /// The effect's answer, [`Support::Is`].
+    pub answer: Support,
 }
 
 /// A scene transformed by all effects, with their answers.
 #[derive(Clone, Debug)]
-pub(crate) struct Computed {
+pub(crate) struct ComputedScene {
     /// The transformed scene.
     pub scene: Scene,
     /// Names and answers of the effects that changed the scene; empty if none did.
-    pub answers: Vec<(&'static str, Answer)>,
+    pub answers: Vec<(&'static str, Support)>,
 }
 
-impl Computed {
+impl ComputedScene {
     /// Transforms a given scene.
     ///
     /// # Errors
     /// A switch that the scene's bodies do not allow; a scene whose closed-form estimates are not
     /// finite.
-    pub fn of(given: &Scene) -> Result<Self, Refusal> {
+    pub fn of(given: &Scene) -> Result<Self, Rejection> {
         let estimate = Estimate::checked(given)?;
         let mut computed = Self::without_warnings(given, &estimate)?;
         for (name, answer) in &mut computed.answers {
@@ -49,7 +49,7 @@ impl Computed {
     }
 
     /// Transforms a scene without warnings about forced switches.
-    fn without_warnings(given: &Scene, estimate: &Estimate) -> Result<Self, Refusal> {
+    fn without_warnings(given: &Scene, estimate: &Estimate) -> Result<Self, Rejection> {
         let mut computed = Self { scene: given.clone(), answers: Vec::new() };
         for effect in EFFECTS {
             if let Some(next) = effect.transform(&computed.scene, estimate)? {

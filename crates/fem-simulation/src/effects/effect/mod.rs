@@ -10,13 +10,13 @@ pub(super) mod support;
 use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
-use self::computed_scene::Transformed;
-use self::model_form_error::{Doubt, Standing};
-use self::neglect_error::LeftOut;
-use self::relevance::Need;
-use self::support::Answer;
+use self::computed_scene::TransformedScene;
+use self::model_form_error::{EffectStatus, ModelFormError};
+use self::neglect_error::NeglectError;
+use self::relevance::Relevance;
+use self::support::Support;
 use crate::estimate::Estimate;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// A physical or numerical effect that a collision may show or a computation may need.
 pub trait Effect: Sync {
@@ -29,7 +29,7 @@ pub trait Effect: Sync {
     }
 
     /// Returns whether the scene calls for the effect, or `None` if only the built model can decide.
-    fn need(&self, _: &Scene, _: &Estimate) -> Option<Need> {
+    fn need(&self, _: &Scene, _: &Estimate) -> Option<Relevance> {
         None
     }
 
@@ -38,7 +38,7 @@ pub trait Effect: Sync {
     ///
     /// # Errors
     /// A switch that the scene's bodies do not allow.
-    fn transform(&self, _: &Scene, _: &Estimate) -> Result<Option<Transformed>, Refusal> {
+    fn transform(&self, _: &Scene, _: &Estimate) -> Result<Option<TransformedScene>, Rejection> {
         Ok(None)
     }
 
@@ -49,27 +49,27 @@ pub trait Effect: Sync {
 
     /// Returns the change of restitution, contact time and peak force without the effect, whether or not it
     /// is called for; `None` if closed forms cannot estimate it.
-    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
         None
     }
 
     /// Returns the model-form error because of the effect. It is the error of neglecting the effect if the
     /// model lacks it, and zero for purely numerical effects.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
         if !standing.is_lacking {
-            return Doubt::NOTHING;
+            return ModelFormError::NOTHING;
         }
         let is_called_for = || self.need(scene, estimate).is_some_and(|need| need.is_called_for);
         match &standing.left_out {
-            Some(left_out) => Doubt::of(left_out, estimate),
-            None if is_called_for() => Doubt::default(),
-            None => Doubt::NOTHING,
+            Some(left_out) => ModelFormError::of(left_out, estimate),
+            None if is_called_for() => ModelFormError::default(),
+            None => ModelFormError::NOTHING,
         }
     }
 
     /// Returns an answer taken from the finished collision, for an effect that depends on the bodies as
     /// computed.
-    fn found(&self, _: &Scene, _: &Collision) -> Option<Answer> {
+    fn found(&self, _: &Scene, _: &Collision) -> Option<Support> {
         None
     }
 

@@ -14,24 +14,24 @@
 
 use fem_collision::QuantityOfInterest;
 
-use crate::effects::LeftOut;
+use crate::effects::NeglectError;
 use crate::estimate::Estimate;
 
 /// Model-form error of each quantity in the order of [`QuantityOfInterest::ALL`], in SI units; `None` if
 /// closed forms cannot estimate it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Doubt([Option<f64>; 6]);
+pub struct ModelFormError([Option<f64>; 6]);
 
 /// The status of an effect in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Standing {
+pub struct EffectStatus {
     /// Whether the run lacks the effect.
     pub is_lacking: bool,
     /// Error of neglecting the effect ([`Effect::left_out`](super::Effect::left_out)).
-    pub left_out: Option<LeftOut>,
+    pub left_out: Option<NeglectError>,
 }
 
-impl Doubt {
+impl ModelFormError {
     /// No error.
     pub const NOTHING: Self = Self([Some(0.0); 6]);
 
@@ -41,8 +41,8 @@ impl Doubt {
     }
 
     /// Returns the error that follows from neglecting an effect.
-    pub fn of(left_out: &LeftOut, estimate: &Estimate) -> Self {
-        let LeftOut { restitution, contact_time_s, peak_force_n } = *left_out;
+    pub fn of(left_out: &NeglectError, estimate: &Estimate) -> Self {
+        let NeglectError { restitution, contact_time_s, peak_force_n } = *left_out;
         let sizes = &estimate.softened.sizes;
         let time = contact_time_s.map(|change| change / sizes.contact_time);
         let force = peak_force_n.map(|change| change / sizes.peak_force);

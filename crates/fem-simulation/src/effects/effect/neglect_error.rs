@@ -7,16 +7,16 @@ use fem_case::{ModelChoice, Scene, Switch};
 use serde::Serialize;
 
 use crate::effects::bodies::partner_waves::PartnerWaves;
-use crate::effects::effect::computed_scene::Computed;
+use crate::effects::effect::computed_scene::ComputedScene;
+use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
-use crate::estimate::ting_prediction::Expected;
 
 /// Change of a collision's results if an effect is neglected, estimated by closed forms. All are
 /// magnitudes; `None` if there is no estimate.
 ///
 /// The estimates are good within a factor of three; tests hold them to that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct LeftOut {
+pub struct NeglectError {
     /// Change of the restitution.
     pub restitution: Option<f64>,
     /// Change of the contact time, in seconds.
@@ -25,7 +25,7 @@ pub struct LeftOut {
     pub peak_force_n: Option<f64>,
 }
 
-impl LeftOut {
+impl NeglectError {
     /// No change.
     pub const NOTHING: Self =
         Self { restitution: Some(0.0), contact_time_s: Some(0.0), peak_force_n: Some(0.0) };
@@ -54,10 +54,11 @@ impl LeftOut {
     /// transformations. Waves are left out where they are more than a correction; all is `None` where
     /// Ting's model has no solution.
     pub(crate) fn between(with: &Scene, without: &Scene, speed: f64) -> Self {
-        let [with, without] = [with, without].map(Computed::quiet);
+        let [with, without] = [with, without].map(ComputedScene::quiet);
         let Some((with, without)) = with.zip(without) else { return Self::default() };
         let change = |with: &Scene, without: &Scene, size: bool| {
-            let [with, without] = [with, without].map(|scene| Expected::of(scene, speed, size));
+            let [with, without] =
+                [with, without].map(|scene| TingPrediction::of(scene, speed, size));
             Some(Self::difference(&with.ok()?, &without.ok()?))
         };
         let silent = |scene: &Scene| PartnerWaves::switched(scene, Some(Switch::Off));
@@ -79,7 +80,7 @@ impl LeftOut {
 
     /// Returns the difference between two impacts. Bodies that stay together have no contact time. A loss
     /// of more than the whole energy counts as unknown.
-    pub(crate) fn difference(with: &Expected, without: &Expected) -> Self {
+    pub(crate) fn difference(with: &TingPrediction, without: &TingPrediction) -> Self {
         if (with.restitution - without.restitution).abs() > 1.0 {
             return Self::default();
         }
@@ -98,7 +99,7 @@ fn finite(change: f64) -> Option<f64> {
 }
 
 /// "about 0.012 of the restitution, 1.3 µs of the contact time".
-impl fmt::Display for LeftOut {
+impl fmt::Display for NeglectError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let parts = [
             (self.restitution, "", "of the restitution"),
@@ -129,14 +130,17 @@ mod tests {
 
     #[test]
     fn words_name_what_is_known() {
-        assert_eq!(LeftOut::restitution(-0.0123).to_string(), "about 0.012 of the restitution");
-        assert_eq!(LeftOut::restitution(f64::NAN), LeftOut::default());
-        assert!(LeftOut::default().to_string().contains("do not tell"));
-        assert_eq!(LeftOut::NOTHING.to_string(), "nothing");
-        let all = LeftOut {
+        assert_eq!(
+            NeglectError::restitution(-0.0123).to_string(),
+            "about 0.012 of the restitution"
+        );
+        assert_eq!(NeglectError::restitution(f64::NAN), NeglectError::default());
+        assert!(NeglectError::default().to_string().contains("do not tell"));
+        assert_eq!(NeglectError::NOTHING.to_string(), "nothing");
+        let all = NeglectError {
             contact_time_s: Some(4.41e-10),
             peak_force_n: Some(2.83e-4),
-            ..LeftOut::restitution(5.4e-5)
+            ..NeglectError::restitution(5.4e-5)
         };
         let expected =
             "about 5.4e-5 of the restitution, 440 ps of the contact time, 280 µN of the peak force";

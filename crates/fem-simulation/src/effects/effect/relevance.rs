@@ -6,7 +6,7 @@ use crate::estimate::Estimate;
 
 /// The relevance of an effect to a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Need {
+pub struct Relevance {
     /// Whether the scene calls for it.
     pub is_called_for: bool,
     /// The deciding number, as text.

@@ -2,11 +2,11 @@
 
 use fem_case::Switch;
 
-use crate::effects::effect::relevance::Need;
+use crate::effects::effect::relevance::Relevance;
 
 /// A model's support for an effect.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
+pub enum Support {
     /// The model computes the effect where the scene calls for it.
     Computes {
         /// Text that follows the deciding number if the scene does not call for the effect; may be empty.
@@ -30,7 +30,7 @@ pub enum Answer {
     },
 }
 
-impl Answer {
+impl Support {
     /// Returns an answer of a model that decides by itself.
     pub fn is(active: bool, reason: impl Into<String>) -> Self {
         Self::Is { active, reason: reason.into(), warnings: Vec::new() }
@@ -53,10 +53,10 @@ impl Answer {
     /// Returns whether the effect is on, the reason, and the warnings.
     pub(in crate::effects) fn of(
         self,
-        need: Need,
+        need: Relevance,
         switch: Option<Switch>,
     ) -> (bool, String, Vec<String>) {
-        let Need { is_called_for, number, otherwise, left_open, warning } = need;
+        let Relevance { is_called_for, number, otherwise, left_open, warning } = need;
         let none = Vec::new;
         match self {
             Self::Is { active, reason, warnings } => (active, reason, warnings),
@@ -94,8 +94,8 @@ fn joined(parts: [&str; 3]) -> String {
 mod tests {
     use super::*;
 
-    fn need(is_called_for: bool) -> Need {
-        Need {
+    fn need(is_called_for: bool) -> Relevance {
+        Relevance {
             is_called_for,
             number: "x = 1".into(),
             otherwise: "small".into(),
@@ -106,25 +106,25 @@ mod tests {
 
     #[test]
     fn reasons_say_the_number_and_what_follows() {
-        let computes = || Answer::Computes { idle: "nothing is kept" };
+        let computes = || Support::Computes { idle: "nothing is kept" };
         let none = Vec::new;
         let auto = Some(Switch::Auto);
         assert_eq!(computes().of(need(true), auto), (true, "x = 1".into(), none()));
         let idle = "x = 1; small; nothing is kept";
         assert_eq!(computes().of(need(false), None), (false, idle.into(), none()));
         let doubt = vec!["x is large".to_string()];
-        assert_eq!(Answer::Lacks.of(need(false), auto), (false, "x = 1; small".into(), doubt));
-        let (active, reason, warnings) = Answer::Lacks.of(need(true), auto);
+        assert_eq!(Support::Lacks.of(need(false), auto), (false, "x = 1; small".into(), doubt));
+        let (active, reason, warnings) = Support::Lacks.of(need(true), auto);
         assert!(!active && reason.contains("not available") && reason.contains("all of it"));
         assert_eq!(warnings, ["x is large"]);
-        let own = Answer::is(true, "always").warning(["beware".to_string()]);
+        let own = Support::is(true, "always").warning(["beware".to_string()]);
         assert_eq!(own.of(need(true), None), (true, "always".into(), vec!["beware".into()]));
     }
 
     #[test]
     fn what_a_model_computes_obeys_its_switch() {
         let of = |is_called_for, switch| {
-            Answer::Computes { idle: "" }.of(need(is_called_for), Some(switch))
+            Support::Computes { idle: "" }.of(need(is_called_for), Some(switch))
         };
         let (active, reason, warnings) = of(false, Switch::On);
         assert!(active && reason.contains("forced on") && warnings.is_empty());

@@ -10,8 +10,8 @@ use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::{Need, percent};
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::{Relevance, percent};
 use crate::estimate::Estimate;
 
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do
@@ -35,7 +35,7 @@ impl Effect for PlasticYield {
         Self::NAME
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
         let first = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure));
         Some(match first {
@@ -45,14 +45,14 @@ impl Effect for PlasticYield {
     }
 
     /// Central estimate of the closed forms.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
         let (_, first) = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))?;
         if first.ratio() <= 1.0 {
-            return Some(LeftOut::NOTHING);
+            return Some(NeglectError::NOTHING);
         }
         let (low, high) = first.restitutions();
-        Some(LeftOut::restitution(1.0 - 0.5 * (low + high)))
+        Some(NeglectError::restitution(1.0 - 0.5 * (low + high)))
     }
 }
 
@@ -61,7 +61,7 @@ fn first_yield<'a>(body: &'a Body, estimate: &Estimate) -> Option<(&'a Body, Fir
     Some((body, FirstYield::new(&estimate.hertz, body.yield_strength()?, poissons_ratio)))
 }
 
-fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Need {
+fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevance {
     let (ratio, name) = (first.ratio(), body.name());
     let is_called_for = ratio > 1.0;
     let (low, high) = first.restitutions();
@@ -73,7 +73,7 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Need {
             show(estimate.hertz.approach_speed(), "m/s"),
         )
     });
-    Need {
+    Relevance {
         is_called_for,
         number: format!("peak pressure / pressure of first yield of {name} = {ratio:.2}"),
         otherwise: format!("it yields from {} on", show(first.speed, "m/s")),
@@ -87,7 +87,7 @@ fn may_yield(material: &Material) -> bool {
     material.named_law().is_none() && material.instantaneous().youngs_modulus() >= ELASTOMER
 }
 
-fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
+fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
     let peak = estimate.softened.sizes.peak_pressure;
     let share = peak / estimate.hertz.pair().contact_modulus();
     let reached = |body: &Body| {
@@ -110,7 +110,7 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
             if share < 0.5 { format!("1/{:.0}", 1.0 / share) } else { percent(share) }
         )
     });
-    Need {
+    Relevance {
         is_called_for: false,
         number: format!("peak pressure / contact modulus = {share:.3}"),
         otherwise: match reached.is_empty() {

@@ -9,13 +9,13 @@ use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::computed_scene::Transformed;
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::{Need, percent};
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::computed_scene::TransformedScene;
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::{Relevance, percent};
+use crate::effects::effect::support::Support;
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// What terms that are not followed may change, all together, of restitution (absolute), contact time and
 /// peak force: a hundredth of the usual tolerance.
@@ -45,10 +45,13 @@ impl Effect for Viscoelasticity {
         effects.viscoelasticity
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let relaxing = relaxing(scene);
         if relaxing.is_empty() {
-            return Some(Need { number: "no material relaxes".to_string(), ..Need::default() });
+            return Some(Relevance {
+                number: "no material relaxes".to_string(),
+                ..Relevance::default()
+            });
         }
         let number = format!(
             "{} relax{}: {} of the modulus is lost over one contact time",
@@ -56,7 +59,7 @@ impl Effect for Viscoelasticity {
             if relaxing.len() == 1 { "es" } else { "" },
             percent(estimate.relaxed),
         );
-        Some(Need { is_called_for: true, number, ..Need::default() })
+        Some(Relevance { is_called_for: true, number, ..Relevance::default() })
     }
 
     /// What is switched off is not there: the materials are elastic. What is left to the plan follows
@@ -65,7 +68,7 @@ impl Effect for Viscoelasticity {
         &self,
         scene: &Scene,
         estimate: &Estimate,
-    ) -> Result<Option<Transformed>, Refusal> {
+    ) -> Result<Option<TransformedScene>, Rejection> {
         if relaxing(scene).is_empty() {
             return Ok(None);
         }
@@ -75,13 +78,13 @@ impl Effect for Viscoelasticity {
             Some(Switch::Off) => {
                 let elastic =
                     materials(scene).map(|material| material.map(Material::without_relaxation));
-                let answer = Answer::is(false, format!("{}; switched off", need.number));
-                Some(Transformed { scene: made_of(scene, elastic), answer })
+                let answer = Support::is(false, format!("{}; switched off", need.number));
+                Some(TransformedScene { scene: made_of(scene, elastic), answer })
             }
             Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
                 let n_kept: usize = folded.materials.iter().map(n_terms).sum();
-                let answer = Answer::is(n_kept > 0, in_words(&need, &folded, estimate, n_kept));
-                Transformed { scene: made_of(scene, folded.materials), answer }
+                let answer = Support::is(n_kept > 0, in_words(&need, &folded, estimate, n_kept));
+                TransformedScene { scene: made_of(scene, folded.materials), answer }
             }),
         })
     }
@@ -95,9 +98,9 @@ impl Effect for Viscoelasticity {
 
     /// Difference between Ting's impacts of relaxing and of elastic bodies, with the waves radiated by
     /// each.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if relaxing(scene).is_empty() {
-            return Some(LeftOut::NOTHING);
+            return Some(NeglectError::NOTHING);
         }
         let followed = match scene.effects().viscoelasticity {
             Some(Switch::Off) => Some(Switch::Auto),
@@ -107,7 +110,7 @@ impl Effect for Viscoelasticity {
             let effects = EffectsTable { viscoelasticity, ..*scene.effects() };
             scene.clone().with_effects(effects)
         });
-        Some(LeftOut::between(&with, &without, estimate.hertz.approach_speed()))
+        Some(NeglectError::between(&with, &without, estimate.hertz.approach_speed()))
     }
 }
 
@@ -143,13 +146,18 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
 }
 
 /// Returns how many terms are followed and the effect of the others, as text.
-fn in_words(need: &Need, folded: &FastSlowLimits, estimate: &Estimate, n_kept: usize) -> String {
+fn in_words(
+    need: &Relevance,
+    folded: &FastSlowLimits,
+    estimate: &Estimate,
+    n_kept: usize,
+) -> String {
     let sum = |counts: [usize; 2]| counts.iter().sum::<usize>();
     let (n_fast, n_slow) = (sum(folded.n_fast), sum(folded.n_slow));
     let RelativeError { restitution, contact_time, peak_force } = folded.error;
-    let error = LeftOut {
+    let error = NeglectError {
         restitution: Some(restitution.abs()),
-        ..LeftOut::shares(estimate, contact_time, peak_force)
+        ..NeglectError::shares(estimate, contact_time, peak_force)
     };
     format!(
         "{}; {n_kept} of {} terms followed in time, {n_fast} over before the contact and {n_slow} too \

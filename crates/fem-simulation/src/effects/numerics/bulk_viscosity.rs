@@ -23,9 +23,9 @@ use fem_case::{Body, ContactMethod, EffectsTable, Scene, Switch};
 use fem_material::Material;
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::model_form_error::{Doubt, Standing};
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::Need;
+use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
 use crate::effects::material::finite_strain::FiniteStrain;
 use crate::estimate::Estimate;
@@ -77,7 +77,7 @@ impl Effect for BulkViscosity {
         effects.bulk_viscosity
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let is_finite = FiniteStrain::laws(scene, estimate) != [None; 2];
         let is_called_for = is_called_for(scene, estimate.mach, is_finite);
         let otherwise = match estimate.mach > MACH_LIMIT {
@@ -88,7 +88,7 @@ impl Effect for BulkViscosity {
             let doubt = above(estimate, MACH_LIMIT);
             format!("{doubt} steep fronts ring in the mesh, in pressure above all")
         });
-        Some(Need {
+        Some(Relevance {
             is_called_for,
             number: number(estimate),
             otherwise: otherwise.to_string(),
@@ -98,13 +98,13 @@ impl Effect for BulkViscosity {
     }
 
     /// It belongs to the mesh, not to the physical system.
-    fn doubt(&self, _: &Scene, _: &Estimate, _: &Standing) -> Doubt {
-        Doubt::NOTHING
+    fn doubt(&self, _: &Scene, _: &Estimate, _: &EffectStatus) -> ModelFormError {
+        ModelFormError::NOTHING
     }
 
     /// The contact time changes by no more than the ringing that ends it. At finite strain the contact
     /// itself damps what rings, and nothing is foretold.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if FiniteStrain::laws(scene, estimate) != [None; 2] {
             return None;
         }
@@ -116,8 +116,8 @@ impl Effect for BulkViscosity {
         let largest = materials.map(squared_ratio).fold(0.0, f64::max);
         let growth = Some(estimate.mach).filter(|mach| *mach <= LARGEST_MACH)?.powf(0.6);
         let smoothing = if rings(scene, false) { SMOOTHING } else { 0.0 };
-        let changes = LeftOut::shares(estimate, 0.0, smoothing * growth);
-        let loss = LeftOut::restitution(LOSS * growth * largest.powi(2));
-        Some(LeftOut { restitution: loss.restitution, contact_time_s: None, ..changes })
+        let changes = NeglectError::shares(estimate, 0.0, smoothing * growth);
+        let loss = NeglectError::restitution(LOSS * growth * largest.powi(2));
+        Some(NeglectError { restitution: loss.restitution, contact_time_s: None, ..changes })
     }
 }

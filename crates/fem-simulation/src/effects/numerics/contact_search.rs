@@ -5,8 +5,8 @@ use fem_case::engineering::show;
 use fem_collision::{CandidateRegion, Collision};
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::support::Support;
 use crate::estimate::Estimate;
 
 /// The candidate region of the contact search.
@@ -18,11 +18,11 @@ impl ContactSearch {
     pub const NAME: &'static str = "contact search";
 
     /// Returns the answer of a model that searches this region.
-    pub(crate) fn within(searched: &CandidateRegion) -> Answer {
+    pub(crate) fn within(searched: &CandidateRegion) -> Support {
         let CandidateRegion { radius, n_points, at_nodes } = searched;
         let points = if *at_nodes { "points" } else { "integration points" };
         let flight = "free flight is not stepped";
-        Answer::is(
+        Support::is(
             true,
             format!("{n_points} {points} within {} of the axis; {flight}", show(*radius, "m")),
         )
@@ -34,12 +34,12 @@ impl Effect for ContactSearch {
         Self::NAME
     }
 
-    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {
-        Some(LeftOut::NOTHING)
+    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
+        Some(NeglectError::NOTHING)
     }
 
     /// The region may have grown during the run.
-    fn found(&self, _: &Scene, collision: &Collision) -> Option<Answer> {
+    fn found(&self, _: &Scene, collision: &Collision) -> Option<Support> {
         collision.searched.as_ref().map(Self::within)
     }
 }

@@ -12,7 +12,7 @@ use fem_material::{Material, PronySeries};
 
 use crate::effects::effect::Effect;
 use crate::effects::effect::relevance::percent;
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::support::Support;
 use crate::estimate::Estimate;
 
 /// Moved mass over the lighter body's mass: of 1 % the peak force is off by up to half of that.
@@ -58,12 +58,12 @@ impl MassScaling {
         masses: [Option<f64>; 2],
         added: [Option<f64>; 2],
         longer: f64,
-    ) -> Answer {
+    ) -> Support {
         let names = scene.bodies().each_ref().map(Body::name);
         let free = masses.into_iter().zip(names);
         let free = free.filter_map(|(mass, name)| Some((mass?, name)));
         let Some((lightest, its)) = free.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            return Answer::is(false, NOTHING);
+            return Support::is(false, NOTHING);
         };
         let each = added.into_iter().zip(masses).zip(names).zip(Self::times(scene));
         let moved = each.filter_map(|(((added, mass), name), times)| {
@@ -86,10 +86,10 @@ impl MassScaling {
         });
         let moved: Vec<String> = moved.collect();
         match moved.is_empty() {
-            true => Answer::is(false, NOTHING),
+            true => Support::is(false, NOTHING),
             false => {
                 let moved = moved.join(" and ");
-                Answer::is(true, format!("moves {moved} for a {longer:.1} times longer step"))
+                Support::is(true, format!("moves {moved} for a {longer:.1} times longer step"))
             }
         }
     }
@@ -100,7 +100,7 @@ impl Effect for MassScaling {
         Self::NAME
     }
 
-    fn found(&self, scene: &Scene, collision: &Collision) -> Option<Answer> {
+    fn found(&self, scene: &Scene, collision: &Collision) -> Option<Support> {
         let longer = collision.time_step? / collision.plain_time_step?;
         let masses = collision.bodies.each_ref().map(|body| body.mass);
         let added = collision.bodies.each_ref().map(|body| body.added_mass);

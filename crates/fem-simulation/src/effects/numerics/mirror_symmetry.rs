@@ -14,11 +14,11 @@
 use fem_case::{EffectsTable, Scene, Switch};
 
 use crate::effects::effect::Effect;
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::Need;
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::Relevance;
+use crate::effects::effect::support::Support;
 use crate::estimate::Estimate;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Two identical bodies as one against a rigid plane.
 #[derive(Clone, Copy, Debug)]
@@ -33,13 +33,13 @@ impl MirrorSymmetry {
     ///
     /// # Errors
     /// Bodies that differ, where the case forces the symmetry.
-    pub(crate) fn half_of(scene: &Scene) -> Result<Option<Scene>, Refusal> {
+    pub(crate) fn half_of(scene: &Scene) -> Result<Option<Scene>, Rejection> {
         let switch = scene.effects().mirror_symmetry;
         match scene.half() {
             Some(half) => Ok((switch != Some(Switch::Off)).then_some(half)),
             None if switch == Some(Switch::On) => {
                 let message = "mirror_symmetry is \"on\", and the bodies differ";
-                Err(Refusal::new("effects.mirror_symmetry", message).with_help(
+                Err(Rejection::new("effects.mirror_symmetry", message).with_help(
                     "it wants two spheres of one diameter, one material and the built-in mesh; \
                      write \"auto\" or \"off\"",
                 ))
@@ -49,10 +49,10 @@ impl MirrorSymmetry {
     }
 
     /// What a model has of it that computes half of a scene.
-    pub(crate) fn of_half() -> Answer {
+    pub(crate) fn of_half() -> Support {
         let reason = "the bodies are identical: one is computed, against a rigid plane at rest \
                       between them";
-        Answer::is(true, reason)
+        Support::is(true, reason)
     }
 }
 
@@ -66,15 +66,15 @@ impl Effect for MirrorSymmetry {
     }
 
     /// It saves work and changes nothing: a scene may allow it, none calls for it.
-    fn need(&self, scene: &Scene, _: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number = match scene.has_identical_bodies() {
             true => "the bodies are identical; both are computed all the same",
             false => "the bodies differ",
         };
-        Some(Need { number: number.to_string(), ..Need::default() })
+        Some(Relevance { number: number.to_string(), ..Relevance::default() })
     }
 
-    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {
-        Some(LeftOut::NOTHING)
+    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
+        Some(NeglectError::NOTHING)
     }
 }

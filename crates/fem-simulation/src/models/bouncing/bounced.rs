@@ -1,4 +1,4 @@
-//! What comes of contact after contact, up to the whole.
+//! Collects the results of all contacts into one result.
 
 use fem_case::Gravity;
 use fem_collision::{
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::chain::Chain;
 use super::{phase, report};
 
-/// What came of the contacts so far.
+/// The results of the contacts so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Bounced {
     gravity: Gravity,
@@ -64,7 +64,7 @@ impl Bounced {
         self.bounces.len()
     }
 
-    /// Of the first contact.
+    /// Results of the first contact.
     pub fn snapshots(&self) -> &[Snapshot] {
         self.first.as_ref().map_or(&[], |first| &first.snapshots)
     }
@@ -171,7 +171,7 @@ impl Bounced {
         Some(landing.speed)
     }
 
-    /// What the vibrations of the contact before can have done to this one.
+    /// Returns the bound on the influence of the previous contact's vibrations.
     fn bound_phase(&mut self, collision: &Collision, bounce: &Bounce) {
         // Waves in what has no end are gone.
         let bodies = collision.bodies.iter().filter(|body| body.mass.is_some());
@@ -184,7 +184,7 @@ impl Bounced {
         self.vibration = left;
     }
 
-    /// The whole.
+    /// Returns the whole result.
     pub fn collision(mut self, approach: Approach) -> Collision {
         let Some(first) = self.first.take() else {
             let stop = match self.ending {

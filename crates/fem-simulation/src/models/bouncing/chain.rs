@@ -17,7 +17,7 @@ const FLIGHT_ROWS: usize = 8;
 pub(super) struct Landing {
     /// After first touch of the contact that it left, s.
     pub time: f64,
-    /// m/s.
+    /// Speed, in m/s.
     pub speed: f64,
 }
 
@@ -27,11 +27,11 @@ pub(super) struct Chain {
     /// First touch of all, and of the contact under way, since the start of the case, s.
     first_touch: f64,
     time: f64,
-    /// What earlier contacts have lost or been given, J.
+    /// Energy lost or supplied in earlier contacts, in joules.
     lost: EnergyLedger,
     /// What they have left in the bodies, J; `None` in the first contact.
     left: Option<f64>,
-    /// What did not add up before, J.
+    /// Energy residual of earlier contacts, in joules.
     residual: f64,
     /// Energy of the ball's motion and weight that the flight before has handed on, J.
     handed_on: Option<f64>,
@@ -185,7 +185,7 @@ impl Chain {
         }
     }
 
-    /// What is in each account of a contact with what earlier ones have lost and left.
+    /// Returns the accounts of a contact with those of earlier contacts added.
     fn carried(&self, own: &EnergyLedger) -> EnergyLedger {
         let mut book = EnergyLedger::EMPTY;
         for (account, energy) in own.entries() {
@@ -197,18 +197,18 @@ impl Chain {
         }
     }
 
-    /// What has been lost or given up to the end of a contact, J.
+    /// Returns the energy lost or supplied up to the end of a contact, in joules.
     fn lost_after(&self, end: &EnergyLedger) -> EnergyLedger {
         let own = end.entries().filter(|(account, _)| account.side() != BalanceSide::Held);
         own.fold(self.lost, |book, (account, energy)| book.with(account, energy))
     }
 
-    /// What is in each account at the end, J.
+    /// Returns the energy of each account at the end, in joules.
     pub fn energies(&self) -> EnergyLedger {
         self.energies
     }
 
-    /// What does not add up at the end, J.
+    /// Returns the energy residual at the end, in joules.
     pub fn residual(&self) -> Option<f64> {
         self.residual_at_end
     }

@@ -21,9 +21,9 @@
 
 mod bounced;
 mod chain;
-mod course;
 mod phase;
 mod report;
+mod stepper;
 
 use std::sync::Arc;
 
@@ -35,16 +35,16 @@ use fem_collision::{
 use fem_laws::StaticHertz;
 use fem_mesh::SphereMesh;
 
-use crate::effects::{Answer, Effect};
+use crate::effects::{Effect, Support};
 use crate::estimate::Estimate;
-use crate::models::method::{Cost, Model, Setup, Shared};
+use crate::models::method::{Cost, Model, ModelSetup, SharedModels};
 use crate::models::method_of;
-use crate::models::restart_state::Memory;
-use crate::models::stepper::{Course, stopped};
-use crate::refusal::Refusal;
+use crate::models::restart_state::RestartState;
+use crate::models::stepper::{Stepper, stopped};
+use crate::rejection::Rejection;
 use bounced::Bounced;
-pub(crate) use course::Bounces;
-use course::BouncingCourse;
+pub(crate) use stepper::Bounces;
+use stepper::BouncingCourse;
 
 /// Contact radius at rest over effective radius beyond which a sphere is no sphere any more.
 const LARGEST_DENT: f64 = 0.5;
@@ -70,13 +70,13 @@ struct Ball {
 }
 
 impl Bouncing {
-    /// Of a scene with this gravity.
+    /// Builds the model of a scene with this gravity.
     ///
     /// # Errors
     /// A weight that presses the bodies so flat that no contact theory holds.
-    pub fn new(scene: &Scene, gravity: Gravity, first: Box<dyn Model>) -> Result<Self, Refusal> {
+    pub fn new(scene: &Scene, gravity: Gravity, first: Box<dyn Model>) -> Result<Self, Rejection> {
         let refuse = |message: String| {
-            Err(Refusal::new("gravity.acceleration", message).with_help(
+            Err(Rejection::new("gravity.acceleration", message).with_help(
                 "a ball bounces where its weight is small; check its unit, sizes and moduli",
             ))
         };
@@ -134,11 +134,11 @@ impl Ball {
         let scene = self.scene.touching_at(speed);
         let no_speed = || Stop::NotMade(format!("the ball comes down at {speed:?} m/s"));
         let scene = scene.ok_or_else(no_speed)?;
-        let model = method_of(&scene).build(&scene, &Shared::default());
+        let model = method_of(&scene).build(&scene, &SharedModels::default());
         model.map_err(|refusal| Stop::NotMade(refusal.to_string()))
     }
 
-    /// What bears the ball in the end, or why nothing does.
+    /// Returns the static contact of the ball at rest, or why there is none.
     fn rest(&self, bounced: &mut Bounced) {
         let Some(weight) = bounced.weight() else { return };
         match self.first.static_contact(weight) {
@@ -155,11 +155,11 @@ impl Ball {
 }
 
 impl Model for Bouncing {
-    fn setup(&self) -> &Setup {
+    fn setup(&self) -> &ModelSetup {
         self.ball.first.setup()
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
         self.ball.first.has(effect, estimate)
     }
 
@@ -180,18 +180,18 @@ impl Model for Bouncing {
         Box::new(course).finish()
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
         Some(match want.check() {
             Ok(()) => Box::new(self.course(approach, want)),
             Err(error) => stopped(*approach, error.into()),
         })
     }
 
-    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
+    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         Ok(Box::new(BouncingCourse::resume(&self.ball, memory)?))
     }
 
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         self.ball.first.static_contact(force)
     }
 
@@ -200,7 +200,7 @@ impl Model for Bouncing {
     }
 }
 
-/// What the first contact is asked for, which begins at a time (s) of the case.
+/// Returns the output request of the first contact, which begins at a time (s) of the case.
 fn first_want(want: &OutputRequest, time: f64) -> OutputRequest {
     let snapshots = match &want.snapshots {
         SnapshotRequest::Times(times) => SnapshotRequest::Times(
@@ -211,7 +211,7 @@ fn first_want(want: &OutputRequest, time: f64) -> OutputRequest {
     OutputRequest { history_rows: want.history_rows.max(FEWEST_ROWS), snapshots, ..want.clone() }
 }
 
-/// What a contact after the first of so many is asked for, after so many element updates.
+/// Returns the output request of a later contact, after a number of element updates.
 fn later_want(want: &OutputRequest, n_contacts: usize, element_updates: u64) -> OutputRequest {
     let share = ROWS_OF_ALL.saturating_mul(want.history_rows) / n_contacts.max(1);
     OutputRequest {

@@ -1,4 +1,4 @@
-//! What vibrations that a contact has left can do to the next one.
+//! Influence of the vibrations that a contact leaves on the next one.
 //!
 //! The energy E₁ that a contact force leaves in the vibrations of bodies at rest is that of amplitudes
 //! which it makes. In linear bodies that vibrate already, with the energy E₀, the same force adds them to
@@ -14,7 +14,7 @@
 //! sum over the modes is bounded by Cauchy and Schwarz. Limits: the force is that of bodies at rest, so it
 //! is a bound to first order; vibrations that decay in flight do less.
 
-/// A bound above this is told.
+/// Bounds above this are reported.
 pub(super) const LARGEST: f64 = 1e-3;
 
 /// The bound of Δe, of energies (J) that the contact before has left in vibrations and that this one

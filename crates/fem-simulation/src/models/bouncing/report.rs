@@ -1,17 +1,17 @@
-//! What a user should know of a ball that bounces.
+//! Warnings about a bouncing ball.
 
 use fem_collision::{Bounce, Ending, StaticContact};
 
 use crate::effects::percent;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// A restitution so near to 1 that a ball does not come to rest.
 const LOSSLESS: f64 = 1.0 - 1e-4;
 /// Contact radius over effective radius up to which strains are small.
 const LARGEST_STRAIN: f64 = 0.1;
 
-/// What is said of these contacts, this ending, and the largest bound of what vibrations do with the
-/// number of its contact.
+/// Returns the warnings for these contacts, this ending, and the largest bound on the influence of
+/// vibrations with the number of its contact.
 pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)>) -> Vec<String> {
     let n = bounces.len();
     let mut said = Vec::new();
@@ -37,7 +37,7 @@ pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)
     said
 }
 
-/// Of a contact at rest that is no small part of a sphere with the effective radius, m.
+/// Warns of a static contact that is not small beside the effective radius (m).
 pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Option<String> {
     let share = contact.contact_radius? / effective_radius;
     (share > LARGEST_STRAIN).then(|| {
@@ -50,7 +50,7 @@ pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Optio
     })
 }
 
-/// Of bodies whose equilibrium moduli are nothing, after so many contacts.
+/// Warns of bodies without equilibrium modulus, after a number of contacts.
 pub(super) fn sinks(n_contacts: usize) -> String {
     format!(
         "the ball sinks: after {n_contacts} contact{} it does not leave any more, and a body relaxes to \
@@ -59,7 +59,7 @@ pub(super) fn sinks(n_contacts: usize) -> String {
     )
 }
 
-/// Of a static contact that could not be computed.
-pub(super) fn unknown(refusal: &Refusal) -> String {
+/// Warns of a static contact that could not be computed.
+pub(super) fn unknown(refusal: &Rejection) -> String {
     format!("what bears the ball at rest could not be computed: {refusal}")
 }

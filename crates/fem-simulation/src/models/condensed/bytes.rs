@@ -12,7 +12,7 @@ const ELIMINATED: u64 = 800;
 const KEPT: u64 = 2_800;
 /// The same with its share of the springs of a relaxing shear.
 const RELAXING: u64 = 7_000;
-/// The most.
+/// Largest number of bytes per element.
 pub(crate) const MOST: u64 = 8_000;
 
 /// Whether condensed bodies have springs for how a body relaxes.

@@ -1,44 +1,44 @@
-//! What condensed bodies have of each effect, and what of the case they do not read.
+//! Support of condensed bodies for each effect, and the keys of a case that they do not read.
 
 use fem_case::{CondensedOptions, Scene};
 use fem_condensed::CondensedPair;
 
 use crate::effects::{
-    Answer, ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves,
-    PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
+    ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves, PenaltySprings,
+    PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
-/// What a condensed pair has of each effect.
+/// Returns the support of a condensed pair for each effect.
 pub(super) fn has(
     effect: &dyn Effect,
     scene: &Scene,
     estimate: &Estimate,
     pair: &CondensedPair,
     options: CondensedOptions,
-) -> Option<Answer> {
+) -> Option<Support> {
     Some(match effect.name() {
-        Viscoelasticity::NAME => Answer::Inherent { idle: "" },
-        Gravity::NAME => Answer::Inherent { idle: "" },
-        SurfaceSlip::NAME => Answer::Computes { idle: "" },
+        Viscoelasticity::NAME => Support::Inherent { idle: "" },
+        Gravity::NAME => Support::Inherent { idle: "" },
+        SurfaceSlip::NAME => Support::Computes { idle: "" },
         PartnerWaves::NAME => PartnerWaves::of_condensed(scene, estimate),
         Vibration::NAME => {
             let spheres = modes_of_spheres(scene, pair);
             Vibration::of_modes(estimate, options.vibration_modes, &spheres)
         }
         PenaltySprings::NAME => match options.penalty_springs {
-            true => Answer::is(true, "those of the explicit model, at its Gauss points"),
-            false => Answer::is(false, "the surfaces do not overlap at the nodes"),
+            true => Support::is(true, "those of the explicit model, at its Gauss points"),
+            false => Support::is(false, "the surfaces do not overlap at the nodes"),
         },
         ContactSearch::NAME => ContactSearch::within(&pair.searched()),
         FiniteStrain::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
-            Answer::Lacks
+            Support::Lacks
         }
         _ => return None,
     })
 }
 
-/// How many modes of vibration each sphere has, by its name.
+/// Returns the number of vibration modes of each sphere, by name.
 fn modes_of_spheres<'a>(scene: &'a Scene, pair: &CondensedPair) -> Vec<(&'a str, usize)> {
     let n_modes = pair.frequencies().map(<[f64]>::len);
     let bodies = scene.bodies().iter().zip(n_modes);
@@ -46,7 +46,7 @@ fn modes_of_spheres<'a>(scene: &'a Scene, pair: &CondensedPair) -> Vec<(&'a str,
     spheres.map(|(body, n_modes)| (body.name(), n_modes)).collect()
 }
 
-/// What the case gives and condensed bodies do not read.
+/// Returns the keys that the case sets and condensed bodies do not read.
 pub(super) fn unread_keys(scene: &Scene, options: CondensedOptions) -> Vec<String> {
     let mut warnings = Vec::new();
     for (key, value) in

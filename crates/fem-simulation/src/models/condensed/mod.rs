@@ -25,17 +25,17 @@ use self::bytes::relaxes_in_shear;
 use self::pace::{Foretold, n_steps};
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::effects::{
-    Answer, Effect, MirrorSymmetry, PartnerWaves, SurfaceSlip, Vibration, decide,
+    Effect, MirrorSymmetry, PartnerWaves, Support, SurfaceSlip, Vibration, decide,
 };
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::viscous_flow::slower;
-use crate::models::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
+use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
 use crate::plan::Plan;
 use crate::plan::body_source::BodySource;
-use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::contact_noise_advice::ContactNoiseAdvice;
 use crate::plan::pair_cache::PairKey;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Growth of the condensed region where the contact needs a larger one.
 const CANDIDATE_GROWTH: f64 = 2.0;
@@ -55,9 +55,9 @@ impl Method for CondensedMethod {
         "condensed"
     }
 
-    fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
+    fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         if !matches!(scene.model(), ModelChoice::Condensed(_)) {
-            return Err(Refusal::chose_another(scene, "condensed"));
+            return Err(Rejection::chose_another(scene, "condensed"));
         }
         let Some(half) = MirrorSymmetry::half_of(scene)? else {
             return Ok(Box::new(Condensed::new(scene, shared)?));
@@ -67,13 +67,13 @@ impl Method for CondensedMethod {
         Ok(Box::new(Mirrored::new(model, scene, plan)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
         let plan = Plan::of(scene)?;
         check_memory(&plan, &BodySource::of_scene(scene, &plan)?).map(|()| 0)
     }
 
     /// Tables that the model does not read stay as they are.
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let options = options(scene);
         let (time, contact) = (file.time.clone(), file.contact.clone());
         let mut file = Plan::of(scene)?.resolve(file);
@@ -94,7 +94,7 @@ impl Method for CondensedMethod {
 /// A scene with condensed bodies, ready to run.
 #[derive(Debug)]
 pub struct Condensed {
-    setup: Setup,
+    setup: ModelSetup,
     scene: Scene,
     pair: Arc<CondensedPair>,
     /// The same bodies condensed out to other radii, as collisions have asked for them.
@@ -109,12 +109,12 @@ impl Condensed {
     /// # Errors
     /// What the plan refuses; meshes that cannot be made or read; more elements or memory than the
     /// limits allow; a stiffness that cannot be factored.
-    pub fn new(scene: &Scene, shared: &Shared) -> Result<Self, Refusal> {
+    pub fn new(scene: &Scene, shared: &SharedModels) -> Result<Self, Rejection> {
         Self::with_plan(scene, Plan::of(scene)?, shared)
     }
 
     /// Meshes and condenses by a plan that may have been changed.
-    fn with_plan(scene: &Scene, plan: Plan, shared: &Shared) -> Result<Self, Refusal> {
+    fn with_plan(scene: &Scene, plan: Plan, shared: &SharedModels) -> Result<Self, Rejection> {
         let options = options(scene);
         let sources = BodySource::of_scene(scene, &plan)?;
         check_memory(&plan, &sources)?;
@@ -129,7 +129,7 @@ impl Condensed {
         let key = PairKey { bodies, settings };
         let pair = shared.pairs.pair(key, |key| {
             CondensedPair::new(inputs(key)?, key.settings)
-                .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
+                .map_err(|error| Rejection::new(scene.model().path(), error.to_string()))
         })?;
         let estimate = &plan.estimate;
         let has = |effect: &dyn Effect| effects::has(effect, scene, estimate, &pair, options);
@@ -140,7 +140,7 @@ impl Condensed {
         let slower = slower(scene, estimate, &approach);
         let per_contact = n_steps(options, slower, estimate.relaxed) as f64;
         let n_steps = slower.end * (1.0 + FLIGHT_AFTER) * per_contact;
-        let setup = Setup {
+        let setup = ModelSetup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach,
             want: plan.want(),
@@ -151,7 +151,7 @@ impl Condensed {
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
                 added_share: 0.0,
-                quieter: Quieter::MoreSteps,
+                quieter: ContactNoiseAdvice::MoreSteps,
                 plan,
             }),
         };
@@ -163,7 +163,7 @@ impl Condensed {
         Vibration::doubts_of_speed(&self.setup.estimate, self.options.vibration_modes)
     }
 
-    /// The bodies.
+    /// The condensed bodies.
     pub fn pair(&self) -> &CondensedPair {
         &self.pair
     }
@@ -235,7 +235,7 @@ impl Condensed {
         }
     }
 
-    /// What each body radiates at a speed (m/s), s m/N.
+    /// Returns the radiation compliance of each body at a speed (m/s), in s m/N.
     fn radiation(&self, speed: f64) -> Result<[Option<f64>; 2], Stop> {
         let estimate = Estimate::at(&self.scene, speed)
             .map_err(|error| Stop::OutOfRange(error.to_string()))?;
@@ -297,11 +297,11 @@ impl Condensed {
 }
 
 impl Model for Condensed {
-    fn setup(&self) -> &Setup {
+    fn setup(&self) -> &ModelSetup {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
         effects::has(effect, &self.scene, estimate, &self.pair, self.options)
     }
 
@@ -326,7 +326,7 @@ impl Model for Condensed {
         self.follow(approach, relaxations, n_steps, want, &mut foretold)
     }
 
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         static_contact::of_elements(&self.scene, force)
     }
 
@@ -368,7 +368,7 @@ fn cost_of(scene: &Scene, pair: &CondensedPair, steps: u64) -> Cost {
     }
 }
 
-fn inputs(key: &PairKey) -> Result<[BodyInput; 2], Refusal> {
+fn inputs(key: &PairKey) -> Result<[BodyInput; 2], Rejection> {
     let [lower, upper] = &key.bodies;
     Ok([lower.build(0)?, upper.build(1)?])
 }
@@ -408,7 +408,7 @@ fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
     options.vibration_modes > 0 || scene.bodies().iter().any(relaxes_in_shear)
 }
 
-fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {
+fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Rejection> {
     let elements = sources[0].n_elements()? + sources[1].n_elements()?;
     let bytes = bytes::MOST.saturating_mul(elements as u64);
     if bytes <= plan.max_memory {
@@ -416,7 +416,7 @@ fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {
     }
     let shown = |bytes: u64| Unit::fitting(bytes as f64, "B").with_digits(2).show(bytes as f64);
     let message = format!("the factors may take up to {} of memory", shown(bytes));
-    Err(Refusal::new("limits.memory", message).with_help(format!(
+    Err(Rejection::new("limits.memory", message).with_help(format!(
         "at most {} are allowed; use a larger mesh.contact_element_size, or raise limits.memory",
         shown(plan.max_memory)
     )))

@@ -1,4 +1,4 @@
-//! How many steps condensed bodies take, and how far they are.
+//! Number of steps of condensed bodies, and their progress.
 
 use fem_case::CondensedOptions;
 use fem_collision::{Monitor, Phase, Progress};
@@ -26,12 +26,12 @@ pub(super) fn n_steps(options: CondensedOptions, slower: Slower, relaxed: f64) -
     slowed.max(FEWEST_STEPS.min(steps))
 }
 
-/// Tells a monitor the share of the time that was foretold.
+/// Reports the share of the predicted time to a monitor.
 pub(super) struct Foretold<'a> {
     pub monitor: &'a mut dyn Monitor,
-    /// Of the case, s.
+    /// Time of the case, in seconds.
     pub begin: f64,
-    /// s.
+    /// Predicted duration, in seconds.
     pub duration: f64,
 }
 

@@ -13,7 +13,7 @@ use super::{CANDIDATE_GROWTH, check_memory, inputs, settings};
 use crate::plan::Plan;
 use crate::plan::body_source::BodySource;
 use crate::plan::pair_cache::PairKey;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// The contact of a scene's bodies with gravity; `None` of bodies that flow.
 ///
@@ -23,8 +23,8 @@ use crate::refusal::Refusal;
 pub(in crate::models) fn of_elements(
     scene: &Scene,
     force: f64,
-) -> Result<Option<StaticContact>, Refusal> {
-    let refuse = |message: String| Refusal::new("gravity", message);
+) -> Result<Option<StaticContact>, Rejection> {
+    let refuse = |message: String| Rejection::new("gravity", message);
     let Some(relaxed) = scene.at_equilibrium() else { return Ok(None) };
     let hertz = relaxed.pair().and_then(|pair| Ok((pair, StaticHertz::new(&pair, force)?)));
     let (pair, hertz) = hertz.map_err(|error| refuse(error.to_string()))?;

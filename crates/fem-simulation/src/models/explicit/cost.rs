@@ -1,4 +1,4 @@
-//! What a run of explicit elements takes, within the limits.
+//! Cost of a run with explicit elements, within the limits.
 
 use fem_case::{Body, Scene};
 use fem_explicit::Model as Bodies;
@@ -12,7 +12,7 @@ use crate::models::method::Cost;
 use crate::plan::Plan;
 use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_memory};
 use crate::plan::penalty_compliance::lengthening;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Seconds of an update of an element on one core of 3 GHz, as docs/effects.md has them: at small
 /// strain, ...
@@ -30,8 +30,8 @@ const SECONDS_OF_MOVED_CONTACT: f64 = 6e-6;
 /// Seconds of the condensed reference runs for each element.
 const SECONDS_OF_CONDENSED_REFERENCE: f64 = 30e-6;
 
-/// What a run takes, within the limits.
-pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
+/// Returns the cost of a run, within the limits.
+pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Rejection> {
     let elements = model.n_elements() as u64;
     let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
     let branches: u64 = (model.bodies().iter().zip(scene.bodies()))

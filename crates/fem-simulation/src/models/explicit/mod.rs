@@ -20,21 +20,21 @@ use super::condensed::static_contact::of_elements;
 use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::effects::{
-    Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, SurfaceSlip,
+    BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl, MassScaling,
+    MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, Support, SurfaceSlip,
     Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::duration::expected_duration;
 use crate::estimate::{Estimate, mach};
-use crate::models::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
-use crate::models::restart_state::Memory;
-use crate::models::stepper::{Course, stopped, to_the_end};
+use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
+use crate::models::restart_state::RestartState;
+use crate::models::stepper::{Stepper, stopped, to_the_end};
 use crate::plan::body_source::BodySource;
 use crate::plan::contact_method::unread;
-use crate::plan::contact_noise_advice::Quieter;
+use crate::plan::contact_noise_advice::ContactNoiseAdvice;
 use crate::plan::{Plan, candidate_radius};
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// Growth of the searched region when the contact leaves it.
 const CANDIDATE_GROWTH: f64 = 1.5;
@@ -48,7 +48,7 @@ impl Method for ExplicitMethod {
         "fem"
     }
 
-    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         let Some(half) = MirrorSymmetry::half_of(scene)? else {
             return Ok(Box::new(Explicit::new(scene)?));
         };
@@ -57,14 +57,14 @@ impl Method for ExplicitMethod {
         Ok(Box::new(Mirrored::new(model, scene, plan)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
-        match self.build(scene, &Shared::default())?.setup().cost {
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
+        match self.build(scene, &SharedModels::default())?.setup().cost {
             Cost::Steps { element_updates, .. } => Ok(element_updates),
             _ => Ok(0),
         }
     }
 
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let plan = Plan::of(scene)?;
         let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
         let mut file = plan.resolve(file);
@@ -79,23 +79,23 @@ impl Method for ExplicitMethod {
 /// A scene with meshes, masses and a time step.
 #[derive(Clone, Debug)]
 pub struct Explicit {
-    setup: Setup,
+    setup: ModelSetup,
     made: Arc<Made>,
     /// In which the scene's bodies are computed.
     frame: OwnFrame,
-    /// As the scene's bodies meet.
+    /// Approach of the scene's bodies.
     bodies: Arc<Bodies>,
 }
 
-/// What bodies are made of, however they meet.
+/// Sources of the bodies.
 #[derive(Clone, Debug)]
 struct Made {
     scene: Scene,
     settings: Settings,
-    /// m.
+    /// Length, in metres.
     contact_element_size: f64,
     method: ContactMethod,
-    /// How many times as stiff as usual its springs are.
+    /// Penalty factor of its springs over the default.
     penalty_factor: f64,
     /// See [`Plan::speed_share`].
     speed_share: f64,
@@ -108,7 +108,7 @@ impl Explicit {
     /// # Errors
     /// What the plan refuses; meshes that cannot be made or read; more elements, steps or memory
     /// than the limits allow.
-    pub fn new(scene: &Scene) -> Result<Self, Refusal> {
+    pub fn new(scene: &Scene) -> Result<Self, Rejection> {
         Self::with_plan(scene, Plan::of(scene)?)
     }
 
@@ -116,9 +116,9 @@ impl Explicit {
     ///
     /// # Errors
     /// As [`Explicit::new`].
-    pub fn with_plan(scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
+    pub fn with_plan(scene: &Scene, plan: Plan) -> Result<Self, Rejection> {
         if *scene.model() != ModelChoice::Fem {
-            return Err(Refusal::chose_another(scene, "fem"));
+            return Err(Rejection::chose_another(scene, "fem"));
         }
         FiniteStrain::check(scene, &plan.estimate)?;
         let approach = approach_of(scene)?;
@@ -136,7 +136,7 @@ impl Explicit {
         let cost = cost(scene, &bodies, &plan)?;
         let decisions =
             decide(scene, &plan.estimate, |effect| has(effect, scene, &plan.estimate, &bodies))?;
-        let setup = Setup {
+        let setup = ModelSetup {
             description: "model fem, explicit finite elements".to_string(),
             approach,
             want: plan.want(),
@@ -148,7 +148,7 @@ impl Explicit {
             },
             cost,
             elements: Some(ElementSetup {
-                quieter: Quieter::of_elements(scene, &plan),
+                quieter: ContactNoiseAdvice::of_elements(scene, &plan),
                 plan,
                 has_springs: true,
                 added_share: added_share(scene, &bodies),
@@ -183,7 +183,7 @@ impl Explicit {
     }
 
     /// A collision under way.
-    fn course(&self, approach: &Approach, want: &OutputRequest) -> Box<dyn Course> {
+    fn course(&self, approach: &Approach, want: &OutputRequest) -> Box<dyn Stepper> {
         match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
                 let (expected, want) = (estimate.expectation(), frame.want(want));
@@ -240,11 +240,11 @@ impl Made {
 }
 
 impl Model for Explicit {
-    fn setup(&self) -> &Setup {
+    fn setup(&self) -> &ModelSetup {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, _: &Estimate) -> Option<Answer> {
+    fn has(&self, effect: &dyn Effect, _: &Estimate) -> Option<Support> {
         has(effect, &self.made.scene, &self.setup.estimate, &self.bodies)
     }
 
@@ -258,13 +258,13 @@ impl Model for Explicit {
         to_the_end(self.course(approach, want), monitor)
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
         Some(self.course(approach, want))
     }
 
-    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
-        let refused = |error: ModelError| Refusal::new("model.fem", error.to_string());
-        let Memory { contact: memory, bounces, met, .. } = memory;
+    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
+        let refused = |error: ModelError| Rejection::new("model.fem", error.to_string());
+        let RestartState { contact: memory, bounces, met, .. } = memory;
         let frame = self.made.own_frame(&met).map_err(refused)?;
         let (approach, expected) = (*memory.approach(), memory.expected());
         if bounces.is_some() || approach != *frame.own() {
@@ -275,13 +275,13 @@ impl Model for Explicit {
         let run = Run::resume(bodies, memory).map_err(refused)?;
         let scene = &self.made.scene;
         let estimate = Estimate::at(scene, approach.speed())
-            .map_err(|error| Refusal::new("body", error.to_string()))?;
+            .map_err(|error| Rejection::new("body", error.to_string()))?;
         let duration = expected_duration(scene, &estimate, &approach);
         let made = self.made.clone();
         Ok(Box::new(ExplicitCourse { made, frame, expected, duration, want, run }))
     }
 
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         of_elements(&self.made.scene, force)
     }
 
@@ -296,13 +296,13 @@ struct ExplicitCourse {
     made: Arc<Made>,
     frame: OwnFrame,
     expected: Expectation,
-    /// Of the run, s.
+    /// Time of the run, in seconds.
     duration: f64,
     want: OutputRequest,
     run: Run<Arc<Bodies>>,
 }
 
-impl Course for ExplicitCourse {
+impl Stepper for ExplicitCourse {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         match self.run.advance(STEPS_BETWEEN_REPORTS) {
             None => return true,
@@ -322,10 +322,10 @@ impl Course for ExplicitCourse {
         self.frame.progress(Progress { fraction, ..progress })
     }
 
-    fn memory(&self) -> Option<Memory> {
+    fn memory(&self) -> Option<RestartState> {
         let contact = self.run.restart_state().clone();
         let (met, refinement, levels) = (*self.frame.met(), 1.0, Vec::new());
-        Some(Memory { contact, bounces: None, met, refinement, levels })
+        Some(RestartState { contact, bounces: None, met, refinement, levels })
     }
 
     fn finish(self: Box<Self>) -> Collision {
@@ -334,8 +334,8 @@ impl Course for ExplicitCourse {
 }
 
 /// Bodies that cannot be made of a scene.
-fn refused(error: ModelError) -> Refusal {
-    let refusal = Refusal::new("body", error.to_string());
+fn refused(error: ModelError) -> Rejection {
+    let refusal = Rejection::new("body", error.to_string());
     match error {
         ModelError::NoStep { .. } => refusal.with_help(
             "check material.NAME.youngs_modulus, material.NAME.density and body.N.sphere.diameter, and \
@@ -345,8 +345,8 @@ fn refused(error: ModelError) -> Refusal {
     }
 }
 
-/// What effects of the scene put into the step, beside stress and contact, of bodies that meet at this
-/// speed (m/s) in the whole scene.
+/// Returns the parts that effects add to the step, beside stress and contact, for an approach speed (m/s)
+/// of the whole scene.
 fn parts(
     scene: &Scene,
     inputs: &[BodyInput; 2],
@@ -380,7 +380,7 @@ fn bulk_viscosity(input: &BodyInput, speed: f64) -> Result<Option<Box<dyn NodeFo
     Ok(Some(Box::new(fem_explicit::BulkViscosity::new(mesh, material, usual, speed)?)))
 }
 
-fn inputs(scene: &Scene, plan: &Plan) -> Result<[BodyInput; 2], Refusal> {
+fn inputs(scene: &Scene, plan: &Plan) -> Result<[BodyInput; 2], Rejection> {
     let [lower, upper] = BodySource::of_scene(scene, plan)?;
     Ok([lower.build(0)?, upper.build(1)?])
 }
@@ -403,38 +403,37 @@ fn method(planned: fem_case::ContactMethod) -> ContactMethod {
     }
 }
 
-/// What explicit elements have of each effect.
-fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) -> Option<Answer> {
+/// Returns the support of explicit elements for each effect.
+fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) -> Option<Support> {
     Some(match effect.name() {
-        Viscoelasticity::NAME => Answer::Inherent { idle: "no history is kept" },
+        Viscoelasticity::NAME => Support::Inherent { idle: "no history is kept" },
         HourglassControl::NAME => {
             let why = "elements with one mean stress need the stiffness of their bending modes";
-            Answer::is(true, why)
+            Support::is(true, why)
         }
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
         MassScaling::NAME => mass_scaling(scene, model),
-        PartnerWaves::NAME | Gravity::NAME => Answer::Inherent { idle: "" },
-        BulkViscosity::NAME => Answer::Computes { idle: "" },
+        PartnerWaves::NAME | Gravity::NAME => Support::Inherent { idle: "" },
+        BulkViscosity::NAME => Support::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),
         // Contact between moved surfaces has it.
         SurfaceSlip::NAME if FiniteStrain::laws(scene, estimate) != [None; 2] => {
-            Answer::Inherent { idle: "" }
+            Support::Inherent { idle: "" }
         }
-        SurfaceSlip::NAME => Answer::Computes { idle: "" },
-        PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => Answer::Lacks,
+        SurfaceSlip::NAME => Support::Computes { idle: "" },
+        PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => Support::Lacks,
         _ => return None,
     })
 }
 
 /// Whether mass is added, and to whom.
-fn mass_scaling(scene: &Scene, model: &Bodies) -> Answer {
+fn mass_scaling(scene: &Scene, model: &Bodies) -> Support {
     let masses = model.bodies().each_ref().map(|body| Some(body.mass()).filter(|m| m.is_finite()));
     let added = model.bodies().each_ref().map(|body| Some(body.added_mass()));
     MassScaling::of(scene, masses, added, model.time_step() / model.plain_time_step())
 }
 
-/// The larger share of the lighter body's mass that is moved in a body; of one that gives way less, that share over how
-/// many times as much may be moved.
+/// Returns the larger moved mass over the lighter body's mass, corrected for the factor on stiffer bodies.
 fn added_share(scene: &Scene, model: &Bodies) -> f64 {
     let lightest = model.bodies().iter().map(|body| body.mass()).fold(f64::INFINITY, f64::min);
     let shares = model.bodies().iter().map(|body| body.added_mass() / lightest);

@@ -3,8 +3,8 @@
 use fem_case::{ModelChoice, Scene, Snapshots, Switch};
 
 use crate::effects::{
-    Answer, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves,
-    PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
+    DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves, PlasticYield,
+    RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -43,25 +43,25 @@ pub(super) fn has(
     scene: &Scene,
     estimate: &Estimate,
     traits: &Traits,
-) -> Option<Answer> {
+) -> Option<Support> {
     Some(match effect.name() {
         Viscoelasticity::NAME => relaxation(scene, estimate, traits.relaxation),
         DashpotEffect::NAME => dashpot(scene.model(), traits.dashpot.as_deref()),
         FiniteSizeEffect::NAME => match (scene.model(), traits.finite_size) {
-            (ModelChoice::Law { .. }, (is_there, reason)) => Answer::is(is_there, reason),
+            (ModelChoice::Law { .. }, (is_there, reason)) => Support::is(is_there, reason),
             (_, finite_size) => FiniteSizeEffect::of_first_order(scene, estimate, finite_size),
         },
         PartnerWaves::NAME if traits.waves => {
             PartnerWaves::of_term(scene, estimate, PartnerWaves::radiating)
         }
-        Gravity::NAME => Answer::Inherent { idle: "" },
+        Gravity::NAME => Support::Inherent { idle: "" },
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-        SurfaceSlip::NAME if traits.slip => Answer::Computes { idle: "" },
+        SurfaceSlip::NAME if traits.slip => Support::Computes { idle: "" },
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
         | PartnerWaves::NAME
-        | RigidPartner::NAME => Answer::Lacks,
+        | RigidPartner::NAME => Support::Lacks,
         _ => return None,
     })
 }
@@ -82,21 +82,21 @@ pub(super) fn unread_keys(scene: &Scene) -> Vec<String> {
 }
 
 /// What the model has of the relaxation.
-fn relaxation(scene: &Scene, estimate: &Estimate, has: Relaxation) -> Answer {
+fn relaxation(scene: &Scene, estimate: &Estimate, has: Relaxation) -> Support {
     let need = Viscoelasticity.need(scene, estimate).unwrap_or_default();
     if !need.is_called_for {
-        return Answer::Inherent { idle: "" };
+        return Support::Inherent { idle: "" };
     }
     if has == Relaxation::Nothing && scene.effects().viscoelasticity == Some(Switch::On) {
-        return Answer::Lacks;
+        return Support::Lacks;
     }
     let reason = need.number;
     match has {
-        Relaxation::Whole => Answer::Inherent { idle: "" },
+        Relaxation::Whole => Support::Inherent { idle: "" },
         Relaxation::SlowLimit => {
             let reason =
                 format!("{reason}; the law has its slow limit, relaxed moduli and viscosities");
-            Answer::is(true, reason).warning(slowness(scene, estimate))
+            Support::is(true, reason).warning(slowness(scene, estimate))
         }
         Relaxation::Nothing => {
             let name = describe(scene.model());
@@ -104,16 +104,16 @@ fn relaxation(scene: &Scene, estimate: &Estimate, has: Relaxation) -> Answer {
                 "{reason}, and {name} does not know it: it takes the instantaneous moduli. Model \
                  ting or fem computes the relaxation"
             );
-            Answer::is(false, format!("{reason}; not in {name}")).warning([warning])
+            Support::is(false, format!("{reason}; not in {name}")).warning([warning])
         }
     }
 }
 
-fn dashpot(model: &ModelChoice, dashpot: Option<&str>) -> Answer {
+fn dashpot(model: &ModelChoice, dashpot: Option<&str>) -> Support {
     let name = describe(model);
     match dashpot {
-        Some(dashpot) => Answer::is(true, format!("{name}: {dashpot}")),
-        None => Answer::is(false, format!("{name} has none here")),
+        Some(dashpot) => Support::is(true, format!("{name}: {dashpot}")),
+        None => Support::is(false, format!("{name} has none here")),
     }
 }
 

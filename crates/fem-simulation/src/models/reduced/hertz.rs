@@ -10,8 +10,8 @@ use super::ting;
 use super::{Motion, Moving, Reduced, resolve_start};
 use crate::effects::SurfaceSlip;
 use crate::estimate::Estimate;
-use crate::models::method::{Method, Model, Shared};
-use crate::refusal::Refusal;
+use crate::models::method::{Method, Model, SharedModels};
+use crate::rejection::Rejection;
 
 /// Hertz, `[model] hertz = {}`.
 #[derive(Clone, Copy, Debug)]
@@ -22,15 +22,15 @@ impl Method for HertzMethod {
         "hertz"
     }
 
-    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         Ok(Box::new(build(scene)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
         build(scene).map(|_| 0)
     }
 
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let ModelChoice::Hertz { finite_size } = *scene.model() else { return Ok(file) };
         let mut file = resolve_start(scene, file);
         let table = HertzTable { finite_size: Some(finite_size) };
@@ -52,9 +52,9 @@ impl Motion for ClosedForm {
 ///
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
-pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
     let ModelChoice::Hertz { finite_size } = *scene.model() else {
-        return Err(Refusal::chose_another(scene, "hertz"));
+        return Err(Rejection::chose_another(scene, "hertz"));
     };
     let estimate = Estimate::checked(scene)?;
     // Elastic bodies under Ting are Hertz', and Ting knows their size.

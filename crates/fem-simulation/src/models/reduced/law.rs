@@ -11,8 +11,8 @@ use fem_material::engineering::number;
 use super::effects::{Relaxation, Traits};
 use super::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::estimate::Estimate;
-use crate::models::method::{Method, Model, Shared};
-use crate::refusal::Refusal;
+use crate::models::method::{Method, Model, SharedModels};
+use crate::rejection::Rejection;
 
 /// A contact law, `[model] law = { NAME = { … } }`.
 #[derive(Clone, Copy, Debug)]
@@ -23,15 +23,15 @@ impl Method for LawMethod {
         "law"
     }
 
-    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         Ok(Box::new(build(scene)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
         build(scene).map(|_| 0)
     }
 
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let ModelChoice::Law { end_rule, tolerance, .. } = *scene.model() else { return Ok(file) };
         build(scene)?;
         let mut file = resolve_start(scene, file);
@@ -81,9 +81,9 @@ impl Motion for LawMotion {
 ///
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
-pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
     let ModelChoice::Law { law, end_rule, tolerance } = scene.model() else {
-        return Err(Refusal::chose_another(scene, "law"));
+        return Err(Rejection::chose_another(scene, "law"));
     };
     let (end_rule, tolerance) = (*end_rule, *tolerance);
     let estimate = Estimate::checked(scene)?;
@@ -92,7 +92,7 @@ pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let name = law.family.name();
     let Some(made) = law.family.law(&pair, &numbers) else {
         let message = format!("{name} is no law of the overlap");
-        return Err(Refusal::new(scene.model().path(), message));
+        return Err(Rejection::new(scene.model().path(), message));
     };
     let description = format!("model law {name}, one degree of freedom");
     let takes_slow_limit = law.is_slow_limit();
@@ -132,7 +132,7 @@ fn law_numbers(
     estimate: &Estimate,
     law: &LawInput,
     end_rule: EndRule,
-) -> Result<(Vec<f64>, Pair), Refusal> {
+) -> Result<(Vec<f64>, Pair), Rejection> {
     let materials = scene.bodies().each_ref().map(|body| body.material());
     let relaxation =
         PairRelaxation::new(materials[0], materials[1]).map_err(|error| refused(scene, &error))?;
@@ -146,7 +146,7 @@ fn law_numbers(
     law.parameters(&context).map_err(|error| match error {
         LawInputError::Law(error) => refused(scene, &error),
         LawInputError::Materials { message, help } => {
-            Refusal::new(scene.model().path(), message).with_help(help)
+            Rejection::new(scene.model().path(), message).with_help(help)
         }
     })
 }

@@ -21,11 +21,11 @@ use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
-use crate::effects::{Answer, Effect, decide};
+use crate::effects::{Effect, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
-use crate::models::method::{Cost, ForceLaw, Model, Setup};
-use crate::refusal::Refusal;
+use crate::models::method::{Cost, ForceLaw, Model, ModelSetup};
+use crate::rejection::Rejection;
 use effects::Traits;
 
 /// What computes a relative motion.
@@ -64,7 +64,7 @@ pub(super) struct Moving {
 /// A scene with a reduced model, ready to run.
 #[derive(Debug)]
 pub struct Reduced {
-    setup: Setup,
+    setup: ModelSetup,
     scene: Scene,
     motion: Box<dyn Motion>,
     pair: Pair,
@@ -76,7 +76,7 @@ impl Reduced {
     ///
     /// # Errors
     /// An effect that the case forces on and a reduced model lacks.
-    pub(super) fn of(scene: &Scene, estimate: Estimate, moving: Moving) -> Result<Self, Refusal> {
+    pub(super) fn of(scene: &Scene, estimate: Estimate, moving: Moving) -> Result<Self, Rejection> {
         let Moving { motion, pair, description, traits } = moving;
         let has = |effect: &dyn Effect| effects::has(effect, scene, &estimate, &traits);
         let decisions = decide(scene, &estimate, has)?;
@@ -86,7 +86,7 @@ impl Reduced {
             damping: law.damping(),
             damping_exponent: law.damping_exponent(),
         });
-        let setup = Setup {
+        let setup = ModelSetup {
             description,
             approach: approach_of(scene)?,
             want: OutputRequest::history(),
@@ -124,11 +124,11 @@ impl Reduced {
 }
 
 impl Model for Reduced {
-    fn setup(&self) -> &Setup {
+    fn setup(&self) -> &ModelSetup {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
         effects::has(effect, &self.scene, estimate, &self.traits)
     }
 
@@ -146,7 +146,7 @@ impl Model for Reduced {
         }
     }
 
-    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         let found = match self.law() {
             Some(law) => static_contact::of_law(law, &self.pair, force).map(Some),
             None => static_contact::of_hertz(&self.pair, self.motion.equilibrium_weight(), force),
@@ -165,8 +165,8 @@ fn stop_of(error: &LawError) -> Stop {
 }
 
 /// What a law of the scene refuses.
-pub(super) fn refused(scene: &Scene, error: &LawError) -> Refusal {
-    Refusal::new(scene.model().path(), error.to_string())
+pub(super) fn refused(scene: &Scene, error: &LawError) -> Rejection {
+    Rejection::new(scene.model().path(), error.to_string())
 }
 
 /// The start that all reduced models fill in; what they do not read stays as it is.

@@ -11,8 +11,8 @@ use crate::estimate::Estimate;
 use crate::estimate::quasi_static::ting_of;
 use crate::estimate::semi_infinite_partner::radiating_impact;
 use crate::estimate::viscous_flow;
-use crate::models::method::{Method, Model, Shared};
-use crate::refusal::Refusal;
+use crate::models::method::{Method, Model, SharedModels};
+use crate::rejection::Rejection;
 
 /// Ting, `[model] ting = {}`.
 #[derive(Clone, Copy, Debug)]
@@ -23,15 +23,15 @@ impl Method for TingMethod {
         "ting"
     }
 
-    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         Ok(Box::new(build(scene)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
         build(scene).map(|_| 0)
     }
 
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else { return Ok(file) };
         let mut file = resolve_start(scene, file);
         let table = TingTable {
@@ -94,9 +94,9 @@ fn weighed(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
 ///
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
-pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
     let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else {
-        return Err(Refusal::chose_another(scene, "ting"));
+        return Err(Rejection::chose_another(scene, "ting"));
     };
     let estimate = Estimate::checked(scene)?;
     viscous_flow::check(scene, &estimate)?;
@@ -132,12 +132,12 @@ pub(super) fn motion(
     relaxes: bool,
     finite_size: bool,
     tolerance: f64,
-) -> Result<Ting, Refusal> {
+) -> Result<Ting, Rejection> {
     let refuse = |error: LawError| refused(scene, &error);
     let size = finite_size.then(|| scene.finite_size()).transpose().map_err(refuse)?;
     if let Some(size) = &size {
         size.check(viscous_flow::widest_contact(scene, estimate)).map_err(|error| {
-            Refusal::new(format!("{}.finite_size", scene.model().path()), error.to_string())
+            Rejection::new(format!("{}.finite_size", scene.model().path()), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
         })?;
     }

@@ -34,13 +34,13 @@ use self::departure::Departure;
 use self::strained::Strained;
 use crate::effects::bodies::partner_waves::PartnerWaves;
 use crate::effects::effect::Effect;
-use crate::effects::effect::model_form_error::{Doubt, Standing};
-use crate::effects::effect::neglect_error::LeftOut;
-use crate::effects::effect::relevance::{Need, percent};
-use crate::effects::effect::support::Answer;
+use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::relevance::{Relevance, percent};
+use crate::effects::effect::support::Support;
+use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
-use crate::estimate::ting_prediction::Expected;
-use crate::refusal::Refusal;
+use crate::rejection::Rejection;
 
 /// What laws differ by is said from this share of the contact time on.
 const ROUNDING: f64 = 5e-5;
@@ -101,17 +101,17 @@ impl FiniteStrain {
     ///
     /// # Errors
     /// A Poisson's ratio too near 1/2, or too many terms of relaxation.
-    pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Refusal> {
+    pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
         let mut strained = Strained::of_both(scene, estimate).into_iter().flatten();
         let unborne = strained.find(|strained| !strained.is_borne());
         let Some(strained) = unborne.filter(|_| is_forced_on(scene)) else { return Ok(()) };
         let message = format!("finite strain is forced on, and {}", strained.not_borne());
         let help = "change the material, or write \"auto\" or \"off\"";
-        Err(Refusal::new("effects.finite_strain", message).with_help(help))
+        Err(Rejection::new("effects.finite_strain", message).with_help(help))
     }
 
     /// Returns the answer of explicit elements.
-    pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Answer {
+    pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Support {
         let strained = Strained::of_both(scene, estimate).into_iter().flatten();
         let mut unborne =
             strained.filter(|strained| !strained.is_borne() && strained.matters(scene));
@@ -120,19 +120,19 @@ impl FiniteStrain {
         let Some(strained) = unborne.next().filter(|_| is_asked) else {
             let answer = Self::of_stability(scene, estimate);
             let answer = answer.or_else(|| Self::of_nearness(scene, estimate));
-            return answer.unwrap_or(Answer::Computes { idle: "" });
+            return answer.unwrap_or(Support::Computes { idle: "" });
         };
         let why = format!("called for, but {}", strained.not_borne());
         let left_out = FiniteStrain.left_out(scene, estimate).unwrap_or_default();
         let warning = format!("{} is {why}; small strain leaves out {left_out}", Self::NAME);
         let active = Self::laws(scene, estimate).iter().any(Option::is_some);
-        Answer::is(active, why).warning([warning])
+        Support::is(active, why).warning([warning])
     }
 }
 
 impl FiniteStrain {
     /// Returns the text for a scene with finite strain near the contact only.
-    fn of_nearness(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
+    fn of_nearness(scene: &Scene, estimate: &Estimate) -> Option<Support> {
         (Self::laws(scene, estimate) != [None; 2]).then_some(())?;
         let within = Self::within(scene, estimate)?;
         let is_partial = |body: &Body| body.diameter().is_none_or(|diameter| diameter > within);
@@ -149,11 +149,11 @@ impl FiniteStrain {
             within / estimate.contact_radius,
             100.0 * LEFT_FAR_AWAY,
         );
-        Some(Answer::is(true, format!("{number}; {nearness}")))
+        Some(Support::is(true, format!("{number}; {nearness}")))
     }
 
     /// Returns the text for a scene whose laws are expected to lose stability.
-    fn of_stability(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
+    fn of_stability(scene: &Scene, estimate: &Estimate) -> Option<Support> {
         let computed = Self::laws(scene, estimate);
         if !is_called_for(scene, estimate) || computed == [None; 2] {
             return None;
@@ -172,7 +172,7 @@ impl FiniteStrain {
             material.law().name()
         );
         let number = FiniteStrain.need(scene, estimate)?.number;
-        Some(Answer::is(true, number).warning([warning]))
+        Some(Support::is(true, number).warning([warning]))
     }
 }
 
@@ -203,9 +203,9 @@ pub(in crate::effects) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f6
     }
     let speed = estimate.hertz.approach_speed();
     // With the spheres' own compliance where the model has it: what relaxation is worth asks for that, too.
-    let size = LeftOut::has_finite_size(scene);
-    let sized = size.then(|| Expected::of(scene, speed, true).ok()).flatten();
-    let impact = sized.or_else(|| Expected::of(scene, speed, false).ok());
+    let size = NeglectError::has_finite_size(scene);
+    let sized = size.then(|| TingPrediction::of(scene, speed, true).ok()).flatten();
+    let impact = sized.or_else(|| TingPrediction::of(scene, speed, false).ok());
     let loss = impact.map_or(0.0, |impact| 1.0 - impact.restitution);
     (loss - PartnerWaves::loss(scene, estimate)).max(0.0)
 }
@@ -264,7 +264,7 @@ impl Effect for FiniteStrain {
         effects.finite_strain
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let open = in_words(scene, estimate);
         let is_called_for = is_called_for(scene, estimate);
         let warning = is_called_for.then(|| {
@@ -274,7 +274,7 @@ impl Effect for FiniteStrain {
                 percent(estimate.strain),
             )
         });
-        Some(Need {
+        Some(Relevance {
             is_called_for,
             number: format!(
                 "contact radius / effective radius = {:.3}, law {}{}",
@@ -291,25 +291,25 @@ impl Effect for FiniteStrain {
         })
     }
 
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if is_beyond(scene, estimate) {
-            return Some(LeftOut::default());
+            return Some(NeglectError::default());
         }
         let change = with_relaxation(scene, estimate, departure(scene, estimate));
-        let shares = LeftOut::shares(estimate, change.contact_time, change.peak_force);
-        Some(LeftOut { restitution: Some(change.restitution), ..shares })
+        let shares = NeglectError::shares(estimate, change.contact_time, change.peak_force);
+        Some(NeglectError { restitution: Some(change.restitution), ..shares })
     }
 
     /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
     /// their laws may differ from those that were computed where the case names none.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
         let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = Strained::of_both(scene, estimate);
         let both =
             || both.iter().zip(computed).filter_map(|(body, law)| Some((body.as_ref()?, law)));
         // Of a law that is named and computed nothing is left.
         if both().any(|(body, law)| body.is_beyond() && body.may_differ_from(law)) {
-            return Doubt::default();
+            return ModelFormError::default();
         }
         let change = both().map(|(body, law)| body.doubt(law)).sum();
         let change = with_waves(scene, estimate, change);
@@ -319,11 +319,11 @@ impl Effect for FiniteStrain {
         let flattened: f64 =
             left_small.map(|(body, _)| body.share * body.deformation.flatness.powi(2)).sum();
         let lost = OF_RELAXED_LOSS * flattened * relaxed_loss(scene, estimate);
-        let shares = LeftOut::shares(estimate, contact_time, peak_force);
+        let shares = NeglectError::shares(estimate, contact_time, peak_force);
         let sizes = &estimate.softened.sizes;
         // F = πa² times the mean pressure.
         let radius = 0.5 * (peak_force + peak_pressure) * sizes.max_contact_radius;
-        Doubt::of(&shares, estimate)
+        ModelFormError::of(&shares, estimate)
             .with(QuantityOfInterest::Restitution, restitution.abs() + lost)
             .with(QuantityOfInterest::MaxContactRadius, radius)
             .with(QuantityOfInterest::PeakPressure, peak_pressure * sizes.peak_pressure)

@@ -1,5 +1,4 @@
-//! What Ting's model expects of a scene, with and without what effects change: restitution, contact time
-//! and peak force.
+//! Ting's prediction of restitution, contact time and peak force, with and without effects.
 
 use fem_case::{Body, ModelChoice, Scene};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
@@ -9,22 +8,22 @@ use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};
 use crate::estimate::semi_infinite_partner::radiating_impact;
 
-/// Accuracy of the impacts that foretell what effects change.
+/// Relative accuracy of the predictions.
 const TOLERANCE: f64 = 1e-4;
 
-/// The numbers of a collision that effects change.
+/// The results that effects change.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Expected {
+pub(crate) struct TingPrediction {
     pub restitution: f64,
     /// s; none of bodies that stay together.
     pub contact_time: Option<f64>,
-    /// N.
+    /// Peak force, in newtons.
     pub peak_force: f64,
 }
 
-impl Expected {
-    /// Of a scene that meets at a speed (m/s), with its relaxation and the waves that leave it for good as
-    /// its model has them; of half-spaces, or with the spheres' own compliance.
+impl TingPrediction {
+    /// Predicts the collision of a scene at an approach speed (m/s), with its relaxation and radiated
+    /// waves; between half-spaces, or with the spheres' finite size.
     ///
     /// # Errors
     /// Numbers that the law refuses.
@@ -56,14 +55,14 @@ fn relaxes(scene: &Scene) -> bool {
     materials.any(|material| material.relaxation().is_some())
 }
 
-impl From<&Impact> for Expected {
+impl From<&Impact> for TingPrediction {
     fn from(impact: &Impact) -> Self {
         let Impact { restitution, contact_time, peak_force, .. } = *impact;
         Self { restitution, contact_time, peak_force }
     }
 }
 
-impl From<&HertzImpact> for Expected {
+impl From<&HertzImpact> for TingPrediction {
     fn from(hertz: &HertzImpact) -> Self {
         Self {
             restitution: hertz.restitution(),

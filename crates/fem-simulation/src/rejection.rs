@@ -5,7 +5,7 @@ use fem_case::{Case, CaseError, Scene};
 /// A fault of a scene that a model finds. It names a key; the case knows where that stands.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{key}: {message}")]
-pub struct Refusal {
+pub struct Rejection {
     /// Dotted key (`mesh.contact_element_size`); the nearest table around it if the case lacks it.
     pub key: String,
     /// What was found.
@@ -14,7 +14,7 @@ pub struct Refusal {
     pub help: Option<String>,
 }
 
-impl Refusal {
+impl Rejection {
     /// A refusal that blames a key.
     pub fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self { key: key.into(), message: message.into(), help: None }

@@ -11,17 +11,17 @@ use super::bounced::Bounced;
 use super::chain::Chain;
 use super::{Ball, fallen, first_want, later_want};
 use crate::models::method::Model;
-use crate::models::restart_state::Memory;
-use crate::models::stepper::{Course, begun};
-use crate::refusal::Refusal;
+use crate::models::restart_state::RestartState;
+use crate::models::stepper::{Stepper, begun};
+use crate::rejection::Rejection;
 
-/// What a ball that bounces knows beside the contact under way.
+/// The restart state of a bouncing ball, beside that of the present contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Bounces {
-    /// As the ball began, and what all contacts are asked for.
+    /// Initial state of the ball, and the output request of all contacts.
     approach: Approach,
     want: OutputRequest,
-    /// What came of the contacts that are over.
+    /// Results of the finished contacts.
     so_far: Bounced,
     /// Speed (m/s) of the contact for which the present model was made anew, if it was.
     made_at: Option<f64>,
@@ -34,11 +34,11 @@ pub(super) struct BouncingCourse {
     /// Computes the contact under way.
     present: Arc<dyn Model>,
     /// None once there is no further one.
-    contact: Option<Box<dyn Course>>,
+    contact: Option<Box<dyn Stepper>>,
 }
 
 impl Bounces {
-    /// What the contact under way is asked for.
+    /// Output request of the present contact.
     fn asked(&self, ball: &Ball) -> OutputRequest {
         match self.so_far.n_contacts() {
             0 => first_want(&self.want, self.so_far.time()),
@@ -87,8 +87,8 @@ impl BouncingCourse {
     ///
     /// # Errors
     /// A memory of another ball; one whose parts contradict each other.
-    pub fn resume(ball: &Arc<Ball>, memory: Memory) -> Result<Self, Refusal> {
-        let another = || Refusal::new("gravity", ModelError::ForeignRestartState.to_string());
+    pub fn resume(ball: &Arc<Ball>, memory: RestartState) -> Result<Self, Rejection> {
+        let another = || Rejection::new("gravity", ModelError::ForeignRestartState.to_string());
         let known = memory.bounces.clone().ok_or_else(another)?;
         if !known.fits(ball, &memory.contact, &memory.met) {
             return Err(another());
@@ -97,7 +97,7 @@ impl BouncingCourse {
             Some(speed) => Arc::from(ball.made_at(speed).map_err(|_| another())?),
             None => ball.first.clone(),
         };
-        let contact = Some(present.resume(Memory { bounces: None, ..memory })?);
+        let contact = Some(present.resume(RestartState { bounces: None, ..memory })?);
         Ok(Self { ball: ball.clone(), known: *known, present, contact })
     }
 
@@ -110,7 +110,7 @@ impl BouncingCourse {
     }
 
     /// The contact at a speed, m/s.
-    fn begin(&mut self, speed: f64) -> Result<Box<dyn Course>, Stop> {
+    fn begin(&mut self, speed: f64) -> Result<Box<dyn Stepper>, Stop> {
         if self.known.so_far.n_contacts() > 0
             && let Some(model) = self.ball.anew(self.present.as_ref(), speed)?
         {
@@ -135,7 +135,7 @@ impl BouncingCourse {
     }
 }
 
-impl Course for BouncingCourse {
+impl Stepper for BouncingCourse {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         let Some(contact) = &mut self.contact else { return false };
         let mut one = OneOfMany::of(&self.known.so_far, &self.ball, monitor);
@@ -161,9 +161,9 @@ impl Course for BouncingCourse {
         }
     }
 
-    fn memory(&self) -> Option<Memory> {
+    fn memory(&self) -> Option<RestartState> {
         let contact = self.contact.as_ref()?.memory()?;
-        Some(Memory { bounces: Some(Box::new(self.known.clone())), ..contact })
+        Some(RestartState { bounces: Some(Box::new(self.known.clone())), ..contact })
     }
 
     fn finish(mut self: Box<Self>) -> Collision {
@@ -189,12 +189,12 @@ struct OneOfMany<'a> {
 }
 
 impl<'a> OneOfMany<'a> {
-    /// Of the contact after these.
+    /// Returns the approach of the next contact.
     fn of(so_far: &Bounced, ball: &Ball, monitor: &'a mut dyn Monitor) -> Self {
         Self { monitor, k: so_far.n_contacts(), n: ball.gravity.bounces, time: so_far.time() }
     }
 
-    /// How far all contacts are, of how far this one is.
+    /// Returns the progress of all contacts from that of the present one.
     fn whole(&self, progress: Progress) -> Progress {
         let fraction = (self.k as f64 + progress.fraction) / self.n as f64;
         Progress { time: self.time + progress.time, fraction, ..progress }
