@@ -271,12 +271,12 @@ impl Candidate {
         let unfit = match (&impossible, unknown, told > 1.0, worst) {
             (Some(why), ..) => Some(why.clone()),
             (None, Some(name), ..) => {
-                Some(format!("lacks {name}: nothing foretells what that changes"))
+                Some(format!("lacks {name}, whose effect cannot be estimated"))
             }
             (None, None, true, Some((name, part))) if part > 0.5 * told => {
                 Some(format!("lacks {name}: {}", off()))
             }
-            (None, None, true, _) => Some(format!("is off by {}", off())),
+            (None, None, true, _) => Some(format!("has an error of {}", off())),
             (None, None, false, _) => None,
         };
         let unfit = unfit.or_else(|| self.called_out(estimate).map(str::to_string));

@@ -17,14 +17,14 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
         Stop::Interrupted { .. } => return None,
         Stop::EnergyGrowth { .. } | Stop::NoNumber { .. } => (
             "the contact opens and closes faster than the time step resolves, an imported mesh has \
-             elements that are far too distorted, or a material at finite strain gives way under its \
+             elements that are far too distorted, or a material at finite strain loses stability under \
              load, as St Venant and Kirchhoff's does in compression",
-            "write contact.method = \"massless\" where it is another, or contact.penalty_factor = 1 where it is \
-             larger; if it stays, set time.step_factor = 0.5 and time.mass_scaling = 0, name another \
+            "write contact.method = \"massless\" if it is another, or contact.penalty_factor = 1 if it is \
+             larger; if the error remains, set time.step_factor = 0.5 and time.mass_scaling = 0, name another \
              material.NAME.hyperelastic, or send us the case: the step is meant to be stable",
         ),
         Stop::StabilityLost { .. } => (
-            "the law does not bear so much strain: a band of elements gives way, which one the mesh decides, and a \
+            "the law loses ellipticity at this strain: deformation localises in a band that depends on the mesh, so a \
              shorter step or a finer mesh does not help",
             "name another material.NAME.hyperelastic: \"neo-hooke\" is stable at any deformation; or lower \
              body.N.approach_speed",
@@ -41,7 +41,7 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
             "lower body.N.approach_speed, or check the moduli and their units",
         ),
         Stop::NoStepShortEnough { .. } => (
-            "the material is strained beyond what its law bears: it stiffens without limit, or elements \
+            "the material is strained beyond the range of its law: it stiffens without limit, or elements \
              are drawn out or far too distorted",
             "lower body.N.approach_speed, use a coarser mesh.contact_element_size, or name another \
              material.NAME.hyperelastic",
@@ -53,11 +53,11 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
         ),
         Stop::SurfaceTurnsOver { .. } => (
             "the flank of the body folds onto the other one: the impact is faster than the shear waves of the body, \
-             \u{221a}(G/\u{3c1}); no element size, penalty, step or law keeps it from that",
+             \u{221a}(G/\u{3c1}); no element size, penalty factor, time step or law prevents this",
             "lower body.N.approach_speed below the speed of these waves, or check the moduli and their units",
         ),
         Stop::NoSeparation { .. } => (
-            "the material has relaxed so far that nothing is left to push the bodies apart, or a \
+            "the material has relaxed so far that no stiffness is left to push the bodies apart, or a \
              moving wall keeps pushing",
             "check the decay rates, relaxation times and weights of material.NAME.relaxation and \
              their units: the weights' sum below 1 leaves a lasting stiffness",
@@ -83,11 +83,11 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
              model.fem",
         ),
         Stop::OutOfMemory(_) => (
-            "the factors of condensed bodies take more memory than there is",
-            "raise mesh.contact_element_size, or use model.fem, which keeps no factors",
+            "the factors of condensed bodies take more memory than is available",
+            "raise mesh.contact_element_size, or use model.fem, which stores no factors",
         ),
         Stop::NotFinished(_) => (
-            "the damping is so strong that the bodies creep back for ever",
+            "the damping is so strong that the bodies creep apart without end",
             "lower the damping, or end the contact earlier with model.law.NAME.end = \"zero_force\"",
         ),
         Stop::OutsideValidity(_) => (

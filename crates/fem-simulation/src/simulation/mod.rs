@@ -238,7 +238,7 @@ impl Simulation {
         let longer = softness(&elements.plan)?;
         (longer > self.case.scene().accuracy().contact_time).then(|| {
             format!(
-                "springs of contact.penalty_factor = {} give way: the contact lasts about {:.0} % longer; write \
+                "springs of contact.penalty_factor = {} are compliant: the contact lasts about {:.0} % longer; write \
                  contact.penalty_factor = 1",
                 elements.plan.penalty_factor,
                 100.0 * longer
@@ -292,7 +292,7 @@ impl Simulation {
         };
         let other = open.considered.iter().find(serves).filter(|_| open.warning.is_none())?;
         Some(format!(
-            "the run will take some {}; model.{} is expected to be within the tolerance of the case, too, \
+            "the run takes about {}; model.{} is also expected to be within the tolerance of the case \
              and takes hundredths of a second",
             show(seconds, "s"),
             other.model

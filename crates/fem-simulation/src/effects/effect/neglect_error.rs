@@ -117,7 +117,7 @@ impl fmt::Display for NeglectError {
         };
         let parts: Vec<String> = known.iter().filter(|part| part.0 != 0.0).map(told).collect();
         match (known.is_empty(), parts.is_empty()) {
-            (true, _) => write!(f, "an amount that closed forms do not tell"),
+            (true, _) => write!(f, "an unknown amount"),
             (false, true) => write!(f, "nothing"),
             (false, false) => write!(f, "about {}", parts.join(", ")),
         }
@@ -135,7 +135,7 @@ mod tests {
             "about 0.012 of the restitution"
         );
         assert_eq!(NeglectError::restitution(f64::NAN), NeglectError::default());
-        assert!(NeglectError::default().to_string().contains("do not tell"));
+        assert!(NeglectError::default().to_string().contains("unknown"));
         assert_eq!(NeglectError::NOTHING.to_string(), "nothing");
         let all = NeglectError {
             contact_time_s: Some(4.41e-10),

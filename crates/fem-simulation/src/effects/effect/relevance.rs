@@ -24,7 +24,7 @@ pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     let is_plain = percent == 0.0 || (5e-3..1e5).contains(&percent.abs());
     match is_plain {
-        _ if !percent.is_finite() => "an untold share".to_string(),
+        _ if !percent.is_finite() => "an unknown share".to_string(),
         true => format!("{percent:.2} %"),
         false => format!("{percent:.1e} %"),
     }
@@ -68,8 +68,8 @@ mod tests {
             "1.00 %",
             "150.00 %",
             "-1.0e62 %",
-            "an untold share",
-            "an untold share",
+            "an unknown share",
+            "an unknown share",
         ];
         assert_eq!(shares.map(percent), words);
     }

@@ -74,7 +74,7 @@ impl MassScaling {
             };
             let less = match times > 1.0 {
                 true => format!(
-                    ", which gives way {} times less,",
+                    ", which deforms {} times less,",
                     number(times / LITTLE_SHARE - 1.0, 2)
                 ),
                 false => String::new(),

@@ -233,7 +233,7 @@ fn is_beyond(scene: &Scene, estimate: &Estimate) -> bool {
 /// Returns the error of neglecting it, as text.
 fn in_words(scene: &Scene, estimate: &Estimate) -> String {
     match is_beyond(scene, estimate) {
-        true => "an amount that nothing foretells".to_string(),
+        true => "an amount that cannot be estimated".to_string(),
         false => departure(scene, estimate).in_words(),
     }
 }
