@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Identity, Memory, Simulation, checkpoint, restart_state_of};
+use fem::{Case, Identity, RestartState, Simulation, checkpoint, restart_state_of};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
@@ -22,7 +22,7 @@ pub struct Checkpoint {
 struct Run {
     simulation: Simulation,
     identity: Identity,
-    memories: Vec<Memory>,
+    memories: Vec<RestartState>,
 }
 
 impl Checkpoint {
@@ -60,7 +60,7 @@ impl Run {
         let case = Case::parse("case.toml", text, Path::new("."), overrides).expect("a case");
         let simulation = Simulation::new(case).expect("a simulation");
         let mut course = simulation.start();
-        let mut memories: Vec<Memory> = course.memory().into_iter().collect();
+        let mut memories: Vec<RestartState> = course.memory().into_iter().collect();
         for share in [0.1, 0.5, 0.9] {
             while course.progress().fraction < share && course.advance(&mut ()) {}
             memories.extend(course.memory());
