@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use fem::effects::{Support, EFFECTS};
+use fem::effects::{EFFECTS, Support};
 
 use crate::pages::Page;
 

@@ -20,7 +20,10 @@ fn climb(text: &str, most_updates: u64) -> (Variants, Vec<Option<(Measurement, f
         let is_cheap = variant.price <= most_updates && across < 17.0;
         let radius = variants.lengths.contact_radius;
         is_cheap.then(|| {
-            (Measurement::of(variant, radius, &SharedModels::default(), &mut ()).unwrap(), 1.0 + across)
+            (
+                Measurement::of(variant, radius, &SharedModels::default(), &mut ()).unwrap(),
+                1.0 + across,
+            )
         })
     };
     let measured = variants.all.iter().map(measure).collect();

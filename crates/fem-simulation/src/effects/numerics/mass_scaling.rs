@@ -73,10 +73,9 @@ impl MassScaling {
                 false => format!("{} times", number(share, 2)),
             };
             let less = match times > 1.0 {
-                true => format!(
-                    ", which deforms {} times less,",
-                    number(times / LITTLE_SHARE - 1.0, 2)
-                ),
+                true => {
+                    format!(", which deforms {} times less,", number(times / LITTLE_SHARE - 1.0, 2))
+                }
                 false => String::new(),
             };
             Some(match mass == Some(lightest) {
