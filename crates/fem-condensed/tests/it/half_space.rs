@@ -259,7 +259,7 @@ fn waves_leave_beside_all_else() {
             let damping = Damping { relaxations, ..ball.damping(1.0) };
             let run = pair.impact(ball.speed, damping, MANY_STEPS).unwrap();
             assert!(run.residual_relative.unwrap() < 2e-5, "{:?}", run.residual_relative);
-            // DissipatedEnergies add up to first order: relaxation makes the pulse another.
+            // Losses add up to first order: relaxation makes the pulse another.
             let radiated = run.energies.get(Account::Radiated).unwrap() / ball.initial_energy();
             let sum = loss(&quiet) + radiated;
             assert!((loss(&run) / sum - 1.0).abs() < 0.05, "{} {sum}", loss(&run));

@@ -272,7 +272,7 @@ fn a_half_space_may_relax() {
         let initial = 0.5 * hertz.mass * 400.0;
         let dissipated = run.energies.get(Account::ViscousDissipation).unwrap() / initial;
         assert!(dissipated > 0.01, "{dissipated}");
-        // DissipatedEnergies add up to first order: 1 % of the dissipation is still stored in springs.
+        // Losses add up to first order: 1 % of the dissipation is still stored in springs.
         let sum = loss(&elastic) + dissipated;
         assert!((loss(&run) / sum - 1.0).abs() < 0.05, "{} {sum}", loss(&run));
         assert!(run.residual_relative.unwrap() < 2e-6, "{:?}", run.residual_relative);
