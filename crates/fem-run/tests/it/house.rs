@@ -285,7 +285,11 @@ fn every_crate_but_two_is_a_default_member() {
         fs::read_to_string(root().join("Cargo.toml")).expect("a manifest").parse().expect("TOML");
     let patterns = manifest["workspace"]["default-members"].as_array().expect("default members");
     let is_default = |name: &str| {
-        let folder = if name == "fem-validate" { "validation" } else { &format!("crates/{name}") };
+        let folder = match name {
+            "fem-validate" => "validation",
+            "fem-fuzz" => "fuzz",
+            _ => &format!("crates/{name}"),
+        };
         patterns.iter().filter_map(|pattern| pattern.as_str()).any(|pattern| {
             let others = pattern.strip_suffix("[!p]*");
             others.map_or(pattern == folder, |before| {

@@ -259,10 +259,9 @@ fn condensed_bodies_report_cost_and_doubts() {
     };
     let coarse = "mesh.contact_element_size=\"80 um\"";
     let found = doubts(&["model.condensed={}", coarse]);
-    // Its error also exceeds the tolerance; the suggested element size serves both.
-    assert!(found.len() == 1 && found[0].contains("spans 2.8 elements"), "{found:?}");
-    let size = found[0].split("use a mesh.contact_element_size of ").nth(1).unwrap();
-    let size = size.split(" or less").next().unwrap();
+    assert!(found.len() == 1 && found[0].contains("because of the mesh"), "{found:?}");
+    let size = found[0].split("mesh.contact_element_size = \\\"").nth(1).unwrap();
+    let size = size.split('\\').next().unwrap();
     let finer = format!("mesh.contact_element_size=\"{size}\"");
     assert_eq!(doubts(&["model.condensed={}", &finer]), [""; 0], "{found:?}");
     let soft = "contact.penalty_factor=0.1";

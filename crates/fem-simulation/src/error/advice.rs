@@ -149,10 +149,12 @@ fn refinement_needed(
     let across = radius.zip(size).map_or(FEW, |(radius, size)| radius / size);
     let to_usual = (FEW / across).max(1.0);
     let (excess, of_few) = (ROOM * excess, to_usual.powf(FALL_OF_FEW));
-    match excess < of_few {
-        true => excess.powf(1.0 / FALL_OF_FEW).max(STEPS[0]),
-        false => (to_usual * (excess / of_few).powf(1.0 / FALL)).max(STEPS[0]),
-    }
+    let ratio = match excess < of_few {
+        true => excess.powf(1.0 / FALL_OF_FEW),
+        false => to_usual * (excess / of_few).powf(1.0 / FALL),
+    };
+    // With few elements the errors swing with the place of the contact's edge between two nodes.
+    ratio.max(STEPS[0]).max(ADVISED / across)
 }
 
 /// Returns a warning that the discretisation error is not estimated, where it should be.

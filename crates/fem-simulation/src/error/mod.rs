@@ -11,9 +11,9 @@
 //! with q₀ the Richardson limit of two runs whose elements differ by the ratio r, the order p = 1.9 that is observed, a
 //! safety factor F_s, and a floor: the place of the contact's edge between two nodes adds an error that no pair of
 //! meshes shows, of second order in h over the contact radius a; added mass, contact chatter and rounding add noise.
-//! All constants are in [`calibration`], calibrated by the claim `error_bars`.
+//! All constants are in `calibration`, calibrated by the claim `error_bars`.
 //!
-//! The reference runs ([`reference_runs`]) cost a small share of the run:
+//! The reference runs (`reference_runs`) cost a small share of the run:
 //!
 //! - **Explicit elements**: condensed bodies with the same penalty springs on the same mesh have the same error, and
 //!   cost a fortieth. Their limit is that of condensed bodies whose nodes touch exactly, with the contact's edge at a

@@ -226,7 +226,7 @@ impl ErrorEstimator {
         if simulation.levels().len() >= MOST_LEVELS {
             return Err(NotRefined::TooExpensive { updates: None });
         }
-        let by = (ROOM * miss.excess_of_mesh()).powf(1.0 / FALL).max(STEPS[0]).min(STEPS[1]);
+        let by = (ROOM * miss.excess_of_mesh()).powf(1.0 / FALL).clamp(STEPS[0], STEPS[1]);
         let refinement = by * simulation.refinement;
         if let Some((known, updates)) = self.too_expensive
             && (refinement / known - 1.0).abs() < SAME_REFINEMENT

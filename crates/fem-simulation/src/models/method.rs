@@ -95,7 +95,7 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// # Errors
     /// A memory of another model, or a model that goes on from none.
     fn resume(&self, _: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        let message = format!("{} goes on from no memory", self.setup().description);
+        let message = format!("{} cannot go on from a restart state", self.setup().description);
         Err(Rejection::new("model", message).with_help("compute the collision anew"))
     }
 

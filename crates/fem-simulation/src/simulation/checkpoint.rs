@@ -75,10 +75,10 @@ pub enum CheckpointError {
 /// course.advance(&mut ());
 /// let memory = course.memory().ok_or("a model that goes on from none")?;
 /// let bytes = checkpoint(&run, &memory);
-/// assert_eq!(memory_of(&bytes, &run), Ok(memory));
+/// assert_eq!(restart_state_of(&bytes, &run), Ok(memory));
 ///
 /// let other = Identity { result: "of another case".to_string(), ..run };
-/// assert!(memory_of(&bytes, &other).is_err());
+/// assert!(restart_state_of(&bytes, &other).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn checkpoint(run: &Identity, memory: &RestartState) -> Vec<u8> {

@@ -6,8 +6,8 @@
 
 use fem_laws::bisection::falling_zero;
 
+use crate::fit::Fit;
 use crate::fit::error::FitError;
-use crate::fit::fit::Fit;
 use crate::fit::problem::{Free, Problem};
 
 /// A profile over one parameter.

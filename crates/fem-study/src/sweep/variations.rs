@@ -89,7 +89,7 @@ where
 /// )?;
 ///
 /// let speeds = [0.25, 0.5, 1.0];
-/// let summaries = fem_study::sweep(&case, speeds, |file, speed| {
+/// let summaries = fem_study::sweep::sweep(&case, speeds, |file, speed| {
 ///     file.body[0].approach_speed = Some(speed.into());
 /// });
 /// let mut restitutions = Vec::new();

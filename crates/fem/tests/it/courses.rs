@@ -76,7 +76,7 @@ fn a_memory_of_another_case_is_refused() {
         simulation("condensed", &[]),
     ] {
         let refused = other.resume(memory.clone()).map(|_| ()).unwrap_err();
-        assert!(refused.message().contains("memory"), "{refused}");
+        assert!(refused.message().contains("restart state"), "{refused}");
     }
 }
 

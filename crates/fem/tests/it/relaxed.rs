@@ -39,7 +39,7 @@ fn simulation(set: &[&str]) -> Simulation {
 fn run(set: &[&str]) -> Summary {
     let computed = simulation(set).run_within_tolerance(&mut ());
     let (simulation, collision) = (&computed.simulation, &computed.collision);
-    simulation.summary(&collision)
+    simulation.summary(collision)
 }
 
 /// A Maxwell sphere presses hardest while the approach is v t, δ = v t and F = K δ^(3/2) with E e^(−βt): on the axis

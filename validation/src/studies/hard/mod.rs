@@ -273,7 +273,7 @@ mod tests {
     #[ignore = "15 s; .ci/run runs it"]
     fn the_quick_half_holds() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let mut claims = load_claims(&folder, &["hard".to_string()]).unwrap();
+        let mut claims = load_claims(folder, &["hard".to_string()]).unwrap();
         let claim = &mut claims[0];
         claim.parameters.insert("quick".to_string(), true.into());
         let result = evaluate(claim, &Shelf::default(), &Nobody);
