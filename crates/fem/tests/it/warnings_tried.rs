@@ -93,7 +93,7 @@ const ROWS: [Row; 30] = [
     row(
         GLASS,
         &["contact.penalty_factor=1e-3", "mesh.contact_element_size='60 um'"],
-        "give way",
+        "are compliant",
         1,
     ),
     row(GLASS, &[EARLY, CONDENSED], "largest early", 1),
