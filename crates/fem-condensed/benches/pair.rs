@@ -8,7 +8,7 @@ use fem_mesh::{HalfDisc, Side};
 
 type Error = Box<dyn std::error::Error>;
 
-/// m.
+/// Largest contact radius of the pair at 0.5 m/s, m.
 const CONTACT_RADIUS: f64 = 0.22307e-3;
 /// Elements of the contact, µm.
 const SIZES: [u32; 3] = [60, 28, 14];

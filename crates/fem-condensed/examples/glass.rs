@@ -1,5 +1,5 @@
 //! Cost and accuracy of the paper's glass pair: `cargo run --release -p fem-condensed --example
-//! glass`. One line a mesh and model; limits are 62.818 µs, 107.99 N, 10.681 µm, 0.92763, 0.94811.
+//! glass`. It prints one line per mesh and model; the limits are 62.818 µs, 107.99 N, 10.681 µm, 0.92763, 0.94811.
 
 #![allow(
     clippy::disallowed_methods,

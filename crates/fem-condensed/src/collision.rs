@@ -1,4 +1,4 @@
-//! A collision from first touch until the bodies have parted.
+//! A collision from first touch until the bodies have separated.
 
 use fem_collision::{
     Collision, Ending, Frame, Monitor, OutputRequest, Phase, SnapshotRequest, Stop,
@@ -11,28 +11,28 @@ use crate::run::ImpactRun;
 use crate::settings::ContactModel;
 use crate::settings::Damping;
 
-/// Reach of the points that are followed over the elastic contact radius; a collision that needs
-/// more is run again with all points.
+/// Radius of the points that are included at first, over the elastic contact radius. A collision that needs
+/// more points is run again with all of them.
 const REACH: f64 = 1.3;
-/// Largest ω Δt of a mode of vibration: its period is right to (ω Δt)⁴/480 = 1e-4.
+/// Largest ω Δt of a mode of vibration; the error of its period is (ω Δt)⁴/480 = 1e-4.
 const LARGEST_PHASE: f64 = 0.5;
-/// Impact of an elastic pair: fewer steps than this do not follow it.
+/// Smallest number of steps per elastic contact time.
 const FEWEST_STEPS: usize = 8;
 /// Share of steps with a contact area that is not a disc above which a warning is given.
 const MANY_REPEATED: f64 = 0.01;
 
 impl CondensedPair {
-    /// Steps over the elastic contact time that give a restitution to 2e-5.
+    /// Default number of steps per elastic contact time; the restitution is exact to 2e-5.
     pub const N_STEPS: usize = 200;
 
-    /// The quantities of the collision at a relative speed (m/s) with what takes energy from
-    /// the bodies: relaxations, lower first, `None` is elastic; or more ([`Damping`]). `n_steps` steps
-    /// over the elastic contact time.
+    /// Computes the quantities of the collision at a relative speed (m/s), with `n_steps` steps per elastic
+    /// contact time. Dissipation is a pair of relaxations, lower body first and `None` for an elastic one, or
+    /// [`Damping`].
     ///
     /// # Errors
-    /// As [`CondensedPair::collide`]; a speed that is not positive and finite; whatever stops a
-    /// collision before its end: a contact beyond the condensed region, bodies that neither part nor
-    /// come to rest within the time.
+    /// Those of [`CondensedPair::collide`]; a speed that is not positive and finite; a collision that stops before
+    /// its end, because the contact grows beyond the condensed region or because the bodies neither separate nor
+    /// come to rest in time.
     pub fn impact<'a>(
         &self,
         speed: f64,
@@ -48,10 +48,10 @@ impl CondensedPair {
         }
     }
 
-    /// The collision of bodies that meet like this, as far as it gets.
+    /// Computes a collision until its end or a stop.
     ///
     /// # Errors
-    /// Too few steps, a radiation that is negative or not finite, a contact that is beyond the condensed
+    /// Too few steps, a radiation coefficient that is negative or not finite, a contact that is beyond the condensed
     /// region already without relaxation.
     pub fn collide<'a>(
         &self,
@@ -119,7 +119,7 @@ impl CondensedPair {
         Ok(collision)
     }
 
-    /// Approach and forces at a time (s) after first touch, to the nearest of [`Self::N_STEPS`].
+    /// Returns approach and forces at a time (s) after first touch, at the nearest of [`Self::N_STEPS`].
     ///
     /// # Errors
     /// The errors are those of [`CondensedPair::impact`].
@@ -140,20 +140,20 @@ impl CondensedPair {
         Ok(ContactState { time: motion.time(), approach: motion.approach, forces: motion.forces })
     }
 
-    /// How many points are followed at first by a collision that closes all up to this one without
+    /// Returns the number of points to include at first, for a collision that closes all up to this one without
     /// relaxation.
     fn n_near(&self, last_closed: usize) -> usize {
         let mut reach = REACH * self.points[last_closed].radius;
         if self.nodal_side.is_none() {
-            // What has to stay open.
+            // The element that has to stay open.
             reach += self.longest_element(last_closed);
         }
         let within = self.points.partition_point(|point| point.radius <= reach);
         (within + 2).min(self.points.len())
     }
 
-    /// √(g δ) of the static approach δ without relaxation, m/s: of a ball that is let down more slowly
-    /// the weight decides how long the contact is and how far it reaches. 0 without gravity.
+    /// Returns √(g δ) of the static approach δ without relaxation, m/s; 0 without gravity. At lower speeds the
+    /// weight determines contact time and contact radius.
     fn fall_speed(&self, frame: &Frame) -> f64 {
         if frame.gravity == 0.0 {
             return 0.0;
@@ -162,7 +162,7 @@ impl CondensedPair {
         (frame.gravity * at_rest).sqrt()
     }
 
-    /// The step asked for, or what the modes of vibration allow.
+    /// Returns the given step (s), limited by the modes of vibration.
     fn time_step(&self, asked: f64) -> f64 {
         let squared = self.sides.iter().flatten().filter_map(|side| {
             side.vibrations.as_ref()?.modes.squared_frequency.iter().copied().reduce(f64::max)
@@ -171,10 +171,10 @@ impl CondensedPair {
     }
 }
 
-/// The contact at an instant.
+/// Approach and contact forces at an instant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactState {
-    /// Since first touch, s.
+    /// Time since first touch, s.
     pub time: f64,
     /// Approach of the mass centres, m.
     pub approach: f64,

@@ -14,11 +14,11 @@ pub enum CondensedError {
     /// A setting lies outside of its range.
     #[error("{name} is {value}; allowed is {allowed}")]
     Setting {
-        /// Which setting.
+        /// Name of the setting.
         name: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
-        /// What is allowed.
+        /// Range that is allowed.
         allowed: &'static str,
     },
     /// The bodies do not meet.
@@ -30,10 +30,10 @@ pub enum CondensedError {
          Poisson's ratio too near to its limits"
     )]
     NotPositiveDefinite,
-    /// There is no memory for a factor.
+    /// There is not enough memory for a factor.
     #[error("there is not enough memory for the factor of a body's stiffness matrix")]
     OutOfMemory,
-    /// The contact grew out of the nodes that were condensed already without relaxation.
+    /// The contact grows beyond the condensed nodes already without relaxation.
     #[error(
         "the contact reached the radius {}, the end of the region that was condensed", show(*radius, "m")
     )]
@@ -41,7 +41,7 @@ pub enum CondensedError {
         /// Candidate radius, m.
         radius: f64,
     },
-    /// A collision ended before its end.
+    /// A collision was stopped before its end.
     #[error(transparent)]
     Stopped(#[from] Stop),
 }

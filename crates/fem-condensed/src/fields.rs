@@ -1,9 +1,9 @@
 //! Displacement, velocity and effective displacement of whole bodies at chosen instants.
 //!
-//! A body's displacement is linear in a few coordinates: the forces at its contact nodes if it is
-//! elastic, the displacements of its springs if it relaxes, and those of its modes of vibration.
-//! A field costs one solution a body, all snapshots' in one go; its velocity is the difference of the
-//! coordinates over the steps around. Waves that have left a body are not drawn.
+//! The displacement of a body is linear in a few coordinates: the forces at its contact nodes if it is
+//! elastic, the displacements of its modes if it relaxes, and those of its modes of vibration. A field costs one
+//! solution per body; the fields of all snapshots are solved for together. Velocities are differences of the
+//! coordinates between neighbouring steps. Radiated waves are not included.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,26 +21,26 @@ use crate::pair::CondensedPair;
 use crate::run::instants::{RunTrace, TraceInstant, choose};
 use crate::settings::Damping;
 
-/// Instants of which probes tell, at least where there are so many steps.
+/// Number of instants at which probes are evaluated, if there are as many steps.
 const PROBED_INSTANTS: usize = 200;
-/// Snapshots that are kept at a time to be reduced to the places of probes.
+/// Number of snapshots that are stored at a time before they are reduced to the probes.
 const SNAPSHOTS_AT_ONCE: usize = 64;
-/// Fields that are solved for at a time: those of eight snapshots.
+/// Number of fields that are solved for at a time, those of eight snapshots.
 const FIELDS_AT_ONCE: usize = 24;
 
-/// A body's deformation in coordinates.
+/// Coordinates of the deformation of a body.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct FieldCoordinates {
-    /// Forces at the contact nodes of an elastic body, displacements of a relaxing one's springs.
+    /// Forces at the contact nodes of an elastic body, displacements of the modes of a relaxing one.
     springs: Vec<f64>,
-    /// Effective displacement for the relaxing stress; empty for an elastic body.
+    /// Effective displacements, which the relaxing stress follows; empty for an elastic body.
     effective: Vec<f64>,
-    /// Modes of vibration, dynamic less static.
+    /// Displacements of the modes of vibration, dynamic less static.
     vibration: Vec<f64>,
     vibration_effective: Vec<f64>,
 }
 
-/// Approach (m) and deformation of both bodies, or their rates.
+/// Approach (m) and deformation of both bodies, or the rates of these.
 #[derive(Debug, Clone)]
 struct State {
     approach: f64,
@@ -48,26 +48,25 @@ struct State {
     contact: Contact,
 }
 
-/// Contact forces between the bodies, or their rates.
+/// Contact forces between the bodies, or the rates of these.
 #[derive(Debug, Clone)]
 pub(crate) struct Contact {
-    /// At the contact points, N.
+    /// Forces at the contact points, N.
     pub forces: Vec<f64>,
-    /// q of each side whose surface slips, m².
+    /// Slip q of each side, m².
     pub moved: [f64; 2],
 }
 
-/// The steps of a run.
+/// The time step (s) and the last step of a run.
 #[derive(Debug, Clone, Copy)]
 struct Steps {
-    /// s.
     time_step: f64,
     last: usize,
 }
 
 impl CondensedPair {
-    /// The snapshots of a collision in the order of time, and what could not be had. `trace` is what
-    /// a run with this time step (s), speed, damping and ending left of every step.
+    /// Returns the snapshots of a collision in the order of time, and messages about those that are not available.
+    /// `trace` has every step of a run with this time step (s), speed, damping and ending.
     ///
     /// # Errors
     /// The errors are those of [`CondensedPair::collide`].
@@ -96,7 +95,7 @@ impl CondensedPair {
         Ok((snapshots, missing))
     }
 
-    /// Both bodies at some instants whose states and rates are given, without their contact.
+    /// Returns snapshots of both bodies for given states and rates, without their contact profiles.
     fn pictures(
         &self,
         frame: &Frame,
@@ -151,7 +150,7 @@ impl CondensedPair {
         Ok(snapshots)
     }
 
-    /// What probes see of a collision at some hundred instants from first touch to its `last` step, as
+    /// Returns the histories of probes at a few hundred instants from first touch to the `last` step. See
     /// [`CondensedPair::snapshots`].
     ///
     /// # Errors
@@ -165,7 +164,7 @@ impl CondensedPair {
         requests: &[ProbeRequest],
     ) -> Result<Vec<Snapshot>, CondensedError> {
         let probes = Probes::new(self.inputs().each_ref().map(BodyInput::mesh), requests);
-        // A pair serves any relaxation: stress is that of the ones of this collision.
+        // The pair's own materials may relax differently: stresses follow the relaxations of this collision.
         let materials = [0, 1].map(|s: usize| {
             let material = self.inputs()[s].material()?;
             let relaxation = damping.relaxations[s].cloned();
@@ -186,7 +185,8 @@ impl CondensedPair {
         Ok(seen)
     }
 
-    /// State and rates at each instant: the motion once more, of which the steps around are kept.
+    /// Returns state and rates at each instant. The motion is computed again, and the steps around each instant are
+    /// kept.
     fn states(
         &self,
         frame: &Frame,
@@ -236,8 +236,8 @@ impl CondensedPair {
         State { approach: motion.approach, sides, contact }
     }
 
-    /// Nodal displacements (m) of coordinates, each on top of a mean motion along the axis; none
-    /// where none are wanted.
+    /// Returns nodal displacements (m) for coordinates, each with a mean motion along the axis; empty fields where
+    /// none are requested.
     fn fields(
         &self,
         side: &BodyOperator,
@@ -256,7 +256,7 @@ impl CondensedPair {
                     Some(_) => transposed_solve(&body.compliance_factor, &springs),
                     None => springs,
                 };
-                // One solution for all, so that the factor is read once.
+                // One solution for all columns, so that the factor is read once.
                 let mut loads = body.balanced_load(&forces);
                 body.solve_balanced(&mut loads)?;
                 loads
@@ -280,7 +280,7 @@ impl CondensedPair {
 }
 
 impl State {
-    /// Weighted sum of two.
+    /// Returns the weighted sum of two sets of coordinates.
     fn combine(&self, other: &Self, weights: [f64; 2]) -> Self {
         let [a, b] = weights;
         Self {
@@ -306,7 +306,7 @@ impl FieldCoordinates {
         }
     }
 
-    /// Those of the field that the relaxing stress sees; `None` for an elastic body.
+    /// Returns the coordinates of the effective displacement; `None` for an elastic body.
     fn effective(&self) -> Option<Self> {
         (!self.effective.is_empty()).then(|| Self {
             springs: self.effective.clone(),
@@ -342,13 +342,13 @@ fn combined(some: &[f64], others: &[f64], [a, b]: [f64; 2]) -> Vec<f64> {
     some.iter().zip(others).map(|(x, y)| a * x + b * y).collect()
 }
 
-/// Side by side; all of one length.
+/// Joins vectors of one length to the columns of a matrix.
 fn columns<'a>(values: impl Iterator<Item = &'a [f64]>) -> Mat<f64> {
     let values: Vec<&[f64]> = values.collect();
     Mat::from_fn(values.first().map_or(0, |first| first.len()), values.len(), |i, j| values[j][i])
 }
 
-/// Lᵀ x = z for each column, z zero beyond its end.
+/// Solves Lᵀ x = z for each column, with z zero beyond its end.
 fn transposed_solve(lower: &Mat<f64>, z: &Mat<f64>) -> Mat<f64> {
     let mut x = Mat::zeros(lower.nrows(), z.ncols());
     x.subrows_mut(0, z.nrows()).copy_from(z);

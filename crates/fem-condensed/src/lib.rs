@@ -1,9 +1,9 @@
 //! Collisions of linear viscoelastic bodies, condensed to their contact: finite-element accuracy in
 //! milliseconds.
 //!
-//! Two linear bodies touch at some tens of nodes, and waves carry a few millionths of the energy.
-//! So each body's stiffness is factored once and condensed to the compliance of its contact nodes
-//! (`body`), and only the relative motion of the mass centres is integrated (`motion`):
+//! Two linear bodies touch at a few tens of nodes, and waves carry a few millionths of the energy.
+//! So the stiffness of each body is factored once and condensed to the compliance of its contact nodes
+//! (`condensation`), and only the relative motion of the mass centres is integrated (`motion`):
 //!
 //! ```math
 //! m^*\ddot\delta = -\mathbf 1^T\mathbf p, \qquad
@@ -11,22 +11,22 @@
 //! \mathbf u_i = C_i \mathbf p
 //! ```
 //!
-//! Elements, masses and penalty springs are those of the explicit model; contact acts along the
-//! common normal of the flattened interface, at matching nodes (the finer of two unlike meshes is
-//! projected on the nodes of the coarser), gaps are those of the true arcs. The contact problem of
-//! a step is solved exactly, without iteration (`disc_contact`). Relaxing bodies are sets of scalar
-//! viscoelastic modes (`viscoelastic_modes`): as many as contact nodes for constant Poisson's
-//! ratio, a Galerkin basis of twice that for a relaxing shear beside an elastic bulk modulus
-//! (`shear`). Modes of free vibration bring back the inertia that the quasi-static body lacks
-//! (`vibration`); for a body so large that its waves do not return within the contact, such as a
-//! half-space, the radiated energy has an element of its own (`radiation`).
+//! Elements, masses and penalty springs are those of the explicit model. Contact acts along the common normal of
+//! the flattened interface, at matching nodes; the finer of two unlike meshes is projected on the nodes of the
+//! coarser. Gaps are those of the true arcs. The contact problem of a step is solved exactly, without iteration
+//! (`disc_contact`).
 //!
-//! A rigid sphere has no compliance: its curvature is in the gap and its mass in the reduced mass. A
-//! wall has neither.
+//! A relaxing body is a set of scalar viscoelastic modes (`viscoelastic_modes`): as many as contact nodes for
+//! constant Poisson's ratio, a Galerkin basis of twice that for a relaxing shear modulus with an elastic bulk
+//! modulus (`shear`). Modes of free vibration add the inertia that the quasi-static body lacks (`vibration`). For
+//! a body so large that its waves do not return within the contact, such as a half-space, a separate element
+//! models the radiated energy (`radiation`).
 //!
-//! Sign convention: approach, forces and inward displacements are positive in compression. SI.
-//! Limits: small strain (a/R some per cent), linear materials, frictionless contact;
-//! without modes of vibration, speeds far below the wave speeds.
+//! A rigid sphere has no compliance; its curvature enters the gap, its mass the reduced mass. A wall has neither.
+//!
+//! Sign convention: approach, forces and inward displacements are positive in compression. SI units.
+//! Limits: small strain (a/R of a few per cent), linear materials, frictionless contact; without modes of
+//! vibration, speeds far below the wave speeds.
 //!
 //! ```
 //! use fem_collision::BodyInput;

@@ -5,10 +5,10 @@
 //! \mathbf g = \mathbf g_0 - \delta + \sum_i \mathbf u_i \ge 0
 //! ```
 //!
-//! Newmark's formulas with γ = 1/2, β = 1/12 ([`BETA`]): the approach at the end of a step depends
-//! on the force there, which adds β Δt²/m* to every entry of the compliance. So do the relaxing
-//! springs and the masses of vibration modes ([`ViscoelasticModes`]); one contact problem with a constant
-//! matrix is solved a step.
+//! Newmark's formulas have γ = 1/2 and β = 1/12 ([`BETA`]). The approach at the end of a step depends
+//! on the force there, which adds β Δt²/m* to every entry of the compliance. Relaxing modes and modes of vibration
+//! ([`ViscoelasticModes`]) add to it in the same way. So one contact problem with a constant matrix is solved per
+//! step.
 
 use fem_collision::Stop;
 use fem_material::{ActsOn, PronySeries};
@@ -22,21 +22,21 @@ use crate::pair::CondensedPair;
 use crate::settings::ContactModel;
 use crate::settings::Damping;
 
-/// Share of the kinetic energy up to which work is given back at once.
+/// Share of the kinetic energy up to which the work correction is applied at once.
 const SMALL_SHARE: f64 = 1e-2;
 
-/// State of one body beside its elastic compliance.
+/// State of one body in addition to its elastic compliance.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BodyState {
-    /// Relaxing springs, if the body relaxes.
+    /// Relaxing modes, if the body relaxes.
     pub springs: Option<ViscoelasticModes>,
-    /// State of the slip of its surface, if there is any.
+    /// Slip of its surface, if included.
     pub slip: Option<ViscoelasticModes>,
-    /// The static response of the modes of vibration, taken away, and their dynamic response.
+    /// Static response of the modes of vibration, which is subtracted, and their dynamic response.
     pub vibration: Option<[ViscoelasticModes; 2]>,
 }
 
-/// Relative motion and contact at an instant.
+/// Relative motion and contact of both bodies.
 #[derive(Debug, Clone)]
 pub(crate) struct ImpactMotion<'a> {
     pair: &'a CondensedPair,
@@ -45,19 +45,19 @@ pub(crate) struct ImpactMotion<'a> {
     pub approach: f64,
     pub rate: f64,
     acceleration: f64,
-    /// m/s²; 0 without.
+    /// Gravity, m/s²; 0 if absent.
     gravity: f64,
     pub sides: [BodyState; 2],
-    /// Work of points that join and leave that was not given back yet, J.
+    /// Work of points that join and leave which is not corrected yet, J.
     excess_work: f64,
-    /// What of it came back in the last step, N s.
+    /// Momentum correction of the last step for points that joined or left, N s.
     pub momentum_of_joining: f64,
-    /// What points that joined in it add to the change of the force a step at its end, N.
+    /// Contribution of these points to the change of the force per step at the end of the step, N.
     pub missed_slope: f64,
-    /// Radiated waves of the bodies, if there are any.
+    /// Radiated waves of the bodies, if included.
     waves: Option<WaveRadiation>,
     solver: DiscContactSolver,
-    /// With more points closed the contact may reach beyond the last one.
+    /// Largest number of closed points with which the contact certainly ends before the last point.
     most_closed: usize,
     overlap: Vec<f64>,
     /// Forces at the points, N.
@@ -67,10 +67,10 @@ pub(crate) struct ImpactMotion<'a> {
 }
 
 impl<'a> ImpactMotion<'a> {
-    /// First touch at a relative speed (m/s), the first `n_points` points followed.
+    /// Creates the state at first touch at a relative speed (m/s), with the first `n_points` points.
     ///
     /// # Errors
-    /// Springs of a relaxing shear that cannot be made.
+    /// Modes of a relaxing shear modulus that cannot be computed.
     pub fn new(
         pair: &'a CondensedPair,
         speed: f64,
@@ -103,7 +103,7 @@ impl<'a> ImpactMotion<'a> {
             if let Some((slip, material)) = pair.settings().slip.zip(material) {
                 let series = series.filter(|series| series.relaxes());
                 let moduli = material.instantaneous();
-                let chain = slip.chain(which, moduli, series, time_step, n_points);
+                let chain = slip.mode(which, moduli, series, time_step, n_points);
                 chain.add_compliance(&mut compliance);
                 state.slip = Some(chain);
             }
@@ -139,7 +139,7 @@ impl<'a> ImpactMotion<'a> {
         })
     }
 
-    /// The same with gravity along the approach, m/s².
+    /// Adds gravity along the approach, m/s².
     pub fn with_gravity(self, gravity: f64) -> Self {
         Self { acceleration: gravity, gravity, ..self }
     }
@@ -152,21 +152,20 @@ impl<'a> ImpactMotion<'a> {
         self.solver.n_fallbacks
     }
 
-    /// q of each side, m²; 0 without slip.
+    /// Returns the slip q of each side, m²; 0 without slip.
     pub fn slipped(&self) -> [f64; 2] {
         self.sides.each_ref().map(|state| state.slip.as_ref().map_or(0.0, |c| c.displacement_at(0)))
     }
 
-    /// Overlap on the axis that the forces of the last step had to undo, m; ≤ 0 without contact.
+    /// Returns the overlap on the axis that the forces of the last step had to remove, m; ≤ 0 without contact.
     pub fn axis_overlap(&self) -> f64 {
         self.overlap[0]
     }
 
-    /// What of the force is not that of the continuum, since nodes join the contact one by one, N: the elastic
-    /// contact's at this approach, of which waves take a part. As long as a contact grows it is as large as without
-    /// relaxation (Ting 1966). What it makes of the force has relaxed as the force has: it is as large a share of it. 0
-    /// of springs, which join at points of elements.
-    pub fn swing(&self) -> f64 {
+    /// Returns the oscillation of the force as nodes enter the contact one at a time, N: its difference from that of
+    /// the continuum at this approach, reduced by radiation. In a growing contact it depends on the approach as
+    /// without relaxation (Ting 1966), and its share of the force is the elastic one. Springs at Gauss points have 0.
+    pub fn force_oscillation(&self) -> f64 {
         if self.contact.n_closed == 0 || self.pair.settings().contact != ContactModel::Exact {
             return 0.0;
         }
@@ -174,12 +173,12 @@ impl<'a> ImpactMotion<'a> {
         let approach = self.approach - of_waves;
         let elastic = self.pair.curve.force(approach);
         let lasting = if elastic > self.force { self.force / elastic } else { 1.0 };
-        lasting * self.pair.curve.swing(approach)
+        lasting * self.pair.curve.force_oscillation(approach)
     }
 
-    /// Overlap that springs leave at the point where that is largest, and its distance from the axis, m; none of
-    /// exact contact.
-    pub fn deepest_overlap(&self) -> Option<(f64, f64)> {
+    /// Returns the largest overlap of the penalty springs and its distance from the axis, m; `None` for exact
+    /// contact.
+    pub fn largest_overlap(&self) -> Option<(f64, f64)> {
         let CondensedPair { spring_compliance, points, .. } = self.pair;
         let closed = self.forces[..self.contact.n_closed].iter();
         let overlaps = closed.zip(spring_compliance).zip(points);
@@ -189,10 +188,11 @@ impl<'a> ImpactMotion<'a> {
             .max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// One step.
+    /// Advances the motion by one step.
     ///
     /// # Errors
-    /// No contact state, or a motion that is no number; a contact that reaches the last point, or with springs the last element.
+    /// No contact state is found, the motion is not finite, or the contact reaches the last point (with springs the
+    /// last element).
     pub fn advance(&mut self) -> Result<(), Stop> {
         let dt = self.time_step;
         let (approach, n_closed) = (self.approach, self.contact.n_closed);
@@ -210,7 +210,7 @@ impl<'a> ImpactMotion<'a> {
             self.overlap.iter_mut().for_each(|overlap| *overlap -= displacement);
         }
         let none = Stop::NoContactState { time: (self.step + 1) as f64 * dt };
-        // Numbers that are none would close all points: that is no wide contact.
+        // Numbers that are not finite would close all points, which is not a large contact.
         if !self.overlap.iter().all(|overlap| overlap.is_finite()) {
             return Err(none);
         }
@@ -238,16 +238,17 @@ impl<'a> ImpactMotion<'a> {
         Ok(())
     }
 
-    /// The work of a force that bends where points join or leave within a step. Newmark's formulas take the
-    /// trapezoid of it over the approach, and follow the smooth force whose energy is
+    /// Corrects the rate for the work of points that join or leave within a step, where the slope of the force
+    /// changes. Newmark's formulas integrate the force over the approach by the trapezoidal rule, and conserve
     ///
     /// ```math
     /// \tfrac12 m^*\dot\delta^2 + W + \tfrac1{12}\Delta t^2 k\dot\delta^2, \qquad k = W'' .
     /// ```
     ///
-    /// Point k, at ξ of the way, adds s² to the slope: of both together too much by s² Δδ² [½ ξ(1 − ξ) − 1/12], a mean
-    /// of zero, which the rate gets back; of a point that leaves it is the opposite. Near the turn, where there is no
-    /// rate, it waits. Takes the approach and the points closed before the step.
+    /// Point k joins at the share ξ of the step and adds s² to the slope k. The energy then has an error of
+    /// s² Δδ² [½ ξ(1 − ξ) − 1/12] with a mean of zero, which is returned to the rate; the sign is opposite for a point
+    /// that leaves. Near the turning point, where the rate vanishes, the correction is postponed. The arguments are
+    /// the approach and the number of closed points before the step.
     fn give_back(&mut self, approach: f64, n_closed: usize) {
         let bends = self.solver.bends(n_closed, self.contact.n_closed);
         let change = self.approach - approach;
@@ -263,8 +264,8 @@ impl<'a> ImpactMotion<'a> {
         }
     }
 
-    /// Energy stored in the bodies (J), in penalty springs (J), power that relaxation takes (W),
-    /// kinetic energy of the vibrations of each body (J), and what waves take.
+    /// Returns the energies in bodies, penalty springs and vibrations (J), and the power dissipated by relaxation and
+    /// radiated (W).
     pub fn energies(&self) -> MotionEnergies {
         let n = self.contact.n_closed;
         let forces = &self.forces[..n];
@@ -306,7 +307,7 @@ pub(crate) struct MotionEnergies {
     pub contact: f64,
     pub power: f64,
     pub vibration: [f64; 2],
-    /// Power that waves take out of each body, W, if they do.
+    /// Power that waves radiate from each body, W, if included.
     pub radiated_power: Option<[f64; 2]>,
 }
 
@@ -323,8 +324,8 @@ impl BodyState {
         let springs = match series {
             None => None,
             Some(series) if series.acts_on() == ActsOn::All => {
-                // Φ is lower triangular, with a few diagonals more where meshes do not match: columns
-                // of nodes further out than any that carries these points are zero.
+                // Φ is lower triangular, with a few more diagonals where meshes do not match: columns of nodes
+                // farther out than those of these points are zero.
                 let all = rows(&side.uniform);
                 let n_modes = (0..all.ncols())
                     .rposition(|j| (0..n_points).any(|i| all[(i, j)] != 0.0))

@@ -13,35 +13,34 @@ use crate::operators::body_operator::{
 use crate::operators::points::ContactPoints;
 use crate::settings::{ContactModel, PairSettings};
 
-/// A shear modulus that falls below this share within the elastic contact time is strongly relaxed: two blocks
-/// are 2e-5 off in the restitution of glass at 0.4 and 8e-4 at 0.06, and leave a spring that pushes bodies apart
-/// which should stay together.
+/// A shear modulus that falls below this share within the elastic contact time is strongly relaxed. With two blocks
+/// the error of the restitution of glass is 2e-5 at 0.4 and 8e-4 at 0.06, and a residual stiffness separates bodies
+/// that should stay together.
 const STRONG_RELAXATION: f64 = 0.4;
-/// The same of bodies that are softer against pressure, with a Poisson's ratio below [`SOFT_BULK`]: two blocks are
-/// 3e-4 off at 0.3 where that is 0.02 and 2e-3 where it is −0.5, 6e-3 and 3e-2 at 0.06.
+/// The same limit for bodies with a Poisson's ratio below [`SOFT_BULK`]. With two blocks the error is 3e-4 at 0.3 for
+/// a ratio of 0.02 and 2e-3 for −0.5; at 0.06 it is 6e-3 and 3e-2.
 const STRONG_OF_SOFT_BULK: f64 = 0.7;
 const SOFT_BULK: f64 = 0.2;
-/// Blocks that are enough then: 6e-5 off at most in the above.
+/// Sufficient number of blocks for strong relaxation; the error is at most 6e-5 in these cases.
 const STRONG_BLOCKS: usize = 4;
 
 /// Two bodies condensed to their contact.
 ///
-/// Everything that does not depend on speed or relaxation; collisions only read it, from any
-/// number of threads.
+/// A pair has all that does not depend on speed or relaxation. Collisions only read it, from any number of threads.
 #[derive(Debug)]
 pub struct CondensedPair {
     inputs: [BodyInput; 2],
     settings: PairSettings,
-    /// None of a rigid body.
+    /// Operators of the bodies; `None` for a rigid body.
     pub(crate) sides: [Option<BodyOperator>; 2],
-    /// None of a wall, kg.
+    /// Masses, kg; `None` for a wall.
     masses: [Option<f64>; 2],
     pub(crate) points: Vec<ContactPoint>,
-    /// The side whose nodes the points are; `None` for Gauss points.
+    /// Side whose nodes the points are; `None` for Gauss points.
     pub(crate) nodal_side: Option<usize>,
-    /// Nodes at which the pressure is taken.
+    /// Nodes at which the pressure is recovered.
     pub(crate) nodes: Vec<PressureNode>,
-    /// The other ones, where the meshes are staggered.
+    /// Nodes of the other surface, where the meshes are staggered.
     pub(crate) staggered: Option<Staggered>,
     /// Compliance of the penalty springs at the points, m/N.
     pub(crate) spring_compliance: Vec<f64>,
@@ -64,13 +63,13 @@ impl CondensedPair {
         }
         let [lower, upper] = &inputs;
         let surfaces = [surface(lower)?, surface(upper)?];
-        let ContactPoints { points, nodal_side, feet } = ContactPoints::new(&surfaces, &settings)?;
+        let ContactPoints { points, nodal_side, projections } = ContactPoints::new(&surfaces, &settings)?;
         let (mut sides, mut masses) = ([None, None], [None, None]);
-        for (side, (input, feet)) in inputs.iter().zip(feet).enumerate() {
+        for (side, (input, projections)) in inputs.iter().zip(projections).enumerate() {
             match input {
                 BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
                     let nodes = surfaces[side].nodes_within(f64::INFINITY);
-                    let side_made = BodyOperator::new(mesh, material, nodes, feet, &settings)?;
+                    let side_made = BodyOperator::new(mesh, material, nodes, projections, &settings)?;
                     masses[side] = (!mesh.is_half_space()).then_some(side_made.body.mass);
                     sides[side] = Some(side_made);
                 }
@@ -124,10 +123,10 @@ impl CondensedPair {
         })
     }
 
-    /// This pair condensed out to a larger radius, m.
+    /// Condenses this pair again out to a larger radius, m.
     ///
     /// # Errors
-    /// As [`CondensedPair::new`]; a radius that the smaller body's near hemisphere does not have.
+    /// Those of [`CondensedPair::new`]; a radius beyond the hemisphere of the smaller body.
     pub fn enlarge(&self, candidate_radius: f64) -> Result<Self, CondensedError> {
         let enlarged =
             Self::new(self.inputs.clone(), PairSettings { candidate_radius, ..self.settings })?;
@@ -139,13 +138,13 @@ impl CondensedPair {
         }
     }
 
-    /// Radius of the outermost point that can touch, m.
+    /// Returns the radius of the outermost point that can touch, m.
     pub fn candidate_radius(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.radius)
     }
 
-    /// Where contact is looked for.
-    pub fn searched(&self) -> CandidateRegion {
+    /// Returns the candidate region, in which contact is searched for.
+    pub fn candidate_region(&self) -> CandidateRegion {
         CandidateRegion {
             radius: self.candidate_radius(),
             n_points: self.n_points(),
@@ -153,7 +152,7 @@ impl CondensedPair {
         }
     }
 
-    /// Radius of the smaller sphere, m.
+    /// Returns the radius of the smaller sphere, m.
     pub fn smallest_radius(&self) -> f64 {
         let radii = self.inputs.iter().filter_map(|input| match input {
             BodyInput::Sphere { mesh, .. } => Some(mesh.radius()),
@@ -163,22 +162,22 @@ impl CondensedPair {
         radii.fold(f64::INFINITY, f64::min)
     }
 
-    /// m₁m₂/(m₁+m₂), kg; what is held counts as infinite.
+    /// Returns the reduced mass m₁m₂/(m₁+m₂), kg; held bodies have infinite mass.
     pub fn reduced_mass(&self) -> f64 {
         self.reduced_mass
     }
 
-    /// Masses, kg; infinite for a wall, a half-space and what is held.
+    /// Returns the masses, kg; infinite for a wall, a half-space and a held body.
     pub fn masses(&self) -> [f64; 2] {
         self.moving_masses().map(|mass| mass.unwrap_or(f64::INFINITY))
     }
 
-    /// Masses of the bodies that move, kg.
+    /// Returns the masses of the bodies that move, kg.
     fn moving_masses(&self) -> [Option<f64>; 2] {
         [0, 1].map(|side: usize| self.masses[side].filter(|_| !self.settings.held[side]))
     }
 
-    /// The lower body strikes the upper one at rest at this speed, m/s.
+    /// Returns the frame of a collision in which the lower body strikes the upper one at rest, at a speed in m/s.
     ///
     /// # Errors
     /// A speed that is not positive and finite.
@@ -187,7 +186,7 @@ impl CondensedPair {
         Ok(Frame { approach: Approach::at(speed)?, masses, reduced_mass, gravity: 0.0 })
     }
 
-    /// Properties of the bodies before the collision.
+    /// Returns the properties of the bodies before the collision.
     pub fn bodies_before(&self, frame: &Frame) -> [BodyResult; 2] {
         [0, 1].map(|side: usize| {
             let mesh = self.inputs[side].mesh();
@@ -201,12 +200,12 @@ impl CondensedPair {
         })
     }
 
-    /// Lumped masses of a body's nodes, kg; none for a rigid body.
+    /// Returns the lumped masses of a body's nodes, kg; none for a rigid body.
     pub fn nodal_masses(&self, side: usize) -> &[f64] {
         self.sides[side].as_ref().map_or(&[], |side| &side.body.nodal_mass)
     }
 
-    /// The bodies, lower first.
+    /// Returns the bodies, lower first.
     pub fn inputs(&self) -> &[BodyInput; 2] {
         &self.inputs
     }
@@ -216,7 +215,7 @@ impl CondensedPair {
         &self.settings
     }
 
-    /// ω² of each body's modes of vibration, rising, 1/s²; none for a rigid body or without modes.
+    /// Returns ω² of each body's modes of vibration in rising order, 1/s²; none for a rigid body or without modes.
     pub fn frequencies(&self) -> [&[f64]; 2] {
         self.sides.each_ref().map(|side| {
             let vibrations = side.as_ref().and_then(|side| side.vibrations.as_ref());
@@ -224,14 +223,14 @@ impl CondensedPair {
         })
     }
 
-    /// Number of points that can touch.
+    /// Returns the number of points that can touch.
     pub fn n_points(&self) -> usize {
         self.points.len()
     }
 
-    /// How many of the first `n_points` points may be closed, if all that could close further out is
-    /// to be seen. Springs at Gauss points close in any pattern within an element: a whole element,
-    /// the longer one of the two bodies, has to stay open. Of nodes it is one.
+    /// Returns how many of the first `n_points` points may be closed without a contact beyond them. Springs at Gauss
+    /// points close in any pattern within an element, so that the longer element of the two bodies has to stay open.
+    /// For nodes one point is sufficient.
     pub(crate) fn most_closed(&self, n_points: usize) -> usize {
         let Some(last) = n_points.checked_sub(1) else { return 0 };
         if self.nodal_side.is_some() {
@@ -241,37 +240,37 @@ impl CondensedPair {
         self.points[..last].partition_point(|point| point.radius < open)
     }
 
-    /// Length along r of the longer element of the two bodies at a point, m.
+    /// Returns the length along r of the longer element of the two bodies at a point, m.
     pub(crate) fn longest_element(&self, point: usize) -> f64 {
         let lengths =
-            self.inputs.iter().zip(&self.points[point].feet).filter_map(|(input, foot)| {
+            self.inputs.iter().zip(&self.points[point].projections).filter_map(|(input, projection)| {
                 let nodes = input.mesh()?.nodes();
-                let [inner, outer] = foot.nodes.map(|node| nodes[node as usize][0]);
+                let [inner, outer] = projection.nodes.map(|node| nodes[node as usize][0]);
                 Some(outer - inner)
             });
         lengths.fold(0.0, f64::max)
     }
 
-    /// Equations of both bodies.
+    /// Returns the number of equations of both bodies.
     pub fn n_equations(&self) -> usize {
         self.sides.iter().flatten().map(|side| side.body.numbering.n_equations).sum()
     }
 
-    /// Bytes of both factors.
+    /// Returns the size of both factors in bytes.
     pub fn factor_bytes(&self) -> usize {
         self.sides.iter().flatten().map(|side| side.body.bytes()).sum()
     }
 
-    /// The relaxations of the bodies' own materials.
+    /// Returns the relaxations of the bodies' own materials.
     pub fn relaxations(&self) -> [Option<&PronySeries>; 2] {
         self.inputs.each_ref().map(|input| input.material()?.relaxation())
     }
 
-    /// Makes what the first collision at this speed (m/s) with these relaxations would make: the
-    /// springs of a shear modulus that relaxes beside an elastic bulk modulus.
+    /// Computes in advance what the first collision at this speed (m/s) with these relaxations needs: the
+    /// modes of a relaxing shear modulus with an elastic bulk modulus.
     ///
     /// # Errors
-    /// As [`CondensedPair::elastic_impact`]; a stiffness that is not positive definite to rounding.
+    /// Those of [`CondensedPair::elastic_impact`]; a stiffness that is not positive definite to rounding.
     pub fn prepare(
         &self,
         speed: f64,
@@ -287,7 +286,7 @@ impl CondensedPair {
         Ok(())
     }
 
-    /// Blocks of the basis that a relaxation at a speed (m/s) needs.
+    /// Returns the number of blocks that the basis for a relaxation at a speed (m/s) needs.
     pub(crate) fn shear_blocks(
         &self,
         series: Option<&PronySeries>,
@@ -303,7 +302,7 @@ impl CondensedPair {
         Ok(if left < strong { usual.max(STRONG_BLOCKS) } else { usual })
     }
 
-    /// The elastic quasi-static collision at a relative speed, m/s, exact in time.
+    /// Computes the elastic quasi-static collision at a relative speed, m/s, exactly in time.
     ///
     /// # Errors
     /// A contact that reaches the end of the condensed region.
@@ -314,7 +313,7 @@ impl CondensedPair {
     }
 }
 
-/// The touching side of a body.
+/// Returns the contact surface of a body.
 pub(crate) fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
     match input {
         BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } => {
@@ -325,7 +324,7 @@ pub(crate) fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
     }
 }
 
-/// The mass of a rigid sphere (kg), by which it can be divided.
+/// Checks that the mass of a rigid sphere (kg) is positive and finite, and returns it.
 fn check_mass(mass: f64) -> Result<f64, CondensedError> {
     if mass > 0.0 && mass.is_normal() {
         return Ok(mass);

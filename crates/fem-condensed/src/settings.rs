@@ -4,39 +4,39 @@ use crate::error::CondensedError;
 use crate::operators::slip::Slip;
 use fem_material::PronySeries;
 
-/// How the surfaces resist overlap.
+/// The method that limits overlap of the surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactModel {
-    /// They do not overlap at the nodes.
+    /// Surfaces do not overlap at the nodes.
     Exact,
-    /// Penalty springs at Gauss points, those of the explicit model: stiffness per area times
-    /// element size, Pa.
+    /// Penalty springs at Gauss points, as in the explicit model. The value is stiffness per area times element size,
+    /// Pa.
     Springs(f64),
 }
 
 /// Settings of the condensation of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairSettings {
-    /// Radius out to which the surfaces are condensed, m; [`crate::CondensedPair::enlarge`] makes more.
+    /// Radius out to which the surfaces are condensed, m; see also [`crate::CondensedPair::enlarge`].
     pub candidate_radius: f64,
-    /// How overlap is prevented.
+    /// Method that limits overlap.
     pub contact: ContactModel,
-    /// Least blocks of the basis for a relaxing shear beside an elastic bulk modulus; 2 is the
-    /// default. A modulus that falls to nearly nothing gets more.
+    /// Smallest number of blocks of the basis for a relaxing shear modulus with an elastic bulk modulus; the default
+    /// is 2. A modulus that falls to nearly zero gets more.
     pub shear_blocks: usize,
-    /// Modes of free vibration of each sphere; 0 is quasi-static.
+    /// Number of modes of free vibration of each sphere; 0 is quasi-static.
     pub vibration_modes: usize,
-    /// Bodies whose mass centres do not move, whatever strikes them; lower first.
+    /// Bodies whose mass centres are held fixed, lower first.
     pub held: [bool; 2],
-    /// How the surfaces of unlike bodies slip on each other; facing points move alike without.
+    /// Slip between the surfaces of unlike bodies, if included.
     pub slip: Option<Slip>,
-    /// Whether factors are kept for fields, for a modulus that relaxes beside an elastic one, and for modes;
-    /// without, they are made where these are asked for.
+    /// Whether factors are kept for fields, for a relaxing shear modulus with an elastic bulk modulus, and for modes.
+    /// Otherwise they are computed again on request.
     pub keeps_factors: bool,
 }
 
 impl PairSettings {
-    /// Exact contact, two blocks, no vibration, no body held, no slip, factors kept.
+    /// Creates settings with exact contact, two blocks, no vibration, no held body, no slip, and kept factors.
     pub fn new(candidate_radius: f64) -> Self {
         Self {
             candidate_radius,
@@ -50,12 +50,12 @@ impl PairSettings {
     }
 }
 
-/// Dissipation in both bodies, the lower one first. Relaxations alone stand for it:
+/// Dissipation in both bodies, the lower one first. A pair of relaxations converts to it:
 ///
 /// ```
 /// use fem_condensed::Damping;
 ///
-/// // The lower body is large: it radiates γ = C/(μ c_s), s m/N.
+/// // The lower body is large and radiates with γ = C/(μ c_s), s m/N.
 /// let waves = Damping { radiation: [Some(2.4e-15), None], ..Damping::default() };
 /// assert_eq!(Damping::from([None, None]), Damping { radiation: [None, None], ..waves });
 /// ```
@@ -63,8 +63,8 @@ impl PairSettings {
 pub struct Damping<'a> {
     /// Relaxation of each body; `None` is elastic.
     pub relaxations: [Option<&'a PronySeries>; 2],
-    /// γ = C(ν)/(μ c_s) of each body that sends waves out which do not come back within the contact, s
-    /// m/N; `None` of one that does not. It radiates γ Ḟ².
+    /// Radiation coefficient γ = C(ν)/(μ c_s) of each body whose waves do not return within the contact, s m/N;
+    /// `None` for other bodies. The radiated power is γ Ḟ².
     pub radiation: [Option<f64>; 2],
 }
 
@@ -76,7 +76,7 @@ impl<'a> From<[Option<&'a PronySeries>; 2]> for Damping<'a> {
 
 impl Damping<'_> {
     /// # Errors
-    /// A radiation that is negative or not finite.
+    /// A radiation coefficient that is negative or not finite.
     pub(crate) fn check(&self) -> Result<(), CondensedError> {
         let is_wrong = |value: &f64| !(*value >= 0.0 && value.is_finite());
         match self.radiation.into_iter().flatten().find(is_wrong) {

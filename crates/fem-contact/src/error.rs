@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why no contact interface can be made.
+/// The reason why no contact interface can be built.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ContactError {
     /// Neither body can deform.

@@ -18,24 +18,24 @@ pub struct ContactForces {
     pub overlap_radius: f64,
     /// Whether the outermost candidate point is closed.
     pub at_limit: bool,
-    /// Where a surface turns over that the other one touches there, so that it is not a graph over the
-    /// radius any more; only of moved surfaces.
-    pub turn: Option<SurfaceFold>,
+    /// Fold of a surface that is in contact there, so that it is no longer a function of the radius. Only moved
+    /// surfaces have one.
+    pub fold: Option<SurfaceFold>,
 }
 
-/// Where a surface turns over.
+/// The place where a surface folds: from there on it does not run outward from node to node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceFold {
-    /// 0 of the lower body, 1 of the upper.
+    /// Number of the body: 0 lower, 1 upper.
     pub side: usize,
-    /// Node of that body that has come as near to the axis as the one before it.
+    /// Node of that body which is no farther from the axis than the node before it.
     pub node: u32,
     /// Distance from the axis, m.
     pub radius: f64,
 }
 
 impl ContactForces {
-    /// Notes the gap (m) of a closed point at a distance from the axis, m.
+    /// Updates the largest overlap by the gap (m) of a closed point at a distance from the axis, m.
     pub(crate) fn note_overlap(&mut self, gap: f64, radius: f64) {
         if -gap > self.overlap {
             (self.overlap, self.overlap_radius) = (-gap, radius);
@@ -55,27 +55,27 @@ impl SurfaceProjection {
 }
 
 impl ContactPoint {
-    /// Gap (m) for displacements along y of the nodes of the lower and the upper body.
+    /// Returns the gap (m) for displacements along y of the nodes of the lower and the upper body.
     fn gap_of(&self, displacement: &[impl Fn(u32) -> f64; 2]) -> f64 {
         let [lower, upper] = [0, 1].map(|side: usize| {
-            let foot = &self.feet[side];
-            foot.shape[0] * displacement[side](foot.nodes[0])
-                + foot.shape[1] * displacement[side](foot.nodes[1])
+            let projection = &self.projections[side];
+            projection.shape[0] * displacement[side](projection.nodes[0])
+                + projection.shape[1] * displacement[side](projection.nodes[1])
         });
         self.initial_gap + (upper - lower)
     }
 }
 
 impl ContactInterface {
-    /// Gap at point k for displacements (u_r, u_y) of the lower and the upper
-    /// body, m; negative when closed.
+    /// Returns the gap at point k for displacements (u_r, u_y) of the lower and the upper body, m; negative when
+    /// closed.
     pub fn gap(&self, k: usize, u: [&[[f64; 2]]; 2]) -> f64 {
         let point = &self.points[k];
-        point.initial_gap + (point.feet[1].displacement(u[1]) - point.feet[0].displacement(u[0]))
+        point.initial_gap + (point.projections[1].displacement(u[1]) - point.projections[0].displacement(u[0]))
     }
 
     /// Adds the contact forces (N) of displacements `u` (m) to `f`; both are
-    /// given for the lower and the upper body, one pair (r, y) a node.
+    /// given for the lower and the upper body, one pair (r, y) per node.
     pub fn add_forces(&self, u: [&[[f64; 2]]; 2], f: [&mut [[f64; 2]]; 2]) -> ContactForces {
         let mut total = ContactForces::default();
         let [f_lower, f_upper] = f;
@@ -83,8 +83,8 @@ impl ContactInterface {
             let gap = self.gap(k, u);
             if gap < 0.0 {
                 let force = -point.stiffness * point.area * gap;
-                point.feet[0].add(-force, f_lower);
-                point.feet[1].add(force, f_upper);
+                point.projections[0].add(-force, f_lower);
+                point.projections[1].add(force, f_upper);
                 total.force += force;
                 total.energy -= 0.5 * force * gap;
                 total.n_closed += 1;
@@ -95,13 +95,12 @@ impl ContactInterface {
         total
     }
 
-    /// Whether any point is closed for the given displacements along y of the
-    /// candidate nodes.
+    /// Returns whether any point is closed for the given displacements along y of the candidate nodes.
     pub fn is_closed(&self, displacement: [impl Fn(u32) -> f64; 2]) -> bool {
         self.points.iter().any(|point| point.gap_of(&displacement) < 0.0)
     }
 
-    /// Total force (N) for the given displacements along y of the candidate nodes, m.
+    /// Returns the total force (N) for the given displacements along y of the candidate nodes, m.
     pub fn force(&self, displacement: [impl Fn(u32) -> f64; 2]) -> f64 {
         let force = |point: &ContactPoint| {
             point.stiffness * point.area * (-point.gap_of(&displacement)).max(0.0)
@@ -109,8 +108,8 @@ impl ContactInterface {
         self.points.iter().map(force).sum()
     }
 
-    /// Signed penalty pressure −k g at every point with its radius: the contact
-    /// pressure where positive.
+    /// Returns the signed penalty pressure −k g at every point with its radius; positive values are the contact
+    /// pressure.
     pub(crate) fn signed_pressure<'a>(
         &'a self,
         u: [&'a [[f64; 2]]; 2],

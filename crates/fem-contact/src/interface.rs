@@ -17,12 +17,12 @@ pub struct ContactPoint {
     /// Penalty stiffness per area, Pa/m; infinite where no overlap is allowed.
     pub stiffness: f64,
     /// Lower and upper body.
-    pub feet: [SurfaceProjection; 2],
+    pub projections: [SurfaceProjection; 2],
 }
 
 impl ContactPoint {
-    /// At a radius (m) of both surfaces, with its area, m²; stiffness (Pa) and gap (m) as of
-    /// [`ContactInterface::new`].
+    /// Creates the point at a radius (m) of both surfaces, with its area (m²). Stiffness (Pa) and gap (m) are
+    /// those of [`ContactInterface::new`].
     pub(crate) fn between(
         surfaces: &[Surface; 2],
         radius: f64,
@@ -37,7 +37,7 @@ impl ContactPoint {
             area,
             initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
             stiffness: stiffness / length,
-            feet: std::array::from_fn(|side| surfaces[side].foot(located[side])),
+            projections: std::array::from_fn(|side| surfaces[side].project(located[side])),
         }
     }
 }
@@ -48,12 +48,12 @@ pub struct ContactInterface {
     pub(crate) points: Vec<ContactPoint>,
     pub(crate) surfaces: [Surface; 2],
     pub(crate) candidate_radius: f64,
-    /// How many times a spring counts at the nodes of the lower and of the upper body, if it is
-    /// always closed, and what a shorter step asks for; see [`ContactInterface::add_stiffness_bound`].
-    pub(crate) springs: [f64; 2],
+    /// Factors on the springs in the stiffness bound of the lower and the upper body; see
+    /// [`ContactInterface::add_stiffness_bound`].
+    pub(crate) bound_factors: [f64; 2],
 }
 
-/// Shorter pieces than this share of a segment are joined to the next: springs there would carry nothing
+/// Intervals shorter than this share of a segment are joined to the next: their springs would carry nothing
 /// and cost as much as others.
 const SLIVER: f64 = 1e-3;
 
@@ -94,61 +94,59 @@ impl ContactInterface {
             }
         }
         let candidate_radius = cuts[cuts.len() - 1];
-        Ok(Self { points, springs: springs(&surfaces), surfaces, candidate_radius })
+        Ok(Self { points, bound_factors: bound_factors(&surfaces), surfaces, candidate_radius })
     }
 
-    /// With the bound of the stiffness shared between a rigid sphere and the other body by their
-    /// masses, so that a heavy one shortens the time step no more than a wall does: `ratio` is its
-    /// mass over that of the other body, > 0. Nothing changes if both bodies deform, or beside a
-    /// wall.
+    /// Divides the stiffness bound between a rigid sphere and the other body by their masses, so that a heavy
+    /// rigid sphere shortens the time step no more than a wall does. `ratio` > 0 is its mass over that of the
+    /// other body. Nothing changes if both bodies deform, or against a wall.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
-        share_by_mass(&self.surfaces, ratio, &mut self.springs);
+        share_by_mass(&self.surfaces, ratio, &mut self.bound_factors);
         self
     }
 
-    /// With springs that count so many times more in the bound of the stiffness: of a step that is to follow
-    /// them as they open and close, where they are so stiff that little else decides what a node does.
+    /// Multiplies the springs in the stiffness bound by a factor. The shorter time step then follows very stiff
+    /// springs as they open and close.
     #[must_use]
     pub fn with_shorter_steps(mut self, times: f64) -> Self {
-        self.springs = self.springs.map(|springs| times * springs);
+        self.bound_factors = self.bound_factors.map(|factor| times * factor);
         self
     }
 
-    /// Radius out to which contact is looked for, m.
+    /// Returns the radius of the candidate region, in which contact is searched for, m.
     pub fn candidate_radius(&self) -> f64 {
         self.candidate_radius
     }
 
-    /// The Gauss points, from the axis outward.
+    /// Returns the integration points, from the axis outward.
     pub fn points(&self) -> &[ContactPoint] {
         &self.points
     }
 
-    /// Number of integration points.
+    /// Returns the number of integration points.
     pub fn n_points(&self) -> usize {
         self.points.len()
     }
 
-    /// Nodes of a side (0 lower, 1 upper) out to the candidate radius.
+    /// Returns the nodes of a side (0 lower, 1 upper) out to the candidate radius.
     pub fn candidate_nodes(&self, side: usize) -> impl Iterator<Item = u32> + Clone + '_ {
         self.surfaces[side].nodes_within(self.candidate_radius).iter().copied()
     }
 
-    /// Adds a bound of the contact stiffness at each node (N/m) of a side
-    /// (0 lower, 1 upper): the penalty springs are at most this diagonal,
-    /// whichever of them are closed.
+    /// Adds a bound of the contact stiffness at each node (N/m) of a side (0 lower, 1 upper). The stiffness
+    /// matrix of the penalty springs is at most this diagonal, whichever of them are closed.
     ///
-    /// A spring between two bodies, k (a − b)², is at most (1 + θ) k a² + (1 + 1/θ) k b² for any
-    /// θ > 0, and a² of interpolated a is at most Σ N a_i² (Jensen). θ is 1; against a wall it is 0,
-    /// against a rigid sphere at most 1 and otherwise its own mass m_a over the sphere's m_b (see
-    /// [`ContactInterface::with_rigid_mass`]), which gives the sphere on all springs the frequency of
-    /// two rigid bodies, k/m_a + k/m_b. The whole is taken four times, for opening and closing.
+    /// A spring between two bodies, k (a − b)², is at most (1 + θ) k a² + (1 + 1/θ) k b² for any θ > 0, and a² of
+    /// an interpolated a is at most Σ N a_i² (Jensen). Between two deformable bodies θ is 1, against a wall 0.
+    /// Against a rigid sphere θ is the body's mass m_a over the sphere's m_b, at most 1 (see
+    /// [`ContactInterface::with_rigid_mass`]): the sphere on all springs then has the frequency of two rigid
+    /// bodies, k/m_a + k/m_b. The sum is multiplied by 4, because springs open and close.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
-        self.add_weighted_bound(side, self.springs[side], bound, |_| 1.0);
+        self.add_weighted_bound(side, self.bound_factors[side], bound, |_| 1.0);
     }
 
-    /// The same where the other body's surface stays where it is, whatever this one does: θ is 0.
+    /// Adds the same bound for a fixed surface of the other body: θ is 0.
     pub fn add_bound_against_held(&self, side: usize, bound: &mut [f64]) {
         self.add_weighted_bound(side, 1.0, bound, |_| 1.0);
     }
@@ -164,34 +162,33 @@ impl ContactInterface {
         for point in &self.points {
             let springs = springs * factor(point);
             let stiffness = OPENING_SAFETY * springs * point.stiffness * point.area;
-            let foot = &point.feet[side];
-            for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {
+            let projection = &point.projections[side];
+            for (&node, &shape) in projection.nodes.iter().zip(&projection.shape) {
                 bound[node as usize] += stiffness * shape;
             }
         }
     }
 }
 
-/// How many times a spring counts at the nodes of each side; see
-/// [`ContactInterface::add_stiffness_bound`].
-pub(crate) fn springs(surfaces: &[Surface; 2]) -> [f64; 2] {
+/// Returns the factors 1 + θ on the springs of each side; see [`ContactInterface::add_stiffness_bound`].
+pub(crate) fn bound_factors(surfaces: &[Surface; 2]) -> [f64; 2] {
     [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 })
 }
 
-/// The same of a rigid sphere by its mass over that of the other body; see
+/// Sets the factors for a rigid sphere by its mass over that of the other body; see
 /// [`ContactInterface::with_rigid_mass`].
-pub(crate) fn share_by_mass(surfaces: &[Surface; 2], ratio: f64, springs: &mut [f64; 2]) {
+pub(crate) fn share_by_mass(surfaces: &[Surface; 2], ratio: f64, factors: &mut [f64; 2]) {
     for (side, surface) in surfaces.iter().enumerate() {
         if surface.is_rigid() && !surface.is_wall() {
             // Beyond the upper limit it is a wall to rounding.
             let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
-            springs[side] = 1.0 + ratio;
-            springs[1 - side] = 1.0 + ratio.recip();
+            factors[side] = 1.0 + ratio;
+            factors[1 - side] = 1.0 + ratio.recip();
         }
     }
 }
 
-/// Whether two surfaces can be in contact by springs of this stiffness (Pa) out to a radius, m.
+/// Checks that springs of this stiffness (Pa) can join two surfaces out to a radius, m.
 pub(crate) fn check_springs(
     surfaces: [&Surface; 2],
     stiffness: f64,
@@ -207,7 +204,7 @@ pub(crate) fn check_springs(
     Ok(())
 }
 
-/// Whether two surfaces can be in contact.
+/// Checks that two surfaces can be in contact.
 pub(crate) fn check(surfaces: [&Surface; 2]) -> Result<(), ContactError> {
     if surfaces.iter().all(|surface| surface.is_rigid()) {
         return Err(ContactError::BothRigid);
@@ -239,7 +236,7 @@ fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
     radii
 }
 
-/// Mean length of the segments at a point, a rigid body's not counted.
+/// Returns the mean length of the deformable bodies' segments at a point.
 pub(crate) fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
     let lengths = [0, 1].map(|side| {
         let surface = &surfaces[side];
@@ -277,8 +274,8 @@ mod tests {
             // Rounding of numbers of size 2.
             assert!((point.initial_gap - (0.3 + arcs)).abs() < 2e-15);
             for side in 0..2 {
-                // Both feet stand at the point.
-                let SurfaceProjection { nodes, shape } = point.feet[side];
+                // Both projections stand at the point.
+                let SurfaceProjection { nodes, shape } = point.projections[side];
                 let surface = &surfaces[side];
                 let at = |node: u32| {
                     surface.radii[surface.nodes.iter().position(|&n| n == node).unwrap()]

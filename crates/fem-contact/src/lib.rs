@@ -1,27 +1,25 @@
 //! Frictionless penalty contact between two bodies of revolution.
 //!
-//! The bodies lie on either side of the plane y = 0 and press along y, the
-//! common normal of the flattened contact: for small strain and a contact
-//! radius a, the interface of two unlike spheres tilts by less than a/(4R), so
-//! the pressure's radial part is second order in a/R.
+//! The bodies lie on either side of the plane y = 0 and press along y, the common normal of the flattened
+//! contact. For small strain and a contact radius a, the interface of two unlike spheres tilts by less than
+//! a/(4R), so the radial part of the pressure is of second order in a/R.
 //!
 //! ```math
 //! g(r) = g_0(r) + u_y^{upper}(r) - u_y^{lower}(r), \qquad
 //! p = k \langle -g \rangle, \qquad k = f E^* / h
 //! ```
 //!
-//! g₀ is the distance of the true arcs, not of the chords. The pressure is
-//! integrated over both boundaries at once: the interface is cut at every node
-//! of either body and each piece carries two Gauss points, so that neither body
-//! is master or slave, forces balance to rounding, and a piece that is half in
-//! contact carries about half the load. Points at the nodes instead
-//! ([`ContactInterface::node_to_surface`]) are noisier and gain more energy.
+//! g₀ is the distance of the true arcs, not of the chords. The pressure is integrated over both boundaries at
+//! once ([`ContactInterface`]): the interface is cut at every node of either body, and each interval has two Gauss
+//! points. So neither body is master or slave, forces balance to rounding, and an interval that is half in contact
+//! carries about half the load. Springs at the nodes instead ([`ContactInterface::node_to_surface`]) are noisier
+//! and gain more energy.
 //!
-//! Where strains are not small, and where slip between unlike bodies matters, [`MovedInterface`] has the
-//! same springs between the surfaces where they are now.
+//! [`SlippingInterface`] adds slip between unlike bodies, to first order. [`MovedInterface`] integrates over the
+//! deformed surfaces, for strains that are not small. [`NodalContact`] has points without overlap at the nodes.
 //!
-//! Sign convention: gap > 0 is open; the force is positive and acts on the
-//! lower body along −y, on the upper along +y.
+//! Sign convention: gap > 0 is open; the force is positive and acts on the lower body along −y, on the upper
+//! along +y.
 
 mod error;
 mod evaluate;
@@ -40,7 +38,7 @@ pub use evaluate::{ContactForces, SurfaceFold};
 pub use interface::{ContactInterface, ContactPoint};
 pub use moved::MovedInterface;
 pub use nodal::NodalContact;
-pub use pressure_recovery::{ContactEnforcement, Reading, centre_pressure, contact_radius};
+pub use pressure_recovery::{ContactEnforcement, RecoverySurfaces, centre_pressure, contact_radius};
 pub use profile::{Profile, ProfilePoint, facing};
 pub use slip::{Displacement, SlippingGap, SlippingInterface};
 pub use surface::{Surface, SurfaceProjection};

@@ -1,8 +1,7 @@
 //! Contact at the nodes of one surface, without overlap.
 //!
-//! Where two meshes match, each pair of nodes is a point. Where they do not, the coarser surface
-//! gives the points, so that the points resolve the pressure, and the displacement of the finer one
-//! is projected on them (mortar method):
+//! Where two meshes match, each pair of nodes is a point. Where they do not, the points are the nodes of the coarser
+//! surface, and the displacement of the finer one is projected on them (mortar method):
 //!
 //! ```math
 //! u_k = \sum_j D_{kj} u_j, \qquad
@@ -11,9 +10,8 @@
 //!
 //! with the hats φ of the coarser and N of the finer surface, and ψ dual to φ, so that D is the unit
 //! matrix for meshes that match (Wohlmuth 2000). A force at a point acts on its own node and, with
-//! the shares D, on nodes of the other body: a smooth pressure stays smooth there. Put on the
-//! nearest nodes alone it would dig into the finer mesh: 1 % of the contact time at twice the
-//! resolution.
+//! the shares D, on nodes of the other body, where a smooth pressure stays smooth. Forces on the nearest nodes
+//! alone would indent the finer mesh; at twice the resolution this changes the contact time by 1 %.
 
 use std::f64::consts::PI;
 
@@ -26,9 +24,9 @@ use crate::surface::Surface;
 /// Points at the nodes of one of two surfaces.
 #[derive(Debug, Clone)]
 pub struct NodalContact {
-    /// From the axis outward, their areas the loads of unit pressure.
+    /// Points from the axis outward; their areas are the loads of unit pressure.
     pub points: Vec<ContactPoint>,
-    /// The side whose nodes they are: 0 lower, 1 upper.
+    /// Side whose nodes they are: 0 lower, 1 upper.
     pub side: usize,
     /// For each point the nodes of the other surface, counted from the axis outward, and their
     /// weights, which sum to 1; empty for a rigid body.
@@ -36,7 +34,7 @@ pub struct NodalContact {
 }
 
 impl NodalContact {
-    /// Points out to `candidate_radius` (m); `gap` (m) separates the poles.
+    /// Creates the points out to `candidate_radius` (m); `gap` (m) separates the poles.
     ///
     /// # Errors
     /// Two rigid bodies or planes; a radius that is not positive and finite.
@@ -68,7 +66,7 @@ impl NodalContact {
                 area: neighbours.map(share).sum(),
                 initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
                 stiffness: f64::INFINITY,
-                feet: surfaces.map(|surface| surface.foot(surface.locate(radius))),
+                projections: surfaces.map(|surface| surface.project(surface.locate(radius))),
             }
         });
         let shares = (0..n).map(|k| match other.is_rigid() {
@@ -82,7 +80,7 @@ impl NodalContact {
 /// Shares below this are rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Row k of D, between surfaces with nodes at these radii (m).
+/// Returns row k of D, between surfaces with nodes at these radii (m).
 fn project(own: &[f64], k: usize, other: &[f64]) -> Vec<(usize, f64)> {
     let mut row: Vec<(usize, f64)> = Vec::new();
     let inner = k.checked_sub(1).map(|inner| ([own[inner], own[k]], 1));
@@ -108,8 +106,8 @@ fn project(own: &[f64], k: usize, other: &[f64]) -> Vec<(usize, f64)> {
     row
 }
 
-/// Values at both ends of a segment of the function that is dual to the hat of one of them:
-/// M ψ = m e, with the mass matrix M of the segment and the hat's own integral m.
+/// Returns the values at both ends of a segment of the function that is dual to the hat of one of them:
+/// M ψ = m e, with the mass matrix M of the segment and the integral m of the hat.
 fn dual_hat([start, end]: [f64; 2], corner: usize) -> [f64; 2] {
     let (mut mass, mut integral) = ([[0.0; 2]; 2], 0.0);
     for (r, weight) in gauss(start, end) {
@@ -128,7 +126,7 @@ fn dual_hat([start, end]: [f64; 2], corner: usize) -> [f64; 2] {
     values
 }
 
-/// Two Gauss points with 2π r dr, exact for a product of two linear functions.
+/// Returns two Gauss points with 2π r dr, exact for a product of two linear functions.
 fn gauss(from: f64, to: f64) -> [(f64, f64); 2] {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     [-1.0, 1.0].map(|sign| {

@@ -1,20 +1,20 @@
 //! Springs at the nodes of each surface, against the other one.
 //!
-//! The penalty contact of textbooks (Wriggers, Computational Contact Mechanics, 2006, ch. 9) in two passes:
+//! This is the penalty contact of textbooks (Wriggers, Computational Contact Mechanics, 2006, ch. 9) in two passes:
 //! first the nodes of one body are slaves of the other's surface, then the reverse. A node's spring has
-//! the area of its hat function, ∫ N 2πr dr, half of it in each pass; against a rigid body there is one
-//! pass. It stands here to be compared with [`ContactInterface::new`]: a point that closes brings the
+//! half the area of its hat function, ∫ N 2πr dr, in each pass; against a rigid body there is one pass with the
+//! whole area. The method serves for comparison with [`ContactInterface::new`]: a point that closes adds the
 //! spring of a whole element at once.
 
 use fem_mesh::segment_measures;
 
 use crate::error::ContactError;
-use crate::interface::{ContactInterface, ContactPoint, check_springs, springs};
+use crate::interface::{ContactInterface, ContactPoint, bound_factors, check_springs};
 use crate::surface::Surface;
 
 impl ContactInterface {
-    /// Springs at the nodes of both surfaces out to `candidate_radius` (m); stiffness (Pa) and gap (m) as
-    /// of [`ContactInterface::new`].
+    /// Creates springs at the nodes of both surfaces out to `candidate_radius` (m). Stiffness (Pa) and gap (m) are
+    /// those of [`ContactInterface::new`].
     ///
     /// # Errors
     /// Two rigid bodies or planes; a radius or a stiffness that is not positive and finite.
@@ -39,11 +39,11 @@ impl ContactInterface {
             .collect();
         points.sort_by(|a, b| a.radius.total_cmp(&b.radius));
         let candidate_radius = points.last().map_or(limit, |point| point.radius);
-        Ok(Self { points, springs: springs(&surfaces), surfaces, candidate_radius })
+        Ok(Self { points, bound_factors: bound_factors(&surfaces), surfaces, candidate_radius })
     }
 }
 
-/// ∫ N 2πr dr of the hat of the k-th of these radii (m), m².
+/// Returns ∫ N 2πr dr of the hat function of the k-th of these radii (m), m².
 fn hat_area(radii: &[f64], k: usize) -> f64 {
     let share = |neighbour: f64| segment_measures([neighbour, 0.0], [radii[k], 0.0])[1];
     let neighbours = [k.checked_sub(1), Some(k + 1)];

@@ -1,10 +1,10 @@
 //! Contact profile at an instant, from the axis outward.
 //!
-//! Nodes are those at which pressures are read, of the coarser of the surfaces that deform. What is read there
-//! is the force on a node over its area, near the axis without what elements take off it
-//! there ([`centre_pressure`](crate::centre_pressure)). A gap is the mean over the same surroundings: single
-//! points swing as their pressures do. A [closed](Profile::closed) profile has pressures in place of means, and
-//! ends where the contact does.
+//! The nodes are those of the coarser deformable surface. The pressure there is the force on the node over the
+//! area of its hat function, near the axis corrected for discretisation
+//! ([`centre_pressure`](crate::centre_pressure)). The gap is the mean over the same hat function, because gaps of
+//! single points oscillate as their pressures do. A [closed](Profile::closed) profile has pointwise pressures in
+//! place of means, and includes the edge of the contact.
 
 use crate::interface::ContactInterface;
 use crate::pressure::coarser;
@@ -14,50 +14,49 @@ use crate::pressure_recovery::{
 use crate::slip::SlippingInterface;
 use crate::surface::Surface;
 
-/// Places inside the contact that a closed profile has beside the nodes.
+/// Number of radii inside the contact that a closed profile has beside the nodes.
 const N_PLACES: usize = 32;
-/// Nodes beyond those at which contact is looked for.
+/// Number of nodes beyond the candidate region.
 pub(crate) const N_BEYOND: usize = 5;
-/// Nearer to a node than this share of the radius there is no other place.
+/// Least distance of such a radius from a node, over the contact radius.
 const APART: f64 = 1e-3;
 
-/// One distance from the axis.
+/// The contact at one distance from the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfilePoint {
-    /// Whether a node is there.
+    /// Whether the point is a node.
     pub is_node: bool,
     /// Distance from the axis, m.
     pub radius: f64,
     /// Contact pressure, Pa.
     pub pressure: f64,
-    /// y of the upper less that of the lower surface, m; negative by what springs overlap.
+    /// y of the upper less that of the lower surface, m; negative where springs overlap.
     pub gap: f64,
     /// Displacement along r of the lower and the upper surface, m.
     pub radial: [f64; 2],
 }
 
-/// The contact at an instant.
+/// The contact profile at an instant.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Profile {
-    /// Where the pressure falls to zero, m; 0 without contact.
+    /// Radius at which the pressure falls to zero, m; 0 without contact.
     pub contact_radius: f64,
-    /// What the nodes carry, N.
+    /// Sum of the nodal forces, N.
     pub force: f64,
-    /// From the axis outward, as far as contact is looked for.
+    /// Points from the axis outward, to a few nodes beyond the candidate region.
     pub points: Vec<ProfilePoint>,
 }
 
 impl Profile {
-    /// Of pressures at nodes from the axis outward (r in m, p in Pa), the radius (m) out to which they reach, and
-    /// what gap (m) and radial displacements (m) there are at each node; nothing where there is none. A point a
-    /// node, with the mean of the pressure around it.
+    /// Creates the profile from mean pressures at nodes from the axis outward (r in m, p in Pa), the contact radius
+    /// (m), and gap and radial displacements (m) of each node. Nodes without a gap are left out.
     pub fn new(
         nodes: impl Iterator<Item = (f64, f64)> + Clone,
         contact_radius: f64,
-        barrier: ContactEnforcement,
+        enforcement: ContactEnforcement,
         facing: impl Iterator<Item = Option<(f64, [f64; 2])>>,
     ) -> Self {
-        let pressures = pressure_profile(nodes.clone(), contact_radius, barrier);
+        let pressures = pressure_profile(nodes.clone(), contact_radius, enforcement);
         let force = carried_force(nodes.clone());
         let rows = nodes.zip(pressures).zip(facing);
         let point = |(((radius, _), pressure), facing): (((f64, f64), f64), Option<_>)| {
@@ -65,13 +64,13 @@ impl Profile {
             facing.map(at)
         };
         let mut points: Vec<ProfilePoint> = rows.filter_map(point).collect();
-        // Of the last node only the inner half of its surroundings is looked at.
+        // Only the inner half of the last node's hat function is in the candidate region.
         points.pop();
         Self { contact_radius, force, points }
     }
 
-    /// With nodes further out, where contact is not looked for: their distances from the axis (m), from the last
-    /// outward, gaps (m) and radial displacements, m.
+    /// Adds nodes beyond the candidate region: their distances from the axis (m), from the last outward, gaps (m)
+    /// and radial displacements, m.
     pub fn extended(mut self, nodes: impl Iterator<Item = (f64, (f64, [f64; 2]))>) -> Self {
         self.points.extend(nodes.map(|(radius, (gap, radial))| ProfilePoint {
             is_node: true,
@@ -83,8 +82,8 @@ impl Profile {
         self
     }
 
-    /// Where the nodes are that come after the last (m), some of them, for surfaces that can touch out to a
-    /// radius, m.
+    /// Returns the radii (m) of the nodes after the last one, at most [`N_BEYOND`], for surfaces that can touch out
+    /// to a radius, m.
     pub fn nodes_beyond(
         &self,
         surfaces: [&Surface; 2],
@@ -97,9 +96,9 @@ impl Profile {
         beyond.take(N_BEYOND).collect::<Vec<f64>>().into_iter()
     }
 
-    /// With the pressure at each node in place of its mean, none outside of the contact radius, and with the edge
-    /// and points between: straight lines between all carry the force to 0.5 %. Displacements between
-    /// nodes are on straight lines; at the edge the surfaces part.
+    /// Replaces mean pressures by those at the nodes, zero outside of the contact radius, and adds the edge and
+    /// points between nodes. Linear interpolation between all points carries the force to 0.5 %. Displacements are
+    /// interpolated linearly between nodes; at the edge the gap is 0.
     pub fn closed(mut self) -> Self {
         let nodes: Vec<(f64, f64)> =
             self.points.iter().map(|at| (at.radius, at.pressure)).collect();
@@ -122,7 +121,7 @@ impl Profile {
         self
     }
 
-    /// On the line between the points around a radius, m, without pressure.
+    /// Interpolates gap and displacements linearly at a radius, m, without pressure.
     fn between(&self, radius: f64) -> Option<ProfilePoint> {
         let outer = self.points.partition_point(|point| point.radius <= radius);
         let (from, to) = (self.points.get(outer.checked_sub(1)?)?, self.points.get(outer)?);
@@ -139,16 +138,16 @@ impl Profile {
 }
 
 impl Surface {
-    /// Displacement (m) at a radius, for those of the body's nodes; of a rigid body, its own.
+    /// Returns the displacement (m) at a radius, for those of the body's nodes; of a rigid body, its own.
     fn displacement_at(&self, radius: f64, u: &[[f64; 2]]) -> [f64; 2] {
-        let foot = self.foot(self.locate(radius));
-        let ends = foot.nodes.map(|node| u[node as usize]);
-        [0, 1].map(|axis: usize| foot.shape[0] * ends[0][axis] + foot.shape[1] * ends[1][axis])
+        let projection = self.project(self.locate(radius));
+        let ends = projection.nodes.map(|node| u[node as usize]);
+        [0, 1].map(|axis: usize| projection.shape[0] * ends[0][axis] + projection.shape[1] * ends[1][axis])
     }
 }
 
-/// Gap (m) at a radius of two surfaces whose poles are `gap` apart, and their displacements along r, for
-/// displacements (m) of the nodes of the lower and the upper body.
+/// Returns the gap (m) at a radius of two surfaces whose poles are `gap` apart, and their displacements along r,
+/// for displacements (m) of the nodes of the lower and the upper body.
 pub fn facing(
     surfaces: [&Surface; 2],
     gap: f64,
@@ -161,7 +160,7 @@ pub fn facing(
 }
 
 impl ContactInterface {
-    /// The contact for displacements (m) of the nodes of the lower and the upper body.
+    /// Returns the contact profile for displacements (m) of the nodes of the lower and the upper body.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
         let gaps = (0..self.n_points()).map(|k| self.gap(k, u));
         let facing = self.facing(gaps, u);
@@ -172,7 +171,7 @@ impl ContactInterface {
         )
     }
 
-    /// With nodes beyond its own.
+    /// Adds the nodes beyond the candidate region.
     fn extended(&self, profile: Profile, u: [&[[f64; 2]]; 2]) -> Profile {
         let surfaces = self.surfaces.each_ref();
         let depths = |r: f64| surfaces[0].depth(r) + surfaces[1].depth(r);
@@ -181,7 +180,7 @@ impl ContactInterface {
         profile.extended(beyond.map(|radius| (radius, facing(surfaces, gap, radius, u))))
     }
 
-    /// At each node the mean of the gaps (m) of the points around, and the radial displacements.
+    /// Returns for each node the mean gap (m) over its hat function, and the radial displacements.
     pub(crate) fn facing<'a>(
         &'a self,
         gaps: impl Iterator<Item = f64> + Clone + 'a,
@@ -195,7 +194,7 @@ impl ContactInterface {
 }
 
 impl SlippingInterface {
-    /// As [`ContactInterface::profile`], with the gap where both surfaces have come to lie.
+    /// Returns the profile like [`ContactInterface::profile`], with the gap between the slipped surfaces.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
         let facing = self.interface().facing(self.gaps(u), u);
         let radius = self.contact_radius(u);

@@ -1,22 +1,21 @@
 //! Contact between surfaces that slip on each other.
 //!
-//! Points that faced each other at first move along r by different amounts where the bodies are of unlike
-//! materials. The gap is then taken where both have come to lie, halfway between; to first order in the
-//! displacements
+//! In bodies of unlike materials, points that faced each other initially move along r by different amounts. The
+//! gap is then measured halfway between both; to first order in the displacements
 //!
 //! ```math
 //! g = g_0 + u_y^{up} - u_y^{low} + m\,(u_r^{low} - u_r^{up}), \qquad
 //! m = \tfrac12\Bigl(\frac{\mathrm d y^{low}}{\mathrm d r} + \frac{\mathrm d y^{up}}{\mathrm d r}\Bigr),
 //! ```
 //!
-//! with the slopes of the deformed surfaces, so that m is that of the interface where they touch. A spring's
+//! with the slopes of the deformed surfaces, so that m is the slope of the interface where they touch. A spring's
 //! force F acts on each displacement u as F ∂g/∂u: ±F m along r, and ∓F (u_r^low − u_r^up)/2l along y at
-//! the two ends of a segment of length l, which turn m. So the forces have the energy of the springs, and
-//! those along y keep the momentum. A rigid body has u_r = 0 and a slope that nothing turns.
+//! the two ends of a segment of length l, whose rotation changes m. So the forces derive from the energy of the
+//! springs, and those along y conserve momentum. A rigid body has u_r = 0 and a constant slope.
 //!
-//! Between like bodies facing points move alike and against a plane that does not give way m = 0: there the
-//! gap is exact to second order without this. Areas are those of the undeformed surfaces, halfway between
-//! the two. Limits: first order in the slope; slopes of the arcs are taken up to 1.
+//! Between like bodies u_r is equal, and against a rigid plane m = 0: there the gap is exact to second order
+//! without slip. Areas are those of the undeformed surfaces. Limits: first order in the slope, and slopes of the
+//! arcs up to 1.
 
 use crate::evaluate::ContactForces;
 use crate::interface::{ContactInterface, ContactPoint};
@@ -28,28 +27,27 @@ pub type Displacement = [f64; 2];
 /// The slope of the interface at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Slope {
-    /// Mean of both undeformed arcs.
+    /// Mean slope of both undeformed arcs.
     at_first: f64,
-    /// What a difference of u_y between the ends of a side's segment adds to it, 1/2l, 1/m; 0 of a rigid
-    /// body.
+    /// Its change per difference of u_y between the ends of a side's segment, 1/2l, 1/m; 0 for a rigid body.
     per_difference: [f64; 2],
 }
 
-/// What surfaces that slip have at a point.
+/// Gap and slip at a point.
 struct Slip {
     gap: f64,
-    /// m.
+    /// Slope m of the interface.
     slope: f64,
     /// u_r of the lower less that of the upper body, m.
     relative: f64,
 }
 
-/// The gap at a point, m, and what it grows by where a node moves, by side, end of the segment, and axis.
+/// The gap at a point and its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlippingGap {
-    /// g, m.
+    /// Gap g, m.
     pub gap: f64,
-    /// ∂g/∂u.
+    /// Derivative ∂g/∂u by side, end of the segment, and axis.
     pub opening: [[Displacement; 2]; 2],
 }
 
@@ -57,7 +55,7 @@ pub struct SlippingGap {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlippingInterface {
     interface: ContactInterface,
-    /// One a point.
+    /// Slopes of the interface at each point.
     slopes: Vec<Slope>,
 }
 
@@ -68,13 +66,13 @@ impl SurfaceProjection {
 }
 
 impl SlippingInterface {
-    /// The same points, and the slopes there.
+    /// Creates the interface with the same points.
     pub fn new(interface: ContactInterface) -> Self {
         let slope = |point: &ContactPoint| {
             let [lower, upper] = interface.surfaces.each_ref().map(|s| s.slope(point.radius));
             let per_difference = interface.surfaces.each_ref().map(|surface| {
                 let (segment, _) = surface.locate(point.radius);
-                // A rigid body's segment may end nowhere.
+                // The segment of a rigid plane is infinite.
                 let length = surface.segment_length(segment);
                 if surface.is_rigid() { 0.0 } else { 0.5 / length }
             });
@@ -84,17 +82,17 @@ impl SlippingInterface {
         Self { interface, slopes }
     }
 
-    /// The points, without slip.
+    /// Returns the interface without slip.
     pub fn interface(&self) -> &ContactInterface {
         &self.interface
     }
 
-    /// Gap and its derivative at point k, for displacements of the ends of both sides' segments.
+    /// Returns the gap and its derivative at point k, for displacements of the ends of both segments.
     pub fn gap_of_ends(&self, k: usize, ends: [[Displacement; 2]; 2]) -> SlippingGap {
         let Slip { gap, slope: m, relative } = self.of_ends(k, ends);
         let (point, slope) = (&self.interface.points[k], &self.slopes[k]);
         let opening = [0, 1].map(|side: usize| {
-            let (shape, turning) = (point.feet[side].shape, slope.per_difference[side] * relative);
+            let (shape, turning) = (point.projections[side].shape, slope.per_difference[side] * relative);
             let sign = [-1.0, 1.0][side];
             [0, 1].map(|end: usize| {
                 let own = sign * shape[end];
@@ -104,15 +102,15 @@ impl SlippingInterface {
         SlippingGap { gap, opening }
     }
 
-    /// What there is at point k, for displacements of the nodes of the lower and the upper body.
+    /// Returns gap and slip at point k, for displacements of the nodes of the lower and the upper body.
     fn at(&self, k: usize, u: [impl Fn(u32) -> Displacement; 2]) -> Slip {
-        let feet = &self.interface.points[k].feet;
-        self.of_ends(k, [0, 1].map(|side: usize| feet[side].nodes.map(&u[side])))
+        let projections = &self.interface.points[k].projections;
+        self.of_ends(k, [0, 1].map(|side: usize| projections[side].nodes.map(&u[side])))
     }
 
     fn of_ends(&self, k: usize, ends: [[Displacement; 2]; 2]) -> Slip {
         let (point, slope) = (&self.interface.points[k], &self.slopes[k]);
-        let [lower, upper] = [0, 1].map(|side: usize| point.feet[side].at(ends[side]));
+        let [lower, upper] = [0, 1].map(|side: usize| point.projections[side].at(ends[side]));
         let turned = [0, 1]
             .map(|side: usize| slope.per_difference[side] * (ends[side][1][1] - ends[side][0][1]));
         let (slope, relative) = (slope.at_first + (turned[0] + turned[1]), lower[0] - upper[0]);
@@ -120,7 +118,7 @@ impl SlippingInterface {
         Slip { gap, slope, relative }
     }
 
-    /// As [`ContactInterface::add_forces`].
+    /// Adds the contact forces like [`ContactInterface::add_forces`].
     pub fn add_forces(&self, u: [&[Displacement]; 2], f: [&mut [[f64; 2]]; 2]) -> ContactForces {
         let mut total = ContactForces::default();
         for (k, (point, slope)) in self.interface.points.iter().zip(&self.slopes).enumerate() {
@@ -128,7 +126,7 @@ impl SlippingInterface {
             if gap < 0.0 {
                 let force = -point.stiffness * point.area * gap;
                 for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-                    let SurfaceProjection { nodes, shape } = point.feet[side];
+                    let SurfaceProjection { nodes, shape } = point.projections[side];
                     let turning = force * relative * slope.per_difference[side];
                     for (end, outward) in [-1.0, 1.0].into_iter().enumerate() {
                         let own = sign * shape[end] * force;
@@ -147,7 +145,7 @@ impl SlippingInterface {
         total
     }
 
-    /// Gap at each point, m.
+    /// Returns the gap at each point, m.
     pub(crate) fn gaps<'a>(
         &'a self,
         u: [&'a [Displacement]; 2],
@@ -155,13 +153,13 @@ impl SlippingInterface {
         (0..self.slopes.len()).map(move |k| self.at(k, of_nodes(u)).gap)
     }
 
-    /// Whether any point is closed for the given displacements of the candidate nodes.
+    /// Returns whether any point is closed for the given displacements of the candidate nodes.
     pub fn is_closed(&self, displacement: [impl Fn(u32) -> Displacement; 2]) -> bool {
         let [lower, upper] = displacement;
         (0..self.slopes.len()).any(|k| self.at(k, [&lower as &dyn Fn(u32) -> _, &upper]).gap < 0.0)
     }
 
-    /// As [`ContactInterface::force`].
+    /// Returns the total force like [`ContactInterface::force`].
     pub fn force(&self, displacement: [impl Fn(u32) -> Displacement; 2]) -> f64 {
         let [lower, upper] = displacement;
         let force = |(k, point): (usize, &ContactPoint)| {
@@ -171,25 +169,25 @@ impl SlippingInterface {
         self.interface.points.iter().enumerate().map(force).sum()
     }
 
-    /// As [`ContactInterface::add_stiffness_bound`]: 1 + m² times that, with the slope of the steeper arc,
-    /// for the share of a spring that acts along r. What turns the slope, some per cent where surfaces
-    /// slip by some per cent of a segment, is within the safety of springs that open and close.
+    /// Adds a bound of the stiffness: that of [`ContactInterface::add_stiffness_bound`] times 1 + m², with the slope
+    /// of the steeper arc, for the radial part of a spring. The rotation of the slope adds a few per cent where
+    /// surfaces slip by a few per cent of a segment; the safety factor for opening and closing covers it.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
         let steepest = |point: &ContactPoint| {
             let slopes = self.interface.surfaces.each_ref().map(|s| s.slope(point.radius));
             slopes[0].max(slopes[1])
         };
-        self.interface.add_weighted_bound(side, self.interface.springs[side], bound, |point| {
+        self.interface.add_weighted_bound(side, self.interface.bound_factors[side], bound, |point| {
             1.0 + steepest(point).powi(2)
         });
     }
 
-    /// As [`ContactInterface::contact_radius`].
+    /// Returns the contact radius like [`ContactInterface::contact_radius`].
     pub fn contact_radius(&self, u: [&[Displacement]; 2]) -> f64 {
         self.interface.radius_of(self.signed_pressure(u))
     }
 
-    /// As [`ContactInterface::nodal_pressure`].
+    /// Returns nodal pressures like [`ContactInterface::nodal_pressure`].
     pub fn nodal_pressure<'a>(
         &'a self,
         u: [&'a [Displacement]; 2],
@@ -197,12 +195,12 @@ impl SlippingInterface {
         self.interface.at_nodes(self.interface.coarser(), self.signed_pressure(u))
     }
 
-    /// As [`ContactInterface::centre_pressure`].
+    /// Returns the pressure on the axis like [`ContactInterface::centre_pressure`].
     pub fn centre_pressure(&self, u: [&[Displacement]; 2]) -> f64 {
         self.radius_and_pressure(u).1
     }
 
-    /// As [`ContactInterface::radius_and_pressure`].
+    /// Returns radius and pressure like [`ContactInterface::radius_and_pressure`].
     pub fn radius_and_pressure(&self, u: [&[Displacement]; 2]) -> (f64, f64) {
         self.interface.radius_and_pressure_of(self.signed_pressure(u))
     }
@@ -241,9 +239,9 @@ mod tests {
             .on_side(side)
     }
 
-    /// The largest gap within r = 0.3, with slip and without, of two surfaces that lie on one curved
-    /// interface, y = κx²/2 at x = r + u_r, and that moved along it by ε r/2 and −ε r; a rigid one has not
-    /// moved along it and is the interface.
+    /// Returns the largest gap within r = 0.3, with slip and without, of two surfaces that lie on one curved
+    /// interface, y = κx²/2 at x = r + u_r, and that have moved along it by ε r/2 and −ε r. A rigid surface has not
+    /// moved and is the interface.
     fn gaps_of_a_closed_interface(epsilon: f64, rigid: Option<usize>) -> [f64; 2] {
         let meshes = [sphere(Side::Below), sphere(Side::Above)];
         let surfaces = [0, 1].map(|side: usize| match rigid == Some(side) {
@@ -282,8 +280,7 @@ mod tests {
         [largest(&|slip| slip.gap), largest(&|slip| slip.gap - slip.slope * slip.relative)]
     }
 
-    /// Surfaces that touch are closed, to second order in what they have slipped; without slip they would
-    /// be off by the slope times that.
+    /// Surfaces that touch have a gap of second order in their slip; without slip the error is the slope times it.
     #[test]
     fn surfaces_that_touch_are_closed_to_second_order() {
         // Linear displacement between nodes misses κh²/8 of the parabola, at ε = 0.
@@ -305,10 +302,10 @@ mod tests {
         }
     }
 
-    /// What a gap opens by is its derivative: a gap is of second order in the displacements, so that half
-    /// the difference of what two opposite steps make of it is it, to rounding.
+    /// The opening of a gap is its derivative. A gap is quadratic in the displacements, so that the central
+    /// difference is exact to rounding.
     #[test]
-    fn what_a_gap_opens_by_is_its_derivative() {
+    fn the_opening_of_a_gap_is_its_derivative() {
         for rigid in [None, Some(0)] {
             let meshes = [sphere(Side::Below), sphere(Side::Above)];
             let [lower, upper] = [0, 1].map(|side: usize| match rigid == Some(side) {

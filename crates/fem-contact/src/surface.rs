@@ -4,10 +4,10 @@ use fem_mesh::SphereMesh;
 
 use crate::error::ContactError;
 
-/// Slope of an arc up to which it counts, that at 0.7 radii: no contact of small strain is so large.
+/// Upper limit on the slope of an arc, reached at 0.7 radii: no contact at small strain is so large.
 pub(crate) const STEEPEST: f64 = 1.0;
 
-/// One body's end of a contact point.
+/// The projection of a contact point on one body's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceProjection {
     /// Nodes at the inner and the outer end of the segment.
@@ -28,7 +28,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The near hemisphere of a sphere, or the plane of a half-space.
+    /// Creates the near hemisphere of a sphere, or the plane of a half-space.
     pub fn of_sphere(mesh: &SphereMesh) -> Self {
         let (mut nodes, mut radii) = (Vec::new(), Vec::new());
         for &node in mesh.surface() {
@@ -42,12 +42,12 @@ impl Surface {
         Self { nodes, radii, curvature: mesh.radius().recip() }
     }
 
-    /// The rigid plane y = 0: a body of one node, number 0.
+    /// Creates the rigid plane y = 0: a body of one node, number 0.
     pub fn wall() -> Self {
         Self { nodes: vec![0, 0], radii: vec![0.0, f64::INFINITY], curvature: 0.0 }
     }
 
-    /// The near hemisphere of a rigid sphere: a body of one node, number 0, that moves as a whole.
+    /// Creates the near hemisphere of a rigid sphere: a body of one node, number 0, that moves as a whole.
     ///
     /// # Errors
     /// A radius (m) that is not positive and finite.
@@ -62,22 +62,22 @@ impl Surface {
         Ok(Self { nodes: vec![0, 0], radii: vec![0.0, radius], curvature: radius.recip() })
     }
 
-    /// Whether this is of a body that moves as a whole: the rigid plane or a rigid sphere.
+    /// Returns whether the body is rigid: a wall or a rigid sphere.
     pub fn is_rigid(&self) -> bool {
         self.nodes.get(1) == self.nodes.first()
     }
 
-    /// Whether this is the rigid plane, which nothing moves.
+    /// Returns whether this is the rigid plane, which is fixed.
     pub fn is_wall(&self) -> bool {
         self.is_rigid() && self.curvature == 0.0
     }
 
-    /// Whether this is a plane, a wall's or a half-space's.
+    /// Returns whether this is a plane, of a wall or a half-space.
     pub fn is_plane(&self) -> bool {
         self.curvature == 0.0
     }
 
-    /// Nodes with r ≤ `radius` (m), from the axis outward; a rigid body has one.
+    /// Returns the nodes with r ≤ `radius` (m), from the axis outward; a rigid body has one.
     pub fn nodes_within(&self, radius: f64) -> &[u32] {
         let n = if self.is_rigid() {
             1
@@ -87,44 +87,44 @@ impl Surface {
         &self.nodes[..n]
     }
 
-    /// Where a segment carries a point, given as [`Surface::locate`] finds it.
-    pub(crate) fn foot(&self, (segment, share): (usize, f64)) -> SurfaceProjection {
+    /// Projects a point on its segment, which [`Surface::locate`] has found.
+    pub(crate) fn project(&self, (segment, share): (usize, f64)) -> SurfaceProjection {
         SurfaceProjection {
             nodes: [self.nodes[segment], self.nodes[segment + 1]],
             shape: [1.0 - share, share],
         }
     }
 
-    /// Sine and cosine of the arc's angle where it is r (m) from the axis.
+    /// Returns sine and cosine of the arc's angle at r (m) from the axis.
     fn angle(&self, r: f64) -> (f64, f64) {
         let sine = self.curvature * r;
         (sine, (1.0 - sine * sine).max(0.0).sqrt())
     }
 
-    /// Distance of the true arc from the plane through its pole, m.
+    /// Returns the distance of the true arc from the plane through its pole, m.
     pub(crate) fn depth(&self, r: f64) -> f64 {
         self.arc(r).0
     }
 
-    /// The same depth, m, and its slope, which is the tangent of the arc's angle.
+    /// Returns the same depth (m) and its slope, the tangent of the arc's angle.
     pub(crate) fn arc(&self, r: f64) -> (f64, f64) {
         let (sine, cosine) = self.angle(r);
         (sine * r / (1.0 + cosine), sine / cosine)
     }
 
-    /// Slope of the true arc, dy/dr upward from the pole of an upper body, at most [`STEEPEST`].
+    /// Returns the slope of the true arc, dy/dr upward from the pole of an upper body, at most [`STEEPEST`].
     pub(crate) fn slope(&self, r: f64) -> f64 {
         let (sine, cosine) = self.angle(r);
         // At the equator without division by zero.
         if sine < STEEPEST * cosine { sine / cosine } else { STEEPEST }
     }
 
-    /// Largest radius that the surface covers, m.
+    /// Returns the largest radius that the surface covers, m.
     pub(crate) fn extent(&self) -> f64 {
         self.radii[self.radii.len() - 1]
     }
 
-    /// Segment that contains r: (index of its inner node, share of its outer node).
+    /// Finds the segment that contains r: (index of its inner node, share of its outer node).
     pub(crate) fn locate(&self, r: f64) -> (usize, f64) {
         if self.is_rigid() {
             return (0, 0.0);
@@ -134,7 +134,7 @@ impl Surface {
         (outer - 1, (r - start) / (end - start))
     }
 
-    /// Length of a segment along r, m.
+    /// Returns the length of a segment along r, m.
     pub(crate) fn segment_length(&self, segment: usize) -> f64 {
         self.radii[segment + 1] - self.radii[segment]
     }

@@ -1,7 +1,7 @@
 //! A body condensed to its contact nodes.
 //!
-//! The free body is held at its far pole (K becomes positive definite) and loaded at the contact
-//! nodes; its own inertia balances the loads:
+//! The free body is fixed at its far pole, so that K is positive definite, and loaded at the contact
+//! nodes. Its own inertia balances the loads:
 //!
 //! ```math
 //! \hat B = B - M\mathbf 1\,\mathbf r^T/m, \qquad
@@ -10,14 +10,14 @@
 //! \mathbf w = B^TK^{-1}M\mathbf 1, \quad \mathbf r = B^T\mathbf 1 .
 //! ```
 //!
-//! B holds unit forces along the axis, inward, so r = 1; a balanced load asks nothing of the hold,
-//! and B̂ᵀ takes the mean motion out of the displacements. C (m/N) is the inward displacement of the
+//! The columns of B are inward unit forces along the axis, so r = 1. A balanced load causes no reaction at the fixed
+//! node, and B̂ᵀ removes the mean motion from the displacements. C (m/N) is the inward displacement of the
 //! contact nodes relative to the mass centre. With the contact unknowns last in the factor,
-//! C_pin = (L₂₂L₂₂ᵀ)⁻¹, L₂₂ the trailing block: no solution with a right-hand side a node. And w is
-//! L₂₂⁻ᵀ y₂, 1ᵀMK⁻¹M1 = yᵀy with L y = M1: what C needs comes with the elimination, and the factor is kept
-//! for displacements alone.
+//! C_pin = (L₂₂L₂₂ᵀ)⁻¹, where L₂₂ is the trailing block, so that no solution per node is needed. Further,
+//! w = L₂₂⁻ᵀ y₂ and 1ᵀMK⁻¹M1 = yᵀy with L y = M1. So the elimination alone gives C, and the factor is kept only for
+//! displacements.
 //!
-//! A half-space is held where it ends and has infinite mass: nothing moves it, C = C_pin.
+//! A half-space is fixed at its far boundary and has infinite mass: C = C_pin.
 
 use std::sync::OnceLock;
 
@@ -39,15 +39,15 @@ pub(crate) struct CondensedBody {
     pub numbering: Numbering,
     solver: OnceLock<BodySolver>,
     bulk_modulus: f64,
-    /// Without relaxation, Pa.
+    /// Instantaneous shear modulus, Pa.
     pub shear_modulus: f64,
     /// Lumped masses of the nodes, kg.
     pub nodal_mass: Vec<f64>,
-    /// Mass of each equation, the ground's last, kg.
+    /// Mass of each equation, that of the fixed degree of freedom last, kg.
     pub mass_of_equation: Vec<f64>,
-    /// Whether an equation, the ground's last, is along the axis.
+    /// Whether an equation is along the axis, that of the fixed degree of freedom last.
     pub is_axial: Vec<bool>,
-    /// kg; infinite for a half-space.
+    /// Total mass, kg; infinite for a half-space.
     pub mass: f64,
     /// +1 if inward is +y, for the upper body, −1 for the lower.
     pub inward: f64,
@@ -66,8 +66,8 @@ pub(crate) struct BodySolver {
 }
 
 impl CondensedBody {
-    /// Eliminates all but the given surface nodes. Without `keeps_factor` it is done once more where
-    /// displacements are asked for.
+    /// Eliminates all but the given surface nodes. Without `keeps_factor` the elimination is repeated when
+    /// displacements are requested.
     ///
     /// # Errors
     /// A stiffness without factor, missing memory.
@@ -125,7 +125,7 @@ impl CondensedBody {
         Ok(body)
     }
 
-    /// With the body's own inertia under a unit acceleration as right-hand side; a half-space has none.
+    /// Eliminates with the inertia of a unit acceleration as right-hand side; a half-space has none.
     fn eliminate(&self, keeps_factor: bool) -> Result<Elimination, CondensedError> {
         let n = self.numbering.n_equations;
         let inertia = match self.mass.is_infinite() {
@@ -141,7 +141,7 @@ impl CondensedBody {
         Elimination::new(ends, &elements, matrix, inertia, n_contact, keeps_factor)
     }
 
-    /// Data for displacements of the whole body, made at the first request.
+    /// Returns the data for displacements of the whole body, computed at the first request.
     ///
     /// # Errors
     /// Returns an error if there is not enough memory.
@@ -170,12 +170,12 @@ impl CondensedBody {
         })
     }
 
-    /// Displacements under balanced loads at the contact nodes (the ground's row last, m), combined
-    /// so that they are orthonormal in the stiffness: K⁻¹B̂ L_c⁻ᵀ, one a contact node.
+    /// Returns displacements K⁻¹B̂ L_c⁻ᵀ under balanced loads at the contact nodes, one column per contact node,
+    /// which are orthonormal in the stiffness; the fixed degree of freedom comes last.
     ///
     /// # Errors
     /// Returns an error if there is not enough memory.
-    pub fn orthonormal_answers(&self) -> Result<Mat<f64>, CondensedError> {
+    pub fn orthonormal_responses(&self) -> Result<Mat<f64>, CondensedError> {
         let (n, n_contact) = (self.numbering.n_equations, self.numbering.n_contact);
         let BodySolver { factor, inertia_response } = self.solver()?;
         let loads = invert_lower(&self.compliance_factor).transpose().to_owned();
@@ -191,7 +191,7 @@ impl CondensedBody {
         Ok(answers)
     }
 
-    /// Inward forces at the contact nodes, a case a column, with the inertia that balances them, N.
+    /// Returns the load of inward forces at the contact nodes (one case per column) and the balancing inertia, N.
     pub fn balanced_load(&self, forces: &Mat<f64>) -> Mat<f64> {
         let (n, first) = (self.numbering.n_equations, self.numbering.first_contact());
         let totals: Vec<f64> = forces.col_iter().map(|column| column.iter().sum()).collect();
@@ -204,12 +204,12 @@ impl CondensedBody {
         })
     }
 
-    /// Share of an equation in the inertia along the axis.
+    /// Returns the share of an equation in the inertia along the axis.
     fn inertia_share(&self, equation: usize) -> f64 {
         if self.is_axial[equation] { self.mass_of_equation[equation] / self.mass } else { 0.0 }
     }
 
-    /// Solves for balanced loads (N) in place; the ground stays at 0, m.
+    /// Solves for the displacements (m) under balanced loads (N) in place; the fixed degree of freedom stays at 0.
     ///
     /// # Errors
     /// Returns an error if there is not enough memory.
@@ -235,20 +235,20 @@ impl CondensedBody {
         }
     }
 
-    /// Nodal displacements (u_r, u_y) of a field given by equations, m.
+    /// Returns nodal displacements (u_r, u_y) of a field given by equations, m.
     pub fn nodal_field(&self, field: ColRef<'_, f64>) -> Vec<[f64; 2]> {
         let value = |equation: u32| if equation == FIXED { 0.0 } else { field[equation as usize] };
         self.numbering.equations.iter().map(|equations| equations.map(value)).collect()
     }
 
-    /// Bytes of the factor, if there is one.
+    /// Returns the size of the factor in bytes, if it is kept.
     pub fn bytes(&self) -> usize {
         self.solver.get().map_or(0, |solver| solver.factor.bytes())
     }
 }
 
 impl BodySolver {
-    /// From a factor and y of L y = M1.
+    /// Creates the solver from a factor and y of L y = M1.
     fn new(factor: Factor, forward: Vec<f64>) -> Self {
         let mut response = Mat::from_fn(forward.len(), 1, |i, _| forward[i]);
         factor.solve_transposed(response.as_mut());
@@ -297,7 +297,7 @@ mod tests {
             let inward = body.inward * fields[(first + 1, 3)];
             assert!((inward - body.compliance[(1, 3)]).abs() < 1e-11 * body.compliance[(0, 0)]);
             // And combined: C L_c⁻ᵀ = L_c.
-            let mut answers = body.orthonormal_answers().unwrap();
+            let mut answers = body.orthonormal_responses().unwrap();
             body.remove_mean_motion(&mut answers);
             for i in 0..5 {
                 for j in 0..5 {
@@ -315,7 +315,7 @@ mod tests {
         let [kept, made] = [true, false].map(|keeps| unit_sphere(0.1, 5, Side::Above, keeps));
         assert_eq!(kept.compliance, made.compliance);
         assert!(kept.bytes() > 0 && made.bytes() == 0);
-        assert_eq!(kept.orthonormal_answers().unwrap(), made.orthonormal_answers().unwrap());
+        assert_eq!(kept.orthonormal_responses().unwrap(), made.orthonormal_responses().unwrap());
         assert_eq!(kept.bytes(), made.bytes());
     }
 

@@ -2,7 +2,7 @@
 
 use faer::{Mat, Side};
 
-/// Lower Cholesky factor; `None` if the matrix is not positive definite.
+/// Returns the lower Cholesky factor; `None` if the matrix is not positive definite.
 pub(crate) fn cholesky(matrix: &Mat<f64>) -> Option<Mat<f64>> {
     let n = matrix.nrows();
     let mut lower = Mat::<f64>::zeros(n, n);
@@ -22,7 +22,7 @@ pub(crate) fn cholesky(matrix: &Mat<f64>) -> Option<Mat<f64>> {
     Some(lower)
 }
 
-/// Inverse of a lower triangular matrix.
+/// Returns the inverse of a lower triangular matrix.
 pub(crate) fn invert_lower(lower: &Mat<f64>) -> Mat<f64> {
     let n = lower.nrows();
     let mut inverse = Mat::<f64>::zeros(n, n);
@@ -36,8 +36,8 @@ pub(crate) fn invert_lower(lower: &Mat<f64>) -> Mat<f64> {
     inverse
 }
 
-/// Eigenvalues in rising order and eigenvectors of a symmetric matrix; `None` if the iteration
-/// does not converge (entries that are not finite).
+/// Returns the eigenvalues in rising order and the eigenvectors of a symmetric matrix; `None` if the iteration does
+/// not converge (entries that are not finite).
 pub(crate) fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
     let values = eigen.S().column_vector().iter().copied().collect();

@@ -6,11 +6,11 @@ use fem_element::{QuadGeometry, mean_gradient};
 use crate::condensation::condensed_body::CondensedBody;
 use crate::condensation::numbering::ElementEquations;
 
-/// Columns that are multiplied at a time.
+/// Number of columns that are multiplied at a time.
 const CHUNK: usize = 8;
 
 impl CondensedBody {
-    /// Product of the deviatoric stiffness with fields, ground's row included, N.
+    /// Multiplies fields by the deviatoric stiffness, including the row of the fixed degree of freedom, N.
     pub fn apply_deviatoric(&self, fields: &Mat<f64>) -> Mat<f64> {
         let n = self.numbering.n_equations;
         let elements = ElementEquations::of_mesh(&self.mesh, &self.numbering);
@@ -23,7 +23,7 @@ impl CondensedBody {
         for start in (0..fields.ncols()).step_by(CHUNK) {
             let columns = start..(start + CHUNK).min(fields.ncols());
             for (k, j) in columns.clone().enumerate() {
-                // A translation costs no force, so fields are taken relative to the ground.
+                // A translation causes no force, so fields are taken relative to the fixed degree of freedom.
                 let ground = fields[(n, j)];
                 for (i, row) in input.iter_mut().enumerate() {
                     row[k] = fields[(i, j)] - if self.is_axial[i] { ground } else { 0.0 };

@@ -1,38 +1,38 @@
 //! The order in which the nodes of a mesh are eliminated: nested dissection (George 1973).
 //!
-//! A set of nodes is parted by a thin set that no element spans, which is eliminated after both of its
-//! sides; and so are the sides. Fill stays within the sides and what parts them, and pieces of some nodes
-//! are dense. Where to cut is read from two numbers of a node, counted in elements: how far it is from the
-//! ground, which is the ring that it lies in, and how much farther it is from the axis than from the surface,
-//! which is its place in that ring. From node to node of an element the first changes by at most one, the
-//! second by at most two, so that all nodes of one ring, or of two successive places, part a set, whatever
-//! the mesh is.
+//! A separator divides a set of nodes into two parts without a common element, and is eliminated after both. The
+//! parts are divided in the same way, until they have few nodes and are treated as dense.
+//!
+//! Separators follow from two integer coordinates of a node, counted in elements: its distance from the fixed node
+//! (the number of its ring), and its distance from the axis less that from the surface (its position in the ring).
+//! Within an element the first changes by at most 1, the second by at most 2. So the nodes of one ring, or of two
+//! successive positions, are a separator in any mesh.
 
 use fem_mesh::SphereMesh;
 
-/// Nodes of a piece that is not parted any more: about so many make products of dense matrices worth it.
+/// Number of nodes up to which a set is not divided. Dense products are efficient from about this size on.
 const SMALLEST: usize = 14;
-/// Marks a node that is not reached yet.
+/// Distance of a node that is not reached yet.
 const UNREACHED: u32 = u32::MAX;
 
-/// Nodes in the order of elimination, in pieces.
+/// Nodes in the order of elimination, in sets.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Dissection {
     pub nodes: Vec<u32>,
-    /// Where each piece ends.
+    /// End of each set in the order of elimination.
     pub ends: Vec<usize>,
 }
 
-/// Where a node lies, in elements.
+/// A node with its integer coordinates.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     node: u32,
-    /// Its ring, and its place in that.
+    /// Ring, and position in the ring.
     numbers: [i32; 2],
 }
 
 impl Dissection {
-    /// Of the nodes of a mesh for which `is_interior` says so.
+    /// Orders the nodes of a mesh for which `is_interior` is true.
     pub fn new(mesh: &SphereMesh, is_interior: impl Fn(usize) -> bool) -> Self {
         let neighbours = Neighbours::new(mesh);
         let ground = &mesh.axis()[mesh.axis().len() - 1..];
@@ -53,11 +53,11 @@ impl Dissection {
         dissection
     }
 
-    /// Adds a set of nodes, parted as long as that helps.
+    /// Adds a set of nodes, divided recursively as long as that reduces the work.
     fn part(&mut self, places: &mut [Place], scratch: &mut Vec<Place>, counts: &mut Vec<u32>) {
         if places.len() > SMALLEST {
             let mut directions = Direction::both(places);
-            // Across the longer extent.
+            // The longer extent is divided first.
             directions.sort_by_key(|direction| -direction.extent());
             if let Some(cut) = directions.iter().find_map(|direction| direction.cut(places, counts))
             {
@@ -88,13 +88,13 @@ impl Dissection {
     }
 }
 
-/// By what the ring and the place in it change within an element at most.
+/// Largest change of the ring and of the position in it within an element.
 const WIDTHS: [i32; 2] = [1, 2];
 
-/// A number of nodes by which a set may be parted.
+/// A coordinate by which a set may be divided, with its range.
 #[derive(Debug, Clone, Copy)]
 struct Direction {
-    /// Which of [`Place::numbers`].
+    /// Index of the coordinate in [`Place::numbers`].
     which: usize,
     least: i32,
     greatest: i32,
@@ -114,12 +114,12 @@ impl Direction {
         both
     }
 
-    /// In elements.
     fn extent(&self) -> i32 {
         (self.greatest - self.least) / WIDTHS[self.which]
     }
 
-    /// At the median; `None` where one side would be empty. Leaves in `counts` how many nodes have each number.
+    /// Returns the separator at the median; `None` if one side would be empty. `counts` becomes the number of nodes
+    /// with each value of the coordinate.
     fn cut(&self, places: &[Place], counts: &mut Vec<u32>) -> Option<Cut> {
         counts.clear();
         counts.resize((self.greatest - self.least) as usize + 1, 0);
@@ -136,7 +136,7 @@ impl Direction {
     }
 }
 
-/// A separator: all nodes whose number is at least `from` and less than `to`.
+/// A separator: all nodes whose coordinate is at least `from` and less than `to`.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     which: usize,
@@ -146,7 +146,7 @@ struct Cut {
 }
 
 impl Cut {
-    /// 0 below, 1 above, 2 between.
+    /// Returns 0 for a node below the separator, 1 above, 2 within.
     fn side(&self, place: &Place) -> usize {
         match place.numbers[self.which] {
             number if number < self.from => 0,
@@ -155,7 +155,7 @@ impl Cut {
         }
     }
 
-    /// How many nodes are below and between, of how many have each number from the least on.
+    /// Returns the number of nodes below and within, from the numbers of nodes with each value.
     fn sizes(&self, counts: &[u32]) -> [usize; 2] {
         let [from, to] = [self.from, self.to].map(|number| (number - self.least) as usize);
         [&counts[..from], &counts[from..to]].map(|counts| counts.iter().sum::<u32>() as usize)
@@ -186,7 +186,7 @@ impl Neighbours {
         Self { starts, elements }
     }
 
-    /// Elements on the shortest way from each node to one of some nodes; 0 where there is none.
+    /// Returns the number of elements on the shortest path from each node to one of some nodes; 0 if there is none.
     fn distances(&self, mesh: &SphereMesh, from: &[u32]) -> Vec<u32> {
         let mut distances = vec![UNREACHED; mesh.nodes().len()];
         let mut front = from.to_vec();

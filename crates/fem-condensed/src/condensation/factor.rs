@@ -1,9 +1,9 @@
-//! The Cholesky factor of a body's stiffness, K = L Lᵀ, by fronts (Duff & Reid 1983).
+//! The Cholesky factor of a body's stiffness, K = L Lᵀ, by the multifrontal method (Duff & Reid 1983).
 //!
-//! A front is a set of equations that are eliminated together, and the later ones that then know of each
-//! other. Elements are added to the front that eliminates the first of their equations, and what a front
-//! leaves on the later equations to the front that eliminates the first of these: no matrix is assembled, and
-//! all work is that of dense matrices.
+//! A front is a set of equations that are eliminated together, and the later equations that this couples. Each
+//! element is added to the front that eliminates the first of its equations. The Schur complement of a front is
+//! added to the front that eliminates the first of its later equations. So the whole matrix is not assembled, and
+//! all operations are on dense matrices.
 
 use std::ops::Range;
 
@@ -22,26 +22,26 @@ use faer::{Accum, ColMut, Mat, MatMut, MatRef, Par, Spec, dyn_stack};
 use crate::condensation::numbering::{ElementEquations, Lower};
 use crate::error::CondensedError;
 
-/// Marks that there is none.
+/// Index of a front that does not exist.
 const NONE: u32 = u32::MAX;
 
-/// Factor of a matrix that is given in the order of elimination.
+/// The factor of a matrix that is given in the order of elimination.
 #[derive(Debug)]
 pub(crate) struct Factor {
     fronts: Vec<Front>,
-    /// The later equations of each front, rising.
+    /// Later equations of each front in rising order.
     later: Vec<u32>,
     values: Vec<f64>,
 }
 
-/// What an elimination is worth without the factor's columns.
+/// The results of an elimination.
 #[derive(Debug)]
 pub(crate) struct Elimination {
-    /// L, where it is kept.
+    /// Factor L, if it is kept.
     pub factor: Option<Factor>,
     /// Lower triangle of the factor's last columns.
     pub trailing: Mat<f64>,
-    /// y of L y = b for the right-hand side that was given.
+    /// Solution y of L y = b for the given right-hand side.
     pub forward: Vec<f64>,
 }
 
@@ -49,9 +49,9 @@ pub(crate) struct Elimination {
 #[derive(Debug, Clone)]
 struct Front {
     columns: Range<usize>,
-    /// Place in the list of later equations.
+    /// Range in the list of later equations.
     later: Range<usize>,
-    /// Place of the values, column by column, the later equations below the front's own.
+    /// Range of the values, column by column, the later equations below the front's own.
     values: Range<usize>,
 }
 
@@ -59,18 +59,18 @@ struct Front {
 struct Symbolic {
     fronts: Vec<Front>,
     later: Vec<u32>,
-    /// Elements in the order of the fronts, and where those of each front end.
+    /// Elements in the order of the fronts, and the end of those of each front.
     elements: Vec<u32>,
     ends: Vec<usize>,
-    /// The last front that adds to a front, and the one before that adds to the same.
+    /// Last child of each front, and the previous child of the same parent.
     last_child: Vec<u32>,
     before: Vec<u32>,
 }
 
 impl Elimination {
-    /// Factors a stiffness whose element matrices are made on request. `ends` tells where each set
-    /// of equations ends that are eliminated together; the `n_trailing` last columns are among the
-    /// last set's. Without `keeps_factor` no more than the columns of one front are in memory.
+    /// Factors a stiffness whose element matrices are computed on request. `ends` has the end of each set
+    /// of equations that are eliminated together; the last set includes the `n_trailing` last columns. Without
+    /// `keeps_factor` only the columns of one front are in memory.
     ///
     /// # Errors
     /// A matrix that is not positive definite; missing memory.
@@ -94,7 +94,7 @@ impl Elimination {
         let mut memory = MemBuffer::try_new(request).map_err(|_| CondensedError::OutOfMemory)?;
         let mut place = vec![0; right.len()];
         let mut left: Vec<Vec<f64>> = vec![Vec::new(); symbolic.fronts.len()];
-        // Memory of fronts that are done with: pages of the system are dear.
+        // Memory of finished fronts is used again, because new pages are expensive.
         let mut free: Vec<Vec<f64>> = Vec::new();
         let (mut forward, mut trailing, mut below) = (right, Mat::new(), Vec::new());
         let mut places = Vec::new();
@@ -140,7 +140,7 @@ impl Elimination {
     }
 }
 
-/// So many columns whose lower triangle is zero, in memory that was used before where there is enough.
+/// Returns n columns whose lower triangle is zero, in the given memory if it is large enough.
 fn cleared(mut values: Vec<f64>, n: usize) -> Vec<f64> {
     if values.len() < n * n {
         return vec![0.0; n * n];
@@ -151,8 +151,8 @@ fn cleared(mut values: Vec<f64>, n: usize) -> Vec<f64> {
     values
 }
 
-/// L y = b for one right-hand side and the columns of a front, b of its later equations less what they take.
-/// `below` is room to work.
+/// Solves L y = b for one right-hand side and the columns of a front, and updates b of its later equations. `below`
+/// is work space.
 fn solve_front(
     panel: &[f64],
     columns: Range<usize>,
@@ -174,7 +174,7 @@ fn solve_front(
     later.iter().zip(below).for_each(|(&row, value)| right[row as usize] = *value);
 }
 
-/// Lᵀ x = y for one right-hand side and the columns of a front, x of its later equations known.
+/// Solves Lᵀ x = y for one right-hand side and the columns of a front, with x of its later equations known.
 fn solve_front_transposed(
     panel: &[f64],
     columns: Range<usize>,
@@ -257,7 +257,7 @@ impl Factor {
         }
     }
 
-    /// Room for the later equations of a front.
+    /// Returns work space for the later equations of the largest front.
     fn workspace(&self, n_columns: usize) -> Mat<f64> {
         let longest = self.fronts.iter().map(|front| front.later.len()).max();
         Mat::zeros(longest.unwrap_or(0), n_columns)
@@ -272,13 +272,13 @@ impl Factor {
         )
     }
 
-    /// Bytes of the factor's values and indices.
+    /// Returns the size of the factor's values and indices in bytes.
     pub fn bytes(&self) -> usize {
         8 * self.values.len() + 4 * self.later.len()
     }
 }
 
-/// The only column of a matrix, if it has no more.
+/// Returns the only column of a matrix; `None` if there are more.
 fn single(right: MatMut<'_, f64>) -> Option<&mut [f64]> {
     let is_single = right.ncols() == 1;
     is_single.then(|| right.col_mut(0).try_as_col_major_mut())?.map(ColMut::as_slice_mut)
@@ -348,8 +348,8 @@ impl Symbolic {
     }
 }
 
-/// The elements in the order of the fronts that eliminate the first of their equations, and where those of
-/// each front end. Elements that are fixed altogether belong to none.
+/// Returns the elements in the order of the fronts that eliminate the first of their equations, and the end of those
+/// of each front. Elements without equations belong to none.
 fn by_front(
     elements: &[ElementEquations],
     front_of: &[u32],
@@ -380,12 +380,12 @@ struct Sum<'a> {
     n_rows: usize,
     /// Columns of the front's own equations.
     panel: &'a mut [f64],
-    /// Of the later equations.
+    /// Matrix of the later equations.
     rest: Vec<f64>,
 }
 
 impl Sum<'_> {
-    /// Adds to an entry given by two places in the front.
+    /// Adds to an entry given by two indices in the front.
     fn add(&mut self, one: usize, other: usize, value: f64) {
         let (row, column) = (one.max(other), one.min(other));
         match column.checked_sub(self.own) {
@@ -409,7 +409,7 @@ impl Sum<'_> {
         }
     }
 
-    /// Adds what a front has left on its later equations. `places` is room to work.
+    /// Adds the Schur complement of a child. `places` is work space.
     fn add_front(&mut self, rows: &[u32], left: &[f64], place: &[usize], places: &mut Vec<usize>) {
         places.clear();
         places.extend(rows.iter().map(|&row| place[row as usize]));
@@ -428,7 +428,7 @@ impl Sum<'_> {
         }
     }
 
-    /// Factors the own columns and takes them out of the later equations.
+    /// Factors the own columns and subtracts their product from the matrix of the later equations.
     fn eliminate(
         &mut self,
         memory: &mut MemStack,

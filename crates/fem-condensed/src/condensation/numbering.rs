@@ -1,15 +1,14 @@
 //! The order in which a body's degrees of freedom are eliminated.
 //!
-//! Fixed is u_r on the axis; u_y of the far pole, the ground, is held and not eliminated, which makes
-//! the stiffness of a free body positive definite. A half-space is held at its far boundary instead, and
-//! has no ground. The interior comes first, by nested dissection ([`Dissection`]); then u_r of the contact
-//! nodes; last their u_y, from the axis outward, so that the trailing block of the Cholesky factor is all
-//! that contact needs.
+//! u_r is fixed on the axis. u_y of the far pole, the ground, is fixed too, which makes the stiffness of a free body
+//! positive definite. A half-space is fixed at its far boundary instead, and has no ground. The interior comes first,
+//! by nested dissection ([`Dissection`]), then u_r of the contact nodes, last their u_y from the axis outward. So the
+//! trailing block of the Cholesky factor is sufficient for contact.
 
 use crate::condensation::dissection::Dissection;
 use fem_mesh::SphereMesh;
 
-/// Marks a degree of freedom that does not move.
+/// Equation number of a fixed degree of freedom.
 pub(crate) const FIXED: u32 = u32::MAX;
 
 /// Equation numbers of the degrees of freedom.
@@ -18,15 +17,15 @@ pub(crate) struct Numbering {
     /// Equations of (u_r, u_y) of each node, or [`FIXED`]; the ground comes after all equations, if there
     /// is one.
     pub equations: Vec<[u32; 2]>,
-    /// Equations that are solved, the ground not counted.
+    /// Number of equations without the ground.
     pub n_equations: usize,
     pub n_contact: usize,
-    /// Where each set of equations ends that are eliminated together; the last one is the contact's.
+    /// End of each set of equations that are eliminated together; the last set is that of the contact.
     pub ends: Vec<usize>,
 }
 
 impl Numbering {
-    /// With u_y of the given surface nodes last.
+    /// Numbers the equations of a mesh, with u_y of the given surface nodes last.
     pub fn new(mesh: &SphereMesh, contact_nodes: &[u32]) -> Self {
         let n_nodes = mesh.nodes().len();
         let mut equations = vec![[0; 2]; n_nodes];
@@ -68,7 +67,7 @@ impl Numbering {
             }
         }
         ends.push(end);
-        // What is fixed makes no set of its own.
+        // Sets of fixed degrees of freedom are empty.
         ends.dedup();
         if ends.first() == Some(&0) {
             ends.remove(0);
@@ -80,7 +79,7 @@ impl Numbering {
         Self { equations, n_equations, n_contact: contact_nodes.len(), ends }
     }
 
-    /// First equation of the contact unknowns.
+    /// Returns the first equation of the contact unknowns.
     pub fn first_contact(&self) -> usize {
         self.n_equations - self.n_contact
     }
@@ -89,15 +88,14 @@ impl Numbering {
 /// Lower triangle of an element's matrix, row by row; degrees of freedom u_r, u_y corner by corner.
 pub(crate) type Lower = [f64; 36];
 
-/// Equations of an element's degrees of freedom; those from the number of equations on are the ground's or
-/// fixed.
+/// Equations of an element's degrees of freedom. Values from the number of equations on are the ground or fixed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ElementEquations {
     pub equations: [u32; 8],
 }
 
 impl ElementEquations {
-    /// Of all elements.
+    /// Returns the equations of all elements.
     pub fn of_mesh(mesh: &SphereMesh, numbering: &Numbering) -> Vec<Self> {
         let of_corner = |node: u32| numbering.equations[node as usize];
         let of_quad = |quad: &[u32; 4]| {
@@ -107,7 +105,7 @@ impl ElementEquations {
         mesh.quads().iter().map(of_quad).collect()
     }
 
-    /// Those of so many equations.
+    /// Returns the equations that are not fixed.
     pub fn solved(&self, n_equations: usize) -> impl Iterator<Item = u32> {
         self.equations.into_iter().filter(move |&equation| (equation as usize) < n_equations)
     }

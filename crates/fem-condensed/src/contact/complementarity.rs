@@ -1,32 +1,32 @@
-//! The linear complementarity problem of a contact that is no disc.
+//! The linear complementarity problem of a contact area that is not a disc.
 //!
-//! Principal pivoting: solve on a set of closed points, move every point that violates its sign to
-//! the other side, repeat (Kostreva 1978; Júdice & Pires 1994). That is fast and may cycle. When
-//! the number of violations has not fallen for a while, points are closed one by one, the one that
-//! overlaps most first, and those that would pull are opened on the way (Lawson & Hanson 1974, ch. 23):
-//! ½ pᵀE p − bᵀp falls each time, so that no set of points comes twice, and some n rounds do in practice.
+//! Block principal pivoting solves on a set of closed points, moves every point that violates its sign to
+//! the other set, and repeats (Kostreva 1978; Júdice & Pires 1994). This is fast but may cycle. If
+//! the number of violations does not decrease for some rounds, points are closed one at a time, the one with the
+//! largest overlap first, and points in tension are opened (Lawson & Hanson 1974, ch. 23). Then ½ pᵀE p − bᵀp falls
+//! in each round, so that no set of points occurs twice; about n rounds are sufficient in practice.
 
 use faer::Mat;
 
 use crate::condensation::dense::cholesky;
 
-/// Overlap or tension that is rounding, relative to the largest overlap or force.
+/// Rounding of overlap or tension, relative to the largest overlap or force.
 pub(crate) const ROUNDING: f64 = 1e-11;
 
-/// Rounds without progress before points are moved one by one.
+/// Number of rounds without progress before points are moved one at a time.
 const PATIENCE: usize = 8;
-/// Points that are closed one by one, over all: more are rounding that goes round in circles.
+/// Largest number of points that are closed one at a time, over that of all points; more are a cycle by rounding.
 const MOST_ROUNDS: usize = 10;
 
-/// No state without tension and overlap was found.
+/// Error: no state without tension and overlap was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NoContactState;
 
-/// Forces p ≥ 0 (N) with E p − b ≥ 0 and no force on an open point. `forces` gives the first guess
-/// of the closed points.
+/// Computes forces p ≥ 0 (N) with E p − b ≥ 0 and no force on an open point. `forces` gives the first guess of the
+/// closed points.
 ///
 /// # Errors
-/// Rounding leaves no state, of a matrix that is hardly positive definite.
+/// No state is found within rounding, because the matrix is nearly singular.
 pub(crate) fn solve(
     compliance: &Mat<f64>,
     overlap: &[f64],
@@ -59,8 +59,8 @@ pub(crate) fn solve(
     descend(compliance, overlap, scale, forces).map(|_| ())
 }
 
-/// The same one point after the other, from none; how many were closed. Overlap within `scale` (m) is
-/// none.
+/// Solves the problem one point at a time, beginning with none, and returns how many were closed. Overlap up to
+/// `scale` (m) is ignored.
 fn descend(
     compliance: &Mat<f64>,
     overlap: &[f64],
@@ -81,7 +81,7 @@ fn descend(
         closed[worst] = true;
         loop {
             solve_closed(compliance, overlap, &closed, &mut next).ok_or(NoContactState)?;
-            // As far as nothing pulls.
+            // The step ends where the first point would be in tension.
             let pulls = (0..n).filter(|&k| closed[k] && next[k] <= 0.0);
             let reach = pulls.map(|k| (k, forces[k] / (forces[k] - next[k])));
             let Some((first, part)) = reach.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
@@ -99,14 +99,14 @@ fn descend(
     Err(NoContactState)
 }
 
-/// Overlap at an open point that the forces leave, m.
+/// Returns the remaining overlap at an open point, m.
 fn left_overlap(compliance: &Mat<f64>, overlap: &[f64], forces: &[f64], point: usize) -> f64 {
     let closing: f64 =
         forces.iter().enumerate().map(|(j, force)| compliance[(j, point)] * force).sum();
     overlap[point] - closing
 }
 
-/// Forces that close the gap at the closed points; zero at the others.
+/// Returns the forces that close the gap at the closed points; zero at the others.
 fn solve_closed(
     compliance: &Mat<f64>,
     overlap: &[f64],

@@ -4,13 +4,11 @@
 //! p \ge 0, \qquad E p - b \ge 0, \qquad p^T(E p - b) = 0
 //! ```
 //!
-//! E (m/N) is what a force at a point closes at all points, b (m) the overlap that the forces have
-//! to undo. Points are numbered outward. If contact is a disc, the first n of them, then with E = L
-//! Lᵀ and L y = b forward substitution meets y_k ≤ 0 first at k = n: y_k L_kk is the overlap left
-//! at point k once all before it are in contact, and what is then left at the points outside is
-//! their overlap. A step costs n² operations without iteration. The assumptions of a disc are
-//! checked, no tension inside and no overlap outside; if they fail, [`crate::complementarity`]
-//! takes over.
+//! E (m/N) is the compliance and b (m) the overlap that the forces have to remove. Points are numbered outward. If the
+//! contact area is a disc, the first n points, then with E = L Lᵀ and L y = b forward substitution reaches y_k ≤ 0
+//! first at k = n, because y_k L_kk is the overlap left at point k once all points before it are in contact. A step
+//! costs n² operations without iteration. The assumptions, no tension inside and no overlap outside, are checked; if
+//! they fail, the general solver (`complementarity`) is used.
 
 use faer::Mat;
 
@@ -20,11 +18,11 @@ use crate::contact::complementarity::{self, NoContactState, ROUNDING};
 #[derive(Debug, Clone)]
 pub(crate) struct DiscContactSolver {
     compliance: Mat<f64>,
-    /// L by its rows and by its columns, as far as E is positive definite.
+    /// L by rows and by columns, as far as E is positive definite.
     rows: Vec<f64>,
     columns: Vec<f64>,
     n_factored: usize,
-    /// y inside of the disc, overlap that is left outside, m.
+    /// y inside of the disc, remaining overlap outside, m.
     left: Vec<f64>,
     /// Overlap of each point once all points before it are closed, m, in the last problem and in
     /// the one before.
@@ -34,25 +32,25 @@ pub(crate) struct DiscContactSolver {
     stiffness: Vec<f64>,
     /// Forces of the last problem, if the disc was not its solution.
     fallback: Option<Vec<f64>>,
-    /// Whether it was not that of the problem before, either.
+    /// Whether the disc was not the solution of the previous problem.
     was_fallback: bool,
-    /// Times the disc was not the solution.
+    /// Number of problems whose solution was not the disc.
     pub n_fallbacks: usize,
 }
 
-/// What points change that join and leave between two problems, at a share ξ of the way, N/m.
+/// Changes of the force's slope by points that join or leave between two problems, at a share ξ of the step, N/m.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct ForceCurvature {
-    /// Σ ± s² [½ ξ(1 − ξ) − 1/12].
+    /// Correction of the work, Σ ± s² [½ ξ(1 − ξ) − 1/12].
     pub work: f64,
-    /// Σ ± s² ξ: what the change over the way has not of the slope at its end.
+    /// Slope at the end less the mean slope of the step, Σ ± s² ξ.
     pub missed: f64,
 }
 
-/// Result of a contact problem beside the forces.
+/// Result of a contact problem in addition to the forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ContactDisc {
-    /// Points from the axis outward up to the last with a force.
+    /// Number of points from the axis up to the last with a force.
     pub n_closed: usize,
 }
 
@@ -85,13 +83,13 @@ impl DiscContactSolver {
         solver
     }
 
-    /// The same with overlaps (m) of points that are all open.
+    /// Sets the overlaps (m) of the previous problem, in which all points are open.
     pub fn opened(self, overlap: Vec<f64>) -> Self {
         Self { reach: overlap, ..self }
     }
 
-    /// What the points have changed that have joined since the problem before (+), which had so many closed, or left
-    /// (−). Of contacts that were no discs nothing.
+    /// Returns the changes by points that have joined (+) or left (−) since the previous problem, for the numbers of
+    /// closed points before and now; zero if a contact area was not a disc.
     pub fn bends(&self, before: usize, now: usize) -> ForceCurvature {
         let mut bends = ForceCurvature::default();
         if self.fallback.is_some() || self.was_fallback {
@@ -107,7 +105,7 @@ impl DiscContactSolver {
         bends
     }
 
-    /// Makes row k of L from the rows before it; false if E is not positive definite.
+    /// Computes row k of L from the rows before it; returns false if E is not positive definite.
     fn factor_row(&mut self, k: usize) -> bool {
         let n = self.left.len();
         for j in 0..=k {
@@ -120,10 +118,10 @@ impl DiscContactSolver {
         self.rows[k * n + k] > 0.0
     }
 
-    /// Forces (N) that undo the overlaps (m).
+    /// Computes the forces (N) that remove the overlaps (m).
     ///
     /// # Errors
-    /// No state was found.
+    /// No state is found.
     pub fn solve(
         &mut self,
         overlap: &[f64],
@@ -161,7 +159,7 @@ impl DiscContactSolver {
             self.fallback = None;
         } else {
             self.n_fallbacks += 1;
-            // What was closed is the better guess.
+            // The previous closed points are the better guess.
             if let Some(before) = &self.fallback {
                 forces.copy_from_slice(before);
             }
@@ -172,7 +170,7 @@ impl DiscContactSolver {
         Ok(ContactDisc { n_closed })
     }
 
-    /// Whether nothing pulls inside the disc and nothing overlaps outside.
+    /// Returns whether there is no tension inside the disc and no overlap outside.
     fn is_solution(&self, overlap: &[f64], inside: &[f64]) -> bool {
         let largest = inside.iter().copied().fold(0.0, f64::max);
         if inside.iter().any(|&force| force < -ROUNDING * largest) {

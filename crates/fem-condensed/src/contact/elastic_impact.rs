@@ -7,23 +7,23 @@
 //! W(\delta) = \tfrac12\sum_k s_k^2\,\langle\delta-\delta_k\rangle^2 ,
 //! ```
 //!
-//! so the quasi-static motion is harmonic between the δ_k and its duration a sum of arcs. It sets
-//! the time step of a run, says how far the contact reaches, and is what a run of an elastic pair
-//! has to converge to.
+//! so the quasi-static motion is harmonic between the δ_k, and its duration is a sum of arcs. It sets
+//! the time step of a run, predicts the contact radius, and is the limit to which a run of an elastic pair
+//! converges.
 
 use faer::Mat;
 
 use crate::condensation::dense::cholesky;
 
-/// Doublings of the compliance of springs: from any factor that a case may ask for to the usual one.
+/// Largest number of doublings of the compliance of springs: sufficient for any penalty factor of a case.
 const MOST_SOFTENINGS: usize = 20;
 
 /// Force against approach, piecewise linear.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ElasticCurve {
-    /// δ_k, m, rising.
+    /// Approaches δ_k at which points join, in rising order, m.
     touch: Vec<f64>,
-    /// s_k², N/m.
+    /// Increments s_k² of the stiffness, N/m.
     stiffness: Vec<f64>,
 }
 
@@ -36,14 +36,14 @@ pub struct ElasticImpact {
     pub max_approach: f64,
     /// Largest force, N.
     pub peak_force: f64,
-    /// Points in contact at the largest approach.
+    /// Number of points in contact at the largest approach.
     pub n_closed: usize,
 }
 
 impl ElasticCurve {
     /// Creates the curve from a compliance (m/N) and the initial gaps (m) at the points, without
     /// the gap of the poles. Where points would not join from the axis outward (penalty springs at
-    /// Gauss points), one that comes early waits for the others: then the curve is an estimate.
+    /// Gauss points), an early one is delayed until the others have joined, and the curve is an estimate.
     pub fn new(compliance: &Mat<f64>, gaps: &[f64]) -> Option<Self> {
         let factor = cholesky(compliance)?;
         let n = gaps.len();
@@ -63,10 +63,9 @@ impl ElasticCurve {
         Some(Self { touch, stiffness })
     }
 
-    /// The same for springs (compliances in m/N, counted in `compliance` too) however stiff. At Gauss
-    /// points, of which there are more than nodes, such springs press on some points so much earlier
-    /// than on others that no order is left: they are softened until there is one. That moves the
-    /// estimate by less than a thousandth.
+    /// Creates the curve for penalty springs of any stiffness; their compliances (m/N) are included in `compliance`.
+    /// There are more Gauss points than nodes, so that stiff springs do not close in an order from the axis. They
+    /// are softened until there is one, which changes the estimate by less than 0.1 %.
     pub fn of_springs(compliance: &Mat<f64>, springs: &[f64], gaps: &[f64]) -> Option<Self> {
         let mut softened = compliance.to_owned();
         let mut added = 1.0;
@@ -83,13 +82,12 @@ impl ElasticCurve {
         Self::new(&softened, gaps)
     }
 
-    /// Stiffness of all points in contact, as under a rigid punch, N/m.
+    /// Returns the stiffness with all points in contact, as under a rigid punch, N/m.
     pub fn punch_stiffness(&self) -> f64 {
         self.stiffness.iter().sum()
     }
 
-    /// The approach (m) at which the bodies press on each other with a force, N; `None` if the contact
-    /// would reach the last point.
+    /// Returns the approach (m) for a contact force, N; `None` if the contact would reach the last point.
     pub fn approach(&self, force: f64) -> Option<f64> {
         let (mut before, mut stiffness) = (0.0, 0.0);
         for k in 0..self.touch.len() {
@@ -103,25 +101,25 @@ impl ElasticCurve {
         None
     }
 
-    /// The force at an approach (m), N; on the last line beyond the last point.
+    /// Returns the force at an approach (m), N, extrapolated beyond the last point.
     pub fn force(&self, approach: f64) -> f64 {
         let joined =
             self.touch.iter().zip(&self.stiffness).take_while(|(touch, _)| **touch < approach);
         joined.map(|(touch, stiffness)| stiffness * (approach - touch)).sum()
     }
 
-    /// What of the force at an approach (m) is that of the nodes, N: between two δ_k the force is a chord of the
-    /// curve of the continuum, above it and below by
+    /// Returns the difference of the force at an approach (m) from that of the continuum, N. Between two δ_k the force
+    /// is a chord of the curve of the continuum, with the difference
     ///
     /// ```math
     /// F''\bigl[\tfrac12 x(w-x) - \tfrac1{12}w^2\bigr], \qquad x = \delta-\delta_k, \quad
     /// w = \delta_{k+1}-\delta_k ,
     /// ```
     ///
-    /// a mean of zero. F'' is the jump of the slope over the widths about it, the mean of both ends if the further
-    /// one is on the curve. Of Hertz' contact this is +1/8 to −1/4 of F (h/a)². 0 in the first element, whose other
-    /// half is not on the curve, and beyond the last one.
-    pub fn swing(&self, approach: f64) -> f64 {
+    /// of zero mean. F'' is the jump of the slope over the mean width of the two chords there, averaged over both ends
+    /// of the chord if possible. For Hertz' contact the difference is between −1/4 and 1/8 of F (h/a)². It is 0 in the
+    /// first element, for which F'' is unknown, and beyond the last one.
+    pub fn force_oscillation(&self, approach: f64) -> f64 {
         let k = self.touch.partition_point(|&touch| touch <= approach);
         let (Some(before), Some(end)) = (k.checked_sub(2), self.touch.get(k)) else { return 0.0 };
         let begin = self.touch[k - 1];
@@ -132,8 +130,8 @@ impl ElasticCurve {
         bend * (0.5 * x * (w - x) - w * w / 12.0)
     }
 
-    /// The collision of a reduced mass (kg) at a speed (m/s); `None` if the contact would reach
-    /// the last point.
+    /// Returns the collision of a reduced mass (kg) at a speed (m/s); `None` if the contact would reach the last
+    /// point.
     pub fn impact(&self, mass: f64, speed: f64) -> Option<ElasticImpact> {
         let (mut time, mut velocity) = (0.0, speed);
         let (mut force, mut stiffness) = (0.0, 0.0);

@@ -9,14 +9,14 @@ use crate::fields::Contact;
 use crate::pair::{CondensedPair, surface};
 
 impl CondensedPair {
-    /// The contact of an instant, whose fields and mean motions along the axis (m) are given. `is_whole`
-    /// tells whether the fields have all that moves the surfaces.
+    /// Returns the contact profile of an instant for given fields and mean motions along the axis (m). `is_whole`
+    /// is whether the fields include all motions of the surfaces.
     ///
-    /// Waves that have left a body and slip of the surfaces move all points alike and are in no field: then
-    /// the gap is moved, too, so that the surfaces touch where they press.
+    /// Radiated waves and slip move all points equally and are not in the fields. The gap is then shifted, so that the
+    /// surfaces touch where the pressure is positive.
     ///
     /// # Errors
-    /// None of a pair that could be condensed.
+    /// There are none for a pair that has been condensed.
     pub(crate) fn profile(
         &self,
         contact: &Contact,
@@ -36,8 +36,8 @@ impl CondensedPair {
         let along = nodes.clone().map(|(radius, _)| Some(at(radius)));
         let mut profile = Profile::new(
             nodes,
-            self.read_out(&contact.forces, &mut Pressures::default()).0,
-            self.barrier(),
+            self.recover(&contact.forces, &mut Pressures::default()).0,
+            self.enforcement(),
             along,
         );
         let beyond = profile.nodes_beyond(surfaces.each_ref(), self.candidate_radius());
@@ -46,7 +46,7 @@ impl CondensedPair {
             self.close(&mut profile);
         }
         let (force, own) = (contact.forces.iter().sum(), profile.contact_radius);
-        // Surfaces that slip are read halfway between both, as radius and pressure of the history are.
+        // Radii of slipping surfaces are halfway between both, as in the history.
         let pressure = profile.points.first().map_or(0.0, |axis| axis.pressure);
         let [wider, denser] = match &self.settings().slip {
             Some(slip) if own > 0.0 && pressure > 0.0 => {
@@ -70,7 +70,7 @@ impl CondensedPair {
         Ok(ContactProfile { radius: profile.contact_radius, places: places.collect() })
     }
 
-    /// Moves all gaps so that their mean under the pressure is what springs overlap there.
+    /// Shifts all gaps so that their mean under the pressure is the overlap of the springs.
     fn close(&self, profile: &mut Profile) {
         let (mut load, mut open) = (0.0, 0.0);
         for (point, node) in profile.points.iter().zip(&self.nodes) {

@@ -9,7 +9,7 @@ use crate::operators::slip::motion;
 use crate::pair::CondensedPair;
 
 impl CondensedPair {
-    /// The bodies without relaxation under a force (N) that stays, at rest.
+    /// Computes the static equilibrium of the bodies under a force (N), without relaxation.
     ///
     /// # Errors
     /// A contact that reaches the end of the condensed region; no contact state.

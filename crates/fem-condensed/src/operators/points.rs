@@ -6,26 +6,26 @@ use fem_contact::{ContactInterface, ContactPoint, NodalContact, Surface};
 use crate::error::CondensedError;
 use crate::settings::{ContactModel, PairSettings};
 
-/// For each contact point the contact nodes that carry it, numbered outward, and their shares.
+/// For each contact point the contact nodes, numbered outward, with their shape functions.
 pub(crate) type NodeInterpolation = Vec<Vec<(usize, f64)>>;
 
-/// Rows of contact nodes gathered into rows of contact points.
-pub(crate) fn gather(feet: &NodeInterpolation, nodal: &Mat<f64>) -> Mat<f64> {
-    Mat::from_fn(feet.len(), nodal.ncols(), |i, j| {
-        feet[i].iter().map(|&(node, share)| share * nodal[(node, j)]).sum()
+/// Interpolates rows of contact nodes at the contact points.
+pub(crate) fn gather(projections: &NodeInterpolation, nodal: &Mat<f64>) -> Mat<f64> {
+    Mat::from_fn(projections.len(), nodal.ncols(), |i, j| {
+        projections[i].iter().map(|&(node, share)| share * nodal[(node, j)]).sum()
     })
 }
 
-/// Where the bodies can touch.
+/// The points at which the bodies can touch.
 pub(crate) struct ContactPoints {
     pub points: Vec<ContactPoint>,
-    /// The side whose nodes the points are; `None` for Gauss points.
+    /// Side whose nodes the points are; `None` for Gauss points.
     pub nodal_side: Option<usize>,
-    pub feet: [NodeInterpolation; 2],
+    pub projections: [NodeInterpolation; 2],
 }
 
 impl ContactPoints {
-    /// Nodes for exact contact, Gauss points for springs.
+    /// Creates points at nodes for exact contact, at Gauss points for springs.
     ///
     /// # Errors
     /// Two rigid bodies; a radius that is not positive and finite.
@@ -36,8 +36,8 @@ impl ContactPoints {
                 let contact = NodalContact::new([lower, upper], 0.0, settings.candidate_radius)?;
                 let NodalContact { points, side, shares } = contact;
                 let own: NodeInterpolation = (0..points.len()).map(|k| vec![(k, 1.0)]).collect();
-                let feet = if side == 0 { [own, shares] } else { [shares, own] };
-                Ok(Self { points, nodal_side: Some(side), feet })
+                let projections = if side == 0 { [own, shares] } else { [shares, own] };
+                Ok(Self { points, nodal_side: Some(side), projections })
             }
             ContactModel::Springs(stiffness) => {
                 let interface = ContactInterface::new(
@@ -48,20 +48,20 @@ impl ContactPoints {
                     settings.candidate_radius,
                 )?;
                 let points = interface.points().to_vec();
-                let feet = [0, 1].map(|side: usize| spring_feet(&points, side, &surfaces[side]));
-                Ok(Self { points, nodal_side: None, feet })
+                let projections = [0, 1].map(|side: usize| gauss_point_interpolation(&points, side, &surfaces[side]));
+                Ok(Self { points, nodal_side: None, projections })
             }
         }
     }
 }
 
-/// A Gauss point lies between two nodes of each surface.
-fn spring_feet(points: &[ContactPoint], side: usize, surface: &Surface) -> NodeInterpolation {
+/// Returns the interpolation of Gauss points, each between two nodes of a surface.
+fn gauss_point_interpolation(points: &[ContactPoint], side: usize, surface: &Surface) -> NodeInterpolation {
     let along = surface.nodes_within(f64::INFINITY);
     let place = |node: u32| along.iter().position(|&other| other == node).unwrap_or(0);
-    let feet = points.iter().map(|point| {
-        let foot = &point.feet[side];
-        foot.nodes.into_iter().map(place).zip(foot.shape).collect()
+    let projections = points.iter().map(|point| {
+        let projection = &point.projections[side];
+        projection.nodes.into_iter().map(place).zip(projection.shape).collect()
     });
-    feet.collect()
+    projections.collect()
 }

@@ -1,63 +1,61 @@
 //! Radiation of waves from a body so large that they do not return within the contact.
 //!
-//! A body that is much larger than the way of waves within the contact is a half-space. To first order
-//! in frequency its plane follows the force F on a small spot by
+//! A body that is much larger than the path of waves within the contact time acts as a half-space. To first order
+//! in frequency, a force F on a small area displaces it by
 //!
 //! ```math
 //! u = S F - \gamma\dot F, \qquad \gamma = \frac{C(\nu)}{\mu c_s},
 //! ```
 //!
-//! and sends out the power γ Ḟ² (Lamb 1904; Miller & Pursey 1955; Hunter 1957), all points of the
-//! contact alike. Taken by itself, −γ Ḟ is a compliance that falls below zero toward high frequencies,
-//! and runs away. The same to first order, and passive, is an element that creeps in a time τ, in series
-//! with a body that is stiffer by γ/τ at once:
+//! equally at all points of the contact, and radiates the power γ Ḟ² (Lamb 1904; Miller & Pursey 1955; Hunter 1957).
+//! The term −γ Ḟ alone makes the compliance negative at high frequencies, and is unstable. A passive element that
+//! agrees to first order creeps with a time τ, in series with a body whose instantaneous compliance is lower by γ/τ:
 //!
 //! ```math
 //! \frac{-\gamma s}{1+\tau s} = -\frac\gamma\tau + \frac{\gamma/\tau}{1+\tau s}, \qquad
 //! u = -\gamma\dot y, \qquad y + \tau\dot y = F .
 //! ```
 //!
-//! What remains at once is positive as long as γ/τ is less than the compliance under a rigid punch as
-//! large as all points together, 1/k; τ = [`LAG`] γ k, some times what a wave takes across the contact.
-//! The energy that has gone in is
+//! The instantaneous compliance is positive as long as γ/τ is less than 1/k, that under a rigid punch over all
+//! points. So τ = [`LAG`] γ k, a few times the time of a wave across the contact. The energy supplied is
 //!
 //! ```math
 //! \int F\dot u\,dt = -\gamma\dot y\left(y + \tfrac12\tau\dot y\right) + \int\gamma\dot y^2\,dt,
 //! ```
 //!
-//! the first part stored (with the body's own, never less than nothing), the second radiated; both go to
-//! −γ F Ḟ and ∫γ Ḟ² as τ → 0, and the loss is right to the second order in τ over the contact time.
+//! The first term is stored (together with the strain energy it is never negative), the second radiated. They tend
+//! to −γ F Ḟ and ∫γ Ḟ² as τ → 0, and the loss is exact to second order in τ over the contact time.
 //!
-//! Two bodies that radiate are one element of the sum of their γ. Limits: small losses; waves do not
-//! come back within the contact; of a body that relaxes, γ is one number of the moduli that waves of the contact meet, and
-//! the lag, which is for its instantaneous stiffness, takes more of the loss the less of that is left.
+//! Two radiating bodies are one element with the sum of their γ. Limits: small losses; waves do not return within
+//! the contact. For a relaxing body γ is a constant of its effective moduli, while τ follows from its instantaneous
+//! stiffness, so that the loss is underestimated the more, the more the body relaxes.
 
-/// τ/(γ k): how many times the shortest lag that leaves the compliance positive.
+/// τ/(γ k), the lag over the shortest one with a positive compliance.
 const LAG: f64 = 2.0;
 
-/// The waves of both bodies over a run.
+/// State of the radiated waves of both bodies.
 #[derive(Debug, Clone)]
 pub(crate) struct WaveRadiation {
-    /// γ of each body, s m/N.
+    /// Radiation coefficient γ of each body, s m/N.
     coefficients: [f64; 2],
-    /// Their sum.
+    /// Sum of both coefficients.
     total: f64,
-    /// τ, s.
+    /// Lag τ, s.
     lag: f64,
-    /// Shares of y and F before a step, and of F after it, in y after it.
+    /// Coefficients of y and F before a step in y after it; `now` is that of F after the step.
     before: [f64; 2],
     now: f64,
-    /// γ (1 − now)/τ, m/N.
+    /// Decrease γ (1 − now)/τ of the compliance, m/N.
     stiffening: f64,
-    /// F, N.
+    /// Contact force F, N.
     force: f64,
-    /// y, N.
+    /// Lagging force y, N.
     lagging_force: f64,
 }
 
 impl WaveRadiation {
-    /// At rest, of bodies with these γ (s m/N), for a stiffness under a rigid punch (N/m) and a time
-    /// step (s); `None` if nothing is radiated.
+    /// Creates the state at rest for coefficients γ (s m/N), the stiffness under a rigid punch (N/m) and a time step
+    /// (s); `None` if nothing is radiated.
     pub fn new(
         coefficients: [Option<f64>; 2],
         punch_stiffness: f64,
@@ -84,44 +82,44 @@ impl WaveRadiation {
         })
     }
 
-    /// Change of the gap at all points within a step per force, m/N; negative.
+    /// Returns the change of the gap at all points within a step per force, m/N; negative.
     pub fn compliance(&self) -> f64 {
         -self.stiffening
     }
 
-    /// y at the end of a step whose force is zero then, N.
+    /// Returns y at the end of a step with zero force there, N.
     fn past(&self) -> f64 {
         self.before[0] * self.lagging_force + self.before[1] * self.force
     }
 
-    /// Displacement at the end of a step whose force is zero then, m.
+    /// Returns the displacement at the end of a step with zero force there, m.
     pub fn past_displacement(&self) -> f64 {
         self.total / self.lag * self.past()
     }
 
-    /// Displacement now, m.
+    /// Returns the current displacement, m.
     pub fn displacement(&self) -> f64 {
         -self.total * self.rate()
     }
 
-    /// Moves to the end of a step with this force, N.
+    /// Advances to the end of a step with this force, N.
     pub fn advance(&mut self, force: f64) {
         self.lagging_force = self.past() + self.now * force;
         self.force = force;
     }
 
-    /// ẏ, N/s.
+    /// Returns ẏ, N/s.
     fn rate(&self) -> f64 {
         (self.force - self.lagging_force) / self.lag
     }
 
-    /// Energy that the element stores, J.
+    /// Returns the energy stored in the element, J.
     pub fn stored(&self) -> f64 {
         let rate = self.rate();
         -self.total * rate * (self.lagging_force + 0.5 * self.lag * rate)
     }
 
-    /// Power that each body radiates, W.
+    /// Returns the power radiated by each body, W.
     pub fn power(&self) -> [f64; 2] {
         let rate = self.rate();
         self.coefficients.map(|coefficient| coefficient * rate * rate)

@@ -1,4 +1,4 @@
-//! The scalar springs of a body whose shear modulus relaxes and whose bulk modulus does not.
+//! The scalar modes of a body whose shear modulus relaxes and whose bulk modulus does not.
 //!
 //! With K = K_bulk + K_dev and the Carson transform g(s) of the relaxation function,
 //!
@@ -8,15 +8,15 @@
 //! ```
 //!
 //! Galerkin's method on the first terms, the block Krylov space [U, K⁻¹K_dev U, …] with U = K⁻¹B̂,
-//! made orthonormal in K (block Lanczos), leaves a small symmetric T = VᵀK_devV. Its eigenvalues
-//! θ_j ∈ [0, 1] are the deviatoric shares of the energy of modes that do not see each other:
+//! made orthonormal in K (block Lanczos), gives a small symmetric T = VᵀK_devV. Its eigenvalues
+//! θ_j ∈ [0, 1] are the deviatoric shares of the energy of uncoupled modes:
 //!
 //! ```math
 //! (1-\theta_j)\,z_j + \theta_j\,(g * \dot z_j) = \Phi_j^T\mathbf p, \qquad \mathbf u_c = \Phi\mathbf z .
 //! ```
 //!
-//! n blocks reproduce 2 n terms of the series. θ = 1 throughout is constant Poisson's ratio, exact
-//! with Φ the Cholesky factor of C; θ = 0 an elastic body.
+//! n blocks reproduce 2 n terms of the series. θ = 1 for all modes is constant Poisson's ratio, exact
+//! with the Cholesky factor of C as Φ; θ = 0 is an elastic body.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
@@ -25,29 +25,29 @@ use crate::condensation::condensed_body::CondensedBody;
 use crate::condensation::dense::symmetric_eigen;
 use crate::error::CondensedError;
 
-/// Directions with less than this share of a block's energy are left out.
+/// Share of a block's energy below which a direction is left out.
 const NEGLIGIBLE: f64 = 1e-10;
 
-/// Spring modes of a body.
+/// Modes of a body with a relaxing shear modulus.
 #[derive(Debug, Clone)]
 pub(crate) struct ShearSprings {
     /// Displacement of the contact nodes in each mode, m/√J.
     pub contact: Mat<f64>,
     /// Deviatoric share of each mode's energy.
     pub deviatoric_share: Vec<f64>,
-    /// Displacement of all equations in the basis, the ground's last, m/√J, block by block.
+    /// Displacement of all equations in the basis, that of the ground last, m/√J, block by block.
     basis: Vec<Mat<f64>>,
-    /// The modes in the basis.
+    /// Coordinates of the modes in the basis.
     vectors: Mat<f64>,
 }
 
 impl ShearSprings {
-    /// From so many blocks, at least 1.
+    /// Computes the modes from a basis of `n_blocks` ≥ 1 blocks.
     ///
     /// # Errors
     /// Missing memory; a stiffness that is not positive definite to rounding.
     pub fn new(body: &CondensedBody, n_blocks: usize) -> Result<Self, CondensedError> {
-        let mut blocks = vec![body.orthonormal_answers()?];
+        let mut blocks = vec![body.orthonormal_responses()?];
         let mut projected = Vec::with_capacity(n_blocks);
         loop {
             let force = body.apply_deviatoric(&blocks[blocks.len() - 1]);
@@ -77,7 +77,7 @@ impl ShearSprings {
         })
     }
 
-    /// Displacement of all equations (m), a state of the springs' displacements (√J) a column.
+    /// Returns the displacement of all equations (m) for displacements of the modes (√J), one state per column.
     pub fn fields(&self, springs: &Mat<f64>) -> Mat<f64> {
         let shares = &self.vectors * springs;
         let mut fields = Mat::zeros(self.basis[0].nrows(), springs.ncols());
@@ -90,7 +90,7 @@ impl ShearSprings {
     }
 }
 
-/// The lower triangle of VᵀK_devV from the shares of each block's forces in the blocks up to it.
+/// Assembles the lower triangle of VᵀK_devV from the projections of each block's forces on the blocks up to it.
 fn side_by_side(shares: &[Vec<Mat<f64>>]) -> Mat<f64> {
     let widths = shares.iter().map(|shares| shares[0].ncols());
     let starts: Vec<usize> =
@@ -107,8 +107,8 @@ fn side_by_side(shares: &[Vec<Mat<f64>>]) -> Mat<f64> {
     projected
 }
 
-/// K⁻¹ of the last block's deviatoric forces, orthonormal to all blocks; `None` if nothing is left.
-/// `shares` are the forces' shares in the blocks.
+/// Returns K⁻¹ times the last block's deviatoric forces, orthonormal to all blocks; `None` if nothing is left.
+/// `shares` are the projections of the forces on the blocks.
 fn next_block(
     body: &CondensedBody,
     blocks: &[Mat<f64>],

@@ -1,19 +1,19 @@
 //! Slip between surfaces of unlike materials.
 //!
-//! Where the interface has the slope κr and the surfaces slip along r by Δu_r, the gap is wider by κr Δu_r,
-//! and pressure normal to the interface has a part along r, which moves the surfaces. In first order both
-//! together widen the gap everywhere by the same (derived in `fem-laws`, `surface_slip.rs`),
+//! Where the interface has the slope κr and the surfaces slip along r by Δu_r, the gap increases by κr Δu_r,
+//! and the pressure normal to the interface has a radial part, which moves the surfaces. To first order both
+//! together increase the gap everywhere by the same (derived in `fem-laws`, `surface_slip.rs`),
 //!
 //! ```math
 //! \kappa\,(q_2 - q_1), \qquad q_i = \frac{t_i}{4\pi}\,F, \qquad t_i = \frac{1-2\nu_i}{\mu_i},
 //! ```
 //!
-//! one scalar spring a body, of the weight ±κ, that relaxes with it: 1/t = K + μ/3, of which the share of
-//! μ/3 relaxes beside an elastic bulk modulus, and all of it with constant ν. κ and the shares s of
-//! the compliance stay those of the instantaneous moduli.
+//! one scalar mode per body, of the weight ±κ, that relaxes with it: 1/t = K + μ/3, of which the share of
+//! μ/3 relaxes with an elastic bulk modulus, and all of it with constant ν. κ and the shares s of
+//! the compliance are those of the instantaneous moduli.
 //!
-//! Radii then are those of both bodies' points weighted with s. Read out are those halfway, as the explicit
-//! model's are, with Δu_r = (q₂ − q₁)/a at the edge and a pressure per area there:
+//! Radii are then those of both bodies' points weighted with s. The results have radii halfway between both, as in
+//! the explicit model, with Δu_r = (q₂ − q₁)/a at the edge and a pressure per area there:
 //!
 //! ```math
 //! a = a_s - \tfrac12(s_2-s_1)\,\frac{q_2-q_1}{a_s}, \qquad
@@ -30,25 +30,25 @@ use crate::operators::viscoelastic_modes::{ViscoelasticModes, ViscoelasticState}
 /// Curvature of the interface of two bodies and the share of each body in the compliance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
-    /// κ, 1/m, upward from the axis.
+    /// Curvature κ of the interface, 1/m, positive if it rises from the axis outward.
     pub curvature: f64,
-    /// Shares s of the contact's compliance, lower body first.
+    /// Shares s of both bodies in the compliance of the contact, lower body first.
     pub shares: [f64; 2],
 }
 
 impl Slip {
-    /// Weight of the slip of a side in the gap, 1/m.
+    /// Returns the weight of the slip of a side in the gap, 1/m.
     fn weight(&self, side: usize) -> f64 {
         if side == 0 { -self.curvature } else { self.curvature }
     }
 
-    /// Compliance (m/N) that an elastic side adds between all points.
+    /// Returns the compliance (m/N) that an elastic side adds between all points.
     pub(crate) fn compliance(&self, side: usize, moduli: &ElasticModuli) -> f64 {
         self.weight(side) * motion(moduli)
     }
 
-    /// The spring of a side, for so many points.
-    pub(crate) fn chain(
+    /// Returns the mode of a side, for a number of points.
+    pub(crate) fn mode(
         &self,
         side: usize,
         moduli: &ElasticModuli,
@@ -72,8 +72,8 @@ impl Slip {
         ViscoelasticModes::new(memory, shapes, &[share]).weighted(self.weight(side))
     }
 
-    /// A contact radius (m) and a pressure on its axis (Pa) under a force (N), halfway between the
-    /// bodies, where the sides have moved by q, m².
+    /// Converts a contact radius (m) and a pressure on the axis (Pa) under a force (N) to values halfway between the
+    /// bodies, for the slip q of both sides, m².
     pub(crate) fn halfway(
         &self,
         [radius, pressure]: [f64; 2],
@@ -89,7 +89,7 @@ impl Slip {
     }
 }
 
-/// q of an elastic body over the force, m²/N.
+/// Returns q of an elastic body over the force, m²/N.
 pub(crate) fn motion(moduli: &ElasticModuli) -> f64 {
     moduli.tangential_compliance() / (4.0 * PI)
 }

@@ -1,9 +1,9 @@
 //! Free vibrations of a body, the inertia that a quasi-static contact lacks.
 //!
-//! Lanczos' method on the flexibility of the free body, G = P K⁻¹ Pᵀ with P the projection that
-//! takes out the mean motion, in the inner product of the masses: G M φ = φ/ω². It begins with the
-//! answer to a load on the contact pole, so that the modes which the contact excites come first,
-//! and is orthogonalised in full. Modes are normalised to φᵀMφ = 1.
+//! Lanczos' method is applied to the flexibility of the free body, G = P K⁻¹ Pᵀ, in the inner product of the masses:
+//! G M φ = φ/ω². The projection P removes the mean motion. The first vector is the response to a load on the
+//! contact pole, so that the modes excited by the contact converge first. Vectors are fully orthogonalised, and modes
+//! normalised to φᵀMφ = 1.
 
 use faer::Mat;
 
@@ -11,34 +11,33 @@ use crate::condensation::condensed_body::CondensedBody;
 use crate::condensation::dense::symmetric_eigen;
 use crate::error::CondensedError;
 
-/// Lanczos vectors a mode: with [`VECTORS_MORE`], enough for the frequencies of the modes kept to
-/// settle to 1e-6.
+/// Lanczos vectors per mode. With [`VECTORS_MORE`] they are sufficient for frequencies exact to 1e-6.
 const VECTORS_PER_MODE: usize = 3;
-/// Lanczos vectors beside those of [`VECTORS_PER_MODE`], whatever the number of modes.
+/// Lanczos vectors in addition to [`VECTORS_PER_MODE`], for any number of modes.
 const VECTORS_MORE: usize = 20;
-/// Modes that are looked for at first, if more are asked for.
+/// Number of modes that are computed at first, if more are requested.
 const FIRST_MODES: usize = 12;
-/// Largest residual of a mode's flexibility, over it, that counts as settled.
-const SETTLED: f64 = 1e-3;
-/// Elements that a shear wave of a mode's frequency spans at least, where they are largest: with
-/// fewer the mode is the mesh's, and a glass pair loses ten times too much energy at 50 m/s.
+/// Relative residual of a mode's flexibility below which the mode has converged.
+const CONVERGED: f64 = 1e-3;
+/// Smallest length of a shear wave of a mode's frequency, over the longest element edge. The mesh does not resolve
+/// shorter waves: with them a glass pair loses ten times too much energy at 50 m/s.
 const ELEMENTS_PER_WAVE: f64 = 2.5;
 
 /// Modes of free vibration.
 #[derive(Debug, Clone)]
 pub(crate) struct Vibrations {
-    /// ω², rising, 1/s².
+    /// Squares ω² of the angular frequencies in rising order, 1/s².
     pub squared_frequency: Vec<f64>,
-    /// θ: share of the deviatoric energy.
+    /// Share θ of the deviatoric energy.
     pub deviatoric_share: Vec<f64>,
     /// Inward displacement of the contact nodes over ω, m/√J.
     pub contact: Mat<f64>,
-    /// Displacement of all equations over ω, the ground's last, m/√J.
+    /// Displacement of all equations over ω, that of the ground last, m/√J.
     pub fields: Mat<f64>,
 }
 
 impl Vibrations {
-    /// The lowest so many modes, as far as the mesh resolves them. `shear_speed` is that of shear
+    /// Computes the lowest `n_modes` modes, as far as the mesh resolves them. `shear_speed` is the speed of shear
     /// waves, m/s.
     ///
     /// # Errors
@@ -52,33 +51,33 @@ impl Vibrations {
         let shortest = ELEMENTS_PER_WAVE * longest_edge(body);
         let least = (shortest / (std::f64::consts::TAU * shear_speed)).powi(2);
         let mut lanczos = Lanczos::new(body, n_modes);
-        // Vectors beyond those that the resolved modes need are the mesh's modes, and in the end
-        // rounding: no more are made than it takes to know all modes that the mesh resolves.
+        // Vectors beyond those of the resolved modes are unresolved modes and finally rounding. So the number of
+        // vectors grows only until all resolved modes are known.
         let mut asked = n_modes.min(FIRST_MODES);
-        let settled = loop {
+        let converged = loop {
             lanczos.extend(VECTORS_PER_MODE * asked + VECTORS_MORE)?;
-            let settled = lanczos.settled(asked, least)?;
-            if settled.is_all || asked == n_modes || lanczos.is_over() {
-                break settled;
+            let converged = lanczos.converged(asked, least)?;
+            if converged.is_all || asked == n_modes || lanczos.is_over() {
+                break converged;
             }
             asked = (2 * asked).min(n_modes);
         };
-        Ok(lanczos.modes(&settled))
+        Ok(lanczos.modes(&converged))
     }
 }
 
-/// Flexibilities 1/ω² of modes that have settled, falling, and their shapes in Lanczos vectors.
-struct Settled {
+/// Flexibilities 1/ω² of converged modes in falling order, and their shapes in Lanczos vectors.
+struct ConvergedModes {
     flexibilities: Vec<f64>,
     shapes: Mat<f64>,
-    /// Whether the mesh resolves no further mode.
+    /// Whether these are all modes that the mesh resolves.
     is_all: bool,
 }
 
 /// Lanczos vectors of the flexibility of a free body.
 struct Lanczos<'a> {
     body: &'a CondensedBody,
-    /// Orthonormal in the masses, and times them; of `count` vectors.
+    /// `count` vectors, orthonormal in the masses, and their products with the masses.
     basis: Mat<f64>,
     weighted: Mat<f64>,
     projected: Mat<f64>,
@@ -90,7 +89,7 @@ struct Lanczos<'a> {
 }
 
 impl<'a> Lanczos<'a> {
-    /// With room for so many modes.
+    /// Creates the iteration with space for the vectors of `n_modes` modes.
     fn new(body: &'a CondensedBody, n_modes: usize) -> Self {
         let n = body.mass_of_equation.len();
         let n_vectors = (VECTORS_PER_MODE * n_modes + VECTORS_MORE).min(n / 2);
@@ -106,12 +105,12 @@ impl<'a> Lanczos<'a> {
         }
     }
 
-    /// Whether there are no more vectors.
+    /// Returns whether there are no more vectors.
     fn is_over(&self) -> bool {
         self.has_broken_down || self.count == self.basis.ncols()
     }
 
-    /// Up to so many vectors.
+    /// Adds vectors up to a number.
     fn extend(&mut self, n_vectors: usize) -> Result<(), CondensedError> {
         while self.count < n_vectors && !self.is_over() {
             self.add_vector()?;
@@ -122,9 +121,8 @@ impl<'a> Lanczos<'a> {
     fn add_vector(&mut self) -> Result<(), CondensedError> {
         let (k, masses) = (self.count, &self.body.mass_of_equation);
         self.body.solve_balanced(&mut self.load)?;
-        // The first pass gives the projection of G, the second removes what rounding left. A motion of the
-        // whole body is taken out in both: G knows none, and what of it rounding has left in the vectors
-        // would grow in each of them by half.
+        // The first pass gives the projection of G, the second removes rounding errors. Both remove the mean motion,
+        // which is not in the range of G: its rounding errors would grow by half with each vector.
         for pass in 0..2 {
             self.body.remove_mean_motion(&mut self.load);
             let done = self.weighted.as_ref().subcols(0, k);
@@ -153,33 +151,33 @@ impl<'a> Lanczos<'a> {
         Ok(())
     }
 
-    /// Up to so many modes that have settled, the lowest ones, of flexibilities of at least `least`, s².
-    fn settled(&self, n_modes: usize, least: f64) -> Result<Settled, CondensedError> {
-        // The last vector's own column of the projection is not known: leave it out.
+    /// Returns the lowest converged modes, at most `n_modes`, with flexibilities of at least `least`, s².
+    fn converged(&self, n_modes: usize, least: f64) -> Result<ConvergedModes, CondensedError> {
+        // The last vector's own column of the projection is not known and left out.
         let m = usize::saturating_sub(self.count, 1);
         let projected = self.projected.as_ref().submatrix(0, 0, m, m).to_owned();
         let (values, vectors) =
             symmetric_eigen(&projected).ok_or(CondensedError::NotPositiveDefinite)?;
-        // The largest flexibilities are the lowest frequencies. What the next vector would add to a
-        // mode is the residual of its flexibility.
-        let is_settled =
-            |j: usize| self.last_norm * vectors[(m - 1, j)].abs() <= SETTLED * values[j];
-        let settled = (0..m).rev().take(n_modes).take_while(|&j| is_settled(j));
-        let chosen: Vec<usize> = settled.take_while(|&j| values[j] >= least).collect();
+        // The largest flexibilities are the lowest frequencies. The component of the next vector in a mode is the
+        // residual of its flexibility.
+        let has_converged =
+            |j: usize| self.last_norm * vectors[(m - 1, j)].abs() <= CONVERGED * values[j];
+        let converged = (0..m).rev().take(n_modes).take_while(|&j| has_converged(j));
+        let chosen: Vec<usize> = converged.take_while(|&j| values[j] >= least).collect();
         let next = m.checked_sub(chosen.len() + 1);
-        Ok(Settled {
+        Ok(ConvergedModes {
             flexibilities: chosen.iter().map(|&j| values[j]).collect(),
             shapes: Mat::from_fn(m, chosen.len(), |i, j| vectors[(i, chosen[j])]),
-            is_all: next.is_none_or(|j| values[j] < least && is_settled(j)),
+            is_all: next.is_none_or(|j| values[j] < least && has_converged(j)),
         })
     }
 
-    fn modes(&self, settled: &Settled) -> Vibrations {
-        let (body, m, n_modes) = (self.body, settled.shapes.nrows(), settled.flexibilities.len());
+    fn modes(&self, converged: &ConvergedModes) -> Vibrations {
+        let (body, m, n_modes) = (self.body, converged.shapes.nrows(), converged.flexibilities.len());
         let n = body.mass_of_equation.len();
-        let squared_frequency = settled.flexibilities.iter().map(|value| value.recip()).collect();
+        let squared_frequency = converged.flexibilities.iter().map(|value| value.recip()).collect();
         let scaled = Mat::from_fn(m, n_modes, |i, j| {
-            settled.shapes[(i, j)] * settled.flexibilities[j].max(0.0).sqrt()
+            converged.shapes[(i, j)] * converged.flexibilities[j].max(0.0).sqrt()
         });
         let fields = self.basis.as_ref().subcols(0, m) * scaled;
         let forces = body.apply_deviatoric(&fields);
@@ -194,7 +192,7 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Length of the longest edge of a body's elements, m.
+/// Returns the length of the longest edge of a body's elements, m.
 fn longest_edge(body: &CondensedBody) -> f64 {
     let nodes = body.mesh.nodes();
     let edges = body.mesh.quads().iter().flat_map(|quad| {

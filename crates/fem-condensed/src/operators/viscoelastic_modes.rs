@@ -1,17 +1,16 @@
-//! The relaxing springs of one body in a collision.
+//! The viscoelastic modes of one body in a collision.
 //!
-//! Each mode of a body is a scalar spring with a share θ that relaxes,
+//! Each mode is a scalar spring of which the share θ relaxes,
 //!
 //! ```math
 //! (1-\theta)\,z + \theta\,w = f = \Phi^T\mathbf p, \qquad
 //! w = g_\infty z + \sum_k g_k q_k, \qquad \dot q_k + q_k/\tau_k = \dot z .
 //! ```
 //!
-//! Over a step of constant rate q_k ← a_k q_k + b_k Δz exactly ([`RelaxationStep`]), so that
-//! w = γ z + m with γ = g∞ + Σ g_k b_k and m known from the past: the step's spring is
-//! κ z = f − θ m, κ = 1 − θ + θ γ.
+//! Over a step with a constant rate, q_k ← a_k q_k + b_k Δz exactly ([`RelaxationStep`]). So w = γ z + m with
+//! γ = g∞ + Σ g_k b_k and a known m, and the mode in a step obeys κ z = f − θ m with κ = 1 − θ + θ γ.
 //!
-//! A mode of vibration is the same spring with a mass: z̈/ω² = f − (1−θ) z − θ w, stepped with
+//! A mode of vibration is the same spring with a mass: z̈/ω² = f − (1−θ) z − θ w. It is integrated with
 //! Newmark's formulas, γ = 1/2 and β = [`BETA`], which add 1/(β Δt² ω²) to κ.
 
 use faer::Mat;
@@ -19,8 +18,8 @@ use fem_material::{PronySeries, RelaxationStep};
 
 use crate::contact::disc_contact::dot;
 
-/// Newmark's β with γ = 1/2: with 1/12 the period of a linear oscillator is right to the fourth
-/// order (Fox & Goodwin 1949; Numerov), stable while ω Δt < √6.
+/// Newmark's β with γ = 1/2. With 1/12 the period of a linear oscillator is exact to fourth order (Fox & Goodwin
+/// 1949; Numerov), and the method is stable for ω Δt < √6.
 pub(crate) const BETA: f64 = 1.0 / 12.0;
 
 /// One Prony term at the run's time step.
@@ -36,12 +35,12 @@ pub(crate) struct PronyBranch {
 pub(crate) struct ViscoelasticState {
     equilibrium: f64,
     branches: Vec<PronyBranch>,
-    /// γ.
+    /// Stiffness γ within a step over the instantaneous one.
     instantaneous: f64,
 }
 
 impl ViscoelasticState {
-    /// Creates a branch from a Prony series and a time step, s.
+    /// Creates the function from a Prony series and a time step, s.
     pub fn new(series: &PronySeries, time_step: f64) -> Self {
         let branches: Vec<_> = series
             .terms()
@@ -58,12 +57,12 @@ impl ViscoelasticState {
         Self { equilibrium, branches, instantaneous: equilibrium + gained }
     }
 
-    /// κ of a share θ.
+    /// Returns κ for a share θ.
     pub fn spring(&self, share: f64) -> f64 {
         1.0 - share + share * self.instantaneous
     }
 
-    /// Of an elastic body.
+    /// Creates the function of an elastic body.
     pub fn elastic() -> Self {
         Self { equilibrium: 1.0, branches: Vec::new(), instantaneous: 1.0 }
     }
@@ -73,19 +72,19 @@ impl ViscoelasticState {
     }
 }
 
-/// Masses of springs.
+/// Masses and rates of modes of vibration.
 #[derive(Debug, Clone)]
 struct Inertia {
     time_step: f64,
-    /// ω², 1/s².
+    /// Squares ω² of the angular frequencies, 1/s².
     squared_frequency: Vec<f64>,
-    /// ż, √J/s.
+    /// Rates ż, √J/s.
     rate: Vec<f64>,
-    /// z̈, √J/s².
+    /// Accelerations z̈, √J/s².
     acceleration: Vec<f64>,
 }
 
-/// Springs with their state.
+/// Viscoelastic modes with their state.
 #[derive(Debug, Clone)]
 pub(crate) struct ViscoelasticModes {
     memory: ViscoelasticState,
@@ -94,27 +93,27 @@ pub(crate) struct ViscoelasticModes {
     shapes: Vec<f64>,
     /// The same, point by point within a mode.
     modes: Vec<f64>,
-    /// How many modes each point and those before it move: of constant Poisson's ratio Φ is triangular.
+    /// Number of modes moved by each point and those before it; for constant Poisson's ratio Φ is triangular.
     moved_by: Vec<usize>,
-    /// Modes that have moved, the first ones.
+    /// Number of modes that have moved, the first ones.
     n_moved: usize,
-    /// θ.
+    /// Share θ of each mode.
     share: Vec<f64>,
-    /// κ.
+    /// Stiffness κ of each mode.
     spring: Vec<f64>,
-    /// z, √J.
+    /// Displacement z of each mode, √J.
     pub displacement: Vec<f64>,
-    /// q of each branch, one after another.
+    /// Internal variables q of each branch, one branch after another.
     branch: Vec<f64>,
-    /// Motion of the springs without forces, −z.
+    /// Displacement −z without forces.
     past: Vec<f64>,
-    /// Sign of the springs: 1, or −1 for springs that are subtracted from a body.
+    /// Weight of the modes; −1 for modes that are subtracted from a body.
     weight: f64,
     inertia: Option<Inertia>,
 }
 
 impl ViscoelasticModes {
-    /// At rest. `shapes` has a row a point and a column a mode.
+    /// Creates modes at rest. `shapes` has one row per point and one column per mode.
     pub fn new(memory: ViscoelasticState, shapes: Mat<f64>, share: &[f64]) -> Self {
         let (n_points, n_modes) = (shapes.nrows(), shapes.ncols());
         let flat = (0..n_points)
@@ -147,17 +146,17 @@ impl ViscoelasticModes {
         }
     }
 
-    /// The same springs, taken away from the body.
+    /// Returns the same modes, subtracted from the body.
     pub fn removed(self) -> Self {
         self.weighted(-1.0)
     }
 
-    /// Returns these springs with a factor.
+    /// Returns these modes with a factor.
     pub fn weighted(self, weight: f64) -> Self {
         Self { weight, ..self }
     }
 
-    /// The same springs with masses: ω² (1/s²) of each and the time step, s.
+    /// Adds masses, given by ω² (1/s²) of each mode and the time step, s.
     pub fn with_inertia(mut self, squared_frequency: &[f64], time_step: f64) -> Self {
         let scale = (BETA * time_step * time_step).recip();
         for (spring, squared) in self.spring.iter_mut().zip(squared_frequency) {
@@ -172,7 +171,7 @@ impl ViscoelasticModes {
         self
     }
 
-    /// Displacement of a point, m, counted once.
+    /// Returns the displacement of a point, m, without the weight.
     pub fn displacement_at(&self, point: usize) -> f64 {
         dot(self.shape(point), &self.displacement)
     }
@@ -181,7 +180,7 @@ impl ViscoelasticModes {
         &self.shapes[point * self.n_modes..][..self.n_modes]
     }
 
-    /// Adds the compliance within a step, Φ κ⁻¹ Φᵀ, m/N.
+    /// Adds the compliance Φ κ⁻¹ Φᵀ within a step, m/N.
     pub fn add_compliance(&self, compliance: &mut Mat<f64>) {
         let n = compliance.nrows();
         let mut scaled = vec![0.0; self.n_modes];
@@ -200,7 +199,7 @@ impl ViscoelasticModes {
         }
     }
 
-    /// Subtracts from the overlap (m) what the springs do without new forces.
+    /// Subtracts from the overlap (m) the displacement of the modes without new forces.
     pub fn subtract_past(&mut self, overlap: &mut [f64]) {
         let n = self.n_moved;
         let past = &mut self.past[..n];
@@ -228,7 +227,7 @@ impl ViscoelasticModes {
         }
     }
 
-    /// Moves to the end of the step under the forces (N) at the points; follows
+    /// Advances to the end of the step under the forces (N) at the points, after
     /// [`ViscoelasticModes::subtract_past`].
     pub fn advance(&mut self, forces: &[f64]) {
         let reached = forces.len().checked_sub(1).map_or(0, |last| self.moved_by[last]);
@@ -262,7 +261,7 @@ impl ViscoelasticModes {
         self.past = std::mem::replace(&mut self.displacement, moved);
     }
 
-    /// Kinetic energy of the springs' masses, J.
+    /// Returns the kinetic energy of the modes, J.
     pub fn kinetic(&self) -> f64 {
         self.inertia.as_ref().map_or(0.0, |inertia| {
             let twice: f64 = inertia
@@ -275,7 +274,7 @@ impl ViscoelasticModes {
         })
     }
 
-    /// w of each mode, √J.
+    /// Returns w of each mode, √J.
     pub fn effective(&self) -> Vec<f64> {
         let n = self.n_modes;
         let mut w: Vec<f64> =
@@ -288,7 +287,7 @@ impl ViscoelasticModes {
         w
     }
 
-    /// Stored energy (J) and dissipated power (W), negative for springs that are taken away.
+    /// Returns stored energy (J) and dissipated power (W), negative for subtracted modes.
     pub fn stored_and_dissipated(&self) -> (f64, f64) {
         let n = self.n_moved;
         let (mut stored, mut power) = (0.0, 0.0);
@@ -306,13 +305,13 @@ impl ViscoelasticModes {
 }
 
 impl Inertia {
-    /// Newmark's prediction of z at the end of the step.
+    /// Returns Newmark's prediction of z at the end of the step.
     fn predicted(&self, j: usize, displacement: f64) -> f64 {
         let dt = self.time_step;
         displacement + dt * self.rate[j] + (0.5 - BETA) * dt * dt * self.acceleration[j]
     }
 
-    /// What the prediction adds to the load of mode j.
+    /// Returns the load of mode j by that prediction.
     fn load(&self, j: usize, displacement: f64) -> f64 {
         let dt = self.time_step;
         self.predicted(j, displacement) / (BETA * dt * dt * self.squared_frequency[j])
@@ -334,8 +333,8 @@ mod tests {
 
     const DECAY: PronyTerm = PronyTerm { weight: 0.6, relaxation_time: 2.0 };
 
-    /// Springs whose Φ is triangular, so that those of points that never close stay at rest, and the same
-    /// whose modes are told in another order, all of which move with the first point.
+    /// Returns modes whose Φ is triangular, so that those of points that never close stay at rest, and the same modes
+    /// in reverse order, all of which move with the first point.
     fn triangular_and_turned() -> [ViscoelasticModes; 2] {
         let n = 5;
         let shapes =
@@ -347,7 +346,7 @@ mod tests {
         })
     }
 
-    /// Modes that have not moved cost nothing and change nothing, also where the contact grows and shrinks.
+    /// Leaving out modes that have not moved changes nothing, also where the contact grows and shrinks.
     #[test]
     fn what_has_not_moved_is_left_out() {
         let [mut triangular, mut turned] = triangular_and_turned();

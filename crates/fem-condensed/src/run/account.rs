@@ -5,8 +5,8 @@ use crate::run::between_steps::StepParabola;
 use crate::run::sample::MotionSample;
 
 impl ImpactRun<'_> {
-    /// The end of a step with what was lost and gained until then. `before` is the step before `begin` if nothing
-    /// has happened since.
+    /// Returns the sample at the end of a step with its integrals. `before` is the sample before `begin`, if the
+    /// contact has not begun or ended since.
     pub(super) fn integrated(
         &mut self,
         before: Option<&MotionSample>,
@@ -26,7 +26,7 @@ impl ImpactRun<'_> {
             for (side, gone) in self.radiated.iter_mut().flatten().enumerate() {
                 *gone += over(&|sample| sample.radiated_power.map_or(0.0, |both| both[side]));
             }
-            // That of the motion itself, by which its momentum changes.
+            // The impulse of the integrated motion, which changes its momentum.
             self.impulse += 0.5 * time_step * (begin.contact_force + end.contact_force);
             self.impulse -= self.motion.momentum_of_joining;
             if end.touches {
@@ -38,8 +38,8 @@ impl ImpactRun<'_> {
         self.with_residual(MotionSample { rate, dissipated: self.dissipated, radiated, ..end })
     }
 
-    /// What the rate is more than that of Newmark's γ = 1/2, which is the trapezoidal rule: Δt Ḟ Δt/12 m*, m/s. A
-    /// point that has joined is no bend of what is smooth.
+    /// Returns the correction of Newmark's rate with γ = 1/2, the trapezoidal rule, to third order: Δt Ḟ Δt/12 m*, m/s.
+    /// Points that have joined are not part of the smooth slope.
     fn rate_of_third_order(
         &self,
         before: Option<&MotionSample>,
@@ -53,8 +53,8 @@ impl ImpactRun<'_> {
         self.motion.time_step / 12.0 * (change.slope() + missed) / self.pair.reduced_mass
     }
 
-    /// Tells pulse and history of the instants of a step, its end the last of them.
-    pub(super) fn tell(
+    /// Adds the instants of a step, including its end, to pulse and history.
+    pub(super) fn observe_within(
         &mut self,
         before: Option<MotionSample>,
         begin: Option<MotionSample>,
@@ -70,7 +70,7 @@ impl ImpactRun<'_> {
                 let theta = k as f64 / per_step as f64;
                 let within = MotionSample::within(before.as_ref(), &begin, &end, opens, theta);
                 let impulse = self.even_impulse + self.motion.time_step * even.integral(theta);
-                // Read at the end: a first facet is no part of the contact that follows.
+                // Radius and pressure are those at the end of the step: the first facet is not part of the contact.
                 self.pulse.observe(within.time, impulse, end.contact_radius, end.centre_pressure);
                 if self.history.is_some() {
                     let row = self.with_residual(within).row(self.frame);
@@ -87,7 +87,7 @@ impl ImpactRun<'_> {
         }
     }
 
-    /// The same with what its energies do not add up to.
+    /// Returns the sample with its energy residual.
     pub(super) fn with_residual(&self, sample: MotionSample) -> MotionSample {
         let MotionSample { rate, vibration: [lower, upper], strain, contact, dissipated, .. } =
             sample;

@@ -7,10 +7,9 @@ use fem_collision::{
 };
 use fem_material::engineering::show;
 
-/// Approach and force of every step.
+/// Approach (m) and force (N) of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RunTrace {
-    /// m.
     pub approach: f64,
     pub is_closed: bool,
 }
@@ -18,25 +17,25 @@ pub(crate) struct RunTrace {
 /// An instant between two steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TraceInstant {
-    /// The step before, or at it.
+    /// Step at or before the instant.
     pub step: usize,
-    /// Share of the way to the next step, 0 to 1.
+    /// Share of the interval to the next step, 0 to 1.
     pub part: f64,
 }
 
 impl TraceInstant {
-    /// A step itself.
+    /// Creates the instant of a step.
     pub fn at(step: usize) -> Self {
         Self { step, part: 0.0 }
     }
 
-    /// Steps since first touch.
+    /// Returns the number of steps since first touch.
     pub fn position(self) -> f64 {
         self.step as f64 + self.part
     }
 }
 
-/// Instants of the snapshots that are asked for, in the order of time, and what cannot be had.
+/// Returns the instants of the requested snapshots in the order of time, and messages about those that do not occur.
 /// Times are those of the case, s. Bodies that stay together have no last contact.
 pub(crate) fn choose(
     trace: &[RunTrace],
@@ -51,7 +50,7 @@ pub(crate) fn choose(
     let since_touch = |time: f64| {
         let position = (time / time_step).clamp(0.0, end as f64);
         let step = position.floor();
-        // What is nearer to a step than rounding is the step.
+        // Positions within rounding of a step are that step.
         match position - step {
             part if part < 1e-6 => TraceInstant::at(step as usize),
             part if part > 1.0 - 1e-6 => TraceInstant::at(step as usize + 1),
@@ -112,7 +111,7 @@ pub(crate) fn choose(
     (chosen, missing)
 }
 
-/// Where the approach passes a level between two steps with contact.
+/// Returns the instant at which the approach passes a level between two steps with contact.
 fn passes(trace: &[RunTrace], steps: Range<usize>, level: f64) -> Option<TraceInstant> {
     steps.into_iter().find_map(|step| {
         let [before, after] = [trace[step], *trace.get(step + 1)?];

@@ -20,7 +20,7 @@ use crate::run::sample::MotionSample;
 
 /// Relative energy residual above which a run is stopped.
 const LARGEST_IMBALANCE: f64 = 0.1;
-/// Rate of approach over the initial one below which bodies creep. Creeping bodies get more time.
+/// Rate of approach over the initial one below which bodies creep. Creeping bodies get more time to separate.
 const CREEPING: f64 = 0.1;
 /// Largest time that creeping bodies may take to separate, over the time of compression.
 const SLOWEST_PARTING: f64 = 2.0;
@@ -28,10 +28,10 @@ const SLOWEST_PARTING: f64 = 2.0;
 /// Smallest number of samples of force, radius and pressure in a contact; the window of their peaks
 /// is a 64th of it.
 const INSTANTS: usize = 1000;
-/// The most of them within a step.
+/// Largest number of samples per step.
 const MOST_WITHIN_STEP: f64 = 8.0;
 
-/// Steps for whose trace there is room from the beginning.
+/// Largest number of steps for which memory is reserved at the beginning.
 const MOST_RESERVED: usize = 1 << 16;
 
 /// A collision that is being computed.
@@ -40,27 +40,27 @@ pub(crate) struct ImpactRun<'a> {
     frame: &'a Frame,
     motion: ImpactMotion<'a>,
     initial_energy: f64,
-    /// Since first touch, s.
+    /// Time of the last contact since first touch, s.
     last_contact: f64,
     episodes: u64,
     was_closed: bool,
     /// Whether the bodies have moved apart since first touch.
     has_receded: bool,
-    /// Energy dissipated by relaxation, J, and ∫F dt, N s, by the trapezoidal rule.
+    /// Energy dissipated by relaxation, J.
     dissipated: f64,
-    /// Energy radiated from each body, J, if any.
+    /// Energy radiated from each body, J, if included.
     radiated: Option<[f64; 2]>,
     impulse: f64,
-    /// The same of the force less what is the nodes' of it ([`ImpactMotion::swing`]).
+    /// Impulse of the force without its oscillation ([`crate::motion::ImpactMotion::force_oscillation`]), N s.
     even_impulse: f64,
-    /// See [`ImpactMotion::missed_slope`], of the step before.
+    /// [`ImpactMotion::missed_slope`] of the previous step.
     missed_slope: f64,
-    /// Samples per step, its end included.
+    /// Number of samples per step, its end included.
     per_step: u64,
     worst_residual: f64,
     residual_since: Option<StepInstant>,
     growth: f64,
-    /// Difference of the exchanged momentum and the impulse, N s.
+    /// Largest difference of the exchanged momentum and the impulse, N s.
     worst_momentum: f64,
     approach: InterpolatedPeak,
     force: InterpolatedPeak,
@@ -69,13 +69,13 @@ pub(crate) struct ImpactRun<'a> {
     pulse: ForcePulse,
     aftermath: PostContactVibration,
     standstill: RestCriterion,
-    /// Since when the bodies no longer approach each other, after first touch, s.
+    /// End of the compression, since first touch, s.
     turned: f64,
-    /// Since first touch, s.
+    /// Time limit since first touch, s.
     give_up: f64,
     expected_end: f64,
     history: Option<History>,
-    /// The step before and the one before that, and the end of contact after it with the steps around.
+    /// Samples of the last two steps.
     last: Option<MotionSample>,
     before_last: Option<MotionSample>,
     opening: Option<[MotionSample; 3]>,
@@ -86,7 +86,7 @@ pub(crate) struct ImpactRun<'a> {
 /// Result of a run.
 pub(crate) struct FinishedRun {
     pub collision: Collision,
-    /// Every step.
+    /// Approach and force of every step.
     pub trace: Vec<RunTrace>,
 }
 
@@ -141,7 +141,7 @@ impl<'a> ImpactRun<'a> {
         }
     }
 
-    /// Steps until the bodies have parted, or something stops them.
+    /// Advances until the bodies have separated or the run stops.
     pub fn until_parted(mut self, monitor: &mut dyn Monitor) -> FinishedRun {
         self.record();
         let ending = loop {
@@ -154,12 +154,12 @@ impl<'a> ImpactRun<'a> {
         self.finish(ending)
     }
 
-    /// Time of the present step since the start of the case, s.
+    /// Returns the time of the current step since the start of the case, s.
     fn time_of_case(&self) -> f64 {
         self.frame.approach.first_touch() + self.motion.time()
     }
 
-    /// One step; how it ended, if it did.
+    /// Advances by one step and returns the ending, if the run has ended.
     fn advance(&mut self, monitor: &mut dyn Monitor) -> Result<Option<Ending>, Stop> {
         let overlap_before = if self.motion.step == 0 { 0.0 } else { self.motion.axis_overlap() };
         let first_touch = self.frame.approach.first_touch();
@@ -188,7 +188,7 @@ impl<'a> ImpactRun<'a> {
         if !is_closed && self.motion.rate < 0.0 && flight >= FLIGHT_AFTER * self.last_contact {
             return Ok(Some(Ending::Parted));
         }
-        // Gravity lets no bounce rise further than this.
+        // Under gravity bodies do not necessarily separate farther than this.
         self.has_receded |= self.motion.rate < 0.0;
         let is_at_top = self.frame.gravity > 0.0 && self.has_receded && self.motion.rate >= 0.0;
         if !is_closed && is_at_top {
@@ -197,7 +197,7 @@ impl<'a> ImpactRun<'a> {
         if stays {
             return Ok(Some(Ending::Together));
         }
-        // An imbalance that is no number is above every limit.
+        // NaN is above every limit.
         let is_sound = self.worst_residual <= LARGEST_IMBALANCE;
         let time_of_case = self.time_of_case();
         if !is_sound {
@@ -227,7 +227,7 @@ impl<'a> ImpactRun<'a> {
         Ok(None)
     }
 
-    /// Observes a step; whether the bodies stay together.
+    /// Records a step and returns whether the bodies stay together.
     fn record(&mut self) -> bool {
         let motion = &self.motion;
         let (time, rate) = (motion.time(), motion.rate);
@@ -238,7 +238,7 @@ impl<'a> ImpactRun<'a> {
             step: motion.step as u64,
         };
         self.scatter.observe(motion.force, now);
-        if let Some((overlap, radius)) = motion.deepest_overlap() {
+        if let Some((overlap, radius)) = motion.largest_overlap() {
             self.deepest =
                 DeepestOverlap::of(self.deepest, DeepestOverlap { overlap, radius, at: now });
         }
@@ -252,7 +252,7 @@ impl<'a> ImpactRun<'a> {
             time,
             touches,
             contact_force: motion.force,
-            even_force: motion.force - motion.swing(),
+            even_force: motion.force - motion.force_oscillation(),
             contact_radius: 0.0,
             approach: motion.approach,
             centre_pressure: 0.0,
@@ -273,7 +273,7 @@ impl<'a> ImpactRun<'a> {
             &mut self.pressures,
         );
         let begin = self.last;
-        // What came before something happened says nothing of what comes after.
+        // Parabolas do not extend across a first touch or the end of a contact.
         let is_same = |other: &MotionSample| other.touches == touches;
         let before =
             self.before_last.filter(|before| is_same(before) && begin.is_some_and(|b| is_same(&b)));
@@ -302,7 +302,7 @@ impl<'a> ImpactRun<'a> {
             rate,
             inner_energy: vibration[0] + vibration[1] + stored + contact + potential,
         };
-        self.tell(before, begin, sample);
+        self.observe_within(before, begin, sample);
         (self.before_last, self.last) = (begin, Some(sample));
         self.standstill.observe(&held)
     }
@@ -313,7 +313,7 @@ impl<'a> ImpactRun<'a> {
             (ending == Ending::Parted, matches!(ending, Ending::Stopped(_)));
         let restitution = match ending {
             Ending::Parted => {
-                // As it was when the contact ended.
+                // The rate is that at the end of the contact.
                 let fallen = frame.gravity * (motion.time() - self.last_contact);
                 Some((fallen - motion.rate) / frame.speed())
             }
@@ -325,7 +325,7 @@ impl<'a> ImpactRun<'a> {
         let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
         for (side, body) in bodies.iter_mut().enumerate() {
             body.velocity_after = velocity_after.map(|both| both[side]);
-            // A half-space has what has gone out as waves; a wall has neither that nor a mass.
+            // The vibration energy of a half-space is the radiated energy; a wall has neither this nor a mass.
             let input = &self.pair.inputs()[side];
             let is_wall = frame.masses[side].is_none() && input.mesh().is_none();
             let radiated = self.radiated.filter(|_| input.is_half_space());
@@ -363,7 +363,7 @@ impl<'a> ImpactRun<'a> {
             force_scatter: self.scatter.force(),
             deepest: self.deepest,
             noisiest: self.scatter.noisiest(),
-            searched: Some(self.pair.searched()),
+            searched: Some(self.pair.candidate_region()),
             initial_energy: Some(frame.kinetic(frame.speed())),
             energies: self.last.map_or(EnergyLedger::EMPTY, |end| end.energies(frame)),
             residual: self.last.map(|end| end.residual),

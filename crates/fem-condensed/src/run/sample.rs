@@ -1,49 +1,45 @@
-//! A sample of the relative motion and the corresponding motion of both bodies.
+//! A sample of the relative motion, and the row of the history that follows from it.
 
 use fem_collision::{Account, EnergyLedger, Frame, HistoryRow};
 
 use crate::run::between_steps::StepParabola;
 
-/// One instant of the relative motion.
+/// The relative motion at one instant. SI units.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MotionSample {
-    /// Since first touch, s.
+    /// Time since first touch, s.
     pub time: f64,
-    /// Whether the bodies touch, or begin to.
+    /// Whether the bodies are in contact or at first touch.
     pub touches: bool,
-    /// N.
     pub contact_force: f64,
-    /// The same less what is the nodes' of it ([`crate::motion::Motion::swing`]), N.
+    /// Contact force without its oscillation ([`crate::motion::ImpactMotion::force_oscillation`]), N.
     pub even_force: f64,
-    /// m.
     pub contact_radius: f64,
-    /// m.
     pub approach: f64,
-    /// Pa.
     pub centre_pressure: f64,
-    /// Of the approach, m/s.
+    /// Rate of the approach, m/s.
     pub rate: f64,
-    /// Stored in the bodies, J.
+    /// Energy stored in the bodies, J.
     pub strain: f64,
-    /// Stored in penalty springs, J.
+    /// Energy stored in penalty springs, J.
     pub contact: f64,
-    /// That relaxation takes, W.
+    /// Power dissipated by relaxation, W.
     pub power: f64,
-    /// J.
+    /// Energy dissipated by relaxation, J.
     pub dissipated: f64,
-    /// That waves take out of each body, W, if any leave it.
+    /// Power radiated from each body, W, if included.
     pub radiated_power: Option<[f64; 2]>,
-    /// Gone with waves, J.
+    /// Radiated energy, J.
     pub radiated: Option<f64>,
-    /// J.
+    /// Residual of the energy balance, J.
     pub residual: f64,
     /// Kinetic energy of each body relative to its mass centre, J.
     pub vibration: [f64; 2],
 }
 
 impl MotionSample {
-    /// At a share of the way to the next step, whose samples are given with the one before this if nothing has
-    /// happened since; of a contact that ends within the step at a share of it, where the force is zero.
+    /// Interpolates at a share of the step to the next sample. The sample before this one is given if the contact has
+    /// not begun or ended since. If the contact ends within the step, the force is zero from that share on.
     pub fn within(
         before: Option<&Self>,
         begin: &Self,
@@ -84,7 +80,7 @@ impl MotionSample {
         }
     }
 
-    /// Energy in each account, J.
+    /// Returns the energy in each account, J.
     pub fn energies(&self, frame: &Frame) -> EnergyLedger {
         let [lower, upper] = self.vibration;
         let mut book = EnergyLedger::EMPTY
@@ -105,7 +101,7 @@ impl MotionSample {
         book
     }
 
-    /// The same of both bodies.
+    /// Returns the row of the history.
     pub fn row(&self, frame: &Frame) -> HistoryRow {
         HistoryRow {
             time: frame.approach.first_touch() + self.time,

@@ -1,4 +1,4 @@
-//! Runs that are disturbed from inside: no case is known that comes to these stops by itself.
+//! Runs whose motion is modified, because no case is known that stops in this way by itself.
 
 use fem_collision::BodyInput;
 use fem_material::{ElasticModuli, Material};
@@ -7,7 +7,7 @@ use fem_mesh::{HalfDisc, Side};
 use super::*;
 use crate::settings::PairSettings;
 
-/// Elastic contact time of the pair, s, about.
+/// Approximate elastic contact time of the pair, s.
 const CONTACT_TIME: f64 = 68e-6;
 const N_STEPS: usize = 200;
 
@@ -26,7 +26,7 @@ fn pair() -> CondensedPair {
     CondensedPair::new(bodies, PairSettings::new(0.55e-3)).unwrap()
 }
 
-/// A collision of which something is disturbed after a third of the contact.
+/// Runs a collision whose motion is modified after a third of the contact.
 fn disturbed(disturb: impl FnOnce(&mut ImpactMotion<'_>)) -> Collision {
     let (pair, want) = (pair(), OutputRequest::history());
     let frame = pair.frame(0.5).unwrap();
@@ -51,7 +51,7 @@ fn disturbed(disturb: impl FnOnce(&mut ImpactMotion<'_>)) -> Collision {
     run.finish(ending).collision
 }
 
-/// What was computed before is kept: numbers of the force so far, but no restitution.
+/// Returns whether a stopped run has its history and force until then, but no restitution.
 fn is_kept_so_far(collision: &Collision) -> bool {
     collision.restitution.is_none()
         && collision.contact_time.is_none()
@@ -75,7 +75,7 @@ fn a_motion_that_is_no_number_stops_condensed_bodies() {
     assert!(is_kept_so_far(&run));
 }
 
-/// A pause changes nothing; so the two tests above fail for what they do.
+/// Without a modification the run ends normally.
 #[test]
 fn undisturbed_bodies_part() {
     let run = disturbed(|_| {});

@@ -1,81 +1,80 @@
-//! The common refinement of both surfaces, in the order of the radius.
+//! The common refinement of both surfaces: intervals of the radius without a node of either, from the axis outward.
 
 use std::f64::consts::PI;
 
 use super::MovedInterface;
-use super::segment::{Place, Segment};
+use super::segment::{SurfacePoint, Segment};
 use crate::evaluate::SurfaceFold;
 use crate::interface::mean_length;
 
-/// Gauss points of a piece: shares of the half length from its middle, and weights.
+/// Gauss points of an interval: offsets from its middle over the half length, and weights.
 pub(super) const GAUSS: [[f64; 2]; 3] =
     [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
 
-/// A piece of the radius over which neither surface has a node.
+/// An interval of the radius in which neither surface has a node.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Piece<'a> {
-    /// Values of the lower and the upper surface.
+pub(super) struct Interval<'a> {
+    /// Segments of the lower and the upper surface.
     pub segments: [Segment<'a>; 2],
-    /// Its ends, m.
+    /// Inner and outer end, m.
     pub radii: [f64; 2],
-    /// Sides and nodes that the ends move with; none of the axis and of a rigid sphere's equator.
+    /// Side and node with which each end moves; none on the axis and at the equator of a rigid sphere.
     pub ends: [Option<(usize, u32)>; 2],
     /// Penalty per area, Pa/m.
     pub stiffness: f64,
 }
 
-/// A Gauss point of a piece.
+/// A Gauss point of an interval.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
-    /// m.
+pub(super) struct GaussPoint {
     pub radius: f64,
-    /// 2πr dr, m².
+    /// Area 2πr dr, m².
     pub area: f64,
     /// y of the upper less that of the lower surface, m.
     pub gap: f64,
-    /// Values of the lower and the upper surface.
-    pub places: [Place; 2],
+    /// Points of the lower and the upper surface.
+    pub surface_points: [SurfacePoint; 2],
 }
 
-/// Walks along both surfaces. `U` tells the displacement of a node, m.
+/// Iterator over the intervals, along both surfaces. `U` maps a node to its displacement, m.
 #[derive(Clone)]
-pub(super) struct Pieces<'a, U> {
+pub(super) struct RefinementWalk<'a, U> {
     interface: &'a MovedInterface,
     displacement: [U; 2],
-    /// The segments in which the walk is; none if a surface turns over at the axis.
+    /// Current segments; none if a surface folds at the axis.
     segments: Option<[Segment<'a>; 2]>,
     is_over: bool,
     radius: f64,
     end: Option<(usize, u32)>,
-    /// The side whose surface turns over where the walk has ended.
-    turned: Option<usize>,
+    /// Side whose surface folds where the walk has ended.
+    folded: Option<usize>,
 }
 
 impl MovedInterface {
-    /// The pieces for displacements (m) of the nodes of the lower and the upper body.
-    pub(super) fn pieces<U: Fn(u32) -> [f64; 2]>(&self, displacement: [U; 2]) -> Pieces<'_, U> {
+    /// Returns the intervals for displacements (m) of the nodes of the lower and the upper body.
+    pub(super) fn intervals<U: Fn(u32) -> [f64; 2]>(&self, displacement: [U; 2]) -> RefinementWalk<'_, U> {
         let [lower, upper] = [0, 1].map(|side| self.segment(side, 0, &displacement[side]));
-        let turned = [&lower, &upper].into_iter().position(Option::is_none);
-        Pieces {
+        let folded = [&lower, &upper].into_iter().position(Option::is_none);
+        RefinementWalk {
             interface: self,
             displacement,
             segments: lower.zip(upper).map(|(lower, upper)| [lower, upper]),
-            is_over: turned.is_some(),
+            is_over: folded.is_some(),
             radius: 0.0,
             end: None,
-            turned,
+            folded,
         }
     }
 
-    /// All Gauss points.
+    /// Returns all Gauss points with their intervals.
     pub(super) fn points<'a, U: Fn(u32) -> [f64; 2] + 'a>(
         &'a self,
         displacement: [U; 2],
-    ) -> impl Iterator<Item = (Piece<'a>, Point)> + 'a {
-        self.pieces(displacement).flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))))
+    ) -> impl Iterator<Item = (Interval<'a>, GaussPoint)> + 'a {
+        self.intervals(displacement).flat_map(|interval| GAUSS.map(|gauss| (interval, interval.point(gauss))))
     }
 
-    /// A segment of a side, by the number of its inner node; `None` if it is turned over.
+    /// Returns a segment of a side by the number of its inner node; `None` if it is folded.
     pub(super) fn segment<U: Fn(u32) -> [f64; 2]>(
         &self,
         side: usize,
@@ -89,8 +88,8 @@ impl MovedInterface {
     }
 }
 
-impl<'a> Piece<'a> {
-    /// Radius (m) and area seen along y (m²) at a share of the half length from the middle, −1 to 1.
+impl<'a> Interval<'a> {
+    /// Returns radius (m) and projected area (m²) of a Gauss point.
     pub fn ring(&self, [offset, weight]: [f64; 2]) -> (f64, f64) {
         let [start, end] = self.radii;
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
@@ -98,16 +97,16 @@ impl<'a> Piece<'a> {
         (radius, 2.0 * PI * radius * (weight * half))
     }
 
-    /// The point there.
-    pub fn point(&self, gauss: [f64; 2]) -> Point {
+    /// Returns the Gauss point with its values of both surfaces.
+    pub fn point(&self, gauss: [f64; 2]) -> GaussPoint {
         let (radius, area) = self.ring(gauss);
-        let places = self.segments.each_ref().map(|segment| segment.at(radius));
-        Point { radius, area, gap: places[1].height - places[0].height, places }
+        let surface_points = self.segments.each_ref().map(|segment| segment.at(radius));
+        GaussPoint { radius, area, gap: surface_points[1].height - surface_points[0].height, surface_points }
     }
 
-    /// The same if it is closed. Most points are open, and most of those by so much that it is known without
-    /// their arcs.
-    pub fn closed_point(&self, gauss: [f64; 2]) -> Option<Point> {
+    /// Returns the Gauss point if it is closed. Most points are open by a large gap, which a lower bound shows
+    /// without evaluating the arcs.
+    pub fn closed_point(&self, gauss: [f64; 2]) -> Option<GaussPoint> {
         let (radius, _) = self.ring(gauss);
         let [lower, upper] = self.segments.each_ref().map(|segment| segment.least_depth(radius));
         if lower + upper > 0.0 {
@@ -117,11 +116,11 @@ impl<'a> Piece<'a> {
     }
 }
 
-impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
-    /// Where the walk has ended because a surface turns over, and whether it overlaps the other
-    /// one further on: nodes beyond are compared with the other surface where they have come back to.
-    pub fn turn(&self) -> Option<(SurfaceFold, bool)> {
-        let side = self.turned?;
+impl<U: Fn(u32) -> [f64; 2]> RefinementWalk<'_, U> {
+    /// Returns the fold at which the walk has ended, and whether nodes beyond it overlap the other surface at
+    /// the radius to which they have come back.
+    pub fn surface_fold(&self) -> Option<(SurfaceFold, bool)> {
+        let side = self.folded?;
         let surface = &self.interface.surfaces[side];
         let at =
             |first: usize| SurfaceFold { side, node: surface.nodes[first], radius: self.radius };
@@ -140,7 +139,7 @@ impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
         Some((at(first), overlaps))
     }
 
-    /// Height (m) of a side at a radius (m) up to the last segment in which the walk was.
+    /// Returns the height (m) of a side at a radius (m) up to the last segment of the walk.
     fn height_inside(&self, side: usize, last: &Segment<'_>, r: f64) -> f64 {
         if last.is_rigid() || r >= last.radii[0] {
             return last.at(r).height;
@@ -153,10 +152,10 @@ impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
     }
 }
 
-impl<'a, U: Fn(u32) -> [f64; 2]> Iterator for Pieces<'a, U> {
-    type Item = Piece<'a>;
+impl<'a, U: Fn(u32) -> [f64; 2]> Iterator for RefinementWalk<'a, U> {
+    type Item = Interval<'a>;
 
-    fn next(&mut self) -> Option<Piece<'a>> {
+    fn next(&mut self) -> Option<Interval<'a>> {
         while !self.is_over {
             let segments = self.segments.as_ref()?;
             let side = usize::from(segments[1].radii[1] < segments[0].radii[1]);
@@ -164,24 +163,24 @@ impl<'a, U: Fn(u32) -> [f64; 2]> Iterator for Pieces<'a, U> {
             let radii = [self.radius, ending.radii[1]];
             let next = ending.index + 1;
             let end = (!ending.is_rigid()).then(|| (side, ending.nodes()[1]));
-            let piece = (radii[1] > radii[0]).then(|| {
+            let interval = (radii[1] > radii[0]).then(|| {
                 let numbers = segments.each_ref().map(|segment| segment.index);
                 let length = mean_length(&self.interface.surfaces, numbers);
                 let stiffness = self.interface.stiffness / length;
-                Piece { segments: *segments, radii, ends: [self.end, end], stiffness }
+                Interval { segments: *segments, radii, ends: [self.end, end], stiffness }
             });
             (self.radius, self.end) = (radii[1], end);
             self.step(side, next);
-            if piece.is_some() {
-                return piece;
+            if interval.is_some() {
+                return interval;
             }
         }
         None
     }
 }
 
-impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
-    /// Takes a side to the segment of this number, or ends the walk.
+impl<U: Fn(u32) -> [f64; 2]> RefinementWalk<'_, U> {
+    /// Moves a side to the segment of this number, or ends the walk.
     fn step(&mut self, side: usize, next: usize) {
         if next + 1 >= self.interface.n_nodes[side] {
             self.is_over = true;
@@ -191,7 +190,7 @@ impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
             (Some(segments), Some(segment)) => segments[side] = segment,
             _ => {
                 self.is_over = true;
-                self.turned = Some(side);
+                self.folded = Some(side);
             }
         }
     }
@@ -209,9 +208,8 @@ mod tests {
         Surface::of_sphere(&disc.build().unwrap().on_side(side))
     }
 
-    /// Of two spheres, and of one and a rigid sphere or a plane, pressed together by less and more and
-    /// stretched: closed points are the same as by the arcs, and few others are asked for theirs. How many
-    /// are is what a step of the contact costs.
+    /// The lower bound of the depth finds the same closed points as the arcs do, and evaluates the arcs of few
+    /// others, which decides the cost of the contact. A sphere is pressed on a sphere, a rigid sphere and a plane.
     #[test]
     fn points_that_are_open_are_known_without_their_arcs() {
         let others =
@@ -227,7 +225,7 @@ mod tests {
                 if surface.is_rigid() { vec![0.0; 2] } else { radii }
             });
             for pressed in [-1e-3, 1e-3, 4e-3, 1.5e-2] {
-                // A surface gives way where it is pressed, by half as much on the axis.
+                // A surface moves back where it is pressed, by half as much on the axis.
                 let moved = |side: usize| {
                     let (radii, sign) = (&radii[side], [1.0, -1.0][side]);
                     move |node: u32| {
@@ -236,13 +234,13 @@ mod tests {
                     }
                 };
                 let (mut n, mut n_closed, mut n_asked) = (0, 0, 0);
-                for piece in interface.pieces([moved(0), moved(1)]) {
+                for interval in interface.intervals([moved(0), moved(1)]) {
                     for gauss in GAUSS {
-                        let (point, found) = (piece.point(gauss), piece.closed_point(gauss));
-                        let gap = |point: Point| point.gap.to_bits();
+                        let (point, found) = (interval.point(gauss), interval.closed_point(gauss));
+                        let gap = |point: GaussPoint| point.gap.to_bits();
                         let is_closed = point.gap < 0.0;
                         assert_eq!(found.map(gap), is_closed.then(|| gap(point)));
-                        let depth = piece.segments.map(|segment| segment.least_depth(point.radius));
+                        let depth = interval.segments.map(|segment| segment.least_depth(point.radius));
                         n += 1;
                         n_closed += usize::from(is_closed);
                         n_asked += usize::from(depth[0] + depth[1] <= 0.0);

@@ -1,49 +1,44 @@
-//! Frictionless penalty contact between the surfaces where they are now.
+//! Frictionless penalty contact between the deformed surfaces, for strains and slopes that are not small.
 //!
-//! For strains and slopes that are not small. Each surface is a curve r → y(r): its nodes are at
-//! (R + u_r, y₀(R) + u_y), and between two of them the true arc y₀ is carried along, R and u linear
-//! in the share s of the segment. The springs act on what the curves overlap along y,
+//! Each surface is a curve r → y(r). Its nodes are at (R + u_r, y₀(R) + u_y); between two nodes the true arc y₀ is
+//! carried along, with R and u linear in the share s of the segment. The springs act on the overlap of the
+//! curves along y,
 //!
 //! ```math
 //! \Pi = \int \tfrac12 k \langle -g \rangle^2\, 2\pi r\, dr, \qquad
 //! g(r) = y^{upper}(r) - y^{lower}(r), \qquad k = f E^* / h
 //! ```
 //!
-//! over the radius r of the *moved* surfaces, and the forces are −∂Π/∂u, by everything that moves: the
-//! shape functions at a given r, the Gauss points, which move with the ends of their piece, and their
-//! weights. A surface that moves by δ changes its height at a given radius by δy − y' δr, so
+//! over the radius r of the *moved* surfaces. The forces are −∂Π/∂u with all that depends on u: the shape
+//! functions at a given r, and the Gauss points and their weights, which move with the ends of their interval. A
+//! surface that moves by δ changes its height at a given radius by δy − y' δr, so
 //!
 //! ```math
 //! f = -k g\; 2\pi r\, dr\; (\mp y', \pm 1) = p\, n\, dA, \qquad p = k \langle -g \rangle :
 //! ```
 //!
-//! p is the true pressure, on the true area and along the true normal of either surface, though the
-//! overlap is along y: measured along the normal it is g cos φ and the penalty k / cos φ, for
-//! slopes of 1 as if the penalty factor was 1.4 times as large. k is of *moved* area, so that p follows
-//! from g alone, and h is a length of the undeformed meshes, so that a spring is not stiffer for
-//! being squeezed.
+//! p is the true pressure, on the true area and along the true normal of either surface, though the overlap is
+//! measured along y. Along the normal the overlap is g cos φ and the penalty k / cos φ; at a slope of 1 the
+//! penalty factor is in effect 1.4 times as large. k is per *moved* area, so that p follows from g alone, and h is
+//! a length of the undeformed meshes, so that compression does not stiffen a spring.
 //!
-//! The common refinement of both curves is made anew in every configuration, by walking along
-//! both. A piece of it is born and dies at length zero, when a node of one surface passes one of the
-//! other, so Π is continuous however far the surfaces slide, and the energy of a run is as exact as
-//! its time step is fine. Pieces are never merged: a sliver costs as much as another piece and has
-//! its share of the force.
+//! The common refinement of both curves is rebuilt in every configuration. An interval of it appears and vanishes
+//! with length zero, when a node of one surface passes one of the other. So Π is continuous for any sliding, and
+//! the energy balance of a run is limited by its time step alone. Short intervals are not merged.
 //!
-//! Forces along y are equal and opposite to rounding. Radial ones are so up to the slope of the
-//! overlap, y' of one surface less that of the other: both are exact normals of their own surface.
+//! Forces along y are equal and opposite to rounding. Radial forces balance up to the difference of both slopes:
+//! each is normal to its own surface.
 //!
-//! Limits: the part of a surface that can touch has to be a graph over the radius. Where it turns
-//! over (r does not grow any more from node to node) the search ends; [`ContactForces`] reports
-//! whether something touches there. The arc between two nodes is carried along y, not along the
-//! normal: on a coarse mesh where the surface turns by φ, the arc's height over its chord is 1/cos
-//! φ of the true one, of second order in h.
+//! Limits: the part of a surface that can touch has to be a function of the radius. Where it folds (r does not
+//! grow from node to node) the search ends, and [`ContactForces`] reports whether the surfaces touch there. The
+//! arc between two nodes is carried along y, not along the normal: where the surface turns by φ, the arc's height
+//! over its chord is 1/cos φ of the true one, of second order in h.
 //!
-//! Springs alone ring; dashpots beside them take that ([`MovedInterface::with_damping`]).
+//! Dashpots ([`MovedInterface::with_damping`]) damp the oscillation of nodes on the springs.
 //!
-//! Three Gauss points integrate a closed piece exactly (r g² is of the fifth degree), so that Π has
-//! no kink where nodes pass each other in the contact. With two, coincident nodes of like meshes
-//! were held together by a radial force of up to 1e-3 of theirs, twenty times as stiff as the
-//! springs.
+//! Three Gauss points integrate a closed interval exactly (r g² is of the fifth degree), so that Π has no kink
+//! where nodes pass each other in the contact. With two points, coincident nodes of like meshes were held
+//! together by a radial force, twenty times as stiff as the springs.
 //!
 //! [`ContactForces`]: crate::ContactForces
 
@@ -55,10 +50,10 @@ mod pressure_recovery;
 mod segment;
 
 use crate::error::ContactError;
-use crate::interface::{check_springs, share_by_mass, springs};
+use crate::interface::{bound_factors, check_springs, share_by_mass};
 use crate::surface::Surface;
 
-/// The moved surfaces of two bodies, and the springs between them.
+/// The deformed surfaces of two bodies, and the springs between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovedInterface {
     surfaces: [Surface; 2],
@@ -70,7 +65,7 @@ pub struct MovedInterface {
     /// Penalty factor times contact modulus, Pa.
     stiffness: f64,
     candidate_radius: f64,
-    springs: [f64; 2],
+    bound_factors: [f64; 2],
     /// Impedance of the dashpots, Pa s/m; 0 without dashpots.
     impedance: f64,
 }
@@ -95,16 +90,16 @@ impl MovedInterface {
             (inside + 1).clamp(2, surface.radii.len())
         });
         let ends = [0, 1].map(|side: usize| surfaces[side].radii[n_nodes[side] - 1]);
-        let springs = springs(&surfaces);
+        let bound_factors = bound_factors(&surfaces);
         let candidate_radius = ends[0].min(ends[1]);
-        Ok(Self { surfaces, n_nodes, gap, stiffness, candidate_radius, springs, impedance: 0.0 })
+        Ok(Self { surfaces, n_nodes, gap, stiffness, candidate_radius, bound_factors, impedance: 0.0 })
     }
 
     /// Shares springs by mass beside a rigid sphere, as
     /// [`ContactInterface::with_rigid_mass`](crate::ContactInterface::with_rigid_mass) does.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
-        share_by_mass(&self.surfaces, ratio, &mut self.springs);
+        share_by_mass(&self.surfaces, ratio, &mut self.bound_factors);
         self
     }
 

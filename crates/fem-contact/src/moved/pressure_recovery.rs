@@ -1,22 +1,22 @@
 //! Contact radius and pressure of moved surfaces in the deformed configuration.
 
 use super::MovedInterface;
-use super::common_refinement::{GAUSS, Piece};
-use crate::pressure::{coarser, radius_and_pressure, reading};
+use super::common_refinement::{GAUSS, Interval};
+use crate::pressure::{coarser, radius_and_pressure, recovery_surfaces};
 use crate::pressure_recovery::{ContactEnforcement, contact_radius};
 use crate::profile::{N_BEYOND, Profile};
 
 impl MovedInterface {
-    /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact: see
+    /// Returns the current distance from the axis at which the pressure falls to zero, m; 0 without contact: see
     /// [`contact_radius`](crate::contact_radius).
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        reading(&self.surfaces, self.candidate_radius)
+        recovery_surfaces(&self.surfaces, self.candidate_radius)
             .radius(|side| contact_radius(self.at_nodes(side, u), ContactEnforcement::Springs))
     }
 
-    /// Contact pressure at the nodes of a deformable side, from the axis outward: where the node is now
-    /// (r in m), and the force along y over the area of its surroundings seen along y, which is the true
-    /// pressure on the true area (p in Pa).
+    /// Returns the contact pressure at the nodes of a deformable side, from the axis outward: the current radius of
+    /// the node (m), and the force along y over the projected area of its hat function, which is the true pressure
+    /// on the true area (Pa).
     pub fn nodal_pressure<'a>(
         &'a self,
         u: [&'a [[f64; 2]]; 2],
@@ -24,39 +24,39 @@ impl MovedInterface {
         self.at_nodes(coarser(self.surfaces.each_ref(), self.candidate_radius), u)
     }
 
-    /// The same of one side, 0 the lower one.
+    /// Returns the same for a given side, 0 the lower one.
     fn at_nodes<'a>(
         &'a self,
         side: usize,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        let pressure = |piece: &Piece<'a>, gauss: [f64; 2]| {
-            piece.closed_point(gauss).map_or(0.0, |point| -piece.stiffness * point.gap)
+        let pressure = |interval: &Interval<'a>, gauss: [f64; 2]| {
+            interval.closed_point(gauss).map_or(0.0, |point| -interval.stiffness * point.gap)
         };
         let sums = self.sums_at_nodes(side, u, pressure);
         sums.map(|(radius, [sum, area])| (radius, if area > 0.0 { sum / area } else { 0.0 }))
     }
 
-    /// Of what each point has the integral over the hat of each node of a side, and its area seen along y,
-    /// m², with where the node is now, m.
+    /// Returns for each node of a side its current radius (m), the integral of the points' values over its hat
+    /// function, and the projected area of the hat, m².
     fn sums_at_nodes<'a>(
         &'a self,
         side: usize,
         u: [&'a [[f64; 2]]; 2],
-        value: impl Fn(&Piece<'a>, [f64; 2]) -> f64 + Clone + 'a,
+        value: impl Fn(&Interval<'a>, [f64; 2]) -> f64 + Clone + 'a,
     ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
         let surface = &self.surfaces[side];
-        let mut pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize])).peekable();
-        // Integral and area that the segment inside of a node has given to it.
+        let mut intervals = self.intervals(u.map(|u| move |node: u32| u[node as usize])).peekable();
+        // Integral and area from the segment inside of a node.
         let mut from_inside = [0.0; 2];
         (0..self.n_nodes[side]).map(move |k| {
             let [mut sum, mut area] = from_inside;
             from_inside = [0.0; 2];
-            while let Some(piece) = pieces.next_if(|piece| piece.segments[side].index == k) {
+            while let Some(interval) = intervals.next_if(|interval| interval.segments[side].index == k) {
                 for gauss in GAUSS {
-                    let (radius, of_ring) = piece.ring(gauss);
-                    let share = piece.segments[side].share(radius);
-                    let value = value(&piece, gauss);
+                    let (radius, of_ring) = interval.ring(gauss);
+                    let share = interval.segments[side].share(radius);
+                    let value = value(&interval, gauss);
                     let (inner, outer) = ((1.0 - share) * of_ring, share * of_ring);
                     sum += inner * value;
                     area += inner;
@@ -69,24 +69,23 @@ impl MovedInterface {
         })
     }
 
-    /// True contact pressure on the axis, Pa; 0 without contact there: see
-    /// [`centre_pressure`](crate::centre_pressure), of the nodes where they are now.
+    /// Returns the true contact pressure on the axis, Pa, from the current positions of the nodes; 0 without
+    /// contact there: see [`centre_pressure`](crate::centre_pressure).
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
         self.radius_and_pressure(u).1
     }
 
-    /// [Radius](Self::contact_radius), m, and [pressure on the axis](Self::centre_pressure), Pa, which asks for the
-    /// radius.
+    /// Returns the [radius](Self::contact_radius) (m) and the [pressure on the axis](Self::centre_pressure) (Pa).
     pub fn radius_and_pressure(&self, u: [&[[f64; 2]]; 2]) -> (f64, f64) {
-        let reading = reading(&self.surfaces, self.candidate_radius);
-        radius_and_pressure(reading, |side| self.at_nodes(side, u))
+        let recovery = recovery_surfaces(&self.surfaces, self.candidate_radius);
+        radius_and_pressure(recovery, |side| self.at_nodes(side, u))
     }
 
-    /// As [`ContactInterface::profile`](crate::ContactInterface::profile), of where the surfaces are now: true distances from the axis and
-    /// true pressures.
+    /// Returns the contact profile like [`ContactInterface::profile`](crate::ContactInterface::profile), with
+    /// current distances from the axis and true pressures.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
         let side = coarser(self.surfaces.each_ref(), self.candidate_radius);
-        let gaps = self.sums_at_nodes(side, u, |piece, gauss| piece.point(gauss).gap);
+        let gaps = self.sums_at_nodes(side, u, |interval, gauss| interval.point(gauss).gap);
         let facing = gaps.map(|(radius, [sum, area])| {
             let own = |of: usize| self.radial_displacement(of, radius, u[of]);
             (area > 0.0).then(|| (sum / area, [own(0), own(1)]))
@@ -108,7 +107,7 @@ impl MovedInterface {
         own.extended(beyond.map_while(faces))
     }
 
-    /// y (m) of a side's surface at a radius, m; `None` beyond its end.
+    /// Returns y (m) of a side's surface at a radius, m; `None` beyond its end.
     fn height(&self, side: usize, radius: f64, u: &[[f64; 2]]) -> Option<f64> {
         let last = self.surfaces[side].radii.len() - 1;
         let at = |node: u32| u[node as usize];
@@ -116,7 +115,7 @@ impl MovedInterface {
         segments.find(|segment| radius <= segment.radii[1]).map(|segment| segment.at(radius).height)
     }
 
-    /// Displacement along r (m) of the point of a side that is now at a radius, m.
+    /// Returns the displacement along r (m) of the point of a side that is now at a radius, m.
     fn radial_displacement(&self, side: usize, radius: f64, u: &[[f64; 2]]) -> f64 {
         let surface = &self.surfaces[side];
         if surface.is_rigid() {

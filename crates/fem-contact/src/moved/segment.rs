@@ -5,7 +5,7 @@ use crate::surface::Surface;
 /// Generous bound of the rounding error of a parabola.
 const ROUNDED: f64 = 1.0 - 1e-9;
 
-/// A segment where it is now: a curve r → y(r). Of a rigid body it is the whole surface.
+/// A segment in its current position, a curve r → y(r). A rigid body has one, the whole surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment<'a> {
     surface: &'a Surface,
@@ -13,11 +13,11 @@ pub(super) struct Segment<'a> {
     pub index: usize,
     /// 1 if depth is along +y (upper body), −1 if along −y (lower body).
     sign: f64,
-    /// Distances of its ends from the axis, m.
+    /// Current distances of its ends from the axis, m.
     pub radii: [f64; 2],
-    /// 1 / (outer less inner radius), 1/m; 0 of a rigid body.
+    /// 1 / (outer less inner radius), 1/m; 0 for a rigid body.
     per_length: f64,
-    /// Displacement along y of its inner end, with the gap of the upper body, and its change to the
+    /// Displacement along y of its inner end, plus the gap for the upper body, and its change to the
     /// outer end, m.
     rise: f64,
     rise_change: f64,
@@ -26,20 +26,20 @@ pub(super) struct Segment<'a> {
     reference_change: f64,
 }
 
-/// A point of a segment.
+/// A point of a segment in its current position.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    /// Shape function of the outer node; that of the inner is what is missing to 1.
+pub(super) struct SurfacePoint {
+    /// Shape function of the outer node; the inner node has 1 minus this.
     pub share: f64,
-    /// y, m.
+    /// Height y, m.
     pub height: f64,
-    /// dy/dr.
+    /// Slope of the surface, dy/dr.
     pub slope: f64,
 }
 
 impl<'a> Segment<'a> {
-    /// Between two nodes of a surface that are displaced by (u_r, u_y), m; `sign` is that of its depth
-    /// along y and `gap` (m) what the surface is moved by along y. `None` if r does not grow.
+    /// Creates the segment between two nodes with displacements (u_r, u_y), m. `sign` is the direction of its
+    /// depth along y, `gap` (m) a translation along y. `None` if r does not grow.
     pub fn new(
         surface: &'a Surface,
         index: usize,
@@ -63,18 +63,18 @@ impl<'a> Segment<'a> {
         })
     }
 
-    /// Its nodes, inner and outer.
+    /// Returns its inner and outer node.
     pub fn nodes(&self) -> [u32; 2] {
         [self.surface.nodes[self.index], self.surface.nodes[self.index + 1]]
     }
 
-    /// Share of its outer node in a point at a radius, m; 0 of a rigid body.
+    /// Returns the shape function of its outer node at a radius, m; 0 for a rigid body.
     pub fn share(&self, r: f64) -> f64 {
         (r - self.radii[0]) * self.per_length
     }
 
-    /// How far it is inside of its body's side of y = 0 at a radius (m) at least, m: an arc is deeper than its
-    /// parabola, κr²/(1 + cos) > κr²/2, which asks for no root and no quotient.
+    /// Returns a lower bound of its distance from y = 0 at a radius (m), m, positive on its body's side. An arc is
+    /// deeper than its parabola, κr²/(1 + cos) > κr²/2, which needs neither a root nor a division.
     pub fn least_depth(&self, r: f64) -> f64 {
         let share = self.share(r);
         let reference = match self.surface.is_rigid() {
@@ -85,21 +85,21 @@ impl<'a> Segment<'a> {
         self.sign * rise + ROUNDED * 0.5 * self.surface.curvature * reference * reference
     }
 
-    /// Where it is at a radius, m.
-    pub fn at(&self, r: f64) -> Place {
+    /// Returns its point at a radius, m.
+    pub fn at(&self, r: f64) -> SurfacePoint {
         let share = self.share(r);
         if self.surface.is_rigid() {
             let (depth, slope) = self.surface.arc(r);
             let height = self.rise + self.sign * depth;
-            return Place { share: 0.0, height, slope: self.sign * slope };
+            return SurfacePoint { share: 0.0, height, slope: self.sign * slope };
         }
         let (depth, slope) = self.surface.arc(self.reference + share * self.reference_change);
         let height = self.rise + share * self.rise_change + self.sign * depth;
         let change = self.rise_change + self.sign * slope * self.reference_change;
-        Place { share, height, slope: change * self.per_length }
+        SurfacePoint { share, height, slope: change * self.per_length }
     }
 
-    /// Whether it is of a body that moves as a whole, and along y alone.
+    /// Returns whether its body is rigid and so moves along y alone.
     pub fn is_rigid(&self) -> bool {
         self.surface.is_rigid()
     }

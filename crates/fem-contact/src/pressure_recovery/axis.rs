@@ -1,43 +1,42 @@
 //! Recovery of the pressure on the axis.
 //!
-//! Node k has the mean of p over its hat, p(x̄) + ½ p″ var x in x = r², for areas are even in x. So p² is fitted by
+//! Node k has the mean of p over its hat function, p(x̄) + ½ p″ var x in x = r². So p² is fitted by
 //!
 //! ```math
 //! p^2 = c_0 + c_1 x + c_2 x^2
 //! ```
 //!
-//! at x̄, to the means without what p″ of the fit before adds to them. Hertz' profile has c₂ = 0; that of
-//! bodies that relax is followed by it: fits of two terms over 0.8 a are 2 to 3 % too high
-//! where the moduli fall by e⁻² within the contact.
+//! at x̄, to the means less the term ½ p″ var x of the previous fit. Hertz' profile has c₂ = 0. Relaxing bodies
+//! need c₂: without it, fits over 0.8 a are 2 to 3 % too high where the moduli fall by e⁻² within the contact.
 
-use super::{Cell, ContactEnforcement, Weight, cells};
+use super::{NodalMean, ContactEnforcement, HatMoments, nodal_means};
 
-/// Nodes that a fit takes at most, from the axis outward: plenty for three coefficients.
+/// Largest number of fitted nodes, from the axis outward.
 const MOST: usize = 64;
-/// The fits that are tried: terms, share of the contact radius over which they go, fewest nodes. Their
-/// weight falls to zero there, so that no node that comes or goes makes a step.
+/// Fits in the order of preference: number of terms, reach over the contact radius, least number of nodes. The
+/// weights fall to zero at the reach, so that a node that enters or leaves causes no jump.
 const FITS: [(usize, f64, usize); 2] = [(3, 0.6, 4), (2, 0.8, 2)];
-/// Passes; the second moves the result by 0.1 %, the third by less than 1e-5.
+/// Number of passes; the second changes the result by 0.1 %, the third by less than 1e-5.
 const PASSES: usize = 3;
-/// A fit that leaves these multiples of the pressure at the axis node goes astray; of a contact two elements
-/// across the radius Hertz' profile is at 1.2.
-const SOUND: std::ops::Range<f64> = 0.8..1.4;
-/// By what the pressures at the first nodes are below the profile, times a/h: the axis is a place of its
-/// own to elements. Measured on elastic spheres, 8 to 32 elements across the radius; so are the next two.
+/// Valid range of the fitted pressure over that of the axis node. For two elements per contact radius Hertz'
+/// profile gives 1.2.
+const VALID: std::ops::Range<f64> = 0.8..1.4;
+/// Relative deficit of the pressure at the first nodes, times a/h, caused by the elements at the axis. This and
+/// the next two constants were measured on elastic spheres with 8 to 32 elements per radius.
 const LAYER: [f64; 5] = [0.27, 0.085, 0.030, 0.012, 0.005];
-/// Springs spread the load: the pressure is lower by this times h/a, the penalty factor 1.
+/// Relative decrease of the pressure by springs of the penalty factor 1, times a/h: they spread the load.
 const SPRINGS: f64 = 0.022;
-/// What the fit still is too high, times a²/h², 4 to 8 elements across the radius.
+/// Remaining relative excess of the fit, times a²/h², for 4 to 8 elements per radius.
 const BEND: f64 = 0.15;
-/// Largest h/a that these are for.
+/// Largest h/a for which these constants are valid.
 const COARSEST: f64 = 0.5;
 
-/// A fit of p² over x/a².
+/// Coefficients of a fit of p² over x/a².
 #[derive(Debug, Clone, Copy)]
-struct Fit([f64; 3]);
+struct PressureFit([f64; 3]);
 
-impl Fit {
-    /// ½ p″ at x, if p² is more than a share of what it was fitted to.
+impl PressureFit {
+    /// Returns ½ p″ at x; p² is limited from below by a tenth of its fitted value.
     fn half_bend(self, x: f64, pressure: f64) -> f64 {
         let Self([c0, c1, c2]) = self;
         let p = (c0 + x * (c1 + x * c2)).max(0.1 * pressure * pressure).sqrt();
@@ -46,35 +45,35 @@ impl Fit {
     }
 }
 
-/// Contact pressure on the axis (Pa) of pressures at nodes from the axis outward (r in m, p in Pa), for
-/// a contact radius, m; 0 without contact there.
+/// Returns the contact pressure on the axis (Pa) for mean pressures at nodes from the axis outward (r in m, p in
+/// Pa) and a contact radius, m; 0 without contact there.
 pub fn centre_pressure(
     nodes: impl Iterator<Item = (f64, f64)> + Clone,
     contact_radius: f64,
-    barrier: ContactEnforcement,
+    enforcement: ContactEnforcement,
 ) -> f64 {
-    let cells = cells(nodes);
-    let Some(axis) = cells.clone().next().filter(|axis| axis.pressure != 0.0) else { return 0.0 };
+    let means = nodal_means(nodes);
+    let Some(axis) = means.clone().next().filter(|axis| axis.pressure != 0.0) else { return 0.0 };
     let size = axis.neighbours[1].unwrap_or(0.0);
     let coarseness = (size / contact_radius).min(COARSEST);
     if !(axis.pressure.is_finite() && coarseness > 0.0) {
         return axis.pressure;
     }
     let scale = 1.0 - BEND * coarseness * coarseness
-        + match barrier {
+        + match enforcement {
             ContactEnforcement::Springs => SPRINGS * coarseness,
             ContactEnforcement::Rigid => 0.0,
         };
-    // What weights cost is spent once for all fits and passes.
-    let mut room = [Inside::default(); MOST];
+    // The moments are evaluated once for all fits and passes.
+    let mut room = [FittedNode::default(); MOST];
     let widest = (FITS[1].1 * contact_radius).powi(2);
     let mut n_inside = 0;
-    for (k, cell) in cells.take_while(|cell| cell.pressure > 0.0).take(MOST).enumerate() {
-        let weight = cell.weight();
+    for (k, cell) in means.take_while(|cell| cell.pressure > 0.0).take(MOST).enumerate() {
+        let weight = cell.hat_moments();
         if weight.square >= widest {
             break;
         }
-        room[k] = Inside { pressure: without_layer(k, cell, coarseness).pressure, weight };
+        room[k] = FittedNode { pressure: without_layer(k, cell, coarseness).pressure, weight };
         n_inside = k + 1;
     }
     let inside = |reach: f64| {
@@ -86,7 +85,7 @@ pub fn centre_pressure(
     for (terms, reach, fewest) in FITS {
         if inside(reach).len() >= fewest
             && let Some(pressure) = fitted(inside(reach), reach, contact_radius, terms)
-            && SOUND.contains(&(pressure / axis.pressure))
+            && VALID.contains(&(pressure / axis.pressure))
         {
             return scale * pressure;
         }
@@ -94,43 +93,43 @@ pub fn centre_pressure(
     scale * without_layer(0, axis, coarseness).pressure
 }
 
-/// Contact pressures at nodes from the axis outward (r in m, p in Pa), Pa: on the axis [`centre_pressure`], at
-/// the next without what elements take off them there, farther out as they are.
+/// Returns the contact pressures (Pa) at nodes from the axis outward (r in m, p in Pa): on the axis
+/// [`centre_pressure`], at the next nodes corrected for the deficit near the axis, farther out unchanged.
 pub fn pressure_profile(
     nodes: impl Iterator<Item = (f64, f64)> + Clone,
     contact_radius: f64,
-    barrier: ContactEnforcement,
+    enforcement: ContactEnforcement,
 ) -> impl Iterator<Item = f64> + Clone {
-    let on_axis = centre_pressure(nodes.clone(), contact_radius, barrier);
+    let on_axis = centre_pressure(nodes.clone(), contact_radius, enforcement);
     let size = nodes.clone().nth(1).map_or(0.0, |(radius, _)| radius);
     let coarseness = (size / contact_radius).min(COARSEST);
-    cells(nodes).enumerate().map(move |(k, cell)| match k {
+    nodal_means(nodes).enumerate().map(move |(k, cell)| match k {
         0 => on_axis,
         _ if coarseness > 0.0 => without_layer(k, cell, coarseness).pressure,
         _ => cell.pressure,
     })
 }
 
-/// A cell without what elements take off the pressure near the axis.
-fn without_layer(k: usize, cell: Cell, coarseness: f64) -> Cell {
+/// Corrects the pressure of a node for the deficit near the axis.
+fn without_layer(k: usize, cell: NodalMean, coarseness: f64) -> NodalMean {
     let taken = LAYER.get(k).map_or(0.0, |layer| layer * coarseness);
-    Cell { pressure: cell.pressure / (1.0 - taken), ..cell }
+    NodalMean { pressure: cell.pressure / (1.0 - taken), ..cell }
 }
 
-/// A node that a fit takes.
+/// A fitted node.
 #[derive(Debug, Clone, Copy, Default)]
-struct Inside {
-    /// Without what elements take off it, Pa.
+struct FittedNode {
+    /// Pressure corrected for the deficit near the axis, Pa.
     pressure: f64,
-    weight: Weight,
+    weight: HatMoments,
 }
 
-/// √c₀ of a fit of so many terms; `None` if it has none.
-fn fitted(nodes: &[Inside], reach: f64, radius: f64, terms: usize) -> Option<f64> {
-    let mut fit: Option<Fit> = None;
+/// Returns √c₀ of a fit with this number of terms; `None` if c₀ is not positive.
+fn fitted(nodes: &[FittedNode], reach: f64, radius: f64, terms: usize) -> Option<f64> {
+    let mut fit: Option<PressureFit> = None;
     for _ in 0..PASSES {
         let (mut moments, mut sums) = ([0.0; 5], [0.0; 3]);
-        for Inside { pressure, weight } in nodes {
+        for FittedNode { pressure, weight } in nodes {
             let (x, spread) = (weight.square / radius.powi(2), weight.variance / radius.powi(4));
             let bend = fit.map_or(0.0, |fit| fit.half_bend(x, *pressure));
             let squared = (pressure - bend * spread).powi(2);
@@ -144,13 +143,13 @@ fn fitted(nodes: &[Inside], reach: f64, radius: f64, terms: usize) -> Option<f64
                 term *= x;
             }
         }
-        fit = Some(Fit(solve(&moments, &sums, terms)));
+        fit = Some(PressureFit(solve(&moments, &sums, terms)));
     }
-    let Fit([squared, ..]) = fit?;
+    let PressureFit([squared, ..]) = fit?;
     (squared > 0.0 && squared.is_finite()).then(|| squared.sqrt())
 }
 
-/// Coefficients of the least-squares polynomial with so many terms, by Cramer's rule.
+/// Returns the coefficients of the least-squares polynomial with this number of terms, by Cramer's rule.
 fn solve(m: &[f64; 5], y: &[f64; 3], terms: usize) -> [f64; 3] {
     if terms == 2 {
         let determinant = m[0] * m[2] - m[1] * m[1];

@@ -1,20 +1,20 @@
 //! The contact pressure between nodes, from the axis to the edge.
 //!
-//! The force on a node over its area is the mean of the pressure over its hat, not the pressure at the node; the
-//! hat of the outermost reaches beyond the edge. So the pressure is taken as Hertz' ellipse of the force F and
-//! the radius a, times a ratio that is linear between the nodes inside,
+//! The force on a node over its area is the mean of the pressure over its hat function, not the pressure at the
+//! node, and the hat of the outermost node reaches beyond the edge. So the pressure is Hertz' ellipse of the force F
+//! and the radius a, times a ratio that is linear between the nodes inside,
 //!
 //! ```math
 //! p(r) = \frac{3F}{2\pi a^2} \sqrt{1 - x} \; q(r) \, (1 + c x), \qquad x = r^2 / a^2
 //! ```
 //!
-//! where q at a node is its mean over that of the ellipse, on the axis what the pressure there is read as, and
-//! beyond the last node inside what it is there. The constant c is such that the force is that of the nodes: what
-//! elements take off near the axis and at the edge stays within 1 or 2 % of it. Zero at the edge.
+//! where q at a node is the mean pressure over that of the ellipse, on the axis the recovered pressure over that of
+//! the ellipse. Beyond the last node inside, q is constant. The constant c makes the total force that of the nodes;
+//! it corrects 1 or 2 %, the discretisation errors near the axis and at the edge. The pressure is zero at the edge.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::cells;
+use super::nodal_means;
 
 /// Gauss points and weights on −1..1 for polynomials up to the seventh degree.
 const GAUSS: [[f64; 2]; 4] = [
@@ -24,25 +24,26 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
 ];
 
-/// How often an interval between neighbours is halved for integrals: kinks are at their ends alone.
+/// Number of parts of each interval between neighbours for integrals.
 const PARTS: usize = 4;
 
-/// The pressure over the distance from the axis.
+/// The contact pressure as a function of the distance from the axis.
 #[derive(Debug, Clone)]
 pub struct PressureCurve {
-    /// a, m.
+    /// Contact radius a, m.
     edge: f64,
-    /// 3F/2πa², Pa.
+    /// Hertz' pressure 3F/2πa², Pa.
     on_axis: f64,
     /// (r in m, q) of the nodes inside, from the axis outward.
     ratios: Vec<(f64, f64)>,
-    /// c.
+    /// Constant c, which restores the force.
     slope: f64,
 }
 
 impl PressureCurve {
-    /// Of nodes from the axis outward (r in m, p in Pa; of the first that on the axis, of the others the mean over
-    /// their hats), the radius at which the pressure falls to zero, m, and the force, N; `None` without contact.
+    /// Creates the curve from nodes from the axis outward (r in m, p in Pa), the contact radius (m) and the force
+    /// (N); `None` without contact. The first node has the pressure on the axis, the others the mean over their
+    /// hat functions.
     pub fn new(nodes: &[(f64, f64)], edge: f64, force: f64) -> Option<Self> {
         if !(edge > 0.0 && edge.is_finite() && force > 0.0 && force.is_finite()) {
             return None;
@@ -53,10 +54,10 @@ impl PressureCurve {
             ratios: Vec::new(),
             slope: 0.0,
         };
-        // A radius that is read a little too large has a node inside that presses nothing.
+        // If the recovered radius is slightly too large, a node inside has no pressure.
         let last = nodes.iter().rposition(|(_, pressure)| *pressure > 0.0).unwrap_or(0);
         let mut ratios = Vec::new();
-        for (k, cell) in cells(nodes.iter().copied())
+        for (k, cell) in nodal_means(nodes.iter().copied())
             .enumerate()
             .take(last + 1)
             .take_while(|(_, c)| c.radius < edge)
@@ -80,7 +81,7 @@ impl PressureCurve {
         Some(curve)
     }
 
-    /// Pa, at a distance from the axis, m.
+    /// Returns the pressure (Pa) at a distance from the axis, m.
     pub fn at(&self, radius: f64) -> f64 {
         let x = (radius / self.edge).powi(2);
         if x >= 1.0 {
@@ -89,7 +90,6 @@ impl PressureCurve {
         self.on_axis * (1.0 - x).sqrt() * self.ratio(radius) * (1.0 + self.slope * x)
     }
 
-    /// q.
     fn ratio(&self, radius: f64) -> f64 {
         let outer = self.ratios.partition_point(|(node, _)| *node <= radius);
         match (outer.checked_sub(1).and_then(|k| self.ratios.get(k)), self.ratios.get(outer)) {
@@ -101,7 +101,7 @@ impl PressureCurve {
         }
     }
 
-    /// Mean of √(1 − x), zero outside, over the hat of a node and its neighbours.
+    /// Returns the mean of √(1 − x), zero outside, over the hat function of a node.
     fn ellipse_mean(&self, inner: f64, node: f64, outer: f64) -> f64 {
         let (mut sum, mut area) = (0.0, 0.0);
         for neighbour in [inner, outer] {
@@ -113,7 +113,7 @@ impl PressureCurve {
         sum / area
     }
 
-    /// ∫ p 2πr dr without the last factor, and of it times x, N.
+    /// Returns ∫ p 2πr dr without the factor 1 + c x, and the same integral times x, N.
     fn forces(&self) -> [f64; 2] {
         let starts = self.ratios.iter().map(|(node, _)| *node);
         let ends = starts.clone().skip(1).chain([self.edge]);
@@ -124,7 +124,7 @@ impl PressureCurve {
         })
     }
 
-    /// ∫ f(r, x) 2πr dr as far as the edge; over θ in r = a sin θ, where an ellipse is smooth.
+    /// Returns ∫ f(r, x) 2πr dr up to the edge, integrated over θ in r = a sin θ, in which an ellipse is smooth.
     fn integral(&self, from: f64, to: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let angle = |r: f64| (r / self.edge).clamp(0.0, 1.0).asin();
         let (from, step) = (angle(from), (angle(to) - angle(from)) / PARTS as f64);
@@ -140,8 +140,8 @@ impl PressureCurve {
     }
 }
 
-/// So many distances from the axis, m, inside of an edge, m, closer together toward it: straight lines between
-/// them carry an ellipse's force to 0.1 % if they are 32.
+/// Returns n − 1 radii (m) inside of an edge (m), denser towards it. Linear interpolation between 32 of them
+/// carries the force of an ellipse to 0.1 %.
 pub fn places_inside(edge: f64, n: usize) -> impl Iterator<Item = f64> {
     (1..n).map(move |k| edge * (FRAC_PI_2 * k as f64 / n as f64).sin())
 }
@@ -178,8 +178,8 @@ mod tests {
         rows.windows(2).map(|w| PI * (w[1][0] - w[0][0]) * (w[0][1] + w[1][1])).sum()
     }
 
-    /// One that relaxation has flattened and one that it has made steeper, each by half, from 2.2 elements on; the
-    /// ratio of Hertz' is constant, and that of the others bends most within the last element.
+    /// Hertz' profile, and profiles that relaxation has flattened and steepened by half, from 2.2 elements on. The
+    /// ratio of Hertz' profile is constant; that of the others is most curved within the last element.
     #[test]
     fn profiles_come_back_from_the_means_of_their_hats() {
         for bend in [0.0, 0.5, -0.6] {

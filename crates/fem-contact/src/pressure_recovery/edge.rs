@@ -1,18 +1,17 @@
 //! Recovery of the contact radius.
 
-use super::{ContactEnforcement, cells};
+use super::{ContactEnforcement, nodal_means};
 
-/// Less pressure than this share of that at the node before belongs to a node that the contact has just
-/// reached and tells nothing of the edge.
+/// A node with less than this share of the pressure at the node before has just entered the contact, and is not
+/// used for the edge.
 const FAINT: f64 = LAYER[0][0];
 
-/// The edge as every mesh has it, on the scale of an element: of the ratio of the pressures at the
-/// outermost two nodes (the first) follows how far outside of the outermost the pressure falls to zero,
-/// in elements, with springs (the second) and without overlap (the third); and by how much the ratio of
-/// the pressures at the next two nodes is above that of an ellipse that ends there (the fourth).
+/// The edge of the contact on the scale of an element. Columns: ratio of the pressures at the outermost two
+/// nodes; distance of the edge from the outermost node in elements, with springs and without overlap; excess of
+/// the ratio of the pressures at the next two nodes over that of an ellipse with this edge.
 ///
-/// Measured on elastic spheres and a wall at every place of the edge between nodes, 7 to 16 elements across
-/// the radius, against the radius that 64 give at the same instant; single readings scatter by 0.01.
+/// Measured on elastic spheres and a wall for all places of the edge between nodes, with 7 to 16 elements per
+/// radius, against the radius with 64 at the same instant; single values scatter by 0.01.
 const LAYER: [[f64; 4]; 14] = [
     [0.08, -0.274, -0.230, -0.018],
     [0.12, -0.221, -0.185, -0.020],
@@ -30,25 +29,25 @@ const LAYER: [[f64; 4]; 14] = [
     [0.70, 0.810, 0.810, 0.020],
 ];
 
-/// How much nearer the edge is, in elements, for each unit that the pressure inside of it falls off less
-/// steeply than that of an ellipse, times the ratio at the edge. Measured where moduli relax by e⁻² within
-/// the contact: 3.3 of 8 elements across the radius, 2.5 of 16, 4.4 without overlap.
+/// Correction of the edge for profiles that are not ellipses, in elements per unit of the excess ratio, times the
+/// ratio at the edge. Measured where moduli relax by e⁻² within the contact: 3.3 with 8 elements per radius, 2.5
+/// with 16, 4.4 without overlap.
 const STEEPNESS: f64 = 2.3;
-/// No correction is larger than this, in elements.
+/// Upper limit on that correction, in elements.
 const LARGEST_CORRECTION: f64 = 0.5;
-/// Share of the first element that the contact covers as long as only the axis node has a force.
+/// Share of the first element that is in contact as long as only the axis node has a force.
 const FIRST: f64 = 0.5;
 
-/// Radius (m) at which the pressure falls to zero, of pressures at nodes from the axis outward
+/// Returns the radius (m) at which the pressure falls to zero, for mean pressures at nodes from the axis outward
 /// (r in m, p in Pa); 0 without contact.
 pub fn contact_radius(
     nodes: impl Iterator<Item = (f64, f64)> + Clone,
-    barrier: ContactEnforcement,
+    enforcement: ContactEnforcement,
 ) -> f64 {
     let mut last = None;
     let mut window = [None; 3];
-    for cell in cells(nodes) {
-        let before = window[2].map_or(0.0, |cell: super::Cell| cell.pressure);
+    for cell in nodal_means(nodes) {
+        let before = window[2].map_or(0.0, |cell: super::NodalMean| cell.pressure);
         if cell.pressure > 0.0 && cell.pressure >= FAINT * before {
             last = Some((cell, window));
         }
@@ -63,11 +62,11 @@ pub fn contact_radius(
     if ratio.is_nan() {
         return ratio;
     }
-    let [offset, steeper] = layer(ratio, barrier);
+    let [offset, steeper] = layer(ratio, enforcement);
     let ellipse = outermost.radius + offset * width;
     let correction = match (second, third) {
         (Some(second), Some(_)) if second.pressure > 0.0 => {
-            let [inner, outer] = [second, first].map(|cell| ellipse.powi(2) - cell.weight().square);
+            let [inner, outer] = [second, first].map(|cell| ellipse.powi(2) - cell.hat_moments().square);
             let fall = first.pressure / second.pressure / (outer / inner).sqrt() - 1.0;
             STEEPNESS * ratio.min(1.0) * (fall - steeper)
         }
@@ -76,12 +75,12 @@ pub fn contact_radius(
     ellipse - width * correction.clamp(-LARGEST_CORRECTION, LARGEST_CORRECTION)
 }
 
-/// Of the ratio at the edge the place of the edge, and what the ratio inside of it is above an ellipse's.
-fn layer(ratio: f64, barrier: ContactEnforcement) -> [f64; 2] {
+/// Interpolates the table: distance of the edge from the outermost node, and excess of the ratio inside of it.
+fn layer(ratio: f64, enforcement: ContactEnforcement) -> [f64; 2] {
     let outer = LAYER.partition_point(|row| row[0] < ratio).clamp(1, LAYER.len() - 1);
     let [from, to] = [&LAYER[outer - 1], &LAYER[outer]];
     let share = ((ratio - from[0]) / (to[0] - from[0])).clamp(0.0, 1.0);
-    let column = match barrier {
+    let column = match enforcement {
         ContactEnforcement::Springs => 1,
         ContactEnforcement::Rigid => 2,
     };

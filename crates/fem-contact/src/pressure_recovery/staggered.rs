@@ -1,27 +1,27 @@
-//! Radius and pressure where the nodes of two surfaces lie between each other at the edge.
+//! Radius and pressure of staggered meshes, whose nodes lie between each other at the edge.
 //!
-//! Forces at the nodes of either surface then depend on the nodes of the other, too: read at one surface the
-//! radius is off by up to 0.1 elements, to the other side than at the other surface. Their mean is not.
+//! Forces at the nodes of either surface then depend on the nodes of the other. The radius recovered at one surface
+//! has an error of up to 0.1 elements, with the opposite sign at the other surface. Their mean has no such error.
 
-/// The surfaces' elements differ by at least and at most so much, as those of meshes do that are staggered by
-/// half an element with 3 to 50 of them across the contact.
+/// Ratios of the element sizes of two staggered meshes, which differ by half an element with 3 to 50 elements per
+/// contact radius.
 const RATIOS: std::ops::Range<f64> = 1.005..1.2;
-/// The mean is too small by this share of an element: measured on elastic spheres at every quarter of
-/// an element, 3.5 to 8 across the radius; single readings scatter by 0.016.
+/// Deficit of the mean radius in elements. Measured on elastic spheres at every quarter of an element, with 3.5 to
+/// 8 elements per radius; single values scatter by 0.016.
 const EDGE: f64 = 0.025;
 
-/// At whose nodes radius and pressure are read.
+/// The surfaces at whose nodes radius and pressure are recovered.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reading {
-    /// Those of one surface, by its number.
+pub enum RecoverySurfaces {
+    /// One surface, by its number.
     Single(usize),
-    /// Those of both, whose meshes are staggered and whose segments have these lengths, m.
+    /// Both surfaces, whose meshes are staggered and whose segments have these lengths, m.
     Staggered([f64; 2]),
 }
 
-impl Reading {
-    /// At both surfaces if segments of these lengths (m) are of staggered meshes, else at this one; a rigid
-    /// surface has no length.
+impl RecoverySurfaces {
+    /// Selects both surfaces if segments of these lengths (m) belong to staggered meshes, else the given one. A
+    /// rigid surface has no length.
     pub fn of(lengths: [Option<f64>; 2], single: usize) -> Self {
         match lengths {
             [Some(a), Some(b)] if are_staggered(lengths) => Self::Staggered([a, b]),
@@ -29,15 +29,15 @@ impl Reading {
         }
     }
 
-    /// Whether it reads at a surface.
-    pub(crate) fn asks(self, surface: usize) -> bool {
+    /// Returns whether a surface is used.
+    pub(crate) fn includes(self, surface: usize) -> bool {
         match self {
             Self::Single(single) => single == surface,
             Self::Staggered(_) => true,
         }
     }
 
-    /// The contact radius (m) of what it is read as at a surface.
+    /// Returns the contact radius (m) from those recovered at each surface.
     pub fn radius(self, at: impl Fn(usize) -> f64) -> f64 {
         match self {
             Self::Single(surface) => at(surface),
@@ -45,7 +45,7 @@ impl Reading {
         }
     }
 
-    /// The pressure on the axis (Pa) of what it is read as at a surface.
+    /// Returns the pressure on the axis (Pa) from those recovered at each surface.
     pub fn pressure(self, at: impl Fn(usize) -> f64) -> f64 {
         match self {
             Self::Single(surface) => at(surface),
@@ -54,13 +54,13 @@ impl Reading {
     }
 }
 
-/// Whether segments of these lengths (m) are of staggered meshes; a rigid surface has none.
+/// Returns whether segments of these lengths (m) belong to staggered meshes; a rigid surface has none.
 fn are_staggered(lengths: [Option<f64>; 2]) -> bool {
     let [Some(a), Some(b)] = lengths else { return false };
     RATIOS.contains(&(a.max(b) / a.min(b)))
 }
 
-/// The radius (m) of what it is read as at the nodes of either surface, whose segments have these lengths, m.
+/// Returns the radius (m) from those recovered at both surfaces, whose segments have these lengths, m.
 fn staggered_radius(readings: [f64; 2], lengths: [f64; 2]) -> f64 {
     let [radius, length] = [readings, lengths].map(|[a, b]| 0.5 * (a + b));
     if radius > 0.0 { radius + EDGE * length } else { radius }
@@ -70,8 +70,8 @@ fn staggered_radius(readings: [f64; 2], lengths: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// With 3 to 45 elements across a contact, half an element apart; not of one mesh twice as fine, of
-    /// meshes of one size, or of a rigid surface.
+    /// Meshes with 3 to 45 elements per contact radius that differ by half an element are staggered; meshes of equal
+    /// size, one of twice the resolution, and rigid surfaces are not.
     #[test]
     fn staggered_meshes_are_known_by_their_elements() {
         for across in [3.5, 8.0, 45.0] {

@@ -21,18 +21,18 @@ fn hat_means(profile: impl Fn(f64) -> f64, n: usize) -> Vec<(f64, f64)> {
     (0..n).map(mean).collect()
 }
 
-/// Weight, mean and variance of x of the hat on the axis, 2π∫(1 − r)r: π/3, 3/10 and 1/5 − 9/100 h⁴; a hat
+/// HatMoments, mean and variance of x of the hat on the axis, 2π∫(1 − r)r: π/3, 3/10 and 1/5 − 9/100 h⁴; a hat
 /// between two lengths has the areas that its force is divided by.
 #[test]
 fn hats_have_their_moments() {
-    let axis = Cell { radius: 0.0, neighbours: [None, Some(1.0)], pressure: 1.0 }.weight();
+    let axis = NodalMean { radius: 0.0, neighbours: [None, Some(1.0)], pressure: 1.0 }.hat_moments();
     let close = |a: f64, b: f64| (a - b).abs() < 1e-14;
     assert!(close(axis.area, PI / 3.0) && close(axis.square, 0.3));
     assert!(close(axis.variance, 1.0 / 7.0 - 0.09), "{}", axis.variance);
-    let between = Cell { radius: 1.0, neighbours: [Some(0.5), Some(1.75)], pressure: 1.0 };
+    let between = NodalMean { radius: 1.0, neighbours: [Some(0.5), Some(1.75)], pressure: 1.0 };
     let area = [0.5, 1.75].map(|from| fem_mesh::segment_measures([from, 0.0], [1.0, 0.0])[1]);
-    assert!(close(between.weight().area, area[0] + area[1]));
-    assert_eq!(Cell { radius: 1.0, neighbours: [None; 2], pressure: 1.0 }.weight().area, 0.0);
+    assert!(close(between.hat_moments().area, area[0] + area[1]));
+    assert_eq!(NodalMean { radius: 1.0, neighbours: [None; 2], pressure: 1.0 }.hat_moments().area, 0.0);
 }
 
 /// Hertz' profile and one that relaxation has flattened, p = (1 − x)^½ (1 + x/2), without what elements do to
@@ -60,7 +60,7 @@ fn the_pressure_on_the_axis_of_exact_means_comes_back() {
     }
 }
 
-/// Of one node or two no profile is known: the axis node's pressure with what elements take off it.
+/// With one or two nodes no profile is fitted: the pressure is that of the axis node, corrected.
 #[test]
 fn few_nodes_leave_the_axis_nodes_own() {
     let nodes = [(0.0, 2.0), (SIZE, 0.0), (2.0 * SIZE, 0.0)].into_iter();
@@ -80,7 +80,7 @@ fn ending(ratio: f64, radius: f64, steeper: f64) -> Vec<(f64, f64)> {
     let place = |k: usize| k as f64 * SIZE;
     let square = |k: usize| {
         let neighbours = [k.checked_sub(1).map(place), Some(place(k + 1))];
-        Cell { radius: place(k), neighbours, pressure: 0.0 }.weight().square
+        NodalMean { radius: place(k), neighbours, pressure: 0.0 }.hat_moments().square
     };
     let mut nodes: Vec<_> =
         (0..8).map(|k| (place(k), (radius * radius - square(k)).max(0.0).sqrt())).collect();
@@ -98,16 +98,16 @@ fn the_edge_is_where_the_layer_has_it() {
         (0.25, -0.053, -0.024, -0.0225),
         (0.6, 0.608, 0.573, 0.0075),
     ] {
-        for (barrier, offset) in
+        for (enforcement, offset) in
             [(ContactEnforcement::Springs, springs), (ContactEnforcement::Rigid, rigid)]
         {
             let radius = (7.0 + offset) * SIZE;
             let nodes = ending(ratio, radius, 1.0 + fall);
-            let found = contact_radius(nodes.into_iter(), barrier);
-            assert!((found - radius).abs() < 1e-12, "{ratio} {barrier:?}: {found} {radius}");
+            let found = contact_radius(nodes.into_iter(), enforcement);
+            assert!((found - radius).abs() < 1e-12, "{ratio} {enforcement:?}: {found} {radius}");
         }
     }
-    // A node that has just been reached tells nothing: the one before it does.
+    // A node that has just entered the contact is ignored.
     let mut nodes = ending(0.5, 7.382 * SIZE, 1.0 - 0.0025);
     nodes[8].1 = 0.07 * nodes[7].1;
     let found = contact_radius(nodes.into_iter(), ContactEnforcement::Springs);

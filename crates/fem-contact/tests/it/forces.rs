@@ -6,7 +6,7 @@ use crate::common::{
     STIFFNESS, assert_balance, assert_gradient, flat, forces, glass_pair, interface, noise, ragged,
     rigid, sphere,
 };
-use fem_contact::{ContactError, ContactInterface, Surface};
+use fem_contact::{ContactError, ContactInterface, MovedInterface, Surface};
 use fem_mesh::{Side, SphereMesh, segment_measures};
 
 /// Load at a node under unit pressure, ∫N 2πr dr over the plane, from the nodes alone; `None`
@@ -20,7 +20,7 @@ fn tributary_area(mesh: &SphereMesh, k: usize, limit: f64) -> Option<f64> {
     (r(k + 1) <= limit * (1.0 + 1e-9)).then_some(area)
 }
 
-/// A uniform penetration makes the pressure kδ, whatever the meshes: the total is kδ times the
+/// A uniform penetration makes the pressure kδ, for any meshes: the total is kδ times the
 /// area, and each node of each side carries its consistent share.
 #[test]
 fn uniform_penetration_passes_the_patch_test() {
@@ -98,25 +98,17 @@ fn wall_is_a_plane() {
     assert!((wall.force / flat.force - 1.0).abs() < 3e-4, "{} {}", wall.force, flat.force);
 }
 
+/// Forces balance, are frictionless, and are −∂energy/∂displacement on both sides, with points that are open.
 #[test]
-fn forces_balance_for_any_displacement() {
+fn forces_balance_and_derive_from_the_energy() {
     for sizes in [[30e-6, 30e-6], [30e-6, 37e-6], [15e-6, 300e-6]] {
         let meshes = glass_pair(sizes);
-        let interface = interface(&meshes, 0.4e-3);
-        let (total, f) = forces(&interface, &ragged(&meshes, 20e-6));
+        let (interface, u) = (interface(&meshes, 0.4e-3), ragged(&meshes, 20e-6));
+        let (total, f) = forces(&interface, &u);
         assert!(total.n_closed > 10 && total.n_closed < interface.n_points());
         assert_balance(&total, &f);
         assert!(f.iter().flatten().all(|f| f[0] == 0.0), "the contact is frictionless");
-    }
-}
-
-/// Force = −∂energy/∂displacement, on both sides and with points that are open.
-#[test]
-fn force_is_minus_the_gradient_of_the_energy() {
-    for sizes in [[30e-6, 37e-6], [15e-6, 300e-6]] {
-        let meshes = glass_pair(sizes);
-        let interface = interface(&meshes, 0.4e-3);
-        assert_gradient(&interface, &ragged(&meshes, 20e-6));
+        assert_gradient(&interface, &u);
     }
 }
 
@@ -205,26 +197,28 @@ fn candidates_end_at_the_first_node_beyond_the_radius_asked_for() {
     assert!((all.candidate_radius() / 7.95e-3 - 1.0).abs() < 0.01, "{}", all.candidate_radius());
 }
 
+/// Two rigid bodies and numbers that are not positive are rejected by all interfaces.
 #[test]
 fn impossible_interfaces_are_refused() {
-    let mesh = sphere(1.0, 0.1, 0.3, Side::Above);
-    let make = |stiffness: f64, radius: f64| {
-        ContactInterface::new(Surface::wall(), Surface::of_sphere(&mesh), stiffness, 0.0, radius)
-    };
-    assert!(make(1.0, 1.0).is_ok());
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        for (made, name) in
-            [(make(bad, 1.0), "penalty stiffness"), (make(1.0, bad), "candidate radius")]
-        {
-            match made {
-                Err(ContactError::NotPositive { name: found, value }) => {
-                    assert_eq!(found, name);
-                    assert_eq!(value.to_bits(), bad.to_bits());
-                }
-                other => panic!("{other:?}"),
+    let sphere = Surface::of_sphere(&sphere(1.0, 0.1, 0.3, Side::Above));
+    type Make = fn(Surface, Surface, f64, f64) -> Result<(), ContactError>;
+    let makes: [Make; 3] = [
+        |a, b, stiffness, r| ContactInterface::new(a, b, stiffness, 0.0, r).map(|_| ()),
+        |a, b, stiffness, r| ContactInterface::node_to_surface(a, b, stiffness, 0.0, r).map(|_| ()),
+        |a, b, stiffness, r| MovedInterface::new(a, b, stiffness, 0.0, r).map(|_| ()),
+    ];
+    for make in makes {
+        let on_wall = |stiffness, radius| make(Surface::wall(), sphere.clone(), stiffness, radius);
+        assert!(on_wall(1.0, 1.0).is_ok());
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            for (made, name) in
+                [(on_wall(bad, 1.0), "penalty stiffness"), (on_wall(1.0, bad), "candidate radius")]
+            {
+                let Err(ContactError::NotPositive { name: found, value }) = made else { panic!() };
+                assert_eq!((found, value.to_bits()), (name, bad.to_bits()));
             }
         }
+        let walls = make(Surface::wall(), Surface::wall(), 1.0, 1.0);
+        assert_eq!(walls, Err(ContactError::BothRigid));
     }
-    let walls = ContactInterface::new(Surface::wall(), Surface::wall(), 1.0, 0.0, 1.0);
-    assert_eq!(walls, Err(ContactError::BothRigid));
 }

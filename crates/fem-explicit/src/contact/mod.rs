@@ -43,9 +43,9 @@ impl ContactMethod {
     /// `factor` times as stiff as usual.
     ///
     /// Springs that open or close add or remove energy in proportion to the square of the step, and stiffer ones do so
-    /// more often. With springs at Gauss points 100 and 1000 times as stiff, a glass pair gained up to 4e-3 of its energy
-    /// at the usual step and 4e-4 at half of it. Springs at nodes, which close as a whole, gained 3e-2 at the usual
-    /// step, 8e-4 at a third and 2e-4 at a quarter of it.
+    /// more often. With springs at Gauss points 100 and 1000 times as stiff, a glass pair gained up to 4e-3 of its
+    /// energy at the usual step and 4e-4 at half of it. Springs at nodes, which close as a whole, gained 3e-2 at the
+    /// usual step, 8e-4 at a third and 2e-4 at a quarter of it.
     pub fn shorter_steps(self, factor: f64) -> f64 {
         match self {
             Self::Massless => 1.0,
@@ -61,7 +61,7 @@ impl ContactMethod {
 /// bodies.
 pub trait Contact: Part {
     /// Returns the candidate region, in which contact is searched for.
-    fn searched(&self) -> CandidateRegion;
+    fn candidate_region(&self) -> CandidateRegion;
 
     /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, which holds for any closed part.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);
@@ -70,8 +70,8 @@ pub trait Contact: Part {
     /// velocity has none.
     fn add_damping_bound(&self, _side: usize, _bound: &mut [f64]) {}
 
-    /// Adds the growth of both bounds on a side since the bodies were undeformed, for all that can close within a time, s.
-    /// It is asked for in runs at finite strain; a contact of constant stiffness adds nothing.
+    /// Adds the growth of both bounds on a side since the bodies were undeformed, for all that can close within a time,
+    /// s. It is asked for in runs at finite strain; a contact of constant stiffness adds nothing.
     fn add_bound_growth(
         &self,
         _motions: &[Motion<'_>; 2],
@@ -109,14 +109,14 @@ pub trait Contact: Part {
         &[]
     }
 
-    /// Allocates its buffers for a run. A run that is resumed begins with new ones: their contents must not change a bit
-    /// of the result.
+    /// Allocates its buffers for a run. A run that is resumed begins with new ones: their contents must not change a
+    /// bit of the result.
     fn buffers(&self) -> Box<dyn Any + Send + Sync> {
         Box::new(())
     }
 
-    /// Takes the history to the end of a step, whose motion is given with the history of the stress, and moves the nodes
-    /// without mass.
+    /// Takes the history to the end of a step, whose motion is given with the history of the stress, and moves the
+    /// nodes without mass.
     fn advance(
         &self,
         _motions: [MotionMut<'_>; 2],
@@ -125,8 +125,8 @@ pub trait Contact: Part {
     ) {
     }
 
-    /// Whether the next configuration is certainly in contact: `next` returns the displacements of its nodes (m), those of
-    /// nodes without mass as if they kept their velocity; `now` is the present contact.
+    /// Whether the next configuration is certainly in contact: `next` returns the displacements of its nodes (m), those
+    /// of nodes without mass as if they kept their velocity; `now` is the present contact.
     fn is_closed_next(
         &self,
         now: &ContactForces,

@@ -1,7 +1,7 @@
 //! Springs and dashpots of [`fem_contact`] between the moved surfaces, as a contact.
 //!
-//! The springs have no history. The dashpots take the velocity of half a step before, as bulk viscosity does. Their force
-//! and the work done against it are the two fields of history. The work
+//! The springs have no history. The dashpots take the velocity of half a step before, as bulk viscosity does. Their
+//! force and the work done against it are the two fields of history. The work
 //!
 //! ```math
 //! W_{n+1} - W_n = -\tfrac12 \Delta t\; v_{n+1/2} \cdot (f_n + f_{n+1})
@@ -19,8 +19,9 @@ use super::springs::{mass_ratio, surface};
 use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 use crate::settings::Settings;
 
-/// Damping ratio of the surface nodes on the springs. At 0.3 the peak force of a rubber ball on a wall at 1 to 10 m/s is
-/// within 1 % of its mean over 1/64 of the contact time (undamped: 5 to 19 %), at a cost of 3e-5 to 1e-4 in restitution.
+/// Damping ratio of the surface nodes on the springs. At 0.3 the peak force of a rubber ball on a wall at 1 to 10 m/s
+/// is within 1 % of its mean over 1/64 of the contact time (undamped: 5 to 19 %), at a cost of 3e-5 to 1e-4 in
+/// restitution.
 const DAMPING_RATIO: f64 = 0.3;
 
 /// Contact between the surfaces of two bodies in their present places, for [`Parts`](crate::Parts).
@@ -32,8 +33,8 @@ pub struct MovedContact {
 impl MovedContact {
     /// Makes the contact that settings ask for; `gap` (m) separates the poles.
     ///
-    /// The impedance of the dashpots is 2ξ √(k m) = ξ √(2K / Σ 1/ρ), with k = K/h and the masses ½ρh of both sides of an
-    /// area in series.
+    /// The impedance of the dashpots is 2ξ √(k m) = ξ √(2K / Σ 1/ρ), with k = K/h and the masses ½ρh of both sides of
+    /// an area in series.
     ///
     /// # Errors
     /// Both bodies are rigid or both surfaces are planes; a setting is not positive and finite.
@@ -77,7 +78,7 @@ impl Part for MovedContact {
 }
 
 impl Contact for MovedContact {
-    fn searched(&self) -> CandidateRegion {
+    fn candidate_region(&self) -> CandidateRegion {
         let (radius, n_points) = (self.interface.candidate_radius(), self.interface.n_points());
         CandidateRegion { radius, n_points, at_nodes: false }
     }

@@ -105,7 +105,7 @@ impl Springs {
 impl Part for Springs {}
 
 impl Contact for Springs {
-    fn searched(&self) -> CandidateRegion {
+    fn candidate_region(&self) -> CandidateRegion {
         let interface = self.interface();
         let (radius, n_points) = (interface.candidate_radius(), interface.n_points());
         CandidateRegion { radius, n_points, at_nodes: false }
@@ -132,7 +132,7 @@ impl Contact for Springs {
     }
 
     fn pushed_nodes(&self, side: usize) -> Vec<u32> {
-        self.interface().points().iter().flat_map(|point| point.feet[side].nodes).collect()
+        self.interface().points().iter().flat_map(|point| point.projections[side].nodes).collect()
     }
 
     fn is_closed_next(

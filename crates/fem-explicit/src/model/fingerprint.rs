@@ -1,8 +1,8 @@
 //! The fingerprint of a model, by which a restart state is recognised: a number that differs where the meshes, masses,
 //! materials, forces, contact, approach or step of two models do, or the version of this crate.
 //!
-//! Numbers enter by their bits, forces and contacts of the caller by their Debug text; what that text does not show does
-//! not enter. The fingerprint is computed once per run and costs a pass over the nodes.
+//! Numbers enter by their bits, forces and contacts of the caller by their Debug text; what that text does not show
+//! does not enter. The fingerprint is computed once per run and costs a pass over the nodes.
 
 use std::any::Any;
 use std::fmt::{self, Debug, Write};
@@ -11,8 +11,8 @@ use super::Model;
 use crate::body::Body;
 use crate::contact::{Contact, Massless, Springs};
 
-/// A digest of words, each of which is mixed in after a rotation and followed by a product with an odd number. It is the
-/// same on every machine.
+/// A digest of words, each of which is mixed in after a rotation and followed by a product with an odd number. It is
+/// the same on every machine.
 struct Digest(u64);
 
 /// 2⁶⁴ over the golden ratio.
@@ -74,9 +74,9 @@ fn take_body(digest: &mut Digest, body: &Body) {
 }
 
 fn take_contact(digest: &mut Digest, contact: &dyn Contact) {
-    let searched = contact.searched();
-    digest.take_numbers(&[searched.radius]);
-    digest.take(searched.n_points as u64);
+    let region = contact.candidate_region();
+    digest.take_numbers(&[region.radius]);
+    digest.take(region.n_points as u64);
     let any = contact as &dyn Any;
     let massless = any.downcast_ref::<Massless>();
     let Some(springs): Option<&Springs> = any.downcast_ref().or(massless.map(Massless::springs))
@@ -91,9 +91,9 @@ fn take_contact(digest: &mut Digest, contact: &dyn Contact) {
     }
     for point in springs.interface().points() {
         digest.take_numbers(&[point.radius, point.area, point.initial_gap, point.stiffness]);
-        for foot in &point.feet {
-            foot.nodes.iter().for_each(|&node| digest.take(u64::from(node)));
-            digest.take_numbers(&foot.shape);
+        for projection in &point.projections {
+            projection.nodes.iter().for_each(|&node| digest.take(u64::from(node)));
+            digest.take_numbers(&projection.shape);
         }
     }
 }

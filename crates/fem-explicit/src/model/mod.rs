@@ -27,14 +27,14 @@ pub(crate) use fingerprint::fingerprint;
 pub struct Parts {
     /// Forces on the nodes of the lower and of the upper body, in the order in which they are added.
     pub node_forces: [Vec<Box<dyn NodeForce>>; 2],
-    /// Whether the mass centre of the lower and of the upper sphere is held in place, by forces on its nodes in proportion
-    /// to their masses.
+    /// Whether the mass centre of the lower and of the upper sphere is held in place, by forces on its nodes in
+    /// proportion to their masses.
     pub held: [bool; 2],
-    /// Hyperelastic laws of the lower and of the upper body; without one a body is at small strain. At finite strain the
-    /// time step follows the stiffness of the deformed bodies.
+    /// Hyperelastic laws of the lower and of the upper body; without one a body is at small strain. At finite strain
+    /// the time step follows the stiffness of the deformed bodies.
     pub finite_strain: [Option<HyperelasticLaw>; 2],
-    /// Distance from first touch (m) within which elements of such bodies are at finite strain; elements farther away stay
-    /// at small strain. By default all elements are at finite strain.
+    /// Distance from first touch (m) within which elements of such bodies are at finite strain; elements farther away
+    /// stay at small strain. By default all elements are at finite strain.
     pub finite_strain_within: Option<f64>,
     /// Whether the surfaces slip on each other, as those of unlike materials do. At finite strain they always may.
     pub surface_slip: bool,
@@ -176,12 +176,12 @@ impl Model {
 
     /// Returns the radius of the candidate region, in which contact is searched for, m.
     pub fn candidate_radius(&self) -> f64 {
-        self.searched().radius
+        self.candidate_region().radius
     }
 
     /// Returns the candidate region.
-    pub fn searched(&self) -> CandidateRegion {
-        self.contact.searched()
+    pub fn candidate_region(&self) -> CandidateRegion {
+        self.contact.candidate_region()
     }
 
     /// Returns the time step, s; the longest of a run where the stiffness of a body changes.

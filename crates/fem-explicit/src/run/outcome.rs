@@ -100,7 +100,7 @@ pub(super) fn outcome(model: &Model, run: RestartState, ending: Ending) -> Colli
         force_scatter: sampled.scatter.force(),
         deepest: log.deepest,
         noisiest: sampled.scatter.noisiest(),
-        searched: Some(model.searched()),
+        searched: Some(model.candidate_region()),
         initial_energy: Some(ledger.initial),
         energies: sampled.last.map_or(EnergyLedger::EMPTY, |row| row.energies),
         residual: sampled.last.and_then(|row| row.residual),
@@ -124,8 +124,8 @@ pub(super) fn outcome(model: &Model, run: RestartState, ending: Ending) -> Colli
     }
 }
 
-/// Ratio of approach speed to shear wave speed from which first touch makes a steep front, whose peak pressure depends on
-/// the mesh.
+/// Ratio of approach speed to shear wave speed from which first touch makes a steep front, whose peak pressure depends
+/// on the mesh.
 const FRONTS: f64 = 0.02;
 
 /// Returns the element size (m), two of which resolve the pressure of early contact; infinite where first touch makes a

@@ -11,8 +11,8 @@ use crate::model::Model;
 use crate::snapshots::{Instant, Probing};
 use crate::state::Scratch;
 
-/// Takes a step: forces of the present configuration, their energy, the time step, observation and records of this instant,
-/// and the motion to the next one. Returns the ending of a run that ends here instead.
+/// Takes a step: forces of the present configuration, their energy, the time step, observation and records of this
+/// instant, and the motion to the next one. Returns the ending of a run that ends here instead.
 ///
 /// # Errors
 /// The run has to stop.
@@ -90,8 +90,8 @@ fn observe_contact(
     }
 }
 
-/// Balances the energy of sampled instants, feeds all that is derived from them, and writes a row of the history where one
-/// is due. Finds out whether the bodies stay together.
+/// Balances the energy of sampled instants, feeds all that is derived from them, and writes a row of the history where
+/// one is due. Finds out whether the bodies stay together.
 fn sample(
     run: &mut RestartState,
     model: &Model,
@@ -130,10 +130,10 @@ fn sample(
     Ok(())
 }
 
-/// Returns the kind of a row. An instant at a limit of the contact is a landmark too: there the balance shows whether the
-/// nodes of an unstable run have reached the limit, or a large contact.
+/// Returns the kind of a row. An instant at a limit of the contact is a landmark too: there the balance shows whether
+/// the nodes of an unstable run have reached the limit, or a large contact.
 fn row_kind(contact: &ContactForces, instant: Instant) -> RowKind {
-    let is_at_limit = contact.at_limit || contact.turn.is_some();
+    let is_at_limit = contact.at_limit || contact.fold.is_some();
     let is_landmark = instant.is_first_contact || instant.has_separated || is_at_limit;
     match (instant.is_last_contact, is_landmark) {
         (_, true) => RowKind::Landmark,
@@ -159,7 +159,7 @@ fn ending(
     if instant.stays_together {
         return Ok(Some(Ending::Together));
     }
-    if let Some(turn) = contact.turn {
+    if let Some(turn) = contact.fold {
         return Err(stop_of_turn(model, turn, &run.state));
     }
     if contact.at_limit {
@@ -189,8 +189,8 @@ fn move_on(run: &mut RestartState, model: &Model, scratch: &mut Scratch, contact
     ledger.begin_step(model, held, time_step, state, scratch, contact.force);
 }
 
-/// Records the state in which a run has stopped: it ends the samples and the history, and is the last valid state if its
-/// energy adds up.
+/// Records the state in which a run has stopped: it ends the samples and the history, and is the last valid state if
+/// its energy adds up.
 pub(super) fn record_stop(run: &mut RestartState, model: &Model, scratch: &mut Scratch) {
     let RestartState { state, log, ledger, sampled, history, last_valid, .. } = run;
     if let Ok(contact) = update_forces(model, state, scratch) {

@@ -248,8 +248,8 @@ impl Part for Counting {
 }
 
 impl Contact for Counting {
-    fn searched(&self) -> CandidateRegion {
-        self.penalty.searched()
+    fn candidate_region(&self) -> CandidateRegion {
+        self.penalty.candidate_region()
     }
 
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {

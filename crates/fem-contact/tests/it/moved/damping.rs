@@ -10,7 +10,7 @@ use super::geometry::displace;
 use super::{Scene, sum};
 use crate::common::{Field, STIFFNESS, flat, glass_pair, noise, sphere};
 
-/// Pa s/m.
+/// Impedance of the dashpots, Pa s/m.
 const IMPEDANCE: f64 = 3.0;
 
 /// The same surfaces with dashpots.
@@ -55,8 +55,8 @@ fn a_disc_on_a_wall_feels_its_impedance() {
     assert!((sum(&f[1], 1) / springs.force + 1.0).abs() < 1e-13);
 }
 
-/// Of ragged surfaces and velocities: opposite along y, and energy is taken, never given. What is open has
-/// no dashpots, nor has an interface without.
+/// For ragged surfaces and velocities, the forces of dashpots are opposite along y and dissipate energy. An open
+/// contact has no damping.
 #[test]
 fn dashpots_balance_and_take_energy() {
     let scene = damped(Scene::pair(&glass_pair([30e-6, 37e-6]), 0.4e-3));
@@ -123,7 +123,7 @@ fn bound_is_never_below_the_dashpots() {
     }
 }
 
-/// Beside dashpots springs are taken twice for opening and closing, and four times without.
+/// The safety factor for opening and closing is 2 with dashpots and 4 without.
 #[test]
 fn damped_springs_need_less_room() {
     let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
@@ -138,8 +138,8 @@ fn damped_springs_need_less_room() {
     assert!(of_plain.iter().any(|bound| *bound > 0.0));
 }
 
-/// Stiffness and damping of the moved surfaces are those of the undeformed ones and what they have grown by:
-/// the area's growth, of a disc that is stretched alone.
+/// The bounds of the moved surfaces are those of the undeformed ones plus their growth, for a stretched disc that of
+/// its area.
 #[test]
 fn bounds_grow_with_the_area() {
     let (stretch, depth) = (1.3, 2e-4);

@@ -43,7 +43,6 @@ impl Scene {
         (total, f)
     }
 
-    /// No displacement.
     pub fn at_rest(&self) -> [Field; 2] {
         self.n_nodes.map(|n| vec![[0.0; 2]; n])
     }

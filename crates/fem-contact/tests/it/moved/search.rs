@@ -1,6 +1,6 @@
-//! Where contact is looked for, and what is said where that ends.
+//! The limits of the candidate region, and folds of the surface.
 
-use fem_contact::{ContactError, MovedInterface, Surface};
+use fem_contact::{MovedInterface, Surface};
 use fem_mesh::Side;
 
 use super::Scene;
@@ -43,10 +43,10 @@ fn the_gap_separates_the_poles() {
     assert!((force / expected.force - 1.0).abs() < 1e-9, "{force} {expected:?}");
 }
 
-/// The first node beyond the candidate radius ends the search, as it is undeformed; the contact tells
-/// when it gets there.
+/// The candidate region ends at the first undeformed node beyond the candidate radius; a contact that reaches it is
+/// reported.
 #[test]
-fn the_end_of_the_search_is_told() {
+fn the_end_of_the_candidate_region_is_reported() {
     let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
     let scene = Scene::above(Surface::wall(), &mesh, 0.3e-3);
     let radius = scene.interface.candidate_radius();
@@ -67,31 +67,31 @@ fn folded(y: impl Fn(f64) -> f64) -> fem_contact::ContactForces {
     scene.forces(&[vec![[0.0; 2]], displace(&scene, &mesh, 1, fold)]).0
 }
 
-/// A surface that turns over beside the contact is no matter; one whose contact reaches the turn, or that
-/// touches again behind it, cannot be followed, and that is told.
+/// A fold outside of the contact does not matter. A fold that the contact reaches, or behind which the surface
+/// touches again, is reported.
 #[test]
-fn a_surface_that_turns_over_is_told_where_it_touches() {
+fn a_fold_is_reported_if_it_touches() {
     let depth = 1e-3;
     let bowl = |r: f64| 1.0 * r * r - depth;
     let beside = folded(bowl);
-    assert!(beside.n_closed > 2 && beside.turn.is_none() && !beside.at_limit);
+    assert!(beside.n_closed > 2 && beside.fold.is_none() && !beside.at_limit);
     let up_to_it = folded(|r| if r < 0.065 { -depth } else { depth });
-    assert_eq!(up_to_it.turn.map(|turn| (turn.radius * 1e6).round()), Some(60e3));
+    assert_eq!(up_to_it.fold.map(|fold| (fold.radius * 1e6).round()), Some(60e3));
     assert!(!up_to_it.at_limit);
     // The eighth node, which would be at 0.07.
-    let turn = up_to_it.turn.unwrap();
+    let fold = up_to_it.fold.unwrap();
     let mesh = flat(0.01, Side::Above);
-    assert_eq!((turn.side, turn.node), (1, mesh.surface()[7]));
+    assert_eq!((fold.side, fold.node), (1, mesh.surface()[7]));
     let behind = folded(|r| if r > 0.075 { -depth } else { bowl(r) });
-    assert_eq!(behind.turn.map(|turn| (turn.radius * 1e6).round()), Some(60e3));
+    assert_eq!(behind.fold.map(|fold| (fold.radius * 1e6).round()), Some(60e3));
     // Displacements that are no numbers give no force.
     let blown_up = folded(|_| f64::NAN);
     assert_eq!(blown_up.n_closed, 0);
 }
 
-/// Two barrels: flat on each other out to 0.05, from there their flanks lean out, the lower one's steeper, and
-/// come back above and below. What lies behind the turn is compared with the other surface where it is, not
-/// with a flank that is drawn on inward.
+/// Two barrels are flat on each other out to 0.05. From there their flanks bulge, the lower one more, and come
+/// back above and below. Nodes behind the fold are compared with the other surface at their radius, not with the
+/// inward extension of a flank.
 #[test]
 fn a_flank_that_comes_back_touches_nothing() {
     let meshes = [Side::Below, Side::Above].map(|side| flat(0.005, side));
@@ -107,28 +107,14 @@ fn a_flank_that_comes_back_touches_nothing() {
         displace(&scene, &meshes[1], 1, barrel(1.0, 0.15)),
     ];
     let (total, _) = scene.forces(&u);
-    assert!(total.n_closed > 20 && total.turn.is_none() && !total.at_limit, "{total:?}");
+    assert!(total.n_closed > 20 && total.fold.is_none() && !total.at_limit, "{total:?}");
     // Back into the flat part of the other one.
     let touches = |r: f64| {
         let [at, y] = barrel(1.0, 0.15)(r);
         [at, if r > 0.085 { -2e-4 } else { y }]
     };
     let u = [u[0].clone(), displace(&scene, &meshes[1], 1, touches)];
-    assert!(scene.forces(&u).0.turn.is_some());
+    assert!(scene.forces(&u).0.fold.is_some());
 }
 
-#[test]
-fn what_cannot_touch_is_refused() {
-    let mesh = sphere(1.0, 0.05, 0.4, Side::Above);
-    let new = |lower: Surface, stiffness: f64, radius: f64| {
-        MovedInterface::new(lower, Surface::of_sphere(&mesh), stiffness, 0.0, radius)
-    };
-    assert!(new(Surface::wall(), 1.0, 0.3).is_ok());
-    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        for refused in [new(Surface::wall(), value, 0.3), new(Surface::wall(), 1.0, value)] {
-            assert!(matches!(refused, Err(ContactError::NotPositive { .. })), "{refused:?}");
-        }
-    }
-    let rigid = MovedInterface::new(Surface::wall(), Surface::wall(), 1.0, 0.0, 0.3);
-    assert_eq!(rigid, Err(ContactError::BothRigid));
-}
+

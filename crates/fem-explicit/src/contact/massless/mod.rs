@@ -1,21 +1,21 @@
-//! The massless boundary: surface nodes that can be in contact carry no mass, and the forces on them are in balance at the
-//! end of every step.
+//! The massless boundary: surface nodes that can be in contact carry no mass, and the forces on them are in balance at
+//! the end of every step.
 //!
 //! ```math
 //! 0 = -K_b w + B^T p(w_b), \qquad M_i \ddot u_i = -K_i w + f_i
 //! ```
 //!
-//! with the rows b of the massless nodes and i of the others (Khenous, Laborde & Renard 2008, Eur. J. Mech. A 27, 918; in
-//! explicit dynamics Monjaraz-Tec, Gross & Krack 2022, Comput. Struct. 277–278). The springs p between the surfaces are those
-//! of [`ContactInterface`]. They open and close without mass between them that could ring, and they do not limit the time
-//! step, however stiff they are. The force of the boundary on the other nodes is the gradient of a convex potential
-//! (`body/critical_time_step.rs`), so the contact neither gains nor loses energy.
+//! with the rows b of the massless nodes and i of the others (Khenous, Laborde & Renard 2008, Eur. J. Mech. A 27, 918;
+//! in explicit dynamics Monjaraz-Tec, Gross & Krack 2022, Comput. Struct. 277–278). The springs p between the surfaces
+//! are those of [`ContactInterface`]. They open and close without mass between them that could ring, and they do not
+//! limit the time step, however stiff they are. The force of the boundary on the other nodes is the gradient of a
+//! convex potential (`body/critical_time_step.rs`), so the contact neither gains nor loses energy.
 //!
-//! In a step the massless nodes first keep their velocity. From the forces R that are then missing to their balance, and from
-//! the gaps, follows their further displacement x: a linear system but for the springs that close ([`ActiveSet`]). The matrix
-//! is the stiffness of the elements against a displacement at the end of a step, in which the history has a share
-//! (`SmallStrainStress::stiffness_of_step`). Springs of slipping surfaces turn, and the system is solved in passes
-//! ([`SlippingSprings`]). Masses are moved inward (`body/massless_boundary_mass.rs`).
+//! In a step the massless nodes first keep their velocity. From the forces R that are then missing to their balance,
+//! and from the gaps, follows their further displacement x: a linear system but for the springs that close
+//! ([`ActiveSet`]). The matrix is the stiffness of the elements against a displacement at the end of a step, in which
+//! the history has a share (`SmallStrainStress::stiffness_of_step`). Springs of slipping surfaces turn, and the system
+//! is solved in passes ([`SlippingSprings`]). Masses are moved inward (`body/massless_boundary_mass.rs`).
 
 mod active_set;
 mod boundary;
@@ -36,8 +36,8 @@ use boundary::Boundary;
 use skyline::Skyline;
 use slipping_springs::SlippingSprings;
 
-/// A contact counts as the last one if it would lose more than this share of its force in a step in which massless nodes keep
-/// their velocity.
+/// A contact counts as the last one if it would lose more than this share of its force in a step in which massless
+/// nodes keep their velocity.
 const LAST_LOSS: f64 = 0.25;
 
 /// The massless boundaries of the deformable bodies, and the springs between them.
@@ -61,7 +61,7 @@ impl Massless {
     /// No corner of an element has mass.
     pub fn new(bodies: &[BodyInput; 2], springs: Springs) -> Result<Self, ModelError> {
         let points = springs.interface().points();
-        let nodes = |side: usize| points.iter().flat_map(|point| point.feet[side].nodes).collect();
+        let nodes = |side: usize| points.iter().flat_map(|point| point.projections[side].nodes).collect();
         let sides = [Boundary::new(&bodies[0], nodes(0))?, Boundary::new(&bodies[1], nodes(1))?];
         let places = |side: usize| {
             let n = sides[side].as_ref().map_or(0, |boundary| boundary.nodes.len());
@@ -108,7 +108,7 @@ impl Massless {
             [radial, row.map(|row| row + 1)]
         };
         let of_spring = |point: &fem_contact::ContactPoint| {
-            std::array::from_fn(|side| point.feet[side].nodes.map(|node| unknown(side, node)))
+            std::array::from_fn(|side| point.projections[side].nodes.map(|node| unknown(side, node)))
         };
         self.interface().points().iter().map(of_spring).collect()
     }
@@ -133,7 +133,7 @@ impl Massless {
                 .slipping()
                 .map(|slipping| slipping.gap_of_ends(k, [[[0.0; 2]; 2]; 2]).opening);
             let ends = self.entries(k).filter_map(|[side, end, axis]| {
-                let straight = [-1.0, 1.0][side] * point.feet[side].shape[end];
+                let straight = [-1.0, 1.0][side] * point.projections[side].shape[end];
                 let share = at_first.map_or(straight, |opening| opening[side][end][axis]);
                 Some((self.unknown(k, side, end, axis)?, share))
             });
@@ -246,8 +246,8 @@ impl Part for Massless {
 }
 
 impl Contact for Massless {
-    fn searched(&self) -> CandidateRegion {
-        self.springs.searched()
+    fn candidate_region(&self) -> CandidateRegion {
+        self.springs.candidate_region()
     }
 
     fn check(&self) -> Result<(), ModelError> {

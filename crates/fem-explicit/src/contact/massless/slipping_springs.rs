@@ -1,17 +1,17 @@
 //! The balance of massless nodes whose springs turn as the surfaces slip.
 //!
-//! The gap is a function of second order of the displacements ([`SlippingInterface`]), so the opening of a spring depends on
-//! the change x:
+//! The gap is a function of second order of the displacements ([`SlippingInterface`]), so the opening of a spring
+//! depends on the change x:
 //!
 //! ```math
 //! K x = R + \sum_j k_j \langle -g_j(x) \rangle\, \nabla g_j(x)
 //! ```
 //!
-//! In each pass the gaps are linearised about the x of the pass before, and the balance is that of springs that do not turn
-//! ([`ActiveSet`]). The remaining error is of second order in the change of a pass. Passes are repeated while it is more than
-//! [`BALANCED`] of the force; two suffice in most steps. The potential differs from that of [`ActiveSet`] by curvatures of a
-//! force over the length of a segment, which are small beside the stiffness of elements at small strain: it is convex there,
-//! and energy is conserved as well.
+//! In each pass the gaps are linearised about the x of the pass before, and the balance is that of springs that do not
+//! turn ([`ActiveSet`]). The remaining error is of second order in the change of a pass. Passes are repeated while it
+//! is more than [`BALANCED`] of the force; two suffice in most steps. The potential differs from that of [`ActiveSet`]
+//! by curvatures of a force over the length of a segment, which are small beside the stiffness of elements at small
+//! strain: it is convex there, and energy is conserved as well.
 
 use fem_contact::{Displacement, SlippingInterface};
 
@@ -19,8 +19,8 @@ use super::Massless;
 use super::active_set::{ActiveSet, Problem};
 use crate::part::MotionMut;
 
-/// Largest error in the balance of a node over the force of the contact. It acts on the next node, and its work is in no
-/// account: at most this share of the stored energy.
+/// Largest error in the balance of a node over the force of the contact. It acts on the next node, and its work is in
+/// no account: at most this share of the stored energy.
 const BALANCED: f64 = 1e-7;
 /// Largest number of passes: 4 are needed at a contact radius of a twentieth of the radius, 11 at strains of a third.
 const MOST_PASSES: usize = 20;
@@ -42,8 +42,8 @@ impl SlippingSprings {
 }
 
 impl Massless {
-    /// Solves for x, given the missing forces in `active_set` and the displacements before the change. `None` if a matrix is
-    /// not positive.
+    /// Solves for x, given the missing forces in `active_set` and the displacements before the change. `None` if a
+    /// matrix is not positive.
     pub(super) fn solve_slipping(
         &self,
         slipping: &SlippingInterface,
@@ -67,8 +67,8 @@ impl Massless {
 }
 
 impl SlippingSprings {
-    /// Linearises the gaps about the x of `active_set`. Leaves the missing forces in this struct, and returns the contact
-    /// force, N.
+    /// Linearises the gaps about the x of `active_set`. Leaves the missing forces in this struct, and returns the
+    /// contact force, N.
     fn turn(
         &mut self,
         massless: &Massless,
@@ -87,10 +87,10 @@ impl SlippingSprings {
                     self.lacking[row] -= share * before;
                 }
             }
-            let feet = &slipping.interface().points()[k].feet;
+            let projections = &slipping.interface().points()[k].projections;
             let ends: [[Displacement; 2]; 2] = std::array::from_fn(|side| {
                 std::array::from_fn(|end| {
-                    let [r, y] = u[side][feet[side].nodes[end] as usize];
+                    let [r, y] = u[side][projections[side].nodes[end] as usize];
                     let moved =
                         |axis| massless.unknown(k, side, end, axis).map_or(0.0, |row| x[row]);
                     [r + moved(0), y + moved(1)]

@@ -30,7 +30,7 @@ pub(super) fn has(
             true => Support::is(true, "those of the explicit model, at its Gauss points"),
             false => Support::is(false, "the surfaces do not overlap at the nodes"),
         },
-        ContactSearch::NAME => ContactSearch::within(&pair.searched()),
+        ContactSearch::NAME => ContactSearch::within(&pair.candidate_region()),
         FiniteStrain::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
             Support::Lacks
         }

@@ -209,7 +209,7 @@ impl Condensed {
                 Err(error) => Collision {
                     initial_energy: Some(frame.kinetic(frame.speed())),
                     bodies: pair.bodies_before(&frame),
-                    searched: Some(pair.searched()),
+                    searched: Some(pair.candidate_region()),
                     factor_bytes: Some(pair.factor_bytes() as u64),
                     ..Collision::stopped(*approach, stop_of(error, approach))
                 },

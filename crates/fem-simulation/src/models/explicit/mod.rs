@@ -168,7 +168,7 @@ impl Explicit {
     /// # Errors
     /// A collision of other bodies.
     pub fn bodies_of(&self, collision: &Collision) -> Result<Arc<Bodies>, ModelError> {
-        let searched = collision.searched.unwrap_or(self.bodies.searched());
+        let searched = collision.searched.unwrap_or(self.bodies.candidate_region());
         let frame = self.made.own_frame(&collision.approach)?;
         self.bodies_at(frame.own(), searched.radius)
     }
@@ -411,7 +411,7 @@ fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) 
             let why = "elements with one mean stress need the stiffness of their bending modes";
             Support::is(true, why)
         }
-        ContactSearch::NAME => ContactSearch::within(&model.searched()),
+        ContactSearch::NAME => ContactSearch::within(&model.candidate_region()),
         MassScaling::NAME => mass_scaling(scene, model),
         PartnerWaves::NAME | Gravity::NAME => Support::Inherent { idle: "" },
         BulkViscosity::NAME => Support::Computes { idle: "" },
