@@ -63,13 +63,15 @@ impl CondensedPair {
         }
         let [lower, upper] = &inputs;
         let surfaces = [surface(lower)?, surface(upper)?];
-        let ContactPoints { points, nodal_side, projections } = ContactPoints::new(&surfaces, &settings)?;
+        let ContactPoints { points, nodal_side, projections } =
+            ContactPoints::new(&surfaces, &settings)?;
         let (mut sides, mut masses) = ([None, None], [None, None]);
         for (side, (input, projections)) in inputs.iter().zip(projections).enumerate() {
             match input {
                 BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
                     let nodes = surfaces[side].nodes_within(f64::INFINITY);
-                    let side_made = BodyOperator::new(mesh, material, nodes, projections, &settings)?;
+                    let side_made =
+                        BodyOperator::new(mesh, material, nodes, projections, &settings)?;
                     masses[side] = (!mesh.is_half_space()).then_some(side_made.body.mass);
                     sides[side] = Some(side_made);
                 }
@@ -242,12 +244,13 @@ impl CondensedPair {
 
     /// Returns the length along r of the longer element of the two bodies at a point, m.
     pub(crate) fn longest_element(&self, point: usize) -> f64 {
-        let lengths =
-            self.inputs.iter().zip(&self.points[point].projections).filter_map(|(input, projection)| {
+        let lengths = self.inputs.iter().zip(&self.points[point].projections).filter_map(
+            |(input, projection)| {
                 let nodes = input.mesh()?.nodes();
                 let [inner, outer] = projection.nodes.map(|node| nodes[node as usize][0]);
                 Some(outer - inner)
-            });
+            },
+        );
         lengths.fold(0.0, f64::max)
     }
 

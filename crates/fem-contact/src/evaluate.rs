@@ -71,7 +71,8 @@ impl ContactInterface {
     /// closed.
     pub fn gap(&self, k: usize, u: [&[[f64; 2]]; 2]) -> f64 {
         let point = &self.points[k];
-        point.initial_gap + (point.projections[1].displacement(u[1]) - point.projections[0].displacement(u[0]))
+        point.initial_gap
+            + (point.projections[1].displacement(u[1]) - point.projections[0].displacement(u[0]))
     }
 
     /// Adds the contact forces (N) of displacements `u` (m) to `f`; both are

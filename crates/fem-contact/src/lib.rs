@@ -38,7 +38,9 @@ pub use evaluate::{ContactForces, SurfaceFold};
 pub use interface::{ContactInterface, ContactPoint};
 pub use moved::MovedInterface;
 pub use nodal::NodalContact;
-pub use pressure_recovery::{ContactEnforcement, RecoverySurfaces, centre_pressure, contact_radius};
+pub use pressure_recovery::{
+    ContactEnforcement, RecoverySurfaces, centre_pressure, contact_radius,
+};
 pub use profile::{Profile, ProfilePoint, facing};
 pub use slip::{Displacement, SlippingGap, SlippingInterface};
 pub use surface::{Surface, SurfaceProjection};

@@ -176,9 +176,11 @@ mod tests {
         for n in [8, ROOM, ROOM + 1, 200] {
             let lengths = [1.0, 1.04];
             let at = |side: usize| hertz(n, lengths[side]);
-            for recovery in
-                [RecoverySurfaces::Single(0), RecoverySurfaces::Single(1), RecoverySurfaces::of(lengths.map(Some), 0)]
-            {
+            for recovery in [
+                RecoverySurfaces::Single(0),
+                RecoverySurfaces::Single(1),
+                RecoverySurfaces::of(lengths.map(Some), 0),
+            ] {
                 let radius = recovery.radius(|side| {
                     pressure_recovery::contact_radius(at(side), ContactEnforcement::Springs)
                 });

@@ -142,7 +142,9 @@ impl Surface {
     fn displacement_at(&self, radius: f64, u: &[[f64; 2]]) -> [f64; 2] {
         let projection = self.project(self.locate(radius));
         let ends = projection.nodes.map(|node| u[node as usize]);
-        [0, 1].map(|axis: usize| projection.shape[0] * ends[0][axis] + projection.shape[1] * ends[1][axis])
+        [0, 1].map(|axis: usize| {
+            projection.shape[0] * ends[0][axis] + projection.shape[1] * ends[1][axis]
+        })
     }
 }
 

@@ -92,7 +92,8 @@ impl SlippingInterface {
         let Slip { gap, slope: m, relative } = self.of_ends(k, ends);
         let (point, slope) = (&self.interface.points[k], &self.slopes[k]);
         let opening = [0, 1].map(|side: usize| {
-            let (shape, turning) = (point.projections[side].shape, slope.per_difference[side] * relative);
+            let (shape, turning) =
+                (point.projections[side].shape, slope.per_difference[side] * relative);
             let sign = [-1.0, 1.0][side];
             [0, 1].map(|end: usize| {
                 let own = sign * shape[end];
@@ -177,9 +178,12 @@ impl SlippingInterface {
             let slopes = self.interface.surfaces.each_ref().map(|s| s.slope(point.radius));
             slopes[0].max(slopes[1])
         };
-        self.interface.add_weighted_bound(side, self.interface.bound_factors[side], bound, |point| {
-            1.0 + steepest(point).powi(2)
-        });
+        self.interface.add_weighted_bound(
+            side,
+            self.interface.bound_factors[side],
+            bound,
+            |point| 1.0 + steepest(point).powi(2),
+        );
     }
 
     /// Returns the contact radius like [`ContactInterface::contact_radius`].

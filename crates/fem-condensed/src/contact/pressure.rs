@@ -33,7 +33,9 @@ impl CondensedPair {
     pub(crate) fn recover(&self, forces: &[f64], room: &mut Pressures) -> (f64, f64) {
         let enforcement = self.enforcement();
         let other = self.staggered.as_ref();
-        let reading = other.map_or(RecoverySurfaces::Single(0), |other| RecoverySurfaces::Staggered(other.lengths));
+        let reading = other.map_or(RecoverySurfaces::Single(0), |other| {
+            RecoverySurfaces::Staggered(other.lengths)
+        });
         let surfaces = [Some(&self.nodes), other.map(|other| &other.nodes)];
         for (room, nodes) in room.iter_mut().zip(surfaces) {
             room.clear();

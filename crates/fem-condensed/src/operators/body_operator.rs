@@ -60,7 +60,8 @@ impl BodyOperator {
         let outermost = projections.iter().flatten().map(|(node, _)| *node).max().unwrap_or(0);
         let nodes = &nodes[..=outermost];
         let body = CondensedBody::new(mesh.clone(), material, nodes, settings.keeps_factors)?;
-        let compliance = gather(&projections, &gather(&projections, &body.compliance).transpose().to_owned());
+        let compliance =
+            gather(&projections, &gather(&projections, &body.compliance).transpose().to_owned());
         let uniform = gather(&projections, &body.compliance_factor);
         // Waves in a half-space do not return: it has no modes.
         let n_vibrations = if mesh.is_half_space() { 0 } else { settings.vibration_modes };

@@ -48,7 +48,8 @@ impl ContactPoints {
                     settings.candidate_radius,
                 )?;
                 let points = interface.points().to_vec();
-                let projections = [0, 1].map(|side: usize| gauss_point_interpolation(&points, side, &surfaces[side]));
+                let projections = [0, 1]
+                    .map(|side: usize| gauss_point_interpolation(&points, side, &surfaces[side]));
                 Ok(Self { points, nodal_side: None, projections })
             }
         }
@@ -56,7 +57,11 @@ impl ContactPoints {
 }
 
 /// Returns the interpolation of Gauss points, each between two nodes of a surface.
-fn gauss_point_interpolation(points: &[ContactPoint], side: usize, surface: &Surface) -> NodeInterpolation {
+fn gauss_point_interpolation(
+    points: &[ContactPoint],
+    side: usize,
+    surface: &Surface,
+) -> NodeInterpolation {
     let along = surface.nodes_within(f64::INFINITY);
     let place = |node: u32| along.iter().position(|&other| other == node).unwrap_or(0);
     let projections = points.iter().map(|point| {

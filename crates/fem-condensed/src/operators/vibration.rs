@@ -173,7 +173,8 @@ impl<'a> Lanczos<'a> {
     }
 
     fn modes(&self, converged: &ConvergedModes) -> Vibrations {
-        let (body, m, n_modes) = (self.body, converged.shapes.nrows(), converged.flexibilities.len());
+        let (body, m, n_modes) =
+            (self.body, converged.shapes.nrows(), converged.flexibilities.len());
         let n = body.mass_of_equation.len();
         let squared_frequency = converged.flexibilities.iter().map(|value| value.recip()).collect();
         let scaled = Mat::from_fn(m, n_modes, |i, j| {

@@ -1,7 +1,7 @@
 //! A bound of the stiffness and damping of the contact, for the critical time step.
 
 use super::MovedInterface;
-use super::common_refinement::{Interval, GaussPoint};
+use super::common_refinement::{GaussPoint, Interval};
 use super::segment::Segment;
 use crate::interface::OPENING_SAFETY;
 use crate::surface::STEEPEST;
@@ -101,7 +101,8 @@ impl MovedInterface {
         for (interval, point) in self.points(u) {
             let own = &interval.segments[side];
             let steepness = if own.is_rigid() { 0.0 } else { steepness(&interval, &point) };
-            let of_point = self.bound_factors[side] * per_area(&interval) * point.area * (1.0 + steepness);
+            let of_point =
+                self.bound_factors[side] * per_area(&interval) * point.area * (1.0 + steepness);
             let [inner, outer] = own.nodes().map(|node| node as usize);
             let share = point.surface_points[side].share;
             bound[inner] += (1.0 - share) * of_point;
@@ -146,7 +147,8 @@ fn is_within(point: &GaussPoint, reach: f64) -> bool {
 
 /// Returns y'² of the interface at a point.
 fn slope_squared(interval: &Interval<'_>, point: &GaussPoint) -> f64 {
-    let squares = point.surface_points.map(|surface_point| surface_point.slope * surface_point.slope);
+    let squares =
+        point.surface_points.map(|surface_point| surface_point.slope * surface_point.slope);
     match interval.segments.each_ref().map(Segment::is_rigid) {
         [true, _] => squares[0],
         [_, true] => squares[1],

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::MovedInterface;
-use super::segment::{SurfacePoint, Segment};
+use super::segment::{Segment, SurfacePoint};
 use crate::evaluate::SurfaceFold;
 use crate::interface::mean_length;
 
@@ -52,7 +52,10 @@ pub(super) struct RefinementWalk<'a, U> {
 
 impl MovedInterface {
     /// Returns the intervals for displacements (m) of the nodes of the lower and the upper body.
-    pub(super) fn intervals<U: Fn(u32) -> [f64; 2]>(&self, displacement: [U; 2]) -> RefinementWalk<'_, U> {
+    pub(super) fn intervals<U: Fn(u32) -> [f64; 2]>(
+        &self,
+        displacement: [U; 2],
+    ) -> RefinementWalk<'_, U> {
         let [lower, upper] = [0, 1].map(|side| self.segment(side, 0, &displacement[side]));
         let folded = [&lower, &upper].into_iter().position(Option::is_none);
         RefinementWalk {
@@ -71,7 +74,8 @@ impl MovedInterface {
         &'a self,
         displacement: [U; 2],
     ) -> impl Iterator<Item = (Interval<'a>, GaussPoint)> + 'a {
-        self.intervals(displacement).flat_map(|interval| GAUSS.map(|gauss| (interval, interval.point(gauss))))
+        self.intervals(displacement)
+            .flat_map(|interval| GAUSS.map(|gauss| (interval, interval.point(gauss))))
     }
 
     /// Returns a segment of a side by the number of its inner node; `None` if it is folded.
@@ -101,7 +105,12 @@ impl<'a> Interval<'a> {
     pub fn point(&self, gauss: [f64; 2]) -> GaussPoint {
         let (radius, area) = self.ring(gauss);
         let surface_points = self.segments.each_ref().map(|segment| segment.at(radius));
-        GaussPoint { radius, area, gap: surface_points[1].height - surface_points[0].height, surface_points }
+        GaussPoint {
+            radius,
+            area,
+            gap: surface_points[1].height - surface_points[0].height,
+            surface_points,
+        }
     }
 
     /// Returns the Gauss point if it is closed. Most points are open by a large gap, which a lower bound shows
@@ -240,7 +249,8 @@ mod tests {
                         let gap = |point: GaussPoint| point.gap.to_bits();
                         let is_closed = point.gap < 0.0;
                         assert_eq!(found.map(gap), is_closed.then(|| gap(point)));
-                        let depth = interval.segments.map(|segment| segment.least_depth(point.radius));
+                        let depth =
+                            interval.segments.map(|segment| segment.least_depth(point.radius));
                         n += 1;
                         n_closed += usize::from(is_closed);
                         n_asked += usize::from(depth[0] + depth[1] <= 0.0);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::MovedInterface;
-use super::common_refinement::{GAUSS, Interval, GaussPoint};
+use super::common_refinement::{GAUSS, GaussPoint, Interval};
 use crate::evaluate::ContactForces;
 
 impl MovedInterface {
@@ -32,8 +32,9 @@ impl MovedInterface {
 
     /// Returns whether any point is closed for the given displacements (u_r, u_y) of the candidate nodes, m.
     pub fn is_closed(&self, displacement: [impl Fn(u32) -> [f64; 2]; 2]) -> bool {
-        let is_closed =
-            |interval: Interval<'_>| GAUSS.into_iter().any(|gauss| interval.closed_point(gauss).is_some());
+        let is_closed = |interval: Interval<'_>| {
+            GAUSS.into_iter().any(|gauss| interval.closed_point(gauss).is_some())
+        };
         self.intervals(displacement).any(is_closed)
     }
 }
@@ -70,7 +71,12 @@ fn add_spring(
 impl Interval<'_> {
     /// Adds a pressure (Pa) at a point to the forces (N) of both bodies, along the normal of each, and returns its
     /// force along y, N. At a given radius a surface rises by N (δy − y' δr).
-    pub fn add_pressure(&self, point: &GaussPoint, pressure: f64, f: &mut [&mut [[f64; 2]]; 2]) -> f64 {
+    pub fn add_pressure(
+        &self,
+        point: &GaussPoint,
+        pressure: f64,
+        f: &mut [&mut [[f64; 2]]; 2],
+    ) -> f64 {
         let force = pressure * point.area;
         for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let (segment, surface_point) = (&self.segments[side], &point.surface_points[side]);
@@ -89,7 +95,9 @@ impl Interval<'_> {
     pub fn velocity(&self, point: &GaussPoint, side: usize, v: &[[f64; 2]]) -> [f64; 2] {
         let (segment, surface_point) = (&self.segments[side], &point.surface_points[side]);
         let [inner, outer] = segment.nodes().map(|node| v[node as usize]);
-        [0, 1].map(|axis: usize| (1.0 - surface_point.share) * inner[axis] + surface_point.share * outer[axis])
+        [0, 1].map(|axis: usize| {
+            (1.0 - surface_point.share) * inner[axis] + surface_point.share * outer[axis]
+        })
     }
 
     /// Returns the rate at which a side rises along +y at the fixed radius of a point, m/s: N (ẏ − y' ṙ), for

@@ -92,7 +92,15 @@ impl MovedInterface {
         let ends = [0, 1].map(|side: usize| surfaces[side].radii[n_nodes[side] - 1]);
         let bound_factors = bound_factors(&surfaces);
         let candidate_radius = ends[0].min(ends[1]);
-        Ok(Self { surfaces, n_nodes, gap, stiffness, candidate_radius, bound_factors, impedance: 0.0 })
+        Ok(Self {
+            surfaces,
+            n_nodes,
+            gap,
+            stiffness,
+            candidate_radius,
+            bound_factors,
+            impedance: 0.0,
+        })
     }
 
     /// Shares springs by mass beside a rigid sphere, as

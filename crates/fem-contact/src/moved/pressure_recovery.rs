@@ -52,7 +52,9 @@ impl MovedInterface {
         (0..self.n_nodes[side]).map(move |k| {
             let [mut sum, mut area] = from_inside;
             from_inside = [0.0; 2];
-            while let Some(interval) = intervals.next_if(|interval| interval.segments[side].index == k) {
+            while let Some(interval) =
+                intervals.next_if(|interval| interval.segments[side].index == k)
+            {
                 for gauss in GAUSS {
                     let (radius, of_ring) = interval.ring(gauss);
                     let share = interval.segments[side].share(radius);

@@ -9,7 +9,7 @@
 //! at x̄, to the means less the term ½ p″ var x of the previous fit. Hertz' profile has c₂ = 0. Relaxing bodies
 //! need c₂: without it, fits over 0.8 a are 2 to 3 % too high where the moduli fall by e⁻² within the contact.
 
-use super::{NodalMean, ContactEnforcement, HatMoments, nodal_means};
+use super::{ContactEnforcement, HatMoments, NodalMean, nodal_means};
 
 /// Largest number of fitted nodes, from the axis outward.
 const MOST: usize = 64;

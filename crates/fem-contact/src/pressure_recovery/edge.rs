@@ -66,7 +66,8 @@ pub fn contact_radius(
     let ellipse = outermost.radius + offset * width;
     let correction = match (second, third) {
         (Some(second), Some(_)) if second.pressure > 0.0 => {
-            let [inner, outer] = [second, first].map(|cell| ellipse.powi(2) - cell.hat_moments().square);
+            let [inner, outer] =
+                [second, first].map(|cell| ellipse.powi(2) - cell.hat_moments().square);
             let fall = first.pressure / second.pressure / (outer / inner).sqrt() - 1.0;
             STEEPNESS * ratio.min(1.0) * (fall - steeper)
         }

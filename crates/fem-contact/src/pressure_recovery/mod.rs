@@ -84,7 +84,9 @@ pub fn carried_force(nodes: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
 }
 
 /// Returns the nodes with the radii of their neighbours.
-fn nodal_means(nodes: impl Iterator<Item = (f64, f64)> + Clone) -> impl Iterator<Item = NodalMean> + Clone {
+fn nodal_means(
+    nodes: impl Iterator<Item = (f64, f64)> + Clone,
+) -> impl Iterator<Item = NodalMean> + Clone {
     let mut nodes = nodes.peekable();
     let mut before = None;
     from_fn(move || {

@@ -25,14 +25,18 @@ fn hat_means(profile: impl Fn(f64) -> f64, n: usize) -> Vec<(f64, f64)> {
 /// between two lengths has the areas that its force is divided by.
 #[test]
 fn hats_have_their_moments() {
-    let axis = NodalMean { radius: 0.0, neighbours: [None, Some(1.0)], pressure: 1.0 }.hat_moments();
+    let axis =
+        NodalMean { radius: 0.0, neighbours: [None, Some(1.0)], pressure: 1.0 }.hat_moments();
     let close = |a: f64, b: f64| (a - b).abs() < 1e-14;
     assert!(close(axis.area, PI / 3.0) && close(axis.square, 0.3));
     assert!(close(axis.variance, 1.0 / 7.0 - 0.09), "{}", axis.variance);
     let between = NodalMean { radius: 1.0, neighbours: [Some(0.5), Some(1.75)], pressure: 1.0 };
     let area = [0.5, 1.75].map(|from| fem_mesh::segment_measures([from, 0.0], [1.0, 0.0])[1]);
     assert!(close(between.hat_moments().area, area[0] + area[1]));
-    assert_eq!(NodalMean { radius: 1.0, neighbours: [None; 2], pressure: 1.0 }.hat_moments().area, 0.0);
+    assert_eq!(
+        NodalMean { radius: 1.0, neighbours: [None; 2], pressure: 1.0 }.hat_moments().area,
+        0.0
+    );
 }
 
 /// Hertz' profile and one that relaxation has flattened, p = (1 − x)^½ (1 + x/2), without what elements do to

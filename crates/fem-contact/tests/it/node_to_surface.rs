@@ -60,7 +60,6 @@ fn a_wall_is_met_in_one_pass() {
     let radii = radii(&mesh);
     let areas: f64 = (0..interface.n_points()).map(|k| hat_area(&radii, k)).sum();
     assert!((total.force / (STIFFNESS / 0.01 * 1e6 * areas) - 1.0).abs() < 1e-8);
-
 }
 
 #[test]

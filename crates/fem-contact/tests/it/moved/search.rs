@@ -116,5 +116,3 @@ fn a_flank_that_comes_back_touches_nothing() {
     let u = [u[0].clone(), displace(&scene, &meshes[1], 1, touches)];
     assert!(scene.forces(&u).0.fold.is_some());
 }
-
-

@@ -61,7 +61,8 @@ impl Massless {
     /// No corner of an element has mass.
     pub fn new(bodies: &[BodyInput; 2], springs: Springs) -> Result<Self, ModelError> {
         let points = springs.interface().points();
-        let nodes = |side: usize| points.iter().flat_map(|point| point.projections[side].nodes).collect();
+        let nodes =
+            |side: usize| points.iter().flat_map(|point| point.projections[side].nodes).collect();
         let sides = [Boundary::new(&bodies[0], nodes(0))?, Boundary::new(&bodies[1], nodes(1))?];
         let places = |side: usize| {
             let n = sides[side].as_ref().map_or(0, |boundary| boundary.nodes.len());
@@ -108,7 +109,9 @@ impl Massless {
             [radial, row.map(|row| row + 1)]
         };
         let of_spring = |point: &fem_contact::ContactPoint| {
-            std::array::from_fn(|side| point.projections[side].nodes.map(|node| unknown(side, node)))
+            std::array::from_fn(|side| {
+                point.projections[side].nodes.map(|node| unknown(side, node))
+            })
         };
         self.interface().points().iter().map(of_spring).collect()
     }
