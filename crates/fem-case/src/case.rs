@@ -1,4 +1,4 @@
-//! A case, read from text and overrides or made in code, to a scene, and back to text.
+//! A case: read from text and overrides or made in code, validated as a scene, and written as text.
 
 use std::fs;
 use std::io::{ErrorKind, Read};
@@ -14,15 +14,15 @@ use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::scene::body::Shape;
 use crate::schema::{CaseFile, is_list};
-use crate::source::document::{Document, Insertions};
-use crate::source::error_recovery::{self, Repair};
+use crate::source::document::Document;
+use crate::source::error_recovery::{Repair, read_repaired};
 use crate::source::explain::{explain, listed};
 use crate::validate::validate;
 
-/// Larger than any case, smaller than what hurts.
+/// The largest size of a case file, bytes: more than any case needs.
 const LARGEST_FILE: u64 = 16 << 20;
 
-/// A valid case: as written, as a scene, and with the positions of its keys.
+/// A valid case: as written, as a scene, and with the origins of its keys.
 #[derive(Clone, Debug)]
 pub struct Case {
     file: CaseFile,
@@ -35,7 +35,7 @@ pub struct Case {
 #[derive(Clone, Debug)]
 struct Defaults {
     title: String,
-    /// Where relative mesh files are looked for; absolute.
+    /// The folder of relative mesh files, as an absolute path.
     folder: PathBuf,
 }
 
@@ -53,8 +53,8 @@ impl Case {
         Case::built(&name, &stem, &text, folder, overrides)
     }
 
-    /// As [`Case::load`], from a text; `name` stands for the file in messages and as the title,
-    /// mesh files are looked for in `folder`.
+    /// Reads a case from a text, as [`Case::load`] does from a file. `name` stands for the file in messages and as the
+    /// title; mesh files are relative to `folder`.
     ///
     /// # Errors
     /// The errors are those of [`Case::load`].
@@ -69,7 +69,7 @@ impl Case {
         Case::built(name, &stem, text, folder, overrides)
     }
 
-    /// As [`Case::parse`], of a text that comes from elsewhere, such as the standard input.
+    /// Reads a case from a stream such as the standard input, as [`Case::parse`] does from a text.
     ///
     /// # Errors
     /// The errors are those of [`Case::load`].
@@ -82,13 +82,13 @@ impl Case {
         Case::parse(name, &text_of(source, name)?, folder, overrides)
     }
 
-    /// A case made in code, validated as a text is.
+    /// Validates a case that is made in code as one that is read.
     ///
-    /// Its faults name the key: there is no line to point at. Its title is the names of its bodies
-    /// unless it has one; mesh files are looked for in the current folder.
+    /// Its faults name the key, since there is no line to point at. Its default title is the names of its bodies; mesh
+    /// files are relative to the current folder.
     ///
     /// # Errors
-    /// The first thing that is wrong with it.
+    /// Returns the first fault of the case.
     ///
     /// ```
     /// use fem_case::schema::{BodyTable, MaterialTable};
@@ -118,13 +118,13 @@ impl Case {
         Case::validated(document, file, defaults)
     }
 
-    /// The same case with some keys changed, validated anew.
+    /// Returns the same case with some keys changed, validated again.
     ///
-    /// The change sees [`Case::file`]. Faults of what it changed name the key, those of all else
-    /// still point at their line. A key that it sets to the value it had is not changed.
+    /// The change receives [`Case::file`]. Faults of changed keys name the key; all others still point at their line.
+    /// A key that is set to its old value counts as unchanged.
     ///
     /// # Errors
-    /// The first thing that is wrong with the case that it makes.
+    /// Returns the first fault of the changed case.
     ///
     /// ```
     /// # use std::path::Path;
@@ -154,7 +154,7 @@ impl Case {
         Case::validated(document, file, self.defaults.clone())
     }
 
-    /// The case of a text, or all of its faults.
+    /// Returns the case of a text, or all of its faults.
     fn built(
         name: &str,
         stem: &str,
@@ -166,40 +166,11 @@ impl Case {
             let document = Document::parse(name, text, overrides, None, repairs)?;
             Case::of_document(document, stem, folder)
         };
-        read(&[]).map_err(|first| error_recovery::all(first, |repairs| read(repairs).err()))
+        read(&[]).map_err(|first| CaseError::joined(read_repaired(read).1).unwrap_or(first))
     }
 
-    /// The case of a text with insertions, or its first fault.
-    pub(crate) fn build(
-        name: &str,
-        stem: &str,
-        text: &str,
-        folder: &Path,
-        overrides: &[String],
-        insertions: Insertions<'_, '_>,
-    ) -> Result<Case, CaseError> {
-        Case::of_document(
-            Document::parse(name, text, overrides, Some(insertions), &[])?,
-            stem,
-            folder,
-        )
-    }
-
-    /// All faults of a text with insertions, each alone; `insertions` makes them anew for each reading.
-    pub(crate) fn faults_with<'i>(
-        (name, text): (&str, &str),
-        folder: &Path,
-        overrides: &[String],
-        insertions: impl Fn() -> Insertions<'i, 'i>,
-    ) -> Vec<CaseError> {
-        let read = |repairs: &[Repair]| {
-            let document = Document::parse(name, text, overrides, Some(insertions()), repairs);
-            document.and_then(|document| Case::of_document(document, name, folder)).err()
-        };
-        read(&[]).map_or_else(Vec::new, |first| error_recovery::all(first, read).each().collect())
-    }
-
-    fn of_document(
+    /// Returns the case of a document, or its first fault.
+    pub(crate) fn of_document(
         (document, tree): (Document, Spanned<DeTable<'_>>),
         stem: &str,
         folder: &Path,
@@ -208,14 +179,14 @@ impl Case {
             .map_err(|error| explain(&document, &error))?;
         if let Some(path) = document.arrays().iter().find(|path| !is_list(path)) {
             let error = document.error_at(path, format!("{path} is an array"));
-            return Err(error.with_help("it wants a table, { … }"));
+            return Err(error.with_help("write a table, { … }"));
         }
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let defaults = Defaults { title: stem.to_string(), folder: absolute(folder) };
         Case::validated(document, file, defaults)
     }
 
-    /// The one way from what is written to a scene.
+    /// Validates a case as written: the one path from keys to a scene.
     fn validated(
         document: Document,
         mut file: CaseFile,
@@ -226,41 +197,41 @@ impl Case {
         Ok(Case { file, scene, document, defaults })
     }
 
-    /// The case as written, overrides in it; title, approach speeds and the full paths of mesh files
-    /// are filled in. What else it leaves open, a method resolves.
+    /// Returns the case as written, with overrides. Title, approach speeds and the full paths of mesh files are filled
+    /// in; the method resolves all other absent keys.
     pub fn file(&self) -> &CaseFile {
         &self.file
     }
 
-    /// The case in SI units, validated.
+    /// Returns the validated case in SI units.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// An error about the key at a dotted path (`mesh.contact_element_size`, `body.0.sphere`).
+    /// Creates an error about the key at a dotted path (`mesh.contact_element_size`, `body.0.sphere`).
     ///
-    /// It points at the key's value, in the file or in an override; if the case does not give
-    /// the key, at the nearest table around it. Where code gave that, it names the key.
+    /// It points at the key's value, in the file or in an override, or, if the case does not give the key, at the nearest
+    /// table around it. If code gave the value, the error names the key instead.
     pub fn error_at(&self, path: &str, message: impl Into<String>) -> CaseError {
         self.document.error_at(path, message)
     }
 
-    /// Whether the case itself, not a default, gives the key at a dotted path.
+    /// Returns whether the case itself, not a default, gives the key at a dotted path.
     pub fn gives(&self, path: &str) -> bool {
         self.document.has(path)
     }
 }
 
 impl CaseFile {
-    /// This case as TOML, numbers in SI: the same scene when it is read.
+    /// Returns this case as TOML, with numbers in SI. Reading it gives the same scene.
     ///
     /// # Errors
-    /// None for a case that was read; a value that TOML cannot hold, put in by hand.
+    /// Fails if code has set a value that TOML cannot represent; a case that was read has none.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
 
-    /// Its keys and values.
+    /// Returns the keys and values as TOML.
     fn tree(&self) -> Result<toml::Table, CaseError> {
         toml::Table::try_from(self).map_err(|error| CaseError::new("the case", error.to_string()))
     }
@@ -270,7 +241,7 @@ fn absolute(folder: &Path) -> PathBuf {
     std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf())
 }
 
-/// The defaults that do not depend on physics. A path that is not Unicode stays as written.
+/// Fills in the defaults that do not depend on physics. A path that is not Unicode stays as written.
 fn fill_in(file: &mut CaseFile, scene: &Scene) {
     file.title = Some(scene.title.clone());
     for (table, body) in file.body.iter_mut().zip(&scene.bodies) {
@@ -283,15 +254,15 @@ fn fill_in(file: &mut CaseFile, scene: &Scene) {
     }
 }
 
-/// The text of a file, which messages call `name`: what [`Case::load`] reads, for [`Case::parse`].
+/// Reads the text of a file for [`Case::parse`]; messages call it `name`.
 ///
 /// # Errors
-/// A file that is not there or cannot be read, is too large for a case, or is no UTF-8.
+/// The file does not exist, cannot be read, is too large for a case, or is not UTF-8.
 pub fn text_at(path: &Path, name: &str) -> Result<String, CaseError> {
     text_of(open(path, name)?, name)
 }
 
-/// The bytes of a file that a case or a sweep names.
+/// Reads the bytes of a file that a sweep names.
 pub(crate) fn bytes_at(path: &Path, name: &str) -> Result<Vec<u8>, CaseError> {
     let mut bytes = Vec::new();
     let read = open(path, name)?.read_to_end(&mut bytes);
@@ -313,22 +284,22 @@ fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {
     let read = source.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
     read.map_err(|error| unreadable(name, &error))?;
     if bytes.len() as u64 > LARGEST_FILE {
-        return Err(fail("this file is larger than 16 MiB, too large for a case"));
+        return Err(fail("this file is larger than 16 MiB, the limit for a case"));
     }
     String::from_utf8(bytes).map_err(|error| {
         let start = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(error.as_bytes());
         fail("this is not UTF-8 text")
             .at(&text, start..start + '\u{fffd}'.len_utf8())
-            .with_help("a case file is a text file in UTF-8; save it as such")
+            .with_help("save the case file as text in UTF-8")
     })
 }
 
 fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
     match error.kind() {
         ErrorKind::IsADirectory => CaseError::new(name, "this is a folder")
-            .with_help("name a case file in it, FOLDER/CASE.toml"),
-        ErrorKind::PermissionDenied => CaseError::new(name, "this file may not be read"),
+            .with_help("give the path of a case file in it, FOLDER/CASE.toml"),
+        ErrorKind::PermissionDenied => CaseError::new(name, "no permission to read this file"),
         _ => CaseError::new(name, format!("this file cannot be read: {error}")),
     }
 }

@@ -1,15 +1,14 @@
-//! The error of this crate: the fault of a case, its place, and the allowed values.
+//! The error of this crate: a fault of a case, its position, and the allowed values.
 
 use std::fmt;
 use std::ops::Range;
 
-use crate::source::key_path::join;
+use crate::source::toml_syntax::join;
 
-/// Something wrong with a case file, with an override of it, or with a case made in code.
+/// An error in a case file, in an override of it, or in a case made in code.
 ///
-/// It displays as a block of plain text: position and message, the line with the culprit
-/// underlined, and help. The parts are there for a prettier rendering. A value given in code has no
-/// line; its key is shown instead.
+/// It displays as a block of plain text: position and message, the line with the faulty text underlined, and help. The
+/// accessors serve other renderings. A value that code gave has no line; its key is shown instead.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.block())]
 pub struct CaseError {
@@ -29,7 +28,7 @@ struct More {
     others: Vec<CaseError>,
 }
 
-/// A stretch of a source text.
+/// A span of a source text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Place {
     text: String,
@@ -38,7 +37,7 @@ struct Place {
 }
 
 impl CaseError {
-    /// An error about a source as a whole, such as a missing file.
+    /// Creates an error about a source as a whole, such as a missing file.
     pub fn new(source_name: impl Into<String>, message: impl Into<String>) -> Self {
         CaseError {
             source_name: source_name.into(),
@@ -50,37 +49,33 @@ impl CaseError {
         }
     }
 
-    /// Adds what is allowed, or what to do.
+    /// Adds the allowed values, or what to do.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Says which key it is about, as a dotted path.
+    /// Sets the key that the error is about, as a dotted path.
     pub(crate) fn about(mut self, key: &str) -> Self {
         self.key = Some(key.to_string());
         self
     }
 
-    /// Says which key is missing in the table that it is about.
+    /// Sets the key that is missing in the table that the error is about.
     pub(crate) fn lacking(mut self, key: &str) -> Self {
         self.more.missing = Some(key.to_string());
         self
     }
 
-    /// Adds the faults that a case has beside this one.
-    pub(crate) fn with_others(mut self, others: Vec<CaseError>) -> Self {
-        self.more.others = others;
-        self
+    /// Returns the first of these errors with the others attached; `None` if there are none.
+    pub(crate) fn joined(errors: Vec<CaseError>) -> Option<Self> {
+        let mut errors = errors.into_iter();
+        let mut first = errors.next()?;
+        first.more.others = errors.collect();
+        Some(first)
     }
 
-    /// This fault and those beside it, each alone.
-    pub(crate) fn each(mut self) -> impl Iterator<Item = CaseError> {
-        let others = self.take_others();
-        std::iter::once(self).chain(others)
-    }
-
-    /// The key that wants another value: the one that it is about, or that is missing there.
+    /// Returns the key that needs another value: the one that the error is about, or that is missing there.
     pub(crate) fn wanted(&self) -> Option<String> {
         match (&self.key, &self.more.missing) {
             (Some(table), Some(missing)) => Some(join(table, missing)),
@@ -89,7 +84,7 @@ impl CaseError {
         }
     }
 
-    /// Points at the bytes `span` of `text`; a span that does not fit is trimmed.
+    /// Points the error at the bytes `span` of `text`; a span that does not fit is trimmed.
     pub(crate) fn at(mut self, text: &str, span: Range<usize>) -> Self {
         let boundary = |mut index: usize| {
             index = index.min(text.len());
@@ -104,7 +99,7 @@ impl CaseError {
         self
     }
 
-    /// Adds a word or two that go beside the underlined text.
+    /// Adds a short label beside the underlined text.
     pub(crate) fn labelled(mut self, label: &str) -> Self {
         if let Some(place) = &mut self.place {
             place.label = label.to_string();
@@ -112,59 +107,59 @@ impl CaseError {
         self
     }
 
-    /// The file as it was named, or the override, `--set body.0.approach_speed=…`, or the key that
-    /// code gave, `body.0.approach_speed`.
+    /// Returns the file as it was named, the override `--set body.0.approach_speed=…`, or the key that code gave,
+    /// `body.0.approach_speed`.
     pub fn source_name(&self) -> &str {
         &self.source_name
     }
 
-    /// The dotted path of the key that it is about, given or missing; none of a fault of the text
-    /// as such.
+    /// Returns the dotted path of the key that the error is about, given or missing; `None` if it is about the text as
+    /// such.
     pub fn key(&self) -> Option<&str> {
         self.key.as_deref()
     }
 
-    /// Further errors of the same case in the order of the text; empty for cases made in code.
+    /// Returns further errors of the same case; there are none if code made the case.
     pub fn others(&self) -> &[CaseError] {
         &self.more.others
     }
 
-    /// Takes [`CaseError::others`] out: what is left is this fault alone.
+    /// Removes and returns [`CaseError::others`].
     pub fn take_others(&mut self) -> Vec<CaseError> {
         std::mem::take(&mut self.more.others)
     }
 
-    /// Value or text that was found.
+    /// Returns the message: what was found.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// Allowed values, or the suggested fix.
+    /// Returns the allowed values, or the suggested fix.
     pub fn help(&self) -> Option<&str> {
         self.help.as_deref()
     }
 
-    /// The whole text of the source, if the error points into it.
+    /// Returns the whole text of the source, if the error points into it.
     pub fn source_text(&self) -> Option<&str> {
         self.place.as_ref().map(|place| place.text.as_str())
     }
 
-    /// The bytes of the source text at fault.
+    /// Returns the faulty bytes of the source text.
     pub fn span(&self) -> Option<Range<usize>> {
         self.place.as_ref().map(|place| place.span.clone())
     }
 
-    /// What the bytes at fault are ("unknown key"); may be empty.
+    /// Returns the label of the faulty bytes ("unknown key"); it may be empty.
     pub fn label(&self) -> Option<&str> {
         self.place.as_ref().map(|place| place.label.as_str())
     }
 
-    /// Line of the culprit's first character, from 1.
+    /// Returns the line of the first faulty character, from 1.
     pub fn line(&self) -> Option<usize> {
         self.place.as_ref().map(|place| place.line_and_column().0)
     }
 
-    /// Column of the culprit's first character, from 1, in characters.
+    /// Returns the column of the first faulty character, from 1, in characters.
     pub fn column(&self) -> Option<usize> {
         self.place.as_ref().map(|place| place.line_and_column().1)
     }
@@ -185,7 +180,7 @@ impl CaseError {
         for other in &self.more.others {
             block += &format!("\n{other}");
         }
-        // A case file may hold anything; a terminal must not obey it.
+        // A case file may contain control sequences that a terminal must not execute.
         block.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")
     }
 }
@@ -203,7 +198,7 @@ impl Place {
 }
 
 impl fmt::Display for Place {
-    /// The line, and carets under the culprit as far as it lies in that line.
+    /// Writes the line, and carets under the faulty text as far as it lies in that line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const LONGEST_LINE: usize = 160;
         let (number, column) = self.line_and_column();

@@ -1,4 +1,4 @@
-//! Case files: TOML with units to a validated scene, and back.
+//! Case files: reads TOML with units into a validated scene, and writes it back.
 //!
 //! ```text
 //! text, overrides ─ document ─ schema ─ validate ─ Scene
@@ -9,15 +9,12 @@
 //!                              in code
 //! ```
 //!
-//! This is the language of cases and no more: what a scene costs, which effects it calls for and how
-//! it collides is for crates above. Text and code ([`Case::of`], [`Case::edited`]) are validated by
-//! the same path.
+//! The cost of a scene, its effects and the collision itself belong to other crates. Cases from text and from code
+//! ([`Case::of`], [`Case::edited`]) are validated alike. A body's `material = "lib:NAME"` comes from [`library`].
 //!
-//! A body's `material = "lib:NAME"` is one of [`library`].
-//!
-//! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
-//! is allowed. [`Case::load`] does all of it; [`Case::of`] takes a [`CaseFile`] made in code and
-//! [`Case::edited`] changes a case, where the key stands in place of file and line:
+//! Every fault is a [`CaseError`] with file (or override), line, column, the value that was found and the allowed values.
+//! [`Case::load`] reads a file, [`Case::of`] takes a [`CaseFile`] made in code, and [`Case::edited`] changes a case. Faults
+//! of code have a key instead of file and line:
 //!
 //! ```
 //! # use std::path::Path;
@@ -68,16 +65,15 @@ pub use error::CaseError;
 pub use fem_material::engineering;
 pub use quantity::units::{Dimension, UnitError, parse_quantity};
 pub use quantity::{
-    Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
+    Acceleration, Bytes, Count, Damping, Density, QuantityInfo, Length, Number, Quantity, QuantityError,
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
 pub use scene::body::{Body, Shape};
-pub use scene::gravity::{Gravity, impact_speed};
 pub use scene::model::{CondensedOptions, ModelChoice};
-pub use scene::{Accuracy, Limits, MeshSettings, Probe, Scene, Snapshots};
+pub use scene::{Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, impact_speed};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
 pub use source::explain::nearest;
 pub use sweep::Sweep;
-pub use sweep::axes::{Axis, Element, SweptKey};
+pub use sweep::axes::{Axis, AxisValue, SweptKey};
 pub use sweep::file::{Combine, Keep, PlotTable};
 pub use sweep::values::{ReadRows, RowsFault};

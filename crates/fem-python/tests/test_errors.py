@@ -39,7 +39,7 @@ def test_a_bad_change_raises_what_the_command_prints(glass, command):
     with pytest.raises(TypeError):
         case.with_({"title": object()})
     # Before any member is computed.
-    with pytest.raises(fem_run.InputError, match="no index"):
+    with pytest.raises(fem_run.InputError, match="not an index"):
         fem_run.sweep(case, {"body.0.approach_speed": [0.5], "body.7.name": ["x"]})
 
 

@@ -1,9 +1,9 @@
-//! JSON schemas of case and sweep files, of the very structs that read them: for editors that complete
-//! keys and mark faults as they are typed.
+//! JSON schemas of case and sweep files, generated from the structs that read them, for editors that complete keys and mark
+//! errors.
 //!
 //! A schema knows keys, types, words, units, most ranges and which keys exclude each other. Rules
-//! across the whole case, such as bodies that do not meet, are checked by the reader only: a case
-//! that satisfies the schema may still be rejected.
+//! across the whole case, such as bodies that never meet, are checked only by the reader: a case that satisfies the schema
+//! may still be rejected.
 
 pub(crate) mod quantity_pattern;
 pub(crate) mod rules;
@@ -16,7 +16,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
 use crate::json_schema::quantity_pattern::pattern;
-use crate::quantity::{Kind, Number, Quantity, QuantityKind, Time};
+use crate::quantity::{QuantityInfo, Number, Quantity, QuantityKind, Time};
 use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
 use crate::schema::{CaseFile, LawTable, ModelTable, SnapshotLabel, SnapshotsValue};
 use crate::sweep::file::SweepFile;
@@ -30,7 +30,7 @@ pub fn of_cases() -> Value {
     schema
 }
 
-/// In place of the table a name will do.
+/// Allows a name instead of a table.
 fn or_name(schema: &mut Value, pointer: &str, names: &[&str]) {
     if let Some(place) = schema.pointer_mut(pointer) {
         *place = json!({ "anyOf": [{ "enum": names }, place.take()] });
@@ -42,7 +42,7 @@ pub fn of_sweeps() -> Value {
     schema_of::<SweepFile>("A sweep of fem-run")
 }
 
-/// Draft 7: what the editors' TOML plugins know.
+/// Returns the schema of a type in draft 7, which the TOML plugins of editors support.
 fn schema_of<T: JsonSchema>(title: &str) -> Value {
     let settings = SchemaSettings::draft07().with_transform(Present);
     let mut schema = settings.into_generator().into_root_schema_for::<T>();
@@ -50,7 +50,7 @@ fn schema_of<T: JsonSchema>(title: &str) -> Value {
     schema.to_value()
 }
 
-/// TOML has no null: what may be absent is not null where it is there.
+/// Removes `null` from optional keys, since TOML has no null.
 #[derive(Clone)]
 struct Present;
 
@@ -58,7 +58,7 @@ impl Transform for Present {
     fn transform(&mut self, schema: &mut Schema) {
         transform_subschemas(self, schema);
         let Some(keys) = schema.as_object_mut() else { return };
-        // `format` is of Rust's numbers; defaults are what is absent.
+        // `format` names Rust's number types; a default means an absent key.
         keys.remove("format");
         keys.remove("default");
         if let Some(Value::Array(types)) = keys.get_mut("type") {
@@ -70,7 +70,7 @@ impl Transform for Present {
         }
         if let Some(Value::Array(choices)) = keys.get_mut("anyOf") {
             choices.retain(|choice| choice.get("type") != Some(&json!("null")));
-            // A reference with a description beside it is what draft 7 ignores, all but the reference.
+            // Draft 7 ignores a description beside a reference, so the reference goes into `allOf`.
             if let [Value::Object(_)] = choices.as_slice() {
                 let one = keys.remove("anyOf");
                 keys.insert("allOf".to_string(), one.unwrap_or_default());
@@ -79,27 +79,27 @@ impl Transform for Present {
     }
 }
 
-/// A table `[material."lib:NAME"]` gives what it likes.
+/// Allows any keys in a table `[material."lib:NAME"]`, since the library gives the others.
 pub(crate) fn library_tables() -> Value {
     json!({ "^lib:": { "type": "object" } })
 }
 
 impl<K: QuantityKind> JsonSchema for Quantity<K> {
-    /// "length" of "a length".
+    /// Returns the name of the kind without its article: "length" for "a length".
     fn schema_name() -> Cow<'static, str> {
-        let name = K::KIND.name;
+        let name = K::INFO.name;
         name.split_once(' ').map_or(name, |(_, noun)| noun).replace(' ', "_").into()
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let Kind { name, si, example, .. } = K::KIND;
+        let QuantityInfo { name, si, example, .. } = K::INFO;
         let bare = match si {
             "" => format!("{name}, such as {example}"),
             si => format!("{name}: a number in {si}, or a string with its unit, {example}"),
         };
         json_schema!({
             "description": bare,
-            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern(K::KIND.dimension.0) }],
+            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern(K::INFO.dimension.0) }],
         })
     }
 }
@@ -114,7 +114,7 @@ impl JsonSchema for SnapshotsValue {
         let time = generator.subschema_for::<Quantity<Time>>();
         json_schema!({
             "anyOf": [
-                { "type": "number", "description": "so many, evenly over the contact" },
+                { "type": "number", "description": "a number of snapshots, evenly over the contact" },
                 { "type": "array", "items": { "anyOf": [label, time] } },
             ],
         })

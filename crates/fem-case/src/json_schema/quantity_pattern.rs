@@ -1,13 +1,12 @@
-//! Regular expressions of quantities as strings: `22.2 mm` for a length, and no `22.2 s`.
+//! Regular expressions of quantities as strings: for a length `22.2 mm`, but not `22.2 s`.
 //!
-//! A unit is one symbol, or a quotient of two or three, as it is usually written for the dimension:
-//! `m/s`, `kg/m^3`, `N/mm²`. Of products, negative powers and parentheses no dimension can be told by
-//! an expression: with symbols that there are, they are let through. No look-around, so that every validator
-//! has them.
+//! A unit is one symbol, or a quotient of two or three in the usual form of the dimension: `m/s`, `kg/m^3`, `N/mm²`. An
+//! expression cannot check the dimension of products, negative powers and parentheses, so any of known symbols are accepted.
+//! There is no look-around, which some validators lack.
 
 use crate::quantity::unit_table::symbols;
 
-/// A number; its sign is a minus of either kind.
+/// A number, with an ASCII or a Unicode minus sign.
 const NUMBER: &str = r"\s*[-+−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
 
 const LENGTH: [i32; 4] = [1, 0, 0, 0];
@@ -16,7 +15,7 @@ const TIME: [i32; 4] = [0, 0, 1, 0];
 const FORCE: [i32; 4] = [1, 1, -2, 0];
 const VOLUME: [i32; 4] = [3, 0, 0, 0];
 
-/// Returns the regular expression of strings of a dimension (metre, kilogram, second, byte).
+/// Returns the regular expression for strings of a dimension (metre, kilogram, second, byte).
 pub(crate) fn pattern(dimension: [i32; 4]) -> String {
     let of = |dimension| symbols(|found| found == dimension);
     let (length, mass, time) = (of(LENGTH), of(MASS), of(TIME));
@@ -44,20 +43,20 @@ pub(crate) fn pattern(dimension: [i32; 4]) -> String {
     format!(r"^{NUMBER}(\s*({})|{})\s*$", forms.join("|"), entangled())
 }
 
-/// A power after a symbol.
+/// Returns the expression of a power after a symbol.
 fn power(digit: &str) -> String {
     let raised = if digit == "2" { "²" } else { "³" };
     format!(r"((\^|\*\*)?{digit}|{raised})")
 }
 
-/// Units that an expression cannot weigh: with a product, a negative power or a parenthesis somewhere.
+/// Returns the expression of units with a product, a negative power or parentheses, whose dimension is not checked.
 fn entangled() -> String {
     let symbol = symbols(|_| true);
     let positive = format!(r"{symbol}((\^|\*\*)?[0-9]+|[²³])?");
     let negative = format!(r"{symbol}(\^|\*\*)?[-⁻−][0-9¹²³]+");
     let closed = r"(\s*\)((\^|\*\*)?[-⁻−]?[0-9¹²³]+)?)*";
     let any = format!(r"[\s(]*(1|{positive}|{negative}){closed}");
-    // A 1 that is no digit of the number has a blank before it.
+    // A 1 that is not a digit of the number has a blank before it.
     let first = format!(r"(\s*/?\s*{positive}|\s+1)");
     let product = format!(r"((\s*[*·⋅×]\s*|\s+){any}|\s*/?\s*{negative}|\s*/\s*\({any})");
     let bare = format!(r"\s*/?\s*({negative}|\({any})");

@@ -1,8 +1,6 @@
-//! Rules for the values of keys and between keys, added to a schema: ranges, shapes of which one is
-//! wanted, names of the library.
+//! Rules for values and between keys, added to a schema: ranges, exclusive shapes, and names of the library.
 //!
-//! The reader has all of it in [`crate::validate`], which is right where the two differ; a test holds every
-//! faulty case of a list against both.
+//! [`crate::validate`] has the complete rules and decides if the two differ; a test applies both to a list of faulty cases.
 
 use fem_laws::{KeyNeed, KeyRange, KeySet};
 use serde_json::{Value, json};
@@ -10,7 +8,7 @@ use serde_json::{Value, json};
 use crate::library;
 use crate::schema::model_tables::{LawKey, LawTable};
 
-/// Keys of a definition that are greater than 0 as a bare number, and begin with no minus as a string.
+/// Keys of a definition that must be greater than 0; as a string they must not begin with a minus.
 const POSITIVE: &[(&str, &[&str])] = &[
     (
         "MaterialTable",
@@ -23,7 +21,7 @@ const POSITIVE: &[(&str, &[&str])] = &[
     ("ContactTable", &["penalty_factor"]),
 ];
 
-/// Keys of a definition and what a bare number of theirs is.
+/// Keys of a definition and the range of a bare number.
 const RANGES: &[(&str, &str, &str, f64, &str, f64)] = &[
     ("MaterialTable", "poissons_ratio", "exclusiveMinimum", -1.0, "exclusiveMaximum", 0.5),
     ("TermTable", "weight", "minimum", 0.0, "maximum", 1.0),
@@ -100,7 +98,7 @@ fn add_laws(schema: &mut Value) {
         let sets = family.key_sets();
         let rule = match sets {
             [set] => json!({ "required": required(set) }),
-            // Without any key the materials give them.
+            // Without keys the materials give the values.
             _ if sets.iter().any(|set| set.is_empty()) => continue,
             _ if sets.iter().all(|set| set.len() == 1) => {
                 one_of(&sets.iter().flat_map(required).collect::<Vec<_>>())
@@ -119,15 +117,15 @@ fn add_laws(schema: &mut Value) {
     }
 }
 
-/// Greater than 0 as a bare number, and no minus at the start of a string.
+/// Returns the rule for a bare number greater than 0, or a string without a minus at its start.
 fn above_zero() -> Value {
     json!({ "exclusiveMinimum": 0, "pattern": "^\\s*[^-−\\s]" })
 }
 
-/// Puts rules beside what a place says already.
+/// Adds rules to a definition.
 fn add<const N: usize>(schema: &mut Value, pointer: &str, rules: [Value; N]) {
     let Some(Value::Object(place)) = schema.pointer_mut(pointer) else { return };
-    // Beside a reference draft 7 reads nothing else.
+    // Draft 7 ignores all other keys beside a reference.
     if let Some(reference) = place.remove("$ref") {
         place.insert("allOf".to_string(), json!([{ "$ref": reference }]));
     }
@@ -137,12 +135,12 @@ fn add<const N: usize>(schema: &mut Value, pointer: &str, rules: [Value; N]) {
     }
 }
 
-/// Exactly one of some keys.
+/// Returns the rule that requires exactly one of these keys.
 fn one_of(keys: &[&str]) -> Value {
     json!({ "oneOf": keys.iter().map(|key| json!({ "required": [key] })).collect::<Vec<_>>() })
 }
 
-/// Exactly two of some keys.
+/// Returns the rule that requires exactly two of these keys.
 fn two_of(keys: &[&str]) -> Value {
     let mut pairs = Vec::new();
     for (k, first) in keys.iter().enumerate() {

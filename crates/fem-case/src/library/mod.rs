@@ -1,9 +1,8 @@
-//! Materials with a name, for `material = "lib:NAME"`: [`Material`]s of data books and papers, each
-//! with its source and its range.
+//! The materials library, for `material = "lib:NAME"`: [`Material`]s from data books and papers, each with its source and
+//! its range of validity.
 //!
-//! They stand in one file, `library.toml`. A case that names one has the table `[material."lib:NAME"]`
-//! from here, key by key where it does not give that key itself; so an override reaches single numbers
-//! of it, and the resolved case holds it in full.
+//! All are in one file, `library.toml`. A case that names one gets the table `[material."lib:NAME"]` from there, except for
+//! the keys that it gives itself. An override can thus change single numbers, and the resolved case has the whole table.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -15,29 +14,29 @@ use toml::de::{DeString, DeTable, DeValue};
 use crate::quantity::{Quantity, QuantityKind};
 use crate::schema::{CaseFile, MaterialTable, TermTable};
 use crate::source::explain::nearest;
-use crate::source::toml_text::shift;
+use crate::source::toml_syntax::shift;
 
-/// Begins the name of a material of the library.
+/// The prefix of the library's materials in a case.
 pub(crate) const PREFIX: &str = "lib:";
 
-/// The library as it is written.
+/// The text of the library.
 pub(crate) const TEXT: &str = include_str!("library.toml");
 
 /// A material of the library.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Description of the material.
+    /// Title of the material.
     pub title: String,
-    /// Where its numbers are from.
+    /// Source of the numbers.
     pub source: String,
-    /// Where they hold, and how far they scatter.
+    /// Range of validity and scatter of the numbers.
     pub range: String,
-    /// As a case holds it.
+    /// The table of a case.
     pub material: MaterialTable,
 }
 
-/// All materials by name, without `lib:`.
+/// Returns all materials by name, without `lib:`.
 ///
 /// ```
 /// let ice = &fem_case::library::materials()["ice"];
@@ -50,15 +49,15 @@ pub fn materials() -> &'static BTreeMap<String, Material> {
     &MATERIALS
 }
 
-/// The names as a case gives them, `lib:alumina`, ….
+/// Returns the names as in a case: `lib:alumina`, ….
 pub(crate) fn names() -> Vec<String> {
     materials().keys().map(|name| format!("{PREFIX}{name}")).collect()
 }
 
-/// The name, without `lib:`, that is nearest to one that is none, or of the material whose title has that word.
+/// Returns the name, without `lib:`, that is nearest to an unknown one, or that of a material whose title has this word.
 pub fn nearest_to(name: &str) -> Option<&'static str> {
     let names: Vec<&str> = materials().keys().map(String::as_str).collect();
-    // Enough for what is in a name, `rubber`, and for a slip of the fingers.
+    // A part of a name, `rubber`, or a misspelling.
     let within = names.iter().find(|known| name.len() > 2 && known.contains(name));
     let near = nearest(name, &names, 0.8);
     let titled = || {
@@ -75,7 +74,7 @@ pub fn nearest_to(name: &str) -> Option<&'static str> {
             .find(|(_, entry)| has_word(&entry.title))
             .map(|(known, _)| known.as_str())
     };
-    // A slip in a part of a name, `rubbr`.
+    // A misspelled part of a name, `rubbr`.
     let parts: Vec<&str> = names.iter().flat_map(|known| known.split('-')).collect();
     let of_part = || {
         let part = nearest(name, &parts, 0.9)?;
@@ -88,46 +87,38 @@ pub fn nearest_to(name: &str) -> Option<&'static str> {
         .map(|(near, _)| near.as_str())
 }
 
-/// Whether it is the name of a material of the library.
+/// Returns whether a name begins with `lib:`.
 pub(crate) fn is_of_library(name: &str) -> bool {
     name.starts_with(PREFIX)
 }
 
-/// A name without `lib:`.
+/// Returns a name without `lib:`.
 pub(crate) fn bare(name: &str) -> &str {
     name.strip_prefix(PREFIX).unwrap_or(name)
 }
 
-/// Whether a material of a case, of this name, is one of the library of which no loss is published: by its
-/// `lib:` name whatever its numbers are, else by its name and its numbers, as `fem-run new` writes them. One
-/// that relaxes is not.
+/// Returns whether a material of a case is an elastic one of the library without a published loss: either by its `lib:`
+/// name with any numbers, or by its name and its numbers, as `fem-run new` writes them.
 pub(crate) fn is_without_loss(name: &str, table: &MaterialTable) -> bool {
     let Some(entry) = materials().get(bare(name)) else {
         return false;
     };
     let known = &entry.material;
-    let stress = |of: &MaterialTable| {
-        [&of.youngs_modulus, &of.shear_modulus, &of.bulk_modulus]
-            .map(|modulus| modulus.as_ref().map(|modulus| modulus.si().ok()))
-    };
-    let ratio = |of: &MaterialTable| {
-        of.poissons_ratio.as_ref().map(|poissons_ratio| poissons_ratio.si().ok())
-    };
-    let is_same = || {
-        table.density.si().ok() == known.density.si().ok()
-            && stress(table) == stress(known)
-            && ratio(table) == ratio(known)
+    let numbers = |of: &MaterialTable| {
+        let stresses = [&of.youngs_modulus, &of.shear_modulus, &of.bulk_modulus]
+            .map(|modulus| modulus.as_ref().map(|modulus| modulus.si().ok()));
+        let ratio = of.poissons_ratio.as_ref().map(|ratio| ratio.si().ok());
+        (of.density.si().ok(), stresses, ratio)
     };
     let is_elastic = known.relaxation.is_none() && table.relaxation.is_none();
-    is_elastic && (is_of_library(name) || is_same())
+    is_elastic && (is_of_library(name) || numbers(table) == numbers(known))
 }
 
 fn find(name: &str) -> Option<&'static Material> {
     materials().get(name.strip_prefix(PREFIX)?)
 }
 
-/// The table of a material as a case file has it, `[material.NAME]`, numbers as the library writes
-/// them.
+/// Returns the table of a material as in a case file, `[material.NAME]`, with numbers as the library writes them.
 pub fn table_text(name: &str) -> Option<String> {
     let table = &materials().get(name)?.material;
     let mut text = format!("[material.{name}]\ndensity = {}\n", written(&table.density));
@@ -157,7 +148,7 @@ pub fn table_text(name: &str) -> Option<String> {
     Some(text)
 }
 
-/// A quantity as TOML, its unit kept.
+/// Writes a quantity as TOML with its unit.
 fn written<K: QuantityKind>(quantity: &Quantity<K>) -> String {
     match (quantity.text(), quantity.si()) {
         (None, Ok(value)) => format!("{value:?}"),
@@ -165,7 +156,7 @@ fn written<K: QuantityKind>(quantity: &Quantity<K>) -> String {
     }
 }
 
-/// Gives a case made in code the tables of the materials that its bodies name.
+/// Adds to a case made in code the tables of the library's materials that its bodies name.
 pub(crate) fn fill(file: &mut CaseFile) {
     for body in &file.body {
         if let Some((name, entry)) =
@@ -176,8 +167,8 @@ pub(crate) fn fill(file: &mut CaseFile) {
     }
 }
 
-/// Puts the tables of the materials that the bodies of a tree name under those that it gives; spans
-/// count from `start`. Whether there was one.
+/// Adds to a tree the keys of the library's materials that its bodies name, unless it gives them; spans count from
+/// `start`. Returns whether it added any.
 pub(crate) fn underlay(root: &mut DeTable<'_>, start: usize) -> bool {
     let names = named(root);
     if names.is_empty() {
@@ -205,7 +196,7 @@ pub(crate) fn underlay(root: &mut DeTable<'_>, start: usize) -> bool {
     is_used
 }
 
-/// Keys of `below` that `given` lacks; what is no table, its reader refuses.
+/// Adds the keys of `below` that `given` lacks; values that are not tables are unchanged, and their reader rejects them.
 fn lay_under<'t>(given: &mut Spanned<DeValue<'t>>, below: Spanned<DeValue<'t>>) {
     if let (DeValue::Table(given), DeValue::Table(below)) = (given.get_mut(), below.into_inner()) {
         for (key, value) in below {
@@ -214,7 +205,7 @@ fn lay_under<'t>(given: &mut Spanned<DeValue<'t>>, below: Spanned<DeValue<'t>>) 
     }
 }
 
-/// The names of materials of the library that bodies of a tree have, each once.
+/// Returns the names of the library's materials that the bodies of a tree name, each once.
 fn named(root: &DeTable<'_>) -> Vec<String> {
     let Some(DeValue::Array(bodies)) = root.get("body").map(Spanned::get_ref) else {
         return Vec::new();

@@ -1,5 +1,5 @@
-//! A number of a known kind (a length, a rate, …) as a case file gives it: a bare SI number or a
-//! string with a unit. The kind is a type parameter here, at the border; inside, numbers are `f64`.
+//! A quantity of a known kind (a length, a rate, …) as a case file gives it: a bare SI number or a string with a unit. The
+//! kind is a type parameter only here; scenes use `f64`.
 
 pub(crate) mod unit_table;
 pub(crate) mod units;
@@ -12,25 +12,25 @@ use serde::{Serialize, Serializer};
 
 use crate::quantity::units::{Dimension, UnitError, parse_quantity};
 
-/// Name and notation of a kind of quantity.
+/// Name, dimension and notation of a kind of quantity.
 #[derive(Clone, Copy, Debug)]
-pub struct Kind {
-    /// With its article: "a length".
+pub struct QuantityInfo {
+    /// The name with its article: "a length".
     pub name: &'static str,
-    /// Exponents of metre, kilogram, second, byte.
+    /// The exponents of metre, kilogram, second and byte.
     pub dimension: Dimension,
-    /// The unit of a bare number: "m".
+    /// The SI unit of a bare number: "m".
     pub si: &'static str,
-    /// How a user may write it: `"22.2 mm"`, quotes included where it needs them.
+    /// An example as in a case file, with quotes if it needs them: `"22.2 mm"`.
     pub example: &'static str,
-    /// Whether it counts things: a whole value is shown and written without a point.
+    /// Whether it is a count, which is shown and written without a decimal point.
     pub is_count: bool,
 }
 
 /// A type that stands for a kind of quantity.
 pub trait QuantityKind {
-    /// Its name, dimension and example.
-    const KIND: Kind;
+    /// Name, dimension and notation of the kind.
+    const INFO: QuantityInfo;
 }
 
 macro_rules! kinds {
@@ -41,7 +41,7 @@ macro_rules! kinds {
             pub enum $marker {}
 
             impl QuantityKind for $marker {
-                const KIND: Kind = Kind {
+                const INFO: QuantityInfo = QuantityInfo {
                     name: $name,
                     dimension: Dimension($dimension),
                     si: $si,
@@ -51,7 +51,7 @@ macro_rules! kinds {
             }
         )+
 
-        /// Dimensions that have a name: those that a case file can hold come first.
+        /// The dimensions that have a name; those of a case file come first.
         const NAMED: &[(&str, [i32; 4])] = &[
             $(($name, $dimension),)+
             ("a mass", [0, 1, 0, 0]),
@@ -84,14 +84,14 @@ kinds! {
 pub enum Count {}
 
 impl QuantityKind for Count {
-    const KIND: Kind =
-        Kind { name: "a whole number", example: "12", is_count: true, ..Number::KIND };
+    const INFO: QuantityInfo =
+        QuantityInfo { name: "a whole number", example: "12", is_count: true, ..Number::INFO };
 }
 
-/// Counts above it are no whole numbers of f64 for sure.
+/// The largest count: above it `f64` does not represent all whole numbers.
 const LARGEST_COUNT: f64 = 9e15;
 
-/// The name of a dimension: "a length", or "in kg m^2" where it has none.
+/// Returns the name of a dimension: "a length", or "in kg m^2" if it has none.
 fn name_dimension(dimension: Dimension) -> String {
     if let Some((name, _)) = NAMED.iter().find(|(_, known)| *known == dimension.0) {
         return name.to_string();
@@ -103,26 +103,26 @@ fn name_dimension(dimension: Dimension) -> String {
     format!("in {}", factors.collect::<Vec<_>>().join(" "))
 }
 
-/// Why a quantity has no SI value.
+/// The reason why a quantity has no SI value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum QuantityError {
-    /// `nan`, `inf` or `-inf`.
+    /// The number is `nan`, `inf` or `-inf`.
     NotFinite(f64),
-    /// The text is no number with a known unit.
+    /// The text is not a number with a known unit.
     Unit(UnitError),
-    /// The unit is known but of another dimension.
+    /// The unit has another dimension.
     WrongDimension(Dimension),
 }
 
-/// A number as written, its kind known.
+/// A quantity as written.
 #[derive(Clone, Debug, PartialEq)]
 enum Written {
     Si(f64),
     Text(String),
 }
 
-/// A quantity of kind `K` as a case file holds it. It is converted by [`Quantity::si`] and
-/// serializes as a bare SI number (or as its text if that has no SI value).
+/// A quantity of kind `K` as a case file gives it. [`Quantity::si`] converts it. It serializes as a bare SI number, or as
+/// its text if that has no SI value.
 ///
 /// ```
 /// use fem_case::{Count, Length, Quantity};
@@ -138,40 +138,39 @@ pub struct Quantity<K> {
 }
 
 impl<K: QuantityKind> Quantity<K> {
-    /// From a value in SI units.
+    /// Creates a quantity from a value in SI units.
     pub fn from_si(value: f64) -> Self {
         Quantity { written: Written::Si(value), kind: PhantomData }
     }
 
-    /// From a number with its unit, as a case file may hold it; nothing is checked before
-    /// [`Quantity::si`].
+    /// Creates a quantity from a number with its unit, as in a case file. Only [`Quantity::si`] checks it.
     pub fn from_text(text: &str) -> Self {
         Quantity { written: Written::Text(text.to_string()), kind: PhantomData }
     }
 
-    /// The value in SI units, always finite.
+    /// Returns the value in SI units, which is finite.
     ///
     /// # Errors
-    /// Not finite, not a number with a unit, or a unit of another dimension.
+    /// The number is not finite, the text is not a number with a unit, or the unit has another dimension.
     pub fn si(&self) -> Result<f64, QuantityError> {
         match &self.written {
             Written::Si(value) if value.is_finite() => Ok(*value),
             Written::Si(value) => Err(QuantityError::NotFinite(*value)),
             Written::Text(text) => match parse_quantity(text) {
-                Ok((value, dimension)) if dimension == K::KIND.dimension => Ok(value),
+                Ok((value, dimension)) if dimension == K::INFO.dimension => Ok(value),
                 Ok((_, dimension)) => Err(QuantityError::WrongDimension(dimension)),
                 Err(error) => Err(QuantityError::Unit(error)),
             },
         }
     }
 
-    /// A count that is whole.
+    /// Returns the value of a count that is a whole number.
     fn whole(value: f64) -> Option<i64> {
         let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST_COUNT;
-        (K::KIND.is_count && is_whole).then_some(value as i64)
+        (K::INFO.is_count && is_whole).then_some(value as i64)
     }
 
-    /// The text, if it was written as a string.
+    /// Returns the text, if the quantity was written as a string.
     pub fn text(&self) -> Option<&str> {
         match &self.written {
             Written::Si(_) => None,
@@ -179,9 +178,9 @@ impl<K: QuantityKind> Quantity<K> {
         }
     }
 
-    /// Message and help for `error`, which [`Quantity::si`] gave, of the key `key`.
+    /// Returns message and help for an error of [`Quantity::si`] at this key.
     pub(crate) fn explain(&self, error: &QuantityError, key: &str) -> (String, String) {
-        let Kind { name, si, example, is_count, .. } = K::KIND;
+        let QuantityInfo { name, si, example, is_count, .. } = K::INFO;
         let bare = match si {
             _ if is_count => format!("write {name}, such as {example}"),
             "" => format!("write a number, such as {example} or \"20 %\""),
@@ -194,38 +193,38 @@ impl<K: QuantityKind> Quantity<K> {
                     [0, 0, 0, 0] => "has no unit".to_string(),
                     _ => format!("is {}", name_dimension(*found)),
                 };
-                let message = format!("{self} {found}; {key} wants {name}, such as {example}");
+                let message = format!("{self} {found}; {key} must be {name}, such as {example}");
                 (message, bare)
             }
             QuantityError::Unit(UnitError::UnknownUnit { symbol, suggestion }) => {
-                let message = format!("unknown unit `{symbol}` in {self}; {key} wants {name}");
+                let message = format!("unknown unit `{symbol}` in {self}; {key} must be {name}");
                 match suggestion {
                     Some(near) => (message, format!("did you mean `{near}`? {bare}")),
                     None => (message, bare),
                 }
             }
             QuantityError::Unit(error) => {
-                (format!("{self} is not {name} for {key}: {error}"), bare)
+                (format!("{key} is {self}, which is not {name}: {error}"), bare)
             }
         }
     }
 }
 
-/// A value in SI units: `0.0222`.
+/// Converts a value in SI units: `0.0222`.
 impl<K: QuantityKind> From<f64> for Quantity<K> {
     fn from(value: f64) -> Self {
         Self::from_si(value)
     }
 }
 
-/// A number with its unit: `"22.2 mm"`.
+/// Converts a number with its unit: `"22.2 mm"`.
 impl<K: QuantityKind> From<&str> for Quantity<K> {
     fn from(text: &str) -> Self {
         Self::from_text(text)
     }
 }
 
-/// A whole number: `12`.
+/// Converts a whole number: `12`.
 impl From<u32> for Quantity<Count> {
     fn from(count: u32) -> Self {
         Self::from_si(f64::from(count))
@@ -233,11 +232,11 @@ impl From<u32> for Quantity<Count> {
 }
 
 impl<K: QuantityKind> fmt::Display for Quantity<K> {
-    /// As written: `"22.2 mm"` with its quotes, or the number with its SI unit.
+    /// Writes the quantity as written: `"22.2 mm"` with its quotes, or the number with its SI unit.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.written {
             Written::Text(text) => write!(f, "\"{text}\""),
-            Written::Si(value) => match (Self::whole(*value), K::KIND.si) {
+            Written::Si(value) => match (Self::whole(*value), K::INFO.si) {
                 (Some(count), _) => write!(f, "{count}"),
                 (None, "") => write!(f, "{value:?}"),
                 (None, si) => write!(f, "{value:?} {si}"),
@@ -252,13 +251,13 @@ impl<K: QuantityKind> fmt::Debug for Quantity<K> {
     }
 }
 
-/// A new type of the name of its SI unit, so that a serializer can know it; most look through it.
+/// Serializes as a new type with the name of the SI unit, which most serializers ignore.
 impl<K: QuantityKind> Serialize for Quantity<K> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match (self.si(), &self.written) {
             (Ok(value), _) | (Err(_), &Written::Si(value)) => match Self::whole(value) {
-                Some(count) => serializer.serialize_newtype_struct(K::KIND.si, &count),
-                None => serializer.serialize_newtype_struct(K::KIND.si, &value),
+                Some(count) => serializer.serialize_newtype_struct(K::INFO.si, &count),
+                None => serializer.serialize_newtype_struct(K::INFO.si, &value),
             },
             (Err(_), Written::Text(text)) => serializer.serialize_str(text),
         }
@@ -272,7 +271,7 @@ impl<'de, K: QuantityKind> Deserialize<'de> for Quantity<K> {
             type Value = Written;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "{}, such as {}", K::KIND.name, K::KIND.example)
+                write!(f, "{}, such as {}", K::INFO.name, K::INFO.example)
             }
 
             fn visit_i64<E>(self, value: i64) -> Result<Written, E> {
@@ -322,25 +321,25 @@ mod tests {
         let is = |found: String, expected: &str| assert_eq!(found, expected);
         is(
             explained::<Length>("'22.2 kg'", "diameter"),
-            "\"22.2 kg\" is a mass; diameter wants a length, such as \"22.2 mm\"",
+            "\"22.2 kg\" is a mass; diameter must be a length, such as \"22.2 mm\"",
         );
         is(
             explained::<Length>("'22.2'", "diameter"),
-            "\"22.2\" has no unit; diameter wants a length, such as \"22.2 mm\"",
+            "\"22.2\" has no unit; diameter must be a length, such as \"22.2 mm\"",
         );
         is(
             explained::<Stress>("'3 kg^2 m'", "youngs_modulus"),
-            "\"3 kg^2 m\" is in m kg^2; youngs_modulus wants a pressure, such as \"63 GPa\"",
+            "\"3 kg^2 m\" is in m kg^2; youngs_modulus must be a pressure, such as \"63 GPa\"",
         );
         is(explained::<Length>("nan", "diameter"), "diameter is NaN m, which is not finite");
         is(explained::<Length>("-inf", "diameter"), "diameter is -inf m, which is not finite");
         is(
             explained::<Length>("'nan mm'", "diameter"),
-            "\"nan mm\" is not a length for diameter: it does not begin with a number",
+            "diameter is \"nan mm\", which is not a length: it does not begin with a number",
         );
         is(
             explained::<Length>("'3 furlong'", "diameter"),
-            "unknown unit `furlong` in \"3 furlong\"; diameter wants a length",
+            "unknown unit `furlong` in \"3 furlong\"; diameter must be a length",
         );
     }
 

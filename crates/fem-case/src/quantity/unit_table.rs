@@ -1,27 +1,27 @@
 //! The units that a case file may use, and the SI prefixes.
 //!
-//! A unit is `numerator / denominator * 10^ten` in SI; the power of ten is kept apart so that
-//! `units` can convert decimal numbers without rounding.
+//! A unit is `numerator / denominator * 10^ten` in SI. The power of ten is separate so that `units` can convert decimal
+//! numbers without rounding.
 
 /// The value of a unit in SI: `numerator / denominator * 10^ten`, and its dimension.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scale {
+pub(crate) struct UnitScale {
     pub(crate) ten: i32,
     pub(crate) numerator: f64,
     pub(crate) denominator: f64,
     pub(crate) dimension: [i32; 4],
 }
 
-impl Scale {
-    pub(crate) const ONE: Scale =
-        Scale { ten: 0, numerator: 1.0, denominator: 1.0, dimension: [0; 4] };
+impl UnitScale {
+    pub(crate) const ONE: UnitScale =
+        UnitScale { ten: 0, numerator: 1.0, denominator: 1.0, dimension: [0; 4] };
 
-    pub(crate) fn times(self, other: Scale) -> Scale {
+    pub(crate) fn times(self, other: UnitScale) -> UnitScale {
         let mut dimension = self.dimension;
         for (exponent, more) in dimension.iter_mut().zip(other.dimension) {
             *exponent = exponent.saturating_add(more);
         }
-        Scale {
+        UnitScale {
             ten: self.ten.saturating_add(other.ten),
             numerator: self.numerator * other.numerator,
             denominator: self.denominator * other.denominator,
@@ -29,14 +29,14 @@ impl Scale {
         }
     }
 
-    pub(crate) fn power(self, power: i32) -> Scale {
+    pub(crate) fn power(self, power: i32) -> UnitScale {
         let (numerator, denominator) = if power < 0 {
             (self.denominator, self.numerator)
         } else {
             (self.numerator, self.denominator)
         };
         let size = power.saturating_abs();
-        Scale {
+        UnitScale {
             ten: self.ten.saturating_mul(power),
             numerator: numerator.powi(size),
             denominator: denominator.powi(size),
@@ -48,16 +48,16 @@ impl Scale {
 struct Unit {
     symbol: &'static str,
     prefixable: bool,
-    scale: Scale,
+    scale: UnitScale,
 }
 
 const fn unit(symbol: &'static str, dimension: [i32; 4], ten: i32) -> Unit {
-    let scale = Scale { ten, numerator: 1.0, denominator: 1.0, dimension };
+    let scale = UnitScale { ten, numerator: 1.0, denominator: 1.0, dimension };
     Unit { symbol, prefixable: true, scale }
 }
 
 const fn plain_unit(symbol: &'static str, dimension: [i32; 4], ten: i32, ratio: [f64; 2]) -> Unit {
-    let scale = Scale { ten, numerator: ratio[0], denominator: ratio[1], dimension };
+    let scale = UnitScale { ten, numerator: ratio[0], denominator: ratio[1], dimension };
     Unit { symbol, prefixable: false, scale }
 }
 
@@ -69,7 +69,7 @@ const SPEED: [i32; 4] = [1, 0, -1, 0];
 const PRESSURE: [i32; 4] = [-1, 1, -2, 0];
 const BYTES: [i32; 4] = [0, 0, 0, 1];
 
-/// All exact by definition. psi = lb g_n / in² = 0.45359237 · 9.80665 / 0.0254² Pa.
+/// The units, all exact by definition. psi = lb g_n / in² = 0.45359237 · 9.80665 / 0.0254² Pa.
 const UNITS: &[Unit] = &[
     unit("m", LENGTH, 0),
     unit("g", MASS, -3),
@@ -101,7 +101,7 @@ const UNITS: &[Unit] = &[
     plain_unit("TiB", BYTES, 0, [1099511627776.0, 1.0]),
 ];
 
-/// SI prefixes; the micro sign is read in both its Unicode forms and as `u`.
+/// SI prefixes; micro may be either Unicode micro sign or `u`.
 const PREFIXES: &[(&str, i32)] = &[
     ("Q", 30),
     ("R", 27),
@@ -131,8 +131,8 @@ const PREFIXES: &[(&str, i32)] = &[
     ("q", -30),
 ];
 
-/// The unit of a symbol, with or without a prefix; units as such come first (min, not milli-inch).
-pub(crate) fn find_unit(symbol: &str) -> Option<Scale> {
+/// Returns the unit of a symbol with or without a prefix. A unit without prefix takes precedence: min is not milli-inch.
+pub(crate) fn find_unit(symbol: &str) -> Option<UnitScale> {
     if let Some(unit) = UNITS.iter().find(|unit| unit.symbol == symbol) {
         return Some(unit.scale);
     }
@@ -142,13 +142,14 @@ pub(crate) fn find_unit(symbol: &str) -> Option<Scale> {
         };
         let unit = UNITS.iter().find(|unit| unit.prefixable && unit.symbol == rest);
         if let Some(unit) = unit {
-            return Some(Scale { ten: unit.scale.ten + ten, ..unit.scale });
+            return Some(UnitScale { ten: unit.scale.ten + ten, ..unit.scale });
         }
     }
     None
 }
 
-/// An expression of all symbols whose dimension (metre, kilogram, second, byte) is one of those; empty of none.
+/// Returns a regular expression of all symbols whose dimension (metre, kilogram, second, byte) satisfies a condition; empty
+/// if there are none.
 #[cfg(feature = "schema")]
 pub(crate) fn symbols(is_one: impl Fn([i32; 4]) -> bool) -> String {
     let of = |prefixable: bool| {
@@ -168,8 +169,8 @@ pub(crate) fn symbols(is_one: impl Fn([i32; 4]) -> bool) -> String {
     }
 }
 
-/// The unit that an unknown symbol may mean: the same letters in another case ("Gpa" → "GPa"),
-/// or a full English name.
+/// Returns the unit that an unknown symbol may mean: one with the same letters in another case ("Gpa" → "GPa"), or one with
+/// this English name.
 pub(crate) fn suggest_unit(symbol: &str) -> Option<String> {
     const NAMES: &[(&str, &str)] = &[
         ("meter", "m"),

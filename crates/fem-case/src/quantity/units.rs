@@ -1,4 +1,4 @@
-//! Numbers with a unit expression, `"22.2 mm"` or `"2390 kg/m^3"`, to SI.
+//! Converts numbers with a unit expression, `"22.2 mm"` or `"2390 kg/m^3"`, to SI.
 //!
 //! ```text
 //! quantity = number expression
@@ -7,40 +7,38 @@
 //! power = "^" integer | "**" integer | integer | superscript     m^3, m**3, m3, m³, s^-1, s-1, s⁻¹
 //! ```
 //!
-//! A space after a `/` is refused ("J/kg m" is read both ways by different people): `J/(kg m)`.
+//! A space after a `/` is rejected, since "J/kg m" is ambiguous: write `J/(kg m)`.
 //!
-//! Powers of ten are kept apart from all other factors and joined to the decimal exponent of the
-//! number before it is converted, once, by the correctly rounding parser of the standard library:
-//! `"22.2 mm"` is the double nearest to 0.0222 and `"14 um"` is `14e-6` to the last bit. Units that
-//! are no power of ten (h, psi) cost one rounding for each of their numerator and denominator.
+//! Powers of ten are kept apart from all other factors and added to the decimal exponent of the number. The correctly
+//! rounding parser of the standard library then converts it once: `"22.2 mm"` is the double nearest to 0.0222 and
+//! `"14 um"` is `14e-6` to the last bit. Other units (h, psi) add one rounding each for numerator and denominator.
 //!
-//! Of the crates that parse quantities, uom reads single units only ("kg/m^3" fails) and
-//! `dyn_quantity` knows no Pa, accepts `inf m` and gives 2390.0000000000005 for "2.39 g/cm^3".
+//! The crates uom (single units only) and `dyn_quantity` (no Pa, 2390.0000000000005 for "2.39 g/cm^3") do not serve.
 
-use crate::quantity::unit_table::{Scale, find_unit, suggest_unit};
+use crate::quantity::unit_table::{UnitScale, find_unit, suggest_unit};
 
 /// Exponents of metre, kilogram, second and byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimension(pub [i32; 4]);
 
-/// Why a text is no number with a unit.
+/// The reason why a text is not a number with a unit.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnitError {
     /// The text does not begin with a number.
     #[error("it does not begin with a number")]
     NoNumber,
-    /// `22,2 mm`.
+    /// The number has a decimal comma: `22,2 mm`.
     #[error("it has a decimal comma; write a point")]
     DecimalComma,
-    /// A symbol that is no unit, and a known one that looks like it.
-    #[error("`{symbol}` is no unit that this program knows")]
+    /// A symbol is not a unit.
+    #[error("`{symbol}` is not a known unit")]
     UnknownUnit {
-        /// Value or text that was found.
+        /// The symbol that was found.
         symbol: String,
-        /// The nearest unit, if any is near.
+        /// The nearest unit, if there is one.
         suggestion: Option<String>,
     },
-    /// The expression is not of the form above.
+    /// The expression has a syntax error.
     #[error("{0}")]
     Malformed(String),
     /// The value has no finite, non-zero double.
@@ -48,10 +46,10 @@ pub enum UnitError {
     OutOfRange,
 }
 
-/// The value in SI and the dimension of `text`.
+/// Returns the value of `text` in SI, which is finite, and its dimension.
 ///
 /// # Errors
-/// [`UnitError`]; never a panic, and never a value that is not finite.
+/// The text is not a number with a unit ([`UnitError`]).
 pub fn parse_quantity(text: &str) -> Result<(f64, Dimension), UnitError> {
     let text = text.trim();
     let (decimal, rest) = split_number(text)?;
@@ -64,7 +62,7 @@ pub fn parse_quantity(text: &str) -> Result<(f64, Dimension), UnitError> {
     Ok((value, Dimension(scale.dimension)))
 }
 
-/// A decimal number as text: sign and significand, and its exponent apart.
+/// A decimal number as text: sign and significand, with a separate exponent.
 struct Decimal<'a> {
     negative: bool,
     significand: &'a str,
@@ -72,8 +70,8 @@ struct Decimal<'a> {
 }
 
 impl Decimal<'_> {
-    /// The number times the scale; `None` where it over- or underflows.
-    fn value(&self, scale: Scale) -> Option<f64> {
+    /// Returns the number times the unit; `None` if it over- or underflows.
+    fn value(&self, scale: UnitScale) -> Option<f64> {
         let exponent = self.exponent.saturating_add(scale.ten);
         let size: f64 = format!("{}e{exponent}", self.significand).parse().ok()?;
         let size = size * scale.numerator / scale.denominator;
@@ -123,8 +121,8 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    fn expression(&mut self, depth: usize) -> Result<Scale, UnitError> {
-        let mut total = Scale::ONE;
+    fn expression(&mut self, depth: usize) -> Result<UnitScale, UnitError> {
+        let mut total = UnitScale::ONE;
         let (mut is_first, mut has_divided) = (true, false);
         loop {
             self.rest = self.rest.trim_start();
@@ -138,7 +136,7 @@ impl Parser<'_> {
             } else if !is_first {
                 let times = self.take(&["*", "\u{b7}", "\u{22c5}", "\u{d7}"]);
                 if times.is_none() && has_divided {
-                    let message = "a space after `/` can be read in two ways; write `/ (… …)`";
+                    let message = "a space after `/` is ambiguous; write `/ (… …)`";
                     return Err(UnitError::Malformed(message.to_string()));
                 }
             }
@@ -147,11 +145,11 @@ impl Parser<'_> {
         }
     }
 
-    fn factor(&mut self, depth: usize) -> Result<Scale, UnitError> {
+    fn factor(&mut self, depth: usize) -> Result<UnitScale, UnitError> {
         self.rest = self.rest.trim_start();
         let scale = if self.take(&["("]).is_some() {
             if depth == DEEPEST_PARENTHESIS {
-                return Err(UnitError::Malformed("its parentheses are too deep".to_string()));
+                return Err(UnitError::Malformed("its parentheses are nested too deeply".to_string()));
             }
             if self.rest.trim_start().starts_with(')') {
                 return Err(UnitError::Malformed("its parentheses are empty".to_string()));
@@ -170,7 +168,7 @@ impl Parser<'_> {
         }
     }
 
-    fn symbol(&mut self) -> Result<Scale, UnitError> {
+    fn symbol(&mut self) -> Result<UnitScale, UnitError> {
         let is_symbol = |c: char| c.is_alphabetic() || c == '%';
         let end = self.rest.find(|c| !is_symbol(c)).unwrap_or(self.rest.len());
         let (symbol, rest) = self.rest.split_at(end);
@@ -184,15 +182,15 @@ impl Parser<'_> {
         let digits = self.rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(self.rest.len());
         if &self.rest[..digits] == "1" {
             self.rest = &self.rest[digits..];
-            return Ok(Scale::ONE);
+            return Ok(UnitScale::ONE);
         }
         Err(UnitError::Malformed(match self.rest.chars().next() {
-            Some(found) => format!("`{found}` stands where a unit should"),
+            Some(found) => format!("there is `{found}` instead of a unit"),
             None => "a unit is missing at its end".to_string(),
         }))
     }
 
-    /// The power that follows a factor, if any.
+    /// Returns the power that follows a factor, if any.
     fn power(&mut self) -> Result<Option<i32>, UnitError> {
         let has_sign = self.take(&["^", "**"]).is_some();
         let mut text = String::new();
@@ -220,7 +218,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Takes the longest of `tokens` that comes next.
+    /// Consumes the longest of `tokens` that comes next.
     fn take(&mut self, tokens: &[&'static str]) -> Option<&'static str> {
         let found = tokens.iter().filter(|token| self.rest.starts_with(**token));
         let token = found.max_by_key(|token| token.len())?;
@@ -229,7 +227,7 @@ impl Parser<'_> {
     }
 }
 
-/// Digits and signs, superscript or not.
+/// Returns the plain digit or sign of a character, which may be a superscript.
 fn plain_digit(c: char) -> Option<char> {
     Some(match c {
         '0'..='9' | '-' | '+' => c,

@@ -1,4 +1,4 @@
-//! One of the two bodies of a validated case: what it is, and how it moves.
+//! One of the two bodies of a validated case: its shape, material and motion.
 
 use std::path::PathBuf;
 
@@ -17,37 +17,38 @@ pub struct Body {
 }
 
 impl Body {
-    /// Letters, digits, `_` and `-`; unlike the other body's.
+    /// Returns the name: letters, digits, `_` and `-`. The other body has another name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its shape and stuff.
+    /// Returns the shape with its material.
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
-    /// Along +y at time 0, m/s.
+    /// Returns the velocity along +y at time 0, m/s.
     pub fn velocity(&self) -> f64 {
         self.velocity
     }
 
-    /// Whether its mass centre does not move, whatever falls on it; of a sphere.
+    /// Returns whether the mass centre of a sphere is fixed.
     pub fn is_held(&self) -> bool {
         self.held
     }
 
-    /// Yield strength of its material, Pa, > 0, if the case gives one.
+    /// Returns the yield strength of the material, Pa, > 0, if the case gives one.
     pub fn yield_strength(&self) -> Option<f64> {
         self.yield_strength
     }
 
-    /// The name of its material, without `lib:`, if that is of the library, which knows no loss of it, and the case gives none.
+    /// Returns the name of the material, without `lib:`, if it is the library's, without a published loss, and the case gives
+    /// no relaxation.
     pub fn unpublished_loss(&self) -> Option<&str> {
         self.unpublished_loss.as_deref()
     }
 
-    /// Its material; a rigid body has none.
+    /// Returns the material; a rigid body has none.
     pub fn material(&self) -> Option<&Material> {
         match &self.shape {
             Shape::Sphere { material, .. } | Shape::HalfSpace { material } => Some(material),
@@ -55,7 +56,7 @@ impl Body {
         }
     }
 
-    /// Its shape, made of another material; a rigid body stays one.
+    /// Returns the shape with another material; a rigid body is unchanged.
     pub fn shape_of(&self, material: Material) -> Shape {
         match &self.shape {
             Shape::Sphere { diameter, mesh, .. } => {
@@ -83,7 +84,7 @@ impl Body {
         }
     }
 
-    /// Its shape as it is where it does not deform: of a sphere with its mass, of a half-space a wall.
+    /// Returns the rigid counterpart of the shape: a rigid sphere of the same mass, or a wall for a half-space.
     pub fn rigid(&self) -> Shape {
         match (&self.shape, self.mass()) {
             (Shape::Sphere { diameter, .. }, Some(mass)) => {
@@ -94,7 +95,7 @@ impl Body {
         }
     }
 
-    /// Its mass, kg; that of a wall and of a half-space has no end.
+    /// Returns the mass, kg; a wall and a half-space have none.
     pub fn mass(&self) -> Option<f64> {
         match &self.shape {
             Shape::Sphere { diameter, material, .. } => {
@@ -105,7 +106,7 @@ impl Body {
         }
     }
 
-    /// Its diameter, m; a wall has none, nor has a half-space.
+    /// Returns the diameter, m; a wall and a half-space have none.
     pub fn diameter(&self) -> Option<f64> {
         match self.shape {
             Shape::Sphere { diameter, .. } | Shape::Rigid { diameter, .. } => Some(diameter),
@@ -126,12 +127,12 @@ pub enum Shape {
         /// Material of the body.
         material: Material,
     },
-    /// A block that never ends.
+    /// A half-space.
     HalfSpace {
         /// Material of the body.
         material: Material,
     },
-    /// A solid sphere that does not deform: no case writes it, an effect makes it of a stiff one.
+    /// A rigid sphere. No case gives one; the effect `rigid_partner` replaces a stiff sphere by it.
     Rigid {
         /// Diameter, m, > 0.
         diameter: f64,

@@ -1,19 +1,19 @@
-//! A validated case in SI units: two bodies that are about to meet, and what the case says on
-//! how to compute it. `None` is left to the plan.
+//! A validated case in SI units: two bodies that are about to collide, and the settings of the computation. The plan
+//! decides on settings that are `None`.
 
 pub(crate) mod body;
-pub(crate) mod gravity;
 pub(crate) mod model;
 pub(crate) mod plausibility;
+
+use serde::{Deserialize, Serialize};
 
 use fem_laws::{FiniteSize, LawError, Pair, SlipSurface, SurfaceSlip, compliance_shares};
 
 use crate::scene::body::{Body, Shape};
-use crate::scene::gravity::{Gravity, impact_speed};
 use crate::scene::model::ModelChoice;
 use crate::schema::{ContactMethod, EffectsTable, Field, SnapshotLabel};
 
-/// A validated case. Only this crate makes one, so every value keeps the limits stated here.
+/// A validated case. Only this crate creates one, so every value is within the limits stated here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     pub(crate) title: String,
@@ -37,94 +37,94 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Title of the case.
+    /// Returns the title of the case.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The lower body, then the upper one. They approach each other, or the upper one falls on the
-    /// lower one; at least one is a sphere.
+    /// Returns the lower body, then the upper one. They approach each other, or the upper one falls on the lower one; at
+    /// least one is a sphere.
     pub fn bodies(&self) -> &[Body; 2] {
         &self.bodies
     }
 
-    /// Distance of the surfaces on the axis at time 0, m, ≥ 0.
+    /// Returns the distance of the surfaces on the axis at time 0, m, ≥ 0.
     pub fn gap(&self) -> Option<f64> {
         self.gap
     }
 
-    /// The weight of the upper body, a sphere above a body that does not move; `None` without.
+    /// Returns the gravity on the upper body, a sphere above a body that does not move.
     pub fn gravity(&self) -> Option<Gravity> {
         self.gravity
     }
 
-    /// How finely the bodies are divided.
+    /// Returns the settings of the mesh.
     pub fn mesh(&self) -> MeshSettings {
         self.mesh
     }
 
-    /// How springs keep the surfaces apart.
+    /// Returns the contact method.
     pub fn contact_method(&self) -> Option<ContactMethod> {
         self.contact_method
     }
 
-    /// Times the default normal stiffness per area, > 0.
+    /// Returns the factor on the default normal penalty stiffness per area, > 0.
     pub fn penalty_factor(&self) -> Option<f64> {
         self.penalty_factor
     }
 
-    /// Times the critical time step, in (0, 1].
+    /// Returns the factor on the critical time step, in (0, 1].
     pub fn step_factor(&self) -> Option<f64> {
         self.step_factor
     }
 
-    /// Largest mass that is moved as a fraction of the lighter body's mass, in [0, 0.1], if both
-    /// bodies are equally compliant.
+    /// Returns the largest mass that mass scaling moves, as a fraction of the lighter body's mass, in [0, 0.1], for equally
+    /// compliant bodies.
     pub fn mass_scaling(&self) -> Option<f64> {
         self.mass_scaling
     }
 
-    /// Which instants are drawn.
+    /// Returns the instants of snapshots.
     pub fn snapshots(&self) -> Option<&Snapshots> {
         self.snapshots.as_ref()
     }
 
-    /// Whether files of snapshots have an array.
+    /// Returns whether the files of snapshots have this array.
     pub fn wants_field(&self, field: Field) -> bool {
         self.fields.as_ref().is_none_or(|fields| fields.contains(&field))
     }
 
-    /// Probes: places whose fields are recorded over time.
+    /// Returns the probes: points whose fields are recorded over time.
     pub fn probes(&self) -> &[Probe] {
         &self.probes
     }
 
-    /// Whether a run writes its page.
+    /// Returns whether a run writes its page.
     pub fn wants_report(&self) -> bool {
         self.wants_report
     }
 
-    /// Which model computes the collision.
+    /// Returns the model of the collision.
     pub fn model(&self) -> &ModelChoice {
         &self.model
     }
 
-    /// Tolerances of the results.
+    /// Returns the tolerances of the results.
     pub fn accuracy(&self) -> Accuracy {
         self.accuracy
     }
 
-    /// Effects that the case forces on or off.
+    /// Returns the effects that the case forces on or off.
     pub fn effects(&self) -> &EffectsTable {
         &self.effects
     }
 
-    /// Limits of the cost of a run.
+    /// Returns the limits of the cost of a run.
     pub fn limits(&self) -> Limits {
         self.limits
     }
 
-    /// Relative to each other at first touch, m/s, > 0: with gravity √(v² + 2 g h) of a sphere with the
+    /// Returns the relative speed at first contact, m/s, > 0. With gravity it is √(v² + 2 g h) for a sphere with the
     /// velocity v at the height h at time 0.
     pub fn approach_speed(&self) -> f64 {
         match self.gravity {
@@ -136,7 +136,7 @@ impl Scene {
         }
     }
 
-    /// Time of first touch, s: of a fall, or of a flight at constant speed.
+    /// Returns the time of first contact, s, after a fall or a motion at constant speed.
     pub fn first_touch(&self) -> f64 {
         let gap = self.gap.unwrap_or_default();
         match self.gravity {
@@ -147,8 +147,8 @@ impl Scene {
         }
     }
 
-    /// The same scene with gravity, whose bodies touch at time 0 at this speed, m/s: `None` of a scene
-    /// without gravity, and of a speed that is not positive and finite.
+    /// Returns the same scene with the bodies in contact at time 0 at this speed, m/s; `None` for a scene without gravity
+    /// and for a speed that is not positive and finite.
     pub fn touching_at(&self, speed: f64) -> Option<Self> {
         let mut scene = self.clone();
         scene.gravity?;
@@ -157,7 +157,7 @@ impl Scene {
         (speed > 0.0 && speed.is_finite()).then_some(scene)
     }
 
-    /// The same scene once all has relaxed, its elements left to the plan; `None` of bodies that flow.
+    /// Returns the scene with the equilibrium moduli, without element sizes; `None` if a body has no equilibrium modulus.
     pub fn at_equilibrium(&self) -> Option<Self> {
         let mut scene = self.clone();
         for body in &mut scene.bodies {
@@ -173,8 +173,7 @@ impl Scene {
         Some(scene)
     }
 
-    /// Whether the bodies are spheres of one size and stuff, on meshes that are made here, without
-    /// gravity.
+    /// Returns whether the bodies are spheres of the same size and material with built-in meshes, without gravity.
     pub fn has_identical_bodies(&self) -> bool {
         let [lower, upper] = &self.bodies;
         if self.gravity.is_some() {
@@ -184,7 +183,7 @@ impl Scene {
         is_made_here && lower.shape == upper.shape
     }
 
-    /// This scene with other bodies in the places of its own, which move as they do.
+    /// Returns this scene with other shapes, whose velocities are unchanged.
     pub fn with_shapes(mut self, shapes: [Shape; 2]) -> Self {
         for (body, shape) in self.bodies.iter_mut().zip(shapes) {
             body.shape = shape;
@@ -192,8 +191,8 @@ impl Scene {
         self
     }
 
-    /// This scene with a half-space of the same material in the place of a sphere, 0 the lower one; a
-    /// rigid body stays as it is.
+    /// Returns this scene with a half-space of the same material instead of a sphere (0 is the lower body). A rigid body is
+    /// unchanged.
     pub fn with_half_space(&self, side: usize) -> Self {
         let mut scene = self.clone();
         if let Some(body) = scene.bodies.get_mut(side)
@@ -204,33 +203,32 @@ impl Scene {
         scene
     }
 
-    /// This scene, computed by another model.
+    /// Returns this scene, computed by another model.
     pub fn with_model(mut self, model: ModelChoice) -> Self {
         self.model = model;
         self
     }
 
-    /// Elements across a length that the plan chooses, over those that it takes at first: more than one
-    /// where a result has shown that these do not do. No key of a case: a resolved case has the length.
+    /// Returns the factor on the number of elements per length that the plan chooses. It is above one after a result missed
+    /// its tolerance. It is not a key of a case: a resolved case has the element size.
     pub fn refinement(&self) -> f64 {
         self.refinement
     }
 
-    /// Returns this scene with a factor on the number of elements across a length.
+    /// Returns this scene with a factor on the number of elements per length.
     pub fn with_refinement(mut self, refinement: f64) -> Self {
         self.refinement = refinement;
         self
     }
 
-    /// This scene with other effects forced on or off.
+    /// Returns this scene with other effects forced on or off.
     pub fn with_effects(mut self, effects: EffectsTable) -> Self {
         self.effects = effects;
         self
     }
 
-    /// Half of a scene whose bodies are identical, in the frame of their mass centre: the lower body
-    /// against a rigid plane at rest, which the upper one mirrors. `None` of bodies that differ or have
-    /// a mesh of their own.
+    /// Returns the mirror-symmetric half of a scene of identical bodies, in the frame of their mass centre: the lower body
+    /// against a rigid plane at rest. `None` if the bodies differ or have mesh files.
     pub fn half(&self) -> Option<Self> {
         if !self.has_identical_bodies() {
             return None;
@@ -244,19 +242,19 @@ impl Scene {
         Some(half)
     }
 
-    /// The bodies as a pair, moduli instantaneous.
+    /// Returns the bodies as a pair with instantaneous moduli.
     ///
     /// # Errors
-    /// Numbers so extreme that they leave the range of f64.
+    /// A number leaves the range of f64.
     pub fn pair(&self) -> Result<Pair, LawError> {
         let [first, second] = self.bodies.each_ref().map(Body::partner);
         Pair::new(first, second)
     }
 
-    /// The spheres' own compliance.
+    /// Returns the compliance of the spheres' finite size.
     ///
     /// # Errors
-    /// Two walls; moduli without one.
+    /// Both bodies are walls, or the moduli have no finite compliance.
     pub fn finite_size(&self) -> Result<FiniteSize, LawError> {
         let [first, second] = self.bodies.each_ref().map(|body| match &body.shape {
             Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
@@ -265,14 +263,14 @@ impl Scene {
         FiniteSize::new(first, second)
     }
 
-    /// Shares of the contact's compliance, with instantaneous moduli, lower body first.
+    /// Returns each body's share of the contact compliance with instantaneous moduli, lower body first.
     pub fn compliance_shares(&self) -> [f64; 2] {
         compliance_shares(
             self.bodies.each_ref().map(|body| body.partner().plane_strain_modulus().recip()),
         )
     }
 
-    /// Slip of the bodies' surfaces on each other.
+    /// Returns the slip of the bodies' surfaces on each other.
     pub fn surface_slip(&self) -> SurfaceSlip {
         SurfaceSlip::new(self.bodies.each_ref().map(|body| {
             let curvature = body.diameter().map_or(0.0, |diameter| 2.0 / diameter);
@@ -281,7 +279,24 @@ impl Scene {
     }
 }
 
-/// What `[mesh]` asks for; lengths in m.
+/// The gravity on the upper body of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gravity {
+    /// Acceleration along −y, m/s², > 0.
+    pub acceleration: f64,
+    /// Number of contacts after which the run ends, ≥ 1; rest ends it earlier.
+    pub bounces: usize,
+}
+
+/// Returns the impact speed √(v² + 2 g h), m/s, of a body with the velocity v (m/s) at the height h (m).
+pub fn impact_speed(velocity: f64, acceleration: f64, height: f64) -> f64 {
+    if height == 0.0 {
+        return velocity.abs();
+    }
+    velocity.hypot((2.0 * acceleration).sqrt() * height.sqrt())
+}
+
+/// The settings of `[mesh]`; lengths in m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeshSettings {
     /// Edge length of the elements at the contact, m, > 0.
@@ -292,50 +307,51 @@ pub struct MeshSettings {
     pub growth: Option<f64>,
     /// Distance of the far boundary of a half-space, m, > 0.
     pub far_radius: Option<f64>,
-    /// Whether the nodes of one body lie between those of the other at the edge of the contact.
+    /// Whether the meshes are offset, so that at the edge of the contact the nodes of one body lie between those of the
+    /// other.
     pub staggered: Option<bool>,
 }
 
-/// A place of the undeformed body, whose contact pole is at the origin.
+/// A point of the undeformed body, whose contact pole is at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// 0 lower, 1 upper.
+    /// The body: 0 is the lower one, 1 the upper one.
     pub body: usize,
-    /// From the axis, m.
+    /// Distance from the axis, m.
     pub r: f64,
-    /// Along the axis, m.
+    /// Coordinate along the axis, m.
     pub y: f64,
 }
 
 /// The instants at which fields are written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Snapshots {
-    /// Those with a name, each at most once; none if empty.
+    /// Named instants, each at most once; an empty list requests none.
     Labels(Vec<SnapshotLabel>),
     /// A number of snapshots, ≥ 1, evenly over the contact.
     Count(usize),
-    /// s, ≥ 0, ascending.
+    /// Times, s, ≥ 0, in ascending order.
     Times(Vec<f64>),
 }
 
-/// `[accuracy]`: how far results may be off. All > 0.
+/// `[accuracy]`: the tolerances of the results, all > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Tolerance of the restitution, absolute.
     pub restitution: f64,
     /// Tolerance of the contact time, relative.
     pub contact_time: f64,
-    /// Of the peak force, relative.
+    /// Tolerance of the peak force, relative.
     pub peak_force: f64,
-    /// Of the peak pressure, relative.
+    /// Tolerance of the peak pressure, relative.
     pub peak_pressure: f64,
 }
 
 impl Accuracy {
-    /// What a case that says nothing asks for.
+    /// The tolerance of a case that gives none.
     pub const DEFAULT_TOLERANCE: f64 = 0.01;
 
-    /// One share for all, and three times that for the peak pressure.
+    /// Returns one tolerance for all results, and three times that for the peak pressure.
     pub fn within(tolerance: f64) -> Self {
         Self {
             restitution: tolerance,
@@ -346,12 +362,12 @@ impl Accuracy {
     }
 }
 
-/// `[limits]`: what the case says in place of this program's own limits. All ≥ 1.
+/// `[limits]`: the limits that replace those of the program, all ≥ 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Elements of both bodies together.
+    /// Number of elements of both bodies.
     pub elements: Option<u64>,
-    /// Elements times steps.
+    /// Number of elements times number of steps.
     pub element_updates: Option<u64>,
     /// Memory of the run, bytes.
     pub memory: Option<u64>,

@@ -1,23 +1,23 @@
-//! The model that a case chooses, its numbers checked. One variant a model.
+//! The model that a case selects, with validated numbers.
 
 use fem_laws::{EndRule, LawInput};
 
-/// How the collision is computed.
+/// The model of the collision.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ModelChoice {
     /// Explicit finite elements.
     #[default]
     Fem,
-    /// The cheapest of the others that serves what the case asks for.
+    /// The cheapest of the other models that meets the tolerances.
     Auto,
     /// Linear finite elements condensed to their contact nodes.
     Condensed(CondensedOptions),
-    /// Elastic half-spaces.
+    /// Quasi-static elastic half-spaces (Hertz).
     Hertz {
         /// Whether the spheres' finite size adds to the approach.
         finite_size: bool,
     },
-    /// Viscoelastic half-spaces, quasi-static.
+    /// Quasi-static viscoelastic half-spaces (Ting).
     Ting {
         /// Whether the spheres' finite size adds to the approach.
         finite_size: bool,
@@ -28,7 +28,7 @@ pub enum ModelChoice {
     Law {
         /// The law and the values of its keys.
         law: LawInput,
-        /// When the contact is over.
+        /// The end of the contact.
         end_rule: EndRule,
         /// Accuracy of restitution, time and force.
         tolerance: f64,
@@ -36,7 +36,7 @@ pub enum ModelChoice {
 }
 
 impl ModelChoice {
-    /// Its key under `[model]`.
+    /// Returns the model's key in `[model]`.
     pub fn name(&self) -> &'static str {
         match self {
             ModelChoice::Fem => "fem",
@@ -48,7 +48,7 @@ impl ModelChoice {
         }
     }
 
-    /// The dotted key of its table.
+    /// Returns the dotted key of the model's table.
     pub fn path(&self) -> String {
         match self {
             ModelChoice::Law { law, .. } => format!("model.law.{}", law.family.name()),
@@ -57,14 +57,14 @@ impl ModelChoice {
     }
 }
 
-/// The keys of `model.condensed`, resolved.
+/// The settings of `model.condensed`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CondensedOptions {
-    /// Modes of free vibration of each body.
+    /// Number of vibration modes of each body.
     pub vibration_modes: usize,
-    /// Steps over the elastic contact time.
+    /// Number of steps over the elastic contact time.
     pub steps: usize,
-    /// Whether overlap is resisted by the explicit model's springs.
+    /// Whether the penalty springs of the explicit model resist overlap.
     pub penalty_springs: bool,
 }
 

@@ -1,28 +1,28 @@
-//! Plausibility checks: numbers of a scene that are possible but unlikely, such as after a
-//! forgotten unit; and what its numbers do not say. They are told, never refused.
+//! Plausibility checks: numbers of a scene that are possible but unlikely, such as after a forgotten unit, and losses that
+//! the materials do not include. They cause warnings, never errors.
 
 use crate::engineering::{number, show};
 use crate::scene::Scene;
 use crate::scene::body::{Body, Shape};
 use crate::scene::model::ModelChoice;
 
-/// Larger than what is thrown at each other; a bare number is in metres.
+/// Diameters above this, m, are unlikely.
 const LARGEST_DIAMETER: f64 = 100.0;
-/// A sphere of a metre and more beside one that is so much smaller.
+/// Diameters from this, m, are unlikely if the other sphere is smaller by the ratio below.
 const LARGE: f64 = 1.0;
 const LARGEST_RATIO: f64 = 100.0;
-/// Aerogel is 1 to 100 kg/m³, osmium 22,590.
+/// Plausible densities, kg/m³: aerogel has 1 to 100, osmium 22,590.
 const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
-/// The softest gels have some 100 Pa, diamond has 1.2 TPa.
+/// Plausible Young's moduli, Pa: the softest gels have about 100 Pa, diamond has 1.2 TPa.
 const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 
-/// Share of the contact's compliance from which what a body loses counts, a share of what its partner does.
+/// Share of the contact compliance above which the losses of a body matter.
 const LEAST_SHARE: f64 = 1e-3;
 
 impl Scene {
-    /// Materials of the library, without `lib:`, of which no loss is published and the case gives no relaxation:
-    /// the restitution lacks what they lose. None of a contact law, whose loss is the user's, and of a body that
-    /// hardly deforms.
+    /// Returns the library's materials, without `lib:`, that have no published loss and no relaxation in the case, so that
+    /// the restitution lacks their loss. A contact law, whose loss the user gives, has none; bodies that hardly deform do not
+    /// count.
     pub fn materials_of_unpublished_loss(&self) -> Vec<&str> {
         if matches!(self.model, ModelChoice::Law { .. }) {
             return Vec::new();
@@ -34,23 +34,22 @@ impl Scene {
         names
     }
 
-    /// That the restitution lacks what the [materials of unpublished loss](Self::materials_of_unpublished_loss)
-    /// lose, in words.
+    /// Returns a warning that the restitution lacks the loss of the
+    /// [materials of unpublished loss](Self::materials_of_unpublished_loss).
     pub fn unpublished_loss(&self) -> Option<String> {
         let names = self.materials_of_unpublished_loss();
         (!names.is_empty()).then(|| {
             let names = names.join(" and ");
             format!(
-                "what {names} {} in an impact is not published: the restitution is computed as if that were \
-                 nothing, and how far it is off is not known; give the material a relaxation, `fem-run \
-                 calibrate` finds one from measured restitutions",
-                if names.contains(" and ") { "lose" } else { "loses" },
+                "the loss of {names} in an impact is not published: the restitution does not include it, and \
+                 the error is not known; give the material a relaxation, which `fem-run calibrate` fits to \
+                 measured restitutions"
             )
         })
     }
 
-    /// The sizes of spheres all of which are of a metre and more, which may well be meant, with the unit that they are
-    /// read in; none where one of them is [odd](Self::oddities).
+    /// Returns a note on the sizes and the unit of spheres that are all one metre or larger, which may be intended; `None` if
+    /// one of them is [implausible](Self::implausible_numbers).
     pub fn large_spheres(&self) -> Option<String> {
         let spheres: Vec<f64> = self.bodies.iter().filter_map(Body::diameter).collect();
         let are_large =
@@ -60,8 +59,8 @@ impl Scene {
             .then(|| format!("spheres of {} (bare numbers are in metres)", sizes.join(" and ")))
     }
 
-    /// What is so far from all bodies that a unit was probably forgotten, a sentence each.
-    pub fn oddities(&self) -> Vec<String> {
+    /// Returns one warning per number that is so unusual that a unit was probably forgotten.
+    pub fn implausible_numbers(&self) -> Vec<String> {
         let mut found = Vec::new();
         let diameters = self.bodies.each_ref().map(|body| body.diameter());
         for (k, body) in self.bodies.iter().enumerate() {
@@ -79,7 +78,7 @@ impl Scene {
                     && diameter > LARGEST_RATIO * other
                 {
                     found.push(format!(
-                        "the diameter of {name} is {} ({key}), beside one of {}; a \
+                        "the diameter of {name} is {} ({key}), that of the other body {}; a \
                          bare number is in metres",
                         show(diameter, "m"),
                         show(other, "m")

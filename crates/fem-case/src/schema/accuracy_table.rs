@@ -4,44 +4,38 @@ use serde::de::value::MapAccessDeserializer;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::quantity::{Number, Quantity, QuantityKind};
+use crate::schema::macros::optional_keys;
 
-/// `[accuracy]`: how far results may be off.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [accuracy]")]
-pub struct AccuracyTable {
-    /// One for all, or one each.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<ToleranceValue>,
+optional_keys! {
+    /// `[accuracy]`: the tolerances of the results.
+    AccuracyTable, "a table [accuracy]" {
+        /// One tolerance for all results, or one per result.
+        tolerance: ToleranceValue,
+    }
 }
 
-/// `tolerance`: a share, or a table of shares.
+/// `tolerance`: one number, or a table of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToleranceValue {
-    /// Of the restitution (absolute), the contact time and the peak force; three times that of the
-    /// peak pressure.
+    /// The tolerance of the restitution (absolute), the contact time and the peak force (relative); that of the peak
+    /// pressure is three times as large.
     Share(Quantity<Number>),
-    /// Of each.
+    /// A tolerance for each result.
     Table(ToleranceTable),
 }
 
-/// `tolerance = { … }`: what is left out keeps its default.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a share such as \"1 %\", or a table of shares")]
-pub struct ToleranceTable {
-    /// Tolerance of the restitution, absolute.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub restitution: Option<Quantity<Number>>,
-    /// Tolerance of the contact time, relative.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_time: Option<Quantity<Number>>,
-    /// Of the peak force, relative.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_force: Option<Quantity<Number>>,
-    /// Of the peak pressure, relative.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_pressure: Option<Quantity<Number>>,
+optional_keys! {
+    /// `tolerance = { … }`: absent keys have their default.
+    ToleranceTable, "a number such as \"1 %\", or a table of such numbers" {
+        /// Tolerance of the restitution, absolute.
+        restitution: Quantity<Number>,
+        /// Tolerance of the contact time, relative.
+        contact_time: Quantity<Number>,
+        /// Tolerance of the peak force, relative.
+        peak_force: Quantity<Number>,
+        /// Tolerance of the peak pressure, relative.
+        peak_pressure: Quantity<Number>,
+    }
 }
 
 impl Serialize for ToleranceValue {
@@ -60,7 +54,7 @@ impl<'de> Deserialize<'de> for ToleranceValue {
             type Value = ToleranceValue;
 
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                write!(f, "{}, such as \"1 %\", or a table of such", Number::KIND.name)
+                write!(f, "{}, such as \"1 %\", or a table of such numbers", Number::INFO.name)
             }
 
             fn visit_i64<E>(self, share: i64) -> Result<ToleranceValue, E> {

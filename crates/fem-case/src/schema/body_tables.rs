@@ -8,15 +8,15 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [[body]]")]
 pub struct BodyTable {
-    /// Letters, digits, `_` and `-`; unique.
+    /// A unique name of letters, digits, `_` and `-`.
     pub name: String,
     /// The name of a `[material.NAME]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Toward the other body; 0 if absent, negative if it recedes.
+    /// Speed toward the other body; 0 if absent, negative if the body recedes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub approach_speed: Option<Quantity<Speed>>,
-    /// Whether the mass centre of a sphere does not move, whatever falls on it.
+    /// Whether the mass centre of a sphere is fixed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held: Option<bool>,
     /// A solid sphere.
@@ -25,13 +25,13 @@ pub struct BodyTable {
     /// A rigid plane of infinite mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall: Option<EmptyTable>,
-    /// A block that never ends.
+    /// A half-space.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub half_space: Option<EmptyTable>,
 }
 
 impl BodyTable {
-    /// A solid sphere at rest, made of `[material.NAME]`.
+    /// Creates a solid sphere at rest, made of `[material.NAME]`.
     pub fn sphere(
         name: impl Into<String>,
         diameter: impl Into<Quantity<Length>>,
@@ -48,7 +48,7 @@ impl BodyTable {
         }
     }
 
-    /// A rigid plane at rest.
+    /// Creates a rigid plane at rest.
     pub fn wall(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -61,7 +61,7 @@ impl BodyTable {
         }
     }
 
-    /// A block that never ends, at rest, made of `[material.NAME]`.
+    /// Creates a half-space at rest, made of `[material.NAME]`.
     pub fn half_space(name: impl Into<String>, material: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -74,12 +74,12 @@ impl BodyTable {
         }
     }
 
-    /// This body, moving toward the other one.
+    /// Returns this body, moving toward the other one.
     pub fn approaching(self, speed: impl Into<Quantity<Speed>>) -> Self {
         Self { approach_speed: Some(speed.into()), ..self }
     }
 
-    /// This sphere, held in its place.
+    /// Returns this sphere with a fixed mass centre.
     pub fn held(self) -> Self {
         Self { held: Some(true), ..self }
     }
@@ -98,13 +98,13 @@ pub struct SphereTable {
 }
 
 impl SphereTable {
-    /// A sphere with the built-in mesh.
+    /// Creates a sphere with the built-in mesh.
     pub fn new(diameter: impl Into<Quantity<Length>>) -> Self {
         Self { diameter: diameter.into(), mesh: None }
     }
 }
 
-/// A table without keys: its presence is the choice.
+/// A table without keys, whose presence selects something.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an empty table, {}")]

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{Density, Number, Quantity, Rate, Stress, Time};
-use crate::schema::keyword::keywords;
+use crate::schema::macros::keywords;
 
 /// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -24,19 +24,19 @@ pub struct MaterialTable {
     /// Poisson's ratio ν, between −1 and 1/2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<Quantity<Number>>,
-    /// Yield strength in uniaxial tension, > 0. It feeds a warning: no model here flows.
+    /// Yield strength in uniaxial tension, > 0. It only serves a warning: no model includes plasticity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_strength: Option<Quantity<Stress>>,
-    /// The energy that it stores at finite strain; `"neo-hooke"` if absent.
+    /// Hyperelastic law at finite strain; `"neo-hooke"` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hyperelastic: Option<HyperelasticLaw>,
-    /// A Prony series; absent: elastic.
+    /// A Prony series; the material is elastic without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation: Option<RelaxationTable>,
 }
 
 impl MaterialTable {
-    /// Elastic, by Young's modulus and Poisson's ratio.
+    /// Creates an elastic material from Young's modulus and Poisson's ratio.
     pub fn from_youngs_modulus_poissons_ratio(
         density: impl Into<Quantity<Density>>,
         youngs_modulus: impl Into<Quantity<Stress>>,
@@ -49,7 +49,7 @@ impl MaterialTable {
         }
     }
 
-    /// Elastic, by bulk and shear modulus.
+    /// Creates an elastic material from bulk and shear modulus.
     pub fn from_bulk_shear(
         density: impl Into<Quantity<Density>>,
         bulk_modulus: impl Into<Quantity<Stress>>,
@@ -62,7 +62,7 @@ impl MaterialTable {
         }
     }
 
-    /// This material with a Prony series in place of its own; the moduli are instantaneous.
+    /// Returns this material with this Prony series; the moduli are instantaneous.
     pub fn relaxing(self, acts_on: ActsOn, terms: impl IntoIterator<Item = TermTable>) -> Self {
         let terms = terms.into_iter().collect();
         Self { relaxation: Some(RelaxationTable { acts_on, terms }), ..self }
@@ -83,15 +83,15 @@ impl MaterialTable {
 }
 
 keywords! {
-    /// Which energy a solid stores at finite strain.
+    /// The strain energy density of a solid at finite strain.
     HyperelasticLaw {
         /// G/2 (J^(−2/3) tr b − 3) + K/2 (J − 1)².
         NeoHooke = "neo-hooke",
         /// G/2 (tr b − 3) − G ln J + λ/2 ln² J.
         NeoHookeLn = "neo-hooke-ln",
-        /// Hooke's energy of the logarithmic strain.
+        /// Hooke's law in the logarithmic strain.
         Hencky = "hencky",
-        /// Hooke's energy of the Green-Lagrange strain.
+        /// Hooke's law in the Green-Lagrange strain.
         SaintVenantKirchhoff = "saint-venant-kirchhoff",
     }
 }
@@ -112,18 +112,18 @@ impl From<HyperelasticLaw> for fem_material::finite::HyperelasticLaw {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [material.glass.relaxation]")]
 pub struct RelaxationTable {
-    /// Which moduli relax.
+    /// The moduli that relax.
     pub acts_on: ActsOn,
-    /// One table a Prony term.
+    /// One table per Prony term.
     pub terms: Vec<TermTable>,
 }
 
 keywords! {
-    /// Which moduli relax.
+    /// The moduli that relax.
     ActsOn {
-        /// Shear and bulk modulus alike: Poisson's ratio stays constant.
+        /// Shear and bulk modulus relax alike: Poisson's ratio is constant.
         All = "all",
-        /// The shear modulus; the bulk modulus stays elastic.
+        /// The shear modulus relaxes; the bulk modulus is elastic.
         Shear = "shear",
     }
 }
@@ -165,7 +165,7 @@ pub struct TermTable {
 }
 
 impl TermTable {
-    /// By g_k = G_k/G_0 and 1/τ_k.
+    /// Creates a term from g_k = G_k/G_0 and 1/τ_k.
     pub fn with_decay_rate(
         weight: impl Into<Quantity<Number>>,
         decay_rate: impl Into<Quantity<Rate>>,
@@ -174,7 +174,7 @@ impl TermTable {
         Self { weight, decay_rate, relaxation_time: None }
     }
 
-    /// By g_k = G_k/G_0 and τ_k.
+    /// Creates a term from g_k = G_k/G_0 and τ_k.
     pub fn with_relaxation_time(
         weight: impl Into<Quantity<Number>>,
         relaxation_time: impl Into<Quantity<Time>>,

@@ -1,12 +1,11 @@
-//! The case file as written: one struct a table, one field a key, nothing decided yet.
+//! The case file as written: one struct per table and one field per key, before any decision.
 //!
-//! Everything optional is an `Option`. The plan fills in what is `None`, and the same structs
-//! serialize back to a case file (TOML) or into a summary (JSON), numbers in SI.
+//! Every optional key is an `Option`. The plan fills in those that are `None`, and the same structs serialize to a case
+//! file (TOML) or into a summary (JSON), with numbers in SI.
 
 pub(crate) mod accuracy_table;
 pub(crate) mod body_tables;
-pub(crate) mod gravity_tables;
-pub(crate) mod keyword;
+pub(crate) mod macros;
 pub(crate) mod material_tables;
 pub(crate) mod model_tables;
 
@@ -14,12 +13,13 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::{Bytes, Count, Length, Number, Quantity, QuantityKind, Time};
-use crate::schema::keyword::keywords;
+use crate::quantity::{
+    Acceleration, Bytes, Count, Length, Number, Quantity, QuantityKind, Time,
+};
+use crate::schema::macros::{keywords, optional_keys};
 
 pub use crate::schema::accuracy_table::*;
 pub use crate::schema::body_tables::*;
-pub use crate::schema::gravity_tables::*;
 pub use crate::schema::material_tables::*;
 pub use crate::schema::model_tables::*;
 
@@ -28,7 +28,7 @@ pub use crate::schema::model_tables::*;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(extend("required" = ["body"])))]
 #[serde(deny_unknown_fields)]
 pub struct CaseFile {
-    /// What the case is about; the file's stem if absent.
+    /// Title of the case; the file's stem if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
     /// The tables `[material.NAME]`, by name.
@@ -39,28 +39,28 @@ pub struct CaseFile {
     #[serde(default)]
     #[cfg_attr(feature = "schema", schemars(length(equal = 2)))]
     pub body: Vec<BodyTable>,
-    /// Where the bodies start.
+    /// Positions of the bodies at time 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<StartTable>,
     /// The weight of the upper sphere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity: Option<GravityTable>,
-    /// When the run is over.
+    /// End of the run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<StopTable>,
-    /// How finely the bodies are divided.
+    /// Element sizes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshTable>,
-    /// How stiff the contact is.
+    /// Contact method and penalty stiffness.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactTable>,
-    /// How long a time step is.
+    /// Length of the time step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<TimeTable>,
-    /// Which instants are drawn.
+    /// Instants and positions whose fields are written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<OutputTable>,
-    /// Which model computes the collision.
+    /// Model of the collision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelTable>,
     /// Tolerances of the results.
@@ -74,7 +74,7 @@ pub struct CaseFile {
     pub limits: Option<LimitsTable>,
 }
 
-/// A case made in code. Everything else is a field: `file.title = Some("…".into())`.
+/// Constructors of a case in code. All other keys are fields: `file.title = Some("…".into())`.
 ///
 /// ```
 /// use fem_case::CaseFile;
@@ -90,74 +90,86 @@ pub struct CaseFile {
 /// # assert!(file.to_toml().unwrap().contains("decay_rate = 2708.0"));
 /// ```
 impl CaseFile {
-    /// Two bodies, the first below the second; materials are still to come.
+    /// Creates a case of two bodies, the first below the second, without materials.
     pub fn of_bodies(first: BodyTable, second: BodyTable) -> Self {
         Self { body: vec![first, second], ..Self::default() }
     }
 
-    /// This case with `[material.NAME]`, in place of one of that name.
+    /// Returns this case with `[material.NAME]`, which replaces one of that name.
     pub fn with_material(mut self, name: impl Into<String>, material: MaterialTable) -> Self {
         self.material.insert(name.into(), material);
         self
     }
 
-    /// This case, computed by this model.
+    /// Returns this case, computed by this model.
     pub fn with_model(self, model: impl Into<ModelTable>) -> Self {
         Self { model: Some(model.into()), ..self }
     }
 }
 
-/// `[start]`: where the bodies are at time 0.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [start]")]
-pub struct StartTable {
-    /// Distance of the surfaces on the axis at time 0, >= 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gap: Option<Quantity<Length>>,
+optional_keys! {
+    /// `[start]`: the positions of the bodies at time 0.
+    StartTable, "a table [start]" {
+        /// Distance of the surfaces on the axis at time 0, >= 0.
+        gap: Quantity<Length>,
+    }
 }
 
-/// `[mesh]`: how finely the bodies are divided.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+/// `[gravity]`: the weight of the upper sphere, which the lower body supports.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [mesh]")]
-pub struct MeshTable {
-    /// Edge length of the elements at the contact, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_element_size: Option<Quantity<Length>>,
-    /// Half-width of the uniformly fine block around the contact, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub refined_radius: Option<Quantity<Length>>,
-    /// Ratio of the sizes of neighbouring elements outside of that block, > 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub growth: Option<Quantity<Number>>,
-    /// Distance of the far boundary of a half-space, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub far_radius: Option<Quantity<Length>>,
-    /// Whether elements of one body are a little larger and those of the other a little smaller, so that at
-    /// the edge of the contact their nodes lie between each other.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub staggered: Option<bool>,
+#[serde(deny_unknown_fields, expecting = "a table [gravity]")]
+pub struct GravityTable {
+    /// Acceleration along -y, > 0.
+    pub acceleration: Quantity<Acceleration>,
 }
 
-/// `[contact]`: how springs keep the surfaces apart, and how stiff they are.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [contact]")]
-pub struct ContactTable {
-    /// Where the springs are, and what they pull at.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub method: Option<ContactMethod>,
-    /// Times the default normal stiffness per area, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub penalty_factor: Option<Quantity<Number>>,
+impl GravityTable {
+    /// Creates gravity with this acceleration.
+    pub fn new(acceleration: impl Into<Quantity<Acceleration>>) -> Self {
+        Self { acceleration: acceleration.into() }
+    }
+}
+
+optional_keys! {
+    /// `[stop]`: the end of a run.
+    StopTable, "a table [stop]" {
+        /// Number of contacts after which the run ends, >= 1; rest ends it earlier.
+        bounces: Quantity<Count>,
+    }
+}
+
+optional_keys! {
+    /// `[mesh]`: the element sizes.
+    MeshTable, "a table [mesh]" {
+        /// Edge length of the elements at the contact, > 0.
+        contact_element_size: Quantity<Length>,
+        /// Half-width of the uniformly fine block around the contact, > 0.
+        refined_radius: Quantity<Length>,
+        /// Ratio of the sizes of neighbouring elements outside of that block, > 1.
+        growth: Quantity<Number>,
+        /// Distance of the far boundary of a half-space, > 0.
+        far_radius: Quantity<Length>,
+        /// Whether the meshes are offset: elements of one body are slightly larger and those of the other slightly
+        /// smaller, so that at the edge of the contact the nodes of one body lie between those of the other.
+        staggered: bool,
+    }
+}
+
+optional_keys! {
+    /// `[contact]`: the contact method and the stiffness of its penalty springs.
+    ContactTable, "a table [contact]" {
+        /// Positions of the penalty springs and the nodes that they act on.
+        method: ContactMethod,
+        /// Factor on the default normal penalty stiffness per area, > 0.
+        penalty_factor: Quantity<Number>,
+    }
 }
 
 keywords! {
-    /// How springs keep the surfaces apart.
+    /// The contact method: where penalty springs act.
     ContactMethod {
-        /// Springs at the Gauss points of both surfaces, whose nodes have no mass and are always in
-        /// balance.
+        /// Springs at the Gauss points of both surfaces, whose nodes have no mass and are in static equilibrium.
         Massless = "massless",
         /// The same springs between nodes that have mass.
         Penalty = "penalty",
@@ -166,21 +178,18 @@ keywords! {
     }
 }
 
-/// `[time]`: how long a time step is.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [time]")]
-pub struct TimeTable {
-    /// Times the critical time step, > 0 and at most 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step_factor: Option<Quantity<Number>>,
-    /// Largest mass that is moved to light nodes, as a fraction of the lighter body's mass, and of several times that in a
-    /// body that gives way less, but no more than of its own; 0 to 0.1; 0 forbids it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_scaling: Option<Quantity<Number>>,
+optional_keys! {
+    /// `[time]`: the length of the time step.
+    TimeTable, "a table [time]" {
+        /// Factor on the critical time step, > 0 and at most 1.
+        step_factor: Quantity<Number>,
+        /// Mass scaling: the largest mass that is moved to light nodes, as a fraction of the lighter body's mass, from 0
+        /// (none) to 0.1. In a stiffer body the limit is several times as large, but at most that fraction of its own mass.
+        mass_scaling: Quantity<Number>,
+    }
 }
 
-/// `[output]`: what is drawn of the collision.
+/// `[output]`: the fields that are written.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [output]")]
@@ -188,21 +197,45 @@ pub struct OutputTable {
     /// The instants at which fields are written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots: Option<SnapshotsValue>,
-    /// The arrays that the files of snapshots have beside the body's number; all unless told otherwise.
+    /// The arrays in the files of snapshots, beside the body's number; all by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<Vec<Field>>,
-    /// `[[output.probe]]`: places of which is told what happens there over time.
+    /// `[[output.probe]]`: points whose fields are recorded over time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probe: Vec<ProbeTable>,
-    /// Whether a run writes its page, `report.html`; it does unless told otherwise.
+    /// Whether a run writes its page, `report.html`; true by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub report: Option<bool>,
+}
+
+/// `[[output.probe]]`: a point of a body whose fields are recorded over time.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table [[output.probe]]")]
+pub struct ProbeTable {
+    /// The name of a body.
+    pub body: String,
+    /// Distance from the axis in the undeformed body, >= 0.
+    pub r: Quantity<Length>,
+    /// Distance along the axis from the point of first contact; negative in the lower body.
+    pub y: Quantity<Length>,
+}
+
+impl ProbeTable {
+    /// Creates a probe at a point of a body.
+    pub fn new(
+        body: impl Into<String>,
+        r: impl Into<Quantity<Length>>,
+        y: impl Into<Quantity<Length>>,
+    ) -> Self {
+        Self { body: body.into(), r: r.into(), y: y.into() }
+    }
 }
 
 /// `snapshots`: a count, or a list of labels or of times.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SnapshotsValue {
-    /// So many, evenly over the contact.
+    /// A number of snapshots, evenly over the contact.
     Count(f64),
     /// Labels (texts that are among [`SnapshotLabel::WORDS`]) or times.
     List(Vec<Quantity<Time>>),
@@ -215,17 +248,17 @@ keywords! {
         Displacement = "displacement",
         /// Velocity of the points.
         Velocity = "velocity",
-        /// Radial stress.
+        /// Radial normal stress.
         SigmaRr = "sigma_rr",
-        /// Stress along the axis.
+        /// Axial normal stress.
         SigmaYy = "sigma_yy",
-        /// Hoop stress.
+        /// Circumferential normal stress (hoop stress).
         SigmaTt = "sigma_tt",
-        /// Shear stress.
+        /// Shear stress in the radial-axial plane.
         SigmaRy = "sigma_ry",
         /// Minus the mean of the normal stresses.
         Pressure = "pressure",
-        /// Equivalent stress of von Mises.
+        /// Von Mises equivalent stress.
         VonMises = "von_mises",
         /// Contact pressure on the surfaces.
         ContactPressure = "contact_pressure",
@@ -247,17 +280,17 @@ keywords! {
 }
 
 impl SnapshotsValue {
-    /// No instant: nothing is drawn.
+    /// Requests no snapshot.
     pub fn none() -> Self {
         Self::List(Vec::new())
     }
 
-    /// The instants with these names.
+    /// Requests the instants with these names.
     pub fn labels(labels: impl IntoIterator<Item = SnapshotLabel>) -> Self {
         Self::List(labels.into_iter().map(|label| label.word().into()).collect())
     }
 
-    /// The instants at these times since the start of the case.
+    /// Requests the instants at these times since the start of the case.
     pub fn times<T: Into<Quantity<Time>>>(times: impl IntoIterator<Item = T>) -> Self {
         Self::List(times.into_iter().map(T::into).collect())
     }
@@ -282,7 +315,7 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
             type Value = SnapshotsValue;
 
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                let example = Time::KIND.example;
+                let example = Time::INFO.example;
                 write!(f, "a list of labels or of times, [\"maximum\"] or [{example}], or a count")
             }
 
@@ -309,39 +342,31 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
     }
 }
 
-/// `[effects]`: numerical effects, forced or left to the plan.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [effects]")]
-pub struct EffectsTable {
-    /// Relaxation of the materials, a term at a time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub viscoelasticity: Option<Switch>,
-    /// Large rotations and strains.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finite_strain: Option<Switch>,
-    /// Surfaces of unlike materials that slip on each other.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surface_slip: Option<Switch>,
-    /// What waves take along that do not come back within the contact.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub partner_waves: Option<Switch>,
-    /// Two identical bodies as one against a rigid plane.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mirror_symmetry: Option<Switch>,
-    /// The stiffer body as a rigid one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rigid_partner: Option<Switch>,
-    /// Stiffness of the modes that a mean stress does not see.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hourglass_control: Option<Switch>,
-    /// Artificial viscosity against shocks.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bulk_viscosity: Option<Switch>,
+optional_keys! {
+    /// `[effects]`: numerical effects, forced or left to the plan.
+    #[derive(Copy, Eq)]
+    EffectsTable, "a table [effects]" {
+        /// Relaxation of the materials, term by term.
+        viscoelasticity: Switch,
+        /// Large rotations and strains.
+        finite_strain: Switch,
+        /// Slip between surfaces of different materials.
+        surface_slip: Switch,
+        /// Energy of waves that do not return within the contact.
+        partner_waves: Switch,
+        /// Two identical bodies computed as one against a rigid plane.
+        mirror_symmetry: Switch,
+        /// The stiffer body computed as rigid.
+        rigid_partner: Switch,
+        /// Hourglass control: stiffness of the modes that the mean stress does not resist.
+        hourglass_control: Switch,
+        /// Artificial bulk viscosity against shocks.
+        bulk_viscosity: Switch,
+    }
 }
 
 impl EffectsTable {
-    /// This table with what it leaves open left to the plan in words.
+    /// Returns this table with `auto` for absent keys.
     pub fn filled(self) -> Self {
         let auto = |switch: Option<Switch>| switch.or(Some(Switch::Auto));
         Self {
@@ -358,35 +383,31 @@ impl EffectsTable {
 }
 
 keywords! {
-    /// Who decides on an effect.
+    /// Setting of an effect.
     Switch {
-        /// The plan decides.
+        /// The plan decides whether the effect is on.
         Auto = "auto",
-        /// The case decides: the effect is on.
+        /// The effect is on.
         On = "on",
-        /// The case decides: the effect is off.
+        /// The effect is off.
         Off = "off",
     }
 }
 
-/// `[limits]`: a run that needs more is refused before it starts.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [limits]")]
-pub struct LimitsTable {
-    /// Elements of both bodies together.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements: Option<Quantity<Count>>,
-    /// Elements times steps.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub element_updates: Option<Quantity<Count>>,
-    /// Memory of the run.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub memory: Option<Quantity<Bytes>>,
+optional_keys! {
+    /// `[limits]`: a run that needs more is rejected before it starts.
+    LimitsTable, "a table [limits]" {
+        /// Number of elements of both bodies.
+        elements: Quantity<Count>,
+        /// Number of elements times number of steps.
+        element_updates: Quantity<Count>,
+        /// Memory of the run.
+        memory: Quantity<Bytes>,
+    }
 }
 
-/// Whether the value at `path` may be an array. serde alone does not tell: a derived struct
-/// reads `sphere = ["22.2 mm"]` as its fields in order.
+/// Returns whether the value at `path` may be an array. serde alone does not check this: a derived struct reads
+/// `sphere = ["22.2 mm"]` as its fields in order.
 pub(crate) fn is_list(path: &str) -> bool {
     let is_terms = path.starts_with("material.") && path.ends_with(".relaxation.terms");
     is_terms || matches!(path, "body" | "output.snapshots" | "output.fields" | "output.probe")

@@ -1,43 +1,36 @@
-//! `[model]` as written: which model computes the collision, and its keys.
+//! `[model]` as written: the model of the collision and its keys.
 
 use fem_laws::{EndRule, KeyRange, LawFamily};
 use serde::{Deserialize, Serialize};
 
 use crate::error::CaseError;
 use crate::quantity::{
-    Count, Damping, Kind, Number, Quantity, QuantityKind, Speed, Stiffness, Time, Viscosity,
+    Count, Damping, QuantityInfo, Number, Quantity, QuantityKind, Speed, Stiffness, Time, Viscosity,
 };
 use crate::schema::body_tables::EmptyTable;
-use crate::schema::keyword::keywords;
-use crate::source::key_path::join;
+use crate::schema::macros::{keywords, optional_keys};
+use crate::source::toml_syntax::join;
 use crate::validate::{Allowed, Check};
 
-/// `[model]`: exactly one key.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table such as [model] with fem = {}")]
-pub struct ModelTable {
-    /// Explicit finite elements.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fem: Option<EmptyTable>,
-    /// Linear bodies condensed to their contact nodes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub condensed: Option<CondensedTable>,
-    /// Quasi-static viscoelastic half-space.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ting: Option<TingTable>,
-    /// Quasi-static elastic half-space.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hertz: Option<HertzTable>,
-    /// A contact law of one degree of freedom.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub law: Option<LawTable>,
-    /// The cheapest that serves.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub auto: Option<EmptyTable>,
+optional_keys! {
+    /// `[model]`: exactly one key.
+    ModelTable, "a table such as [model] with fem = {}" {
+        /// Explicit finite elements.
+        fem: EmptyTable,
+        /// Linear finite elements condensed to their contact nodes.
+        condensed: CondensedTable,
+        /// Quasi-static viscoelastic half-spaces (Ting).
+        ting: TingTable,
+        /// Quasi-static elastic half-spaces (Hertz).
+        hertz: HertzTable,
+        /// A contact law of one degree of freedom.
+        law: LawTable,
+        /// The cheapest of the other models that meets the tolerances.
+        auto: EmptyTable,
+    }
 }
 
-/// Models with their defaults. A table with keys becomes a model by `into()`.
+/// Constructors of models with their defaults. A table with keys becomes a model by `into()`.
 ///
 /// ```
 /// use fem_case::schema::{CondensedTable, KuwabaraKonoTable, ModelTable};
@@ -54,32 +47,32 @@ impl ModelTable {
     /// The names of models that need no key.
     pub const NAMES: &'static [&'static str] = &["fem", "condensed", "ting", "hertz", "auto"];
 
-    /// Explicit finite elements.
+    /// Selects explicit finite elements.
     pub fn fem() -> Self {
         Self { fem: Some(EmptyTable {}), ..Self::default() }
     }
 
-    /// The cheapest that serves.
+    /// Selects the cheapest of the other models that meets the tolerances.
     pub fn auto() -> Self {
         Self { auto: Some(EmptyTable {}), ..Self::default() }
     }
 
-    /// Linear bodies condensed to their contact nodes.
+    /// Selects linear finite elements condensed to their contact nodes.
     pub fn condensed() -> Self {
         CondensedTable::default().into()
     }
 
-    /// Quasi-static viscoelastic half-space.
+    /// Selects quasi-static viscoelastic half-spaces (Ting).
     pub fn ting() -> Self {
         TingTable::default().into()
     }
 
-    /// Quasi-static elastic half-space.
+    /// Selects quasi-static elastic half-spaces (Hertz).
     pub fn hertz() -> Self {
         HertzTable::default().into()
     }
 
-    /// A contact law of one degree of freedom, by its table.
+    /// Selects a contact law of one degree of freedom by its table.
     pub fn law(law: impl Into<LawTable>) -> Self {
         law.into().into()
     }
@@ -109,47 +102,38 @@ impl From<LawTable> for ModelTable {
     }
 }
 
-/// `condensed = { … }`.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table such as { vibration_modes = 12 }")]
-pub struct CondensedTable {
-    /// Modes of free vibration of each body, 0 to 100; 0 is quasi-static.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub vibration_modes: Option<Quantity<Count>>,
-    /// Steps over the elastic contact time, 50 to 100,000.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub steps: Option<Quantity<Count>>,
-    /// Whether the penalty springs of model fem resist overlap; false: nothing overlaps.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub penalty_springs: Option<bool>,
+optional_keys! {
+    /// `condensed = { … }`.
+    CondensedTable, "a table such as { vibration_modes = 12 }" {
+        /// Modes of free vibration of each body, 0 to 100; 0 is quasi-static.
+        vibration_modes: Quantity<Count>,
+        /// Steps over the elastic contact time, 50 to 100,000.
+        steps: Quantity<Count>,
+        /// Whether the penalty springs of model fem resist overlap; without them nothing overlaps.
+        penalty_springs: bool,
+    }
 }
 
-/// `ting = { … }`.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
-pub struct TingTable {
-    /// Whether the spheres' finite size adds to the approach.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finite_size: Option<bool>,
-    /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<Quantity<Number>>,
+optional_keys! {
+    /// `ting = { … }`.
+    TingTable, "a table such as { finite_size = true }" {
+        /// Whether the spheres' finite size adds to the approach.
+        finite_size: bool,
+        /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
+        tolerance: Quantity<Number>,
+    }
 }
 
-/// `hertz = { … }`.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
-pub struct HertzTable {
-    /// Whether the spheres' finite size adds to the approach.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finite_size: Option<bool>,
+optional_keys! {
+    /// `hertz = { … }`.
+    HertzTable, "a table such as { finite_size = true }" {
+        /// Whether the spheres' finite size adds to the approach.
+        finite_size: bool,
+    }
 }
 
 keywords! {
-    /// When a contact with a law is over.
+    /// The end of a contact with a law.
     End {
         /// The force falls to zero: the surfaces cannot pull.
         ZeroForce = "zero_force",
@@ -198,7 +182,7 @@ macro_rules! law_tables {
                     #[serde(skip_serializing_if = "Option::is_none")]
                     pub $key: Option<Quantity<$kind>>,
                 )*
-                /// When the contact is over.
+                /// The end of the contact.
                 #[serde(skip_serializing_if = "Option::is_none")]
                 pub end: Option<End>,
                 /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
@@ -226,7 +210,7 @@ macro_rules! law_tables {
                 #[serde(skip_serializing_if = "Option::is_none")]
                 pub $law: Option<$table>,
             )+
-            /// When the contact is over.
+            /// The end of the contact.
             #[serde(skip_serializing_if = "Option::is_none")]
             pub end: Option<End>,
             /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
@@ -238,13 +222,13 @@ macro_rules! law_tables {
             /// The names of all laws.
             pub const NAMES: &'static [&'static str] = &[$(stringify!($law),)+];
 
-            /// Every number of every law.
+            /// All number keys of all laws.
             pub(crate) const KEYS: &'static [LawKey] = &[$($(LawKey {
                 family: LawFamily::$variant,
                 #[cfg(feature = "schema")]
                 table: stringify!($table),
                 key: stringify!($key),
-                kind: <$kind>::KIND,
+                kind: <$kind>::INFO,
                 range: KeyRange::$range,
             },)*)+];
 
@@ -270,8 +254,8 @@ macro_rules! law_tables {
             ///
             /// # Errors
             /// A value is no number of its kind, or is out of its range.
-            pub(crate) fn values(&self, check: &Check<'_>, path: &str) -> Result<Values, CaseError> {
-                let mut values = Values::new();
+            pub(crate) fn values(&self, check: &Check<'_>, path: &str) -> Result<KeyValues, CaseError> {
+                let mut values = KeyValues::new();
                 $(if let Some(_table) = &self.$law {
                     $(
                         let value = check.optional(
@@ -308,16 +292,15 @@ pub(crate) struct LawKey {
     #[cfg(feature = "schema")]
     pub table: &'static str,
     pub key: &'static str,
-    pub kind: Kind,
+    pub kind: QuantityInfo,
     #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema reads it"))]
     pub range: KeyRange,
 }
 
-/// Keys and their values, SI.
-type Values = Vec<(&'static str, f64)>;
+/// Keys and their values in SI.
+type KeyValues = Vec<(&'static str, f64)>;
 
-/// Whether a table holds at most one of these two keys, so that an override with the one takes the
-/// place of the other.
+/// Returns whether a table may have only one of these two keys, so that an override with one replaces the other.
 pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool {
     let is_law = |key| LawTable::NAMES.contains(&key);
     match table {
@@ -327,7 +310,7 @@ pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool
     }
 }
 
-/// Whether a name stands for the table of this name, with its defaults, at this path.
+/// Returns whether a name at this path stands for the table of this name with its defaults.
 pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
     match path {
         ["model"] => ModelTable::NAMES.contains(&name),
@@ -340,7 +323,7 @@ pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// What a fit prints can be written into a case: a parameter and its key have the same unit.
+    /// A fitted parameter can be written into a case: it has the unit of its key.
     #[test]
     fn parameters_have_the_units_of_their_keys() {
         for LawKey { family, key, kind, .. } in LawTable::KEYS {

@@ -1,9 +1,8 @@
-//! A case's texts (the file and its overrides) merged into one tree that knows where each key
-//! and value came from. A case that is made in code has no text, one that is edited in code has
-//! keys that stand in none.
+//! A case's texts (the file and its overrides) merged into one tree that knows the origin of each key and value. A case
+//! that is made in code has no text, and one that is edited in code has keys without a text.
 //!
-//! All texts share one line of byte offsets: the file begins at 0, each override one byte after
-//! the end of the text before it. A span in the merged tree thus names its text as well.
+//! All texts share one line of byte offsets: the file begins at 0, and each other text one byte after the end of the
+//! text before it. A span in the merged tree thus names its text as well.
 
 use std::ops::Range;
 
@@ -13,17 +12,17 @@ use toml::{Spanned, Table};
 use crate::error::CaseError;
 use crate::library;
 use crate::source::error_recovery::Repair;
-use crate::source::overrides::{self, Assignment};
-use crate::source::source_spans::{Position, Positions};
-use crate::source::toml_text::first_line;
+use crate::source::key_origins::{KeyOrigin, KeyOrigins};
+use crate::source::overrides::{self, Assignment, OverrideError};
+use crate::source::toml_syntax::first_line;
 
-/// One text, and where it begins on the common line of offsets.
+/// One text and its position in the common offsets.
 #[derive(Clone, Debug)]
 struct Source {
     name: String,
     text: String,
     start: usize,
-    /// When it was given: the file 0, then what overrides it.
+    /// Its rank among the texts that override each other: 0 for the file.
     turn: usize,
 }
 
@@ -34,17 +33,17 @@ pub(crate) struct Insertions<'s, 't> {
     pub(crate) assignments: Vec<Assignment<'t>>,
 }
 
-/// The texts of a case, none if it is made in code, and the positions of its keys.
+/// The texts of a case, none if it is made in code, and the origins of its keys.
 #[derive(Clone, Debug)]
 pub(crate) struct Document {
     sources: Vec<Source>,
-    positions: Positions,
+    origins: KeyOrigins,
 }
 
 impl Document {
-    /// Parses `text`, applies the overrides, left to right, and then the insertions; under all of it
-    /// lie the materials of the library that bodies name. Repairs are for a reader that looks for
-    /// more faults.
+    /// Parses `text`, applies the overrides, left to right, then the insertions, and then the repairs of
+    /// [`error_recovery`](crate::source::error_recovery). Keys that the texts lack come from the library's materials
+    /// that the bodies name.
     ///
     /// Returns the document and the merged tree as a deserializer.
     pub(crate) fn parse<'t>(
@@ -54,83 +53,78 @@ impl Document {
         insertions: Option<Insertions<'_, 't>>,
         repairs: &'t [Repair],
     ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
-        let file = Source { name: name.to_string(), text: text.to_string(), start: 0, turn: 0 };
-        let mut document = Document { sources: vec![file], positions: Positions::default() };
+        let mut document = Document { sources: Vec::new(), origins: KeyOrigins::default() };
+        document.add(name.to_string(), text, 0);
         let mut tree = DeTable::parse(text).map_err(|error| {
             document
                 .error_in(0, error.span().unwrap_or(0..0), first_line(error.message()))
                 .with_help(
-                    "the file must be TOML: one `key = value` a line; a value with a unit is a \
-                 string in quotes, \"22.2 mm\"",
+                    "the file must be TOML: one `key = value` per line; a value with a unit is a \
+                     string in quotes, \"22.2 mm\"",
                 )
         })?;
         overrides::expand_choices(tree.get_mut());
         for (index, text) in overrides.iter().enumerate() {
-            let previous = &document.sources[index];
-            document.sources.push(Source {
-                name: format!("--set {}=…", overrides::key_text(text)),
-                text: text.clone(),
-                start: previous.start + previous.text.len() + 1,
-                turn: index + 1,
-            });
-            let start = document.sources[index + 1].start;
-            let fail = |fault: overrides::Fault| {
-                document.error_on(fault.span, fault.message).with_help(fault.help)
-            };
-            let assignment = overrides::parse(text, start).map_err(fail)?;
-            overrides::apply(tree.get_mut(), assignment).map_err(fail)?;
+            let name = format!("--set {}=…", overrides::key_text(text));
+            let start = document.add(name, text, index + 1);
+            let applied = overrides::parse(text, start)
+                .and_then(|assignment| overrides::apply(tree.get_mut(), assignment));
+            applied.map_err(|error| document.override_error(error))?;
         }
         if let Some(Insertions { name, text, assignments }) = insertions {
-            let previous = &document.sources[overrides.len()];
-            let start = previous.start + previous.text.len() + 1;
-            let (name, turn) = (name.to_string(), overrides.len() + 1);
-            let source = Source { name, text: text.to_string(), start, turn };
-            document.sources.push(source);
+            let start = document.add(name.to_string(), text, overrides.len() + 1);
             for assignment in assignments {
-                overrides::apply(tree.get_mut(), assignment.shifted(start)).map_err(|fault| {
-                    document.error_on(fault.span, fault.message).with_help(fault.help)
-                })?;
+                overrides::apply(tree.get_mut(), assignment.shifted(start))
+                    .map_err(|error| document.override_error(error))?;
             }
         }
         for Repair { path, value } in repairs {
             overrides::mend(tree.get_mut(), path, value.as_deref());
         }
-        let start = document.sources.last().map_or(0, |last| last.start + last.text.len() + 1);
-        if library::underlay(tree.get_mut(), start) {
-            let (name, text) = ("materials library".to_string(), library::TEXT.to_string());
-            document.sources.push(Source { name, text, start, turn: 0 });
+        if library::underlay(tree.get_mut(), document.next_start()) {
+            document.add("materials library".to_string(), library::TEXT, 0);
         }
-        document.positions = Positions::of_text(tree.get_ref());
+        document.origins = KeyOrigins::of_text(tree.get_ref());
         Ok((document, tree))
     }
 
-    /// Of a case that is made in code.
+    /// Creates the document of a case that is made in code.
     pub(crate) fn of_code(tree: &Table) -> Document {
-        Document { sources: Vec::new(), positions: Positions::of_code(tree) }
+        Document { sources: Vec::new(), origins: KeyOrigins::of_code(tree) }
     }
 
-    /// After an edit in code that made `before` into `after`.
+    /// Returns the document after an edit in code that made `before` into `after`.
     pub(crate) fn edited(&self, before: &Table, after: &Table) -> Document {
-        let positions = self.positions.edited(before, after);
-        Document { sources: self.sources.clone(), positions }
+        Document { sources: self.sources.clone(), origins: self.origins.edited(before, after) }
     }
 
-    /// Whether the case gives a value at this path.
+    /// Adds a text and returns its start.
+    fn add(&mut self, name: String, text: &str, turn: usize) -> usize {
+        let start = self.next_start();
+        self.sources.push(Source { name, text: text.to_string(), start, turn });
+        start
+    }
+
+    fn next_start(&self) -> usize {
+        self.sources.last().map_or(0, |last| last.start + last.text.len() + 1)
+    }
+
+    /// Returns whether the case gives a value at this path.
     pub(crate) fn has(&self, path: &str) -> bool {
-        self.positions.get(path).is_some()
+        self.origins.get(path).is_some()
     }
 
-    /// The paths of all arrays in the texts.
+    /// Returns the paths of all arrays in the texts.
     pub(crate) fn arrays(&self) -> &[String] {
-        self.positions.arrays()
+        self.origins.arrays()
     }
 
-    /// Which of several keys that contradict each other is to blame: the first of those that the
-    /// last edit or else the last override among them gave, or else `default`.
+    /// Returns the one to blame of several keys that contradict each other: the first of those that the last edit, or
+    /// else the last override, gave; or else `default`.
     pub(crate) fn blamed<'p>(&self, default: &'p str, others: &[&'p str]) -> &'p str {
-        let turn_of = |path: &str| match self.positions.get(path) {
-            Some(Position::Text { value, .. }) => self.sources[self.source_at(value.start)].turn,
-            Some(Position::Code { edit }) => self.sources.len() + edit,
+        let turn_of = |path: &str| match self.origins.get(path) {
+            Some(KeyOrigin::Text { value, .. }) => self.sources[self.source_at(value.start)].turn,
+            Some(KeyOrigin::Code { edit }) => self.sources.len() + edit,
             None => 0,
         };
         let later = |best: &'p str, other: &&'p str| {
@@ -139,24 +133,30 @@ impl Document {
         others.iter().fold(default, later)
     }
 
-    /// An error that points at the value of the key at `path`, or, if it is absent, at the
-    /// nearest table around it; named by the key where that stands in no text.
+    /// Creates an error that points at the value of the key at `path`, or, if it is absent, at the nearest table
+    /// around it. A key without a text is named instead.
     pub(crate) fn error_at(&self, path: &str, message: impl Into<String>) -> CaseError {
-        match self.positions.nearest(path) {
-            Some(Position::Text { value, .. }) => self.error_on(value.clone(), message).about(path),
+        match self.origins.nearest(path) {
+            Some(KeyOrigin::Text { value, .. }) => {
+                self.error_on(value.clone(), message).about(path)
+            }
             None if !self.sources.is_empty() => self.error_in(0, 0..0, message).about(path),
             _ => CaseError::new(path, message).about(path),
         }
     }
 
-    /// An error at a span of the common line of offsets.
+    /// Creates an error at a span of the common offsets.
     pub(crate) fn error_on(&self, span: Range<usize>, message: impl Into<String>) -> CaseError {
         let index = self.source_at(span.start);
         let start = self.sources[index].start;
         self.error_in(index, span.start - start..span.end.saturating_sub(start), message)
     }
 
-    /// The text at a span of the common line of offsets.
+    fn override_error(&self, error: OverrideError) -> CaseError {
+        self.error_on(error.span, error.message).with_help(error.help)
+    }
+
+    /// Returns the text at a span of the common offsets.
     pub(crate) fn text_on(&self, span: &Range<usize>) -> &str {
         let Source { text, start, .. } = &self.sources[self.source_at(span.start)];
         text.get(span.start - start..span.end.saturating_sub(*start)).unwrap_or("")
@@ -171,8 +171,8 @@ impl Document {
         CaseError::new(name, message).at(text, span)
     }
 
-    /// The path whose value or else key has this span; the deepest if several have.
+    /// Returns the path whose value, or else whose key, has this span; the deepest of several.
     pub(crate) fn path_of(&self, span: &Range<usize>) -> Option<&str> {
-        self.positions.path_of(span)
+        self.origins.path_of(span)
     }
 }

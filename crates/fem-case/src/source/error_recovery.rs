@@ -1,19 +1,18 @@
-//! Error recovery: all faults of a case at once. After the first one the case is repaired on trial
-//! and read again.
+//! Error recovery: finds all faults of a text at once.
 //!
-//! The reader stops at a fault. Here its culprit is replaced by something sound of its kind, or left
-//! out, and the case is read again, until it is sound or nothing new is found. What only follows from
-//! a repair is no fault: an error about a key that was mended, or about the table around it.
+//! serde and the validation stop at the first fault. Its key is then given a valid value, or is left out, and the
+//! text is read again, until it is valid or nothing new is found. Faults that only follow from a repair are not
+//! reported: those of a repaired key, and those of the table around it.
 
 use crate::error::CaseError;
-use crate::source::key_path::join;
 use crate::source::overrides::parse_path;
+use crate::source::toml_syntax::join;
 
-/// As many faults are told.
-const MOST_FAULTS: usize = 20;
+/// The largest number of faults that are reported beside the first one.
+pub(crate) const MOST_FAULTS: usize = 20;
 
-/// Sound values of keys that a case needs, by their last part; other keys are left out.
-const SOUND: [(&str, &str); 14] = [
+/// Valid values of keys that a case needs, by their last part; other keys are left out.
+const VALID_VALUES: [(&str, &str); 14] = [
     ("density", "1e3"),
     ("youngs_modulus", "1e9"),
     ("shear_modulus", "4e8"),
@@ -30,108 +29,109 @@ const SOUND: [(&str, &str); 14] = [
     ("acceleration", "9.81"),
 ];
 
-/// A key of the tree, and its new value as TOML; left out without one.
+/// A key of the tree and its new value.
 #[derive(Clone, Debug)]
 pub(crate) struct Repair {
-    /// Its parts.
+    /// The parts of the key.
     pub(crate) path: Vec<String>,
-    /// `None` removes the key.
+    /// The value as TOML; `None` removes the key.
     pub(crate) value: Option<String>,
 }
 
-/// The first fault with all others, which `read` finds under repairs.
-pub(crate) fn all(first: CaseError, read: impl Fn(&[Repair]) -> Option<CaseError>) -> CaseError {
-    let mut others = Vec::new();
-    let mut repairs = Repairs::default();
-    let mut next = Some(first.clone());
-    while let Some(fault) = next.filter(|_| others.len() < MOST_FAULTS) {
-        let Some(wanted) = fault.wanted() else { break };
+/// Reads a text under repairs until it is valid. Returns what was read at last, if anything, and all faults.
+pub(crate) fn read_repaired<T>(
+    read: impl Fn(&[Repair]) -> Result<T, CaseError>,
+) -> (Option<T>, Vec<CaseError>) {
+    let (mut faults, mut repairs) = (Vec::new(), Repairs::default());
+    loop {
+        let fault = match read(&repairs.list) {
+            Ok(found) => return (Some(found), faults),
+            Err(fault) => fault,
+        };
+        let wanted = fault.wanted();
         // A misspelled key that is left out is missing in its table.
-        let is_first = repairs.list.is_empty();
-        if !is_first && !repairs.explain(fault.key().unwrap_or_default()) {
-            others.push(fault);
+        if faults.is_empty() || !repairs.explain(fault.key().unwrap_or_default()) {
+            faults.push(fault);
         }
-        if !repairs.mend(&wanted) {
-            break;
+        let is_repaired = wanted.is_some_and(|key| repairs.add(&key));
+        if !is_repaired || faults.len() > MOST_FAULTS {
+            return (None, faults);
         }
-        next = read(&repairs.list);
     }
-    first.with_others(others)
 }
 
 #[derive(Default)]
 struct Repairs {
     list: Vec<Repair>,
-    /// The keys that were mended, as written.
+    /// The repaired keys as dotted paths.
     keys: Vec<String>,
 }
 
 impl Repairs {
-    /// Whether a fault of this key may follow from a repair: of the same key, of what it is in, of what
-    /// is in it; and how a body moves and falls is of all bodies and their places.
+    /// Returns whether a fault of this key may follow from a repair: of the same key, of the table around it, or of
+    /// a key in it. The motion and the fall of a body depend on both bodies and their positions.
     fn explain(&self, key: &str) -> bool {
         let is_within = |inner: &str, outer: &str| {
             outer.is_empty() || inner == outer || inner.starts_with(&join(outer, ""))
         };
         let is_of = |key: &str, tables: &[&str]| tables.iter().any(|table| is_within(key, table));
-        let of_fall = is_of(key, &["gravity", "stop"])
+        let is_motion = is_of(key, &["gravity", "stop"])
             || [".approach_speed", ".held"].iter().any(|end| key.ends_with(end));
-        let falls = |mended: &str| is_of(mended, &["body", "start", "gravity"]);
-        self.keys.iter().any(|mended| {
-            is_within(key, mended) || is_within(mended, key) || (of_fall && falls(mended))
+        self.keys.iter().any(|repaired| {
+            is_within(key, repaired)
+                || is_within(repaired, key)
+                || (is_motion && is_of(repaired, &["body", "start", "gravity"]))
         })
     }
 
-    /// Mends a key, or what it is in where that was in vain; `false` if nothing is left to try.
-    fn mend(&mut self, key: &str) -> bool {
-        let Some(path) = parts(key) else { return false };
+    /// Adds a repair of a key, or of the table around it if that was repaired in vain; `false` if nothing is left
+    /// to try.
+    fn add(&mut self, key: &str) -> bool {
+        let Ok((path, _)) = parse_path(&format!("{key}="), 0) else { return false };
+        let path: Vec<String> = path.into_iter().map(|part| part.into_inner()).collect();
         let (path, value) = match self.explain(key) {
-            false => (path.clone(), sound(&path)),
+            false => (path.clone(), valid_value(&path)),
             true => table_around(&path),
         };
-        let written: Vec<&str> = path.iter().map(String::as_str).collect();
-        let name = written.join(".");
         if self.list.iter().any(|old| old.path == path && old.value == value) {
             return false;
         }
-        self.keys.extend([key.to_string(), name]);
+        self.keys.extend([key.to_string(), path.join(".")]);
         self.list.push(Repair { path, value });
         true
     }
 }
 
-fn parts(key: &str) -> Option<Vec<String>> {
-    let (path, _) = parse_path(&format!("{key}="), 0).ok()?;
-    Some(path.into_iter().map(|part| part.into_inner()).collect())
-}
-
-fn sound(path: &[String]) -> Option<String> {
-    let [.., last] = path else { return None };
+fn valid_value(path: &[String]) -> Option<String> {
     let parts: Vec<&str> = path.iter().map(String::as_str).collect();
     match parts.as_slice() {
         ["body", index, "name"] => Some(format!("'body{index}'")),
         ["body", _, "material"] => Some("'lib:steel'".to_string()),
         ["body", _] | ["material", _] => table_around(path).1,
-        _ => SOUND.iter().find(|(key, _)| key == last).map(|(_, value)| value.to_string()),
+        [.., last] => {
+            let known = VALID_VALUES.iter().find(|(key, _)| key == last);
+            known.map(|(_, value)| value.to_string())
+        }
+        [] => None,
     }
 }
 
-/// The table of the case that a key is in, and a sound one in its place.
+/// Returns the path of the table of the case that a key is in, and a valid table in its place.
 fn table_around(path: &[String]) -> (Vec<String>, Option<String>) {
     let parts: Vec<&str> = path.iter().map(String::as_str).collect();
-    let head = |n: usize| path[..n].to_vec();
-    match parts.as_slice() {
+    let (depth, valid) = match parts.as_slice() {
         ["material", _, ..] => {
-            let sound = "{ density = 1e3, youngs_modulus = 1e9, poissons_ratio = 0.3 }";
-            (head(2), Some(sound.to_string()))
+            let valid = "{ density = 1e3, youngs_modulus = 1e9, poissons_ratio = 0.3 }";
+            (2, Some(valid.to_string()))
         }
         ["body", index, ..] => {
-            let sound = format!(
+            let valid = format!(
                 "{{ name = 'body{index}', sphere = {{ diameter = 0.01 }}, material = 'lib:steel', \
                  approach_speed = 1 }}"
             );
-            (head(2), Some(sound))
+            (2, Some(valid))
         }
-        _ => (head(path.len().min(1)), None),
-    }
+        _ => (path.len().min(1), None),
+    };
+    (path[..depth].to_vec(), valid)
 }

@@ -1,13 +1,13 @@
-//! Translation of serde's errors to the terms of the case file.
+//! Translates serde's errors into the terms of a case file.
 
 use toml::de::Error;
 
 use crate::error::CaseError;
 use crate::schema::model_tables::{LawTable, ModelTable};
 use crate::source::document::Document;
-use crate::source::toml_text::first_line;
+use crate::source::toml_syntax::first_line;
 
-/// Required keys, as a user may write them.
+/// Examples of required keys.
 const EXAMPLES: &[(&str, &str)] = &[
     ("name", "name = \"striker\""),
     ("diameter", "diameter = \"22.2 mm\""),
@@ -21,7 +21,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ),
 ];
 
-/// The names that stand for tables at a place.
+/// Returns the names that stand for tables at a path.
 fn names_at(path: &str) -> Option<&'static [&'static str]> {
     match path {
         "model" => Some(ModelTable::NAMES),
@@ -30,7 +30,7 @@ fn names_at(path: &str) -> Option<&'static [&'static str]> {
     }
 }
 
-/// The error of deserializing the tree of `document`.
+/// Translates an error of deserializing the tree of `document`.
 pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     let message = error.message();
     let span = error.span().unwrap_or(0..0);
@@ -75,42 +75,42 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     if let Some(rest) = message.strip_prefix("unknown variant ") {
         let (found, allowed) = split_backticked(rest);
         let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
-        return at(format!("{path} is \"{found}\", which is none of its values"))
-            .with_help(format!("{}it is one of {}", near(found, &allowed), quoted.join(", ")));
+        return at(format!("{path} is \"{found}\", which is not allowed"))
+            .with_help(format!("{}write one of {}", near(found, &allowed), quoted.join(", ")));
     }
     if let Some((found, wanted)) =
         message.strip_prefix("invalid type: ").and_then(|rest| rest.rsplit_once(", expected "))
     {
-        // serde sees a date as a table.
+        // serde treats a date as a table.
         let is_date =
             found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
         if let (Some(names), Some(word)) = (names_at(path), found.strip_prefix("string ")) {
             let word = word.trim_matches('"');
-            return at(format!("{path} is \"{word}\", which is none of its values")).with_help(
-                format!("{}it is one of {}, or a table", near(word, names), names.join(", ")),
+            return at(format!("{path} is \"{word}\", which is not allowed")).with_help(
+                format!("{}write one of {}, or a table", near(word, names), names.join(", ")),
             );
         }
         let found = if is_date { "a date or time".to_string() } else { with_article(found) };
         return at(format!("{} is {found}", name(path)))
-            .with_help(format!("it wants {}", with_article(wanted)));
+            .with_help(format!("write {}", with_article(wanted)));
     }
-    // serde reads an array as a struct's fields in order, and finds their number wrong.
+    // serde reads an array as a struct's fields in order and reports their number.
     if let Some((_, wanted)) =
         message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
     {
-        return at(format!("{} is an array", name(path))).with_help(format!("it wants {wanted}"));
+        return at(format!("{} is an array", name(path))).with_help(format!("write {wanted}"));
     }
     at(first_line(message))
 }
 
-/// `did you mean …? ` if one of the allowed words is near.
+/// Returns `did you mean …? ` if one of the allowed words is similar.
 pub(crate) fn near<S: AsRef<str>>(found: &str, allowed: &[S]) -> String {
-    // 0.8 lets `densty`, `diametre` and `youngs_modul` through and `radius` for `name` not.
+    // 0.8 accepts `densty`, `diametre` and `youngs_modul`, but not `radius` for `name`.
     nearest(found, allowed, 0.8).map_or(String::new(), |word| format!("did you mean `{word}`? "))
 }
 
-/// The allowed word that is nearest to what was found, if it is more than so similar (Jaro and
-/// Winkler's, 0 to 1). Two neighbours in the wrong order are next to the same word, in a short one too: `nwe`.
+/// Returns the allowed word that is most similar to `found`, if its Jaro-Winkler similarity (0 to 1) is above `least`. Two
+/// swapped neighbours count as 0.95 at least, also in short words: `nwe`.
 pub fn nearest<'w, S: AsRef<str>>(found: &str, allowed: &'w [S], least: f64) -> Option<&'w str> {
     let found = found.to_lowercase();
     let similarity = |word: &S| {
@@ -121,7 +121,7 @@ pub fn nearest<'w, S: AsRef<str>>(found: &str, allowed: &'w [S], least: f64) -> 
     nearest.filter(|word| similarity(word) > least).map(AsRef::as_ref)
 }
 
-/// Whether two letters beside each other have changed places, and nothing else.
+/// Returns whether the words differ only by two swapped neighbours.
 fn is_swapped(found: &str, word: &str) -> bool {
     strsim::osa_distance(found, word) == 1 && strsim::levenshtein(found, word) == 2
 }
@@ -130,7 +130,7 @@ fn name(path: &str) -> &str {
     if path.is_empty() { "the case" } else { path }
 }
 
-/// serde's word for a type in TOML's words.
+/// Translates serde's name of a type into TOML's, with an article.
 fn with_article(what: &str) -> String {
     match what {
         "map" | "a map" => return "a table".to_string(),
@@ -145,7 +145,7 @@ fn with_article(what: &str) -> String {
     format!("{article} {what}")
 }
 
-/// serde's "`found`, expected one of `a`, `b`", or "`found`, there are no fields", in parts.
+/// Splits serde's "`found`, expected one of `a`, `b`" or "`found`, there are no fields" into the word and the allowed words.
 fn split_backticked(text: &str) -> (&str, Vec<&str>) {
     let (found, rest) = text
         .rsplit_once("`, expected ")
@@ -154,7 +154,7 @@ fn split_backticked(text: &str) -> (&str, Vec<&str>) {
     (found.strip_prefix('`').unwrap_or(found), rest.split('`').skip(1).step_by(2).collect())
 }
 
-/// "a", "a and b", "a, b and c".
+/// Joins words: "a", "a and b", "a, b and c".
 pub(crate) fn listed(words: &[&str]) -> String {
     match words {
         [] => String::new(),

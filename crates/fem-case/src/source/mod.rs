@@ -3,8 +3,7 @@
 pub(crate) mod document;
 pub(crate) mod error_recovery;
 pub(crate) mod explain;
-pub(crate) mod key_path;
+pub(crate) mod key_origins;
 pub(crate) mod number_at;
 pub(crate) mod overrides;
-pub(crate) mod source_spans;
-pub(crate) mod toml_text;
+pub(crate) mod toml_syntax;

@@ -1,18 +1,17 @@
-//! The number at a key of a case, in SI, and its unit: found on the way that writing the case takes,
-//! where each quantity tells its unit ([`crate::Quantity`]).
+//! The number at a key of a case, in SI, and its unit. A serializer finds it: each [`Quantity`](crate::Quantity)
+//! serializes as a new type that has the name of its unit.
 
 use std::fmt::Display;
 
 use serde::ser::{
-    Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeStructVariant, SerializeTuple,
-    SerializeTupleStruct, SerializeTupleVariant, Serializer,
+    Impossible, Serialize, SerializeMap, SerializeSeq, SerializeStruct, Serializer,
 };
 
 use crate::schema::CaseFile;
 
 impl CaseFile {
-    /// The number at a key of these parts, in SI, and its unit, empty of a plain number; none where
-    /// the case has no number there.
+    /// Returns the number at a key of these parts, in SI, and its unit, which is empty for a plain number; `None` if the
+    /// case has no number there.
     ///
     /// ```
     /// use fem_case::CaseFile;
@@ -33,81 +32,62 @@ impl CaseFile {
     }
 }
 
-/// What is found at a key.
 type Found = Option<(f64, &'static str)>;
 
-/// Goes down a path as far as the value has it.
+/// Follows the rest of a path through a value; `unit` is the name of the new type around it.
 #[derive(Clone, Copy)]
 struct Seek<'p> {
     path: &'p [&'p str],
     unit: &'static str,
 }
 
-/// Never comes about.
+/// The value has no keys or numbers that can be sought.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-struct Never(String);
+struct NotSought(String);
 
-impl serde::ser::Error for Never {
+impl serde::ser::Error for NotSought {
     fn custom<T: Display>(message: T) -> Self {
         Self(message.to_string())
     }
 }
 
-impl Seek<'_> {
-    fn number(self, value: f64) -> Result<Found, Never> {
-        Ok(self.path.is_empty().then_some((value, self.unit)))
-    }
-}
-
-/// A table or an array on the way: the part that is sought in it, and what was found.
+/// Seeks one part of the path in a table or an array.
 struct Inside<'p> {
-    part: Option<&'p str>,
+    part: &'p str,
     below: Seek<'p>,
     index: usize,
     is_next: bool,
     found: Found,
 }
 
-impl<'p> Inside<'p> {
-    fn of(seek: Seek<'p>) -> Self {
-        let (part, rest) = match seek.path.split_first() {
-            Some((part, rest)) => (Some(*part), rest),
-            None => (None, seek.path),
+impl<'p> Seek<'p> {
+    fn number(self, value: f64) -> Result<Found, NotSought> {
+        Ok(self.path.is_empty().then_some((value, self.unit)))
+    }
+
+    fn inside(self) -> Result<Inside<'p>, NotSought> {
+        let Some((part, rest)) = self.path.split_first() else {
+            return Err(serde::ser::Error::custom("a table or an array"));
         };
-        let below = Seek { path: rest, unit: seek.unit };
-        Self { part, below, index: 0, is_next: false, found: None }
-    }
-
-    fn field<T: Serialize + ?Sized>(&mut self, key: &str, value: &T) -> Result<(), Never> {
-        if self.part == Some(key) {
-            self.found = value.serialize(self.below)?;
-        }
-        Ok(())
-    }
-
-    fn item<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Never> {
-        let index = self.index;
-        self.index += 1;
-        let is_it = self.part.and_then(|part| part.parse().ok()) == Some(index);
-        self.found = if is_it { value.serialize(self.below)? } else { self.found };
-        Ok(())
+        let below = Seek { path: rest, unit: self.unit };
+        Ok(Inside { part, below, index: 0, is_next: false, found: None })
     }
 }
 
-/// Values without a number.
+/// Methods for values without a number.
 macro_rules! no_number {
-    ($($method:ident($($argument:ident: $type:ty),*);)+) => {
-        $(fn $method(self, $($argument: $type),*) -> Result<Found, Never> {
-            Ok(None)
+    ($($method:ident($($type:ty),*) -> $result:ty;)+) => {
+        $(fn $method(self, $(_: $type),*) -> Result<$result, NotSought> {
+            Err(serde::ser::Error::custom("no number"))
         })+
     };
 }
 
-/// Numbers.
+/// Methods for numbers.
 macro_rules! numbers {
     ($($method:ident($type:ty);)+) => {
-        $(fn $method(self, value: $type) -> Result<Found, Never> {
+        $(fn $method(self, value: $type) -> Result<Found, NotSought> {
             self.number(value as f64)
         })+
     };
@@ -115,14 +95,14 @@ macro_rules! numbers {
 
 impl<'p> Serializer for Seek<'p> {
     type Ok = Found;
-    type Error = Never;
+    type Error = NotSought;
     type SerializeSeq = Inside<'p>;
-    type SerializeTuple = Inside<'p>;
-    type SerializeTupleStruct = Inside<'p>;
-    type SerializeTupleVariant = Inside<'p>;
     type SerializeMap = Inside<'p>;
     type SerializeStruct = Inside<'p>;
-    type SerializeStructVariant = Inside<'p>;
+    type SerializeTuple = Impossible<Found, NotSought>;
+    type SerializeTupleStruct = Impossible<Found, NotSought>;
+    type SerializeTupleVariant = Impossible<Found, NotSought>;
+    type SerializeStructVariant = Impossible<Found, NotSought>;
 
     numbers! {
         serialize_i8(i8);
@@ -138,17 +118,21 @@ impl<'p> Serializer for Seek<'p> {
     }
 
     no_number! {
-        serialize_bool(_value: bool);
-        serialize_char(_value: char);
-        serialize_str(_value: &str);
-        serialize_bytes(_value: &[u8]);
-        serialize_none();
-        serialize_unit();
-        serialize_unit_struct(_name: &'static str);
-        serialize_unit_variant(_name: &'static str, _index: u32, _variant: &'static str);
+        serialize_bool(bool) -> Found;
+        serialize_char(char) -> Found;
+        serialize_str(&str) -> Found;
+        serialize_bytes(&[u8]) -> Found;
+        serialize_none() -> Found;
+        serialize_unit() -> Found;
+        serialize_unit_struct(&'static str) -> Found;
+        serialize_unit_variant(&'static str, u32, &'static str) -> Found;
+        serialize_tuple(usize) -> Self::SerializeTuple;
+        serialize_tuple_struct(&'static str, usize) -> Self::SerializeTupleStruct;
+        serialize_tuple_variant(&'static str, u32, &'static str, usize) -> Self::SerializeTupleVariant;
+        serialize_struct_variant(&'static str, u32, &'static str, usize) -> Self::SerializeStructVariant;
     }
 
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<Found, Never> {
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<Found, NotSought> {
         value.serialize(self)
     }
 
@@ -156,7 +140,7 @@ impl<'p> Serializer for Seek<'p> {
         self,
         name: &'static str,
         value: &T,
-    ) -> Result<Found, Never> {
+    ) -> Result<Found, NotSought> {
         value.serialize(Seek { unit: name, ..self })
     }
 
@@ -164,127 +148,81 @@ impl<'p> Serializer for Seek<'p> {
         self,
         _name: &'static str,
         _index: u32,
-        variant: &'static str,
+        _variant: &'static str,
         value: &T,
-    ) -> Result<Found, Never> {
-        let mut inside = Inside::of(self);
-        inside.field(variant, value)?;
-        Ok(inside.found)
+    ) -> Result<Found, NotSought> {
+        value.serialize(self)
     }
 
-    fn serialize_seq(self, _n: Option<usize>) -> Result<Inside<'p>, Never> {
-        Ok(Inside::of(self))
+    fn serialize_seq(self, _n: Option<usize>) -> Result<Inside<'p>, NotSought> {
+        self.inside()
     }
 
-    fn serialize_tuple(self, _n: usize) -> Result<Inside<'p>, Never> {
-        Ok(Inside::of(self))
+    fn serialize_map(self, _n: Option<usize>) -> Result<Inside<'p>, NotSought> {
+        self.inside()
     }
 
-    fn serialize_tuple_struct(self, _name: &'static str, _n: usize) -> Result<Inside<'p>, Never> {
-        Ok(Inside::of(self))
-    }
-
-    fn serialize_tuple_variant(
-        self,
-        _name: &'static str,
-        _index: u32,
-        _variant: &'static str,
-        _n: usize,
-    ) -> Result<Inside<'p>, Never> {
-        Ok(Inside::of(self))
-    }
-
-    fn serialize_map(self, _n: Option<usize>) -> Result<Inside<'p>, Never> {
-        Ok(Inside::of(self))
-    }
-
-    fn serialize_struct(self, _name: &'static str, _n: usize) -> Result<Inside<'p>, Never> {
-        Ok(Inside::of(self))
-    }
-
-    fn serialize_struct_variant(
-        self,
-        _name: &'static str,
-        _index: u32,
-        _variant: &'static str,
-        _n: usize,
-    ) -> Result<Inside<'p>, Never> {
-        Ok(Inside::of(self))
+    fn serialize_struct(self, _name: &'static str, _n: usize) -> Result<Inside<'p>, NotSought> {
+        self.inside()
     }
 }
 
-/// Arrays and tuples.
-macro_rules! items {
-    ($($trait:ident :: $method:ident;)+) => {
-        $(impl $trait for Inside<'_> {
-            type Ok = Found;
-            type Error = Never;
-
-            fn $method<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Never> {
-                self.item(value)
-            }
-
-            fn end(self) -> Result<Found, Never> {
-                Ok(self.found)
-            }
-        })+
-    };
-}
-
-items! {
-    SerializeSeq::serialize_element;
-    SerializeTuple::serialize_element;
-    SerializeTupleStruct::serialize_field;
-    SerializeTupleVariant::serialize_field;
-}
-
-/// Tables of named fields.
-macro_rules! fields {
-    ($($trait:ident;)+) => {
-        $(impl $trait for Inside<'_> {
-            type Ok = Found;
-            type Error = Never;
-
-            fn serialize_field<T: Serialize + ?Sized>(
-                &mut self,
-                key: &'static str,
-                value: &T,
-            ) -> Result<(), Never> {
-                self.field(key, value)
-            }
-
-            fn end(self) -> Result<Found, Never> {
-                Ok(self.found)
-            }
-        })+
-    };
-}
-
-fields! {
-    SerializeStruct;
-    SerializeStructVariant;
-}
-
-/// Tables of names that a case chooses, such as its materials.
-impl SerializeMap for Inside<'_> {
+impl SerializeSeq for Inside<'_> {
     type Ok = Found;
-    type Error = Never;
+    type Error = NotSought;
 
-    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), Never> {
-        let key = toml::Value::try_from(key).ok();
-        self.is_next =
-            self.part.is_some() && key.as_ref().and_then(toml::Value::as_str) == self.part;
+    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), NotSought> {
+        if self.part.parse() == Ok(self.index) {
+            self.found = value.serialize(self.below)?;
+        }
+        self.index += 1;
         Ok(())
     }
 
-    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Never> {
+    fn end(self) -> Result<Found, NotSought> {
+        Ok(self.found)
+    }
+}
+
+impl SerializeStruct for Inside<'_> {
+    type Ok = Found;
+    type Error = NotSought;
+
+    fn serialize_field<T: Serialize + ?Sized>(
+        &mut self,
+        key: &'static str,
+        value: &T,
+    ) -> Result<(), NotSought> {
+        if self.part == key {
+            self.found = value.serialize(self.below)?;
+        }
+        Ok(())
+    }
+
+    fn end(self) -> Result<Found, NotSought> {
+        Ok(self.found)
+    }
+}
+
+/// Tables whose keys a case chooses, such as its materials.
+impl SerializeMap for Inside<'_> {
+    type Ok = Found;
+    type Error = NotSought;
+
+    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), NotSought> {
+        let key = toml::Value::try_from(key).ok();
+        self.is_next = key.as_ref().and_then(toml::Value::as_str) == Some(self.part);
+        Ok(())
+    }
+
+    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), NotSought> {
         if self.is_next {
             self.found = value.serialize(self.below)?;
         }
         Ok(())
     }
 
-    fn end(self) -> Result<Found, Never> {
+    fn end(self) -> Result<Found, NotSought> {
         Ok(self.found)
     }
 }

@@ -1,9 +1,9 @@
 //! An override `KEY=VALUE`: one value put into the tree of a case before it is validated.
 //!
 //! KEY is a dotted path in TOML's key syntax (`material."my glass".density`), an index from 0 in
-//! an array. VALUE is a TOML value; words that are none are a string whose quotes a shell has eaten,
-//! unless they begin like a table, an array or a string. Keys and tables that are absent are added;
-//! array elements are not. A model or a law by its name, `model=ting`, has its defaults.
+//! an array. VALUE is a TOML value. Text that is none is taken as a string whose quotes a shell has removed, unless it
+//! begins like a table, an array or a string. Absent keys and tables are added; array elements are not. The name of a
+//! model or a law, `model=ting`, selects its defaults.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -13,14 +13,13 @@ use toml::de::{DeString, DeTable, DeValue};
 use toml::map::{Entry, VacantEntry};
 
 use crate::schema::model_tables::{exclude_each_other, is_choice};
-use crate::source::key_path::is_bare;
-use crate::source::toml_text::{first_line, shift};
+use crate::source::toml_syntax::{first_line, is_bare, shift};
 
-/// Deeper than any key of a case; keeps recursion over the tree shallow.
+/// The largest number of parts of a key, more than any key of a case has: it limits recursion over the tree.
 const DEEPEST_PATH: usize = 32;
 
-/// What is wrong with an override, and where in its text.
-pub(crate) struct Fault {
+/// An error of an override: the position in its text, the message, and the suggested fix.
+pub(crate) struct OverrideError {
     pub(crate) span: Range<usize>,
     pub(crate) message: String,
     pub(crate) help: String,
@@ -33,7 +32,7 @@ pub(crate) struct Assignment<'t> {
 }
 
 impl Assignment<'_> {
-    /// This override with all of its spans moved by `start`.
+    /// Returns this override with all of its spans moved by `start`.
     pub(crate) fn shifted(self, start: usize) -> Self {
         let move_part = |part: Spanned<String>| {
             let span = part.span();
@@ -46,7 +45,7 @@ impl Assignment<'_> {
     }
 }
 
-/// The key of an override, for naming it; all of the text if there is no `=` after a key.
+/// Returns the key of an override, for its name; all of the text if there is no `=` after a key.
 pub(crate) fn key_text(text: &str) -> &str {
     let mut quote = None;
     for (index, c) in text.char_indices() {
@@ -60,17 +59,17 @@ pub(crate) fn key_text(text: &str) -> &str {
     text.trim()
 }
 
-/// Splits an override into path and value. Its spans and those of a fault count from `offset`.
-pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, Fault> {
+/// Splits an override into path and value. Its spans and those of an error count from `offset`.
+pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, OverrideError> {
     let (path, equals) = parse_path(text, offset)?;
     let raw = &text[equals + 1..];
     let start = equals + 1 + (raw.len() - raw.trim_start().len());
     let raw = raw.trim();
-    let value_fault = |span: Range<usize>, message: String| Fault {
+    let value_fault = |span: Range<usize>, message: String| OverrideError {
         span: offset + span.start..offset + span.end,
         message,
-        help: "the value is in TOML syntax: 0.5, true, [1, 2], {}, and strings in quotes, which \
-               a shell must not eat: KEY='\"1 m/s\"'"
+        help: "write a TOML value: 0.5, true, [1, 2], {}, or a string in quotes that the shell \
+               does not remove: KEY='\"1 m/s\"'"
             .to_string(),
     };
     if raw.is_empty() {
@@ -81,24 +80,24 @@ pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, Fault> 
         Ok(value) => value,
         Err(_) if is_unquoted(raw) => Spanned::new(0..raw.len(), DeValue::String(raw.into())),
         Err(error) => {
-            let message = format!("`{raw}` is no TOML value: {}", first_line(error.message()));
+            let message = format!("`{raw}` is not a TOML value: {}", first_line(error.message()));
             return Err(value_fault(start..start + raw.len(), message));
         }
     };
     Ok(Assignment { path, value: shift(value, offset + start) })
 }
 
-/// Whether it can only be meant as a string: `1 m/s`, `14um`, `off`, and no half of a table.
+/// Returns whether a text can only be meant as a string: `1 m/s`, `14um` or `off`, but not half of a table.
 fn is_unquoted(raw: &str) -> bool {
     !raw.starts_with(['{', '[', '"', '\'']) && !raw.contains(|c: char| c.is_control() || c == '=')
 }
 
-/// The parts of the key and the position of the `=` after it.
+/// Returns the parts of the key and the position of the `=` after it.
 pub(crate) fn parse_path(
     text: &str,
     offset: usize,
-) -> Result<(Vec<Spanned<String>>, usize), Fault> {
-    let fault = |span: Range<usize>, message: &str| Fault {
+) -> Result<(Vec<Spanned<String>>, usize), OverrideError> {
+    let fault = |span: Range<usize>, message: &str| OverrideError {
         span: offset + span.start..offset + span.end,
         message: message.to_string(),
         help: "write KEY=VALUE with a dotted key, such as mesh.contact_element_size=28e-6 or \
@@ -112,7 +111,7 @@ pub(crate) fn parse_path(
         let rest = &text[at..];
         let (part, length) = match rest.chars().next() {
             Some(quote @ ('"' | '\'')) => quoted_part(rest, quote)
-                .ok_or_else(|| fault(at..text.len(), "a quoted key does not end or is no TOML"))?,
+                .ok_or_else(|| fault(at..text.len(), "a quoted key has no end or is not TOML"))?,
             _ => {
                 let length = rest.find(|c| !is_bare(c)).unwrap_or(rest.len());
                 (rest[..length].to_string(), length)
@@ -123,7 +122,7 @@ pub(crate) fn parse_path(
         if length == 0 {
             let message = match after {
                 None | Some('=' | '.') => "a part of the key is empty".to_string(),
-                Some(c) => format!("`{c}` cannot stand in a key without quotes"),
+                Some(c) => format!("`{c}` is not allowed in a key without quotes"),
             };
             return Err(fault(at..at + after.map_or(0, char::len_utf8), &message));
         }
@@ -136,14 +135,14 @@ pub(crate) fn parse_path(
             Some('=') => return Ok((path, next)),
             None => return Err(fault(0..text.len(), "there is no `=` after the key")),
             Some(c) => {
-                let message = format!("`{c}` cannot stand in a key without quotes");
+                let message = format!("`{c}` is not allowed in a key without quotes");
                 return Err(fault(next..next + c.len_utf8(), &message));
             }
         }
     }
 }
 
-/// A quoted key at the beginning of `text`, and its length with the quotes.
+/// Returns a quoted key at the beginning of `text`, and its length with the quotes.
 fn quoted_part(text: &str, quote: char) -> Option<(String, usize)> {
     let mut is_escaped = false;
     for (index, c) in text.char_indices().skip(1) {
@@ -159,8 +158,8 @@ fn quoted_part(text: &str, quote: char) -> Option<(String, usize)> {
     None
 }
 
-/// Puts the value into the tree.
-pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> Result<(), Fault> {
+/// Inserts the value into the tree.
+pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> Result<(), OverrideError> {
     let Assignment { path, mut value } = assignment;
     let names: Vec<&str> = path.iter().map(|part| part.get_ref().as_str()).collect();
     expand_choice(&names, &mut value);
@@ -191,8 +190,8 @@ pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> R
     Ok(())
 }
 
-/// Gives the key at a path another value, or takes it out; nothing where the path leads nowhere. The
-/// value stands where the old one stood, or the nearest one around it.
+/// Replaces or removes the value at a path, if there is one. The new value has the span of the old one, or of the
+/// nearest one around it.
 pub(crate) fn mend<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<&'t str>) {
     let Some((last, parents)) = path.split_last() else { return };
     let mut place = Place::Table(root);
@@ -225,7 +224,7 @@ pub(crate) fn mend<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<&'
     }
 }
 
-/// Names of a model and a law of a file as their tables.
+/// Replaces the names of a model and of a law in a file by their tables.
 pub(crate) fn expand_choices(root: &mut DeTable<'_>) {
     let Some(model) = root.get_mut("model") else { return };
     expand_choice(&["model"], model);
@@ -236,7 +235,7 @@ pub(crate) fn expand_choices(root: &mut DeTable<'_>) {
     }
 }
 
-/// The name of a model or a law in the place of its table, `ting` for `{ ting = {} }`.
+/// Replaces the name of a model or of a law by its table: `ting` means `{ ting = {} }`.
 fn expand_choice(path: &[&str], value: &mut Spanned<DeValue<'_>>) {
     let Some(name) = value.get_ref().as_str().filter(|name| is_choice(path, name)) else { return };
     let (span, name) = (value.span(), name.to_string());
@@ -246,7 +245,7 @@ fn expand_choice(path: &[&str], value: &mut Spanned<DeValue<'_>>) {
     *value.get_mut() = DeValue::Table(table);
 }
 
-/// Of keys that exclude each other, such as the models, the path's takes the place of another.
+/// Removes keys that exclude a key of the path, such as another model.
 fn drop_alternatives(root: &mut DeTable<'_>, path: &[Spanned<String>]) {
     let mut names: Vec<&str> = Vec::new();
     let mut table = root;
@@ -264,7 +263,7 @@ fn drop_alternatives(root: &mut DeTable<'_>, path: &[Spanned<String>]) {
     }
 }
 
-/// Where a part of a path can lead on from.
+/// A value that has values inside.
 enum Place<'a, 't> {
     Table(&'a mut DeTable<'t>),
     Array(&'a mut [Spanned<DeValue<'t>>]),
@@ -276,19 +275,19 @@ enum Child<'a, 't> {
 }
 
 impl<'a, 't> Place<'a, 't> {
-    fn of(value: &'a mut Spanned<DeValue<'t>>, part: &Spanned<String>) -> Result<Self, Fault> {
+    fn of(value: &'a mut Spanned<DeValue<'t>>, part: &Spanned<String>) -> Result<Self, OverrideError> {
         match value.get_mut() {
             DeValue::Table(table) => Ok(Place::Table(table)),
             DeValue::Array(array) => Ok(Place::Array(array)),
-            _ => Err(Fault {
+            _ => Err(OverrideError {
                 span: part.span(),
-                message: format!("`{}` is a single value; it has no keys", part.get_ref()),
+                message: format!("`{}` is a single value without keys", part.get_ref()),
                 help: "end the key here to replace the value".to_string(),
             }),
         }
     }
 
-    fn child(self, part: &Spanned<String>) -> Result<Child<'a, 't>, Fault> {
+    fn child(self, part: &Spanned<String>) -> Result<Child<'a, 't>, OverrideError> {
         let key = part.get_ref();
         match self {
             Place::Table(table) => {
@@ -303,13 +302,13 @@ impl<'a, 't> Place<'a, 't> {
                 let index = key.parse::<usize>().ok().filter(|_| is_number);
                 match index.and_then(|index| array.get_mut(index)) {
                     Some(value) => Ok(Child::Value(value)),
-                    None => Err(Fault {
+                    None => Err(OverrideError {
                         span: part.span(),
-                        message: format!("`{key}` is no index of this array of {length}"),
+                        message: format!("`{key}` is not an index of this array of {length}"),
                         help: match length {
                             0 => "it is empty; replace the whole array".to_string(),
                             1 => "its only index is 0".to_string(),
-                            _ => format!("its indices go from 0 to {}", length - 1),
+                            _ => format!("its indices are 0 to {}", length - 1),
                         },
                     }),
                 }

@@ -1,8 +1,8 @@
-//! `[vary]`: dotted keys and the values of each, with their places in the sweep file.
+//! `[vary]`: dotted keys and their values, with their positions in the sweep file.
 //!
 //! A key is one string in quotes (`"body.0.approach_speed" = […]`) or TOML's own nesting
-//! (`body.0.approach_speed = […]`); both mean the same. A string with commas links keys: they change
-//! together. Values are a list, a range or the rows of a table ([`crate::sweep_values`]).
+//! (`body.0.approach_speed = […]`); both mean the same. A string with commas links keys that change
+//! together. Values are a list, a range or the rows of a table (`sweep::values`).
 
 use std::ops::Range;
 use std::path::Path;
@@ -12,21 +12,20 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::CaseError;
 use crate::source::document::Document;
-use crate::source::key_path::quote_key;
 use crate::source::overrides::{Assignment, parse_path};
-use crate::source::toml_text::shift;
-use crate::sweep::values::{ReadRows, Values, is_values, rounded};
+use crate::source::toml_syntax::{quote_key, shift};
+use crate::sweep::values::{ReadRows, ValuesReader, is_values, rounded};
 
-/// The parts of a key and their places.
+/// The parts of a key with their positions.
 type KeyPath = Vec<Spanned<String>>;
 
-/// Keys that change together, mostly one, and their values.
+/// Keys that change together, usually one, and their values.
 #[derive(Clone, Debug)]
 pub struct Axis {
     /// The keys, at least one.
     pub keys: Vec<SweptKey>,
     /// The values, at least one.
-    pub elements: Vec<Element>,
+    pub values: Vec<AxisValue>,
     pub(crate) span: Range<usize>,
 }
 
@@ -40,21 +39,21 @@ pub struct SweptKey {
 
 /// One value of an axis, for each of its keys.
 #[derive(Clone, Debug)]
-pub struct Element {
-    /// As written, a string without its quotes: of each key, or one for all of them.
+pub struct AxisValue {
+    /// The value of each key as written, without quotes, or one value for all keys.
     texts: Vec<String>,
-    /// What the keys are set to.
+    /// How the texts become TOML.
     source: Source,
-    /// Its bytes in the sweep file.
+    /// The bytes of the value in the sweep file.
     pub(crate) span: Range<usize>,
 }
 
-/// Where values come from.
+/// The origin of a value.
 #[derive(Clone, Debug)]
 enum Source {
-    /// The bytes of the element in the sweep file are TOML.
+    /// The sweep file contains the value as TOML.
     Written,
-    /// Bare numbers or text, made of a range or read from a table.
+    /// A range or a table gives the value as a bare number or as text.
     Made,
 }
 
@@ -64,12 +63,12 @@ impl SweptKey {
         Self { key: parts.join("."), path }
     }
 
-    /// The parts of the key, quotes removed.
+    /// Returns the parts of the key without quotes.
     pub fn parts(&self) -> impl Iterator<Item = &str> {
         self.path.iter().map(|part| part.get_ref().as_str())
     }
 
-    /// Whether this key is `other` or a table or array around it.
+    /// Returns whether this key is `other` or a table or array around it.
     pub(crate) fn contains(&self, other: &[Spanned<String>]) -> bool {
         let same = |(a, b): (&Spanned<String>, &Spanned<String>)| {
             canonical_part(a.get_ref()) == canonical_part(b.get_ref())
@@ -78,25 +77,24 @@ impl SweptKey {
     }
 }
 
-impl Element {
-    /// A value that stands in the sweep file.
+impl AxisValue {
+    /// Creates a value that the sweep file contains.
     fn written(text: String, span: Range<usize>) -> Self {
         Self { texts: vec![text], source: Source::Written, span }
     }
 
-    /// Values that are made of what stands there.
+    /// Creates a value of a range or of a table.
     pub(crate) fn made(texts: Vec<String>, span: Range<usize>) -> Self {
         Self { texts, source: Source::Made, span }
     }
 
-    /// The value of a key of the axis, as written.
+    /// Returns the value of a key of the axis as written.
     pub fn text(&self, key: usize) -> &str {
         let text = self.texts.get(key).or(self.texts.last());
         text.map_or("", String::as_str)
     }
 
-    /// The value of a key as people say it: of one that was made, whose number has all its digits, five of
-    /// them.
+    /// Returns the value of a key for display: numbers of a range or a table are rounded to five digits.
     pub fn said(&self, key: usize) -> String {
         let text = self.text(key);
         match self.source {
@@ -106,7 +104,7 @@ impl Element {
         .unwrap_or_else(|| text.to_string())
     }
 
-    /// The value of a key, its spans counted from the beginning of the sweep file `text`.
+    /// Returns the value of a key; its spans count from the beginning of the sweep file `text`.
     fn value<'t>(&'t self, key: usize, text: &'t str) -> Option<Spanned<DeValue<'t>>> {
         match self.source {
             Source::Written => {
@@ -115,7 +113,7 @@ impl Element {
             }
             Source::Made => {
                 let text = self.text(key);
-                // Else it is text, such as 0.5 m/s.
+                // Anything else is text, such as 0.5 m/s.
                 let number = DeValue::parse(text).ok().map(Spanned::into_inner);
                 let is_plain = |value: &DeValue<'_>| {
                     matches!(value, DeValue::Integer(_) | DeValue::Float(_) | DeValue::Boolean(_))
@@ -128,26 +126,26 @@ impl Element {
 }
 
 impl Axis {
-    /// The keys in words.
+    /// Returns the keys, separated by commas.
     pub fn name(&self) -> String {
         let keys: Vec<&str> = self.keys.iter().map(|key| key.key.as_str()).collect();
         keys.join(", ")
     }
 
-    /// The assignments of an element; spans count from the beginning of the sweep file `text`.
+    /// Returns the assignments of a value; their spans count from the beginning of the sweep file `text`.
     pub(crate) fn assignments<'t>(
         &'t self,
-        element: usize,
+        value: usize,
         text: &'t str,
     ) -> impl Iterator<Item = Assignment<'t>> {
-        let element = &self.elements[element];
+        let value = &self.values[value];
         self.keys.iter().enumerate().filter_map(|(k, key)| {
-            Some(Assignment { path: key.path.clone(), value: element.value(k, text)? })
+            Some(Assignment { path: key.path.clone(), value: value.value(k, text)? })
         })
     }
 }
 
-/// `00` is the same index as `0`.
+/// Returns an index without leading zeros: `00` is the same index as `0`.
 fn canonical_part(part: &str) -> &str {
     let is_index = !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
     let digits = part.trim_start_matches('0');
@@ -158,7 +156,8 @@ fn canonical_part(part: &str) -> &str {
     }
 }
 
-/// Reads `[vary]` of the sweep file `text`; tables lie in a folder and are read so. What is wrong goes to `faults`.
+/// Reads `[vary]` of the sweep file `text`. `tables` is the folder of CSV files and their reader. Errors are added to
+/// `faults`.
 pub(crate) fn read_axes(
     document: &Document,
     text: &str,
@@ -204,14 +203,14 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The parts of the keys that stand directly in `[vary]`.
+    /// Returns the parts of the keys that are directly in `[vary]`.
     fn paths(&self, key: &str, span: Range<usize>) -> Result<Vec<KeyPath>, CaseError> {
         let raw = &self.text[span.clone()];
         let is_quoted = raw.starts_with(['"', '\'']);
         if !is_quoted {
             return Ok(vec![vec![Spanned::new(span, key.to_string())]]);
         }
-        // Escapes in the key move its characters; then all of it stands for each of its parts.
+        // Escapes in the key shift its characters; then each part has the span of the whole key.
         let is_exact = raw.get(1..raw.len() - 1) == Some(key);
         let place = |part: Range<usize>| if is_exact { part } else { span.clone() };
         let mut start = span.start + 1;
@@ -240,20 +239,20 @@ impl Reader<'_> {
         faults: &mut Vec<CaseError>,
     ) {
         let keys: Vec<_> = paths.iter().cloned().map(SweptKey::new).collect();
-        let axis = |elements| Axis { keys: keys.clone(), elements, span: span.clone() };
+        let axis = |values| Axis { keys: keys.clone(), values, span: span.clone() };
         let name = axis(Vec::new()).name();
-        let values = Values { document: self.document, tables: self.tables, name: &name };
+        let reader = ValuesReader { document: self.document, tables: self.tables, name: &name };
         match value.get_ref() {
             DeValue::Table(table) if is_values(table) => {
                 let names: Vec<&str> = keys.iter().map(|key| key.key.as_str()).collect();
-                match values.read(table, value.span(), &names) {
-                    Ok(elements) => axes.push(axis(elements)),
+                match reader.read(table, value.span(), &names) {
+                    Ok(values) => axes.push(axis(values)),
                     Err(fault) => faults.push(fault),
                 }
             }
             DeValue::Table(table) => {
                 if table.is_empty() {
-                    let error = self.document.error_on(span, format!("{name} has no list"));
+                    let error = self.document.error_on(span, format!("{name} has no values"));
                     return faults.push(error.with_help(EXAMPLE));
                 }
                 for (key, value) in table {
@@ -266,12 +265,12 @@ impl Reader<'_> {
             }
             DeValue::Array(array) => {
                 if array.is_empty() {
-                    let error = self.document.error_on(value.span(), format!("{name}: no values"));
-                    return faults.push(error.with_help("a list holds at least one value"));
+                    let error = self.document.error_on(value.span(), format!("the list of {name} is empty"));
+                    return faults.push(error.with_help("write at least one value"));
                 }
-                let elements = array.iter().map(|element| self.element(&name, element));
-                match elements.collect::<Result<_, _>>() {
-                    Ok(elements) => axes.push(axis(elements)),
+                let values = array.iter().map(|value| self.written(&name, value));
+                match values.collect::<Result<_, _>>() {
+                    Ok(values) => axes.push(axis(values)),
                     Err(fault) => faults.push(fault),
                 }
             }
@@ -283,16 +282,16 @@ impl Reader<'_> {
         }
     }
 
-    fn element(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Element, CaseError> {
+    fn written(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<AxisValue, CaseError> {
         let span = value.span();
         let raw = self.text.get(span.clone()).unwrap_or_default();
-        // The parser says where a table of [[…]] begins, not where it ends.
+        // The parser gives the start of a table [[…]], but not its end.
         if DeValue::parse(raw).is_err() {
             let error = self.document.error_on(span, format!("{key} is not a list in brackets"));
             return Err(error.with_help("write tables as [{ … }, { … }]"));
         }
         let text = value.get_ref().as_str().unwrap_or(raw).to_string();
-        Ok(Element::written(text, span))
+        Ok(AxisValue::written(text, span))
     }
 
     fn check_apart(
@@ -307,12 +306,12 @@ impl Reader<'_> {
             (true, false) => format!("{} contains {}, which is varied too", key.key, other.key),
             (false, true) => format!("{} is part of {}, which is varied too", key.key, other.key),
         };
-        let help = "vary each of them alone, or only the outer one with whole tables as values";
+        let help = "vary only one of them; the values of the outer key can be whole tables";
         Err(self.document.error_on(span.clone(), message).with_help(help))
     }
 }
 
-/// The keys that commas link, in order; a comma in quotes is part of a key.
+/// Returns the keys that commas link, in order; a comma in quotes is part of a key.
 fn linked(keys: &str) -> Vec<&str> {
     let (mut quote, mut start, mut found) = (None, 0, Vec::new());
     for (index, c) in keys.char_indices() {

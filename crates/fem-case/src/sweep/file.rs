@@ -1,26 +1,26 @@
-//! The sweep file as written: one field a key.
+//! The sweep file as written: one field per key.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use crate::quantity::{Count, Quantity};
-use crate::schema::keyword::keywords;
+use crate::schema::macros::{keywords, optional_keys};
 
 /// A whole sweep file.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(extend("required" = ["case", "vary"])))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SweepFile {
-    /// The base case; relative to the sweep file.
+    /// Path of the base case, relative to the sweep file.
     pub(crate) case: String,
-    /// How the lists make members.
+    /// How the values of the lists are combined.
     #[serde(default)]
     pub(crate) combine: Combine,
-    /// What is kept of each member: the summary, packed in large sweeps, unless it says otherwise.
+    /// Results that are kept of each member; by default the summary, packed in large sweeps.
     pub(crate) keep: Option<Keep>,
-    /// A sweep of more is refused.
+    /// The largest number of members.
     pub(crate) max_members: Option<Quantity<Count>>,
-    /// Dotted keys and lists; [`crate::sweep_axes`] reads them, positions included.
+    /// Dotted keys and lists; `sweep::axes` reads them with their positions.
     #[serde(default, rename = "vary")]
     #[cfg_attr(
         feature = "schema",
@@ -30,44 +30,44 @@ pub(crate) struct SweepFile {
         )
     )]
     pub(crate) _vary: Option<IgnoredAny>,
-    /// What is drawn.
+    /// The figure of the sweep.
     #[serde(default)]
     pub(crate) plot: PlotTable,
 }
 
 keywords! {
-    /// How the lists of a sweep make its members.
+    /// How the lists of a sweep are combined into members.
     #[derive(Default)]
     Combine {
-        /// Every value of each list with every value of the others; the last list runs fastest.
+        /// Every value of each list with every value of the others; the last list varies fastest.
         #[default]
         All = "all",
-        /// The first values of all lists, the second values, …
+        /// The first values of all lists, then the second values, and so on.
         Paired = "paired",
     }
 }
 
 keywords! {
-    /// What a sweep keeps of each member.
+    /// The results that a sweep keeps of each member.
     Keep {
-        /// `summary.json`, in a folder of the member's own.
+        /// `summary.json` in a folder per member.
         Summary = "summary",
-        /// The summary, as a line of a file that a process writes.
+        /// The summaries as lines of one file per process.
         Packed = "packed",
         /// The whole result folder.
         All = "all",
     }
 }
 
-/// `[plot]` of a sweep.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "a table [plot]")]
-pub struct PlotTable {
-    /// The varied key along the horizontal axis; the first one with numbers if absent.
-    pub x: Option<String>,
-    /// Columns of the table, one panel each.
-    pub y: Option<Vec<String>>,
-    /// The varied key that tells curves apart; the other keys together if absent.
-    pub series: Option<String>,
+optional_keys! {
+    /// `[plot]` of a sweep.
+    #[derive(Eq)]
+    PlotTable, "a table [plot]" {
+        /// The varied key on the horizontal axis; by default the first one with numbers.
+        x: String,
+        /// Columns of the table, one per panel.
+        y: Vec<String>,
+        /// The varied key that distinguishes the curves; by default all other keys.
+        series: String,
+    }
 }

@@ -1,8 +1,7 @@
-//! A sweep: a base case, lists of values for some of its keys, and the cases that they make.
+//! A sweep: a base case, lists of values for some of its keys, and the resulting cases (members).
 //!
-//! A member is the base case with one value of each list put in, after the overrides. Its faults
-//! point at the value in the sweep file, also where the base case gives the key that then does
-//! not fit.
+//! A member is the base case with the overrides and then one value of each list. Its faults point at the value in the
+//! sweep file, even if another key of the base case contradicts it.
 
 pub(crate) mod axes;
 pub(crate) mod faults;
@@ -11,31 +10,35 @@ pub(crate) mod values;
 
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
+
 use crate::case::{Case, text_at};
 use crate::error::CaseError;
 use crate::quantity::{Count, Quantity};
 use crate::source::document::{Document, Insertions};
+use crate::source::error_recovery::{Repair, read_repaired};
+use crate::source::explain::explain;
 use crate::source::overrides;
 use crate::sweep::axes::{Axis, SweptKey, read_axes};
-use crate::sweep::faults::{first_of, read_file};
-use crate::sweep::file::{Combine, Keep, PlotTable};
+use crate::sweep::faults::in_order;
+use crate::sweep::file::{Combine, Keep, PlotTable, SweepFile};
 use crate::sweep::values::ReadRows;
 
-/// Members that a sweep may have unless it says otherwise.
+/// The default of the largest number of members.
 const MAX_MEMBERS: u64 = 10_000;
-/// Summaries of more members are packed unless the sweep says otherwise: file systems bear no folder for each.
+/// The largest number of members with a folder each by default, since file systems are slow with more.
 const MOST_FOLDERS: usize = 10_000;
 
-/// A sweep whose file is sound; its members are checked one by one.
+/// A sweep with a valid file; its members are validated one by one.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// The varied keys in the order of the file, at least one.
     pub axes: Vec<Axis>,
-    /// How the lists make members.
+    /// How the lists are combined.
     pub combine: Combine,
-    /// What is kept of each member.
+    /// The results that are kept of each member.
     pub keep: Keep,
-    /// What is drawn.
+    /// The figure of the sweep.
     pub plot: PlotTable,
     n_members: usize,
     name: String,
@@ -54,12 +57,11 @@ struct Base {
 }
 
 impl Sweep {
-    /// Reads a sweep file, the tables that it names by `read_rows`, and its base case; `overrides` are those of
-    /// the base case.
+    /// Reads a sweep file, its tables with `read_rows`, and its base case, to which `overrides` apply.
     ///
     /// # Errors
-    /// What is wrong with the sweep file, all of it: [`CaseError::others`]; a base case that cannot be read; an
-    /// override of a varied key; too many members.
+    /// Returns all faults of the sweep file ([`CaseError::others`]). Others are a base case that cannot be read, an
+    /// override of a varied key, and too many members.
     pub fn load(
         path: &Path,
         overrides: &[String],
@@ -74,18 +76,21 @@ impl Sweep {
         })?;
         let (document, tree) = Document::parse(&name, &text, &[], None, &[])?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let mut faults = Vec::new();
+        let (file, mut faults) = read_repaired(|repairs| {
+            let (document, tree) = Document::parse(&name, &text, &[], None, repairs)?;
+            SweepFile::deserialize(toml::de::Deserializer::from(tree))
+                .map_err(|error| explain(&document, &error))
+        });
         let axes = read_axes(&document, &text, (folder, read_rows), tree.get_ref(), &mut faults);
-        let file = read_file(&document, tree, &mut faults);
         let given = file.as_ref().and_then(|file| file.max_members.as_ref());
         let mut found = |fault| faults.push(fault);
         let max_members = max_members(&document, given).map_err(&mut found);
         let base = file.as_ref().map(|file| read_base(&document, path, &file.case, overrides));
         let base = base.and_then(|base| base.map_err(&mut found).ok());
-        if let Some(first) = first_of(faults) {
+        if let Some(first) = CaseError::joined(in_order(faults)) {
             return Err(first);
         }
-        // Without a fault there is all of it.
+        // Without a fault all three exist.
         let (Some(file), Some(base), Ok(max_members)) = (file, base, max_members) else {
             return Err(document.error_at("vary", "the sweep cannot be read"));
         };
@@ -107,31 +112,26 @@ impl Sweep {
         })
     }
 
-    /// How many members there are.
+    /// Returns the number of members.
     pub fn n_members(&self) -> usize {
         self.n_members
     }
 
-    /// What messages call the sweep file.
-    pub(crate) fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// The base case's file.
+    /// Returns the path of the base case.
     pub fn base_path(&self) -> &Path {
         &self.base.path
     }
 
-    /// For each axis, which of its elements the member has.
+    /// Returns the index of the member's value on each axis.
     pub fn choice(&self, member: usize) -> Vec<usize> {
         match self.combine {
             Combine::Paired => vec![member; self.axes.len()],
             Combine::All => {
                 let mut rest = member;
                 let digit = |axis: &Axis| {
-                    let element = rest % axis.elements.len();
-                    rest /= axis.elements.len();
-                    element
+                    let value = rest % axis.values.len();
+                    rest /= axis.values.len();
+                    value
                 };
                 let mut choice: Vec<usize> = self.axes.iter().rev().map(digit).collect();
                 choice.reverse();
@@ -140,44 +140,43 @@ impl Sweep {
         }
     }
 
-    /// The varied keys, axis by axis.
+    /// Returns the varied keys, axis by axis.
     pub fn keys(&self) -> impl Iterator<Item = &SweptKey> {
         self.axes.iter().flat_map(|axis| &axis.keys)
     }
 
-    /// Of each varied key, its axis and its place in it.
+    /// Returns the axis of each varied key, and the index of the key on the axis.
     pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
         let places =
             |(axis, keys): (usize, &Axis)| (0..keys.keys.len()).map(move |key| (axis, key));
         self.axes.iter().enumerate().flat_map(places)
     }
 
-    /// The member's values as written, in the order of the keys.
+    /// Returns the member's values as written, in the order of the keys.
     pub fn values(&self, member: usize) -> Vec<&str> {
         let choice = self.choice(member);
-        let value = |(axis, key): (usize, usize)| self.axes[axis].elements[choice[axis]].text(key);
+        let value = |(axis, key): (usize, usize)| self.axes[axis].values[choice[axis]].text(key);
         self.places().map(value).collect()
     }
 
-    /// The member's values as people say them, in the order of the keys.
+    /// Returns the member's values for display, in the order of the keys.
     pub fn said(&self, member: usize) -> Vec<String> {
         let choice = self.choice(member);
-        let value = |(axis, key): (usize, usize)| self.axes[axis].elements[choice[axis]].said(key);
+        let value = |(axis, key): (usize, usize)| self.axes[axis].values[choice[axis]].said(key);
         self.places().map(value).collect()
     }
 
-    /// The member in words: `body.0.approach_speed = 0.1 m/s, …`.
+    /// Describes the member: `body.0.approach_speed = 0.1 m/s, …`.
     pub fn describe(&self, member: usize) -> String {
         let pairs = self.keys().zip(self.said(member));
         let pairs: Vec<_> = pairs.map(|(key, value)| format!("{} = {value}", key.key)).collect();
         pairs.join(", ")
     }
 
-    /// What `make` makes of the member's case.
+    /// Applies `make` to the member's case.
     ///
     /// # Errors
-    /// A member that is no case, or of which `make` can make nothing; points at the value in the
-    /// sweep file that is to blame.
+    /// The member is not a valid case, or `make` fails. The error points at the value in the sweep file that causes it.
     pub fn build<T>(
         &self,
         member: usize,
@@ -187,7 +186,7 @@ impl Sweep {
         self.build_of(&choice, member, make)
     }
 
-    /// What `make` makes of the base case with these elements of these axes, which a member has.
+    /// Applies `make` to the base case with these values of these axes, which belong to a member.
     pub(crate) fn build_of<T>(
         &self,
         choice: &[(usize, usize)],
@@ -200,54 +199,51 @@ impl Sweep {
             if error.source_name() == self.name || is_the_base {
                 return error;
             }
-            // To blame is a value without which the fault goes away, or else is another one.
-            let without = |element: &(usize, usize)| {
-                let others = choice.iter().filter(|other| *other != element);
+            // The cause is the value without which the fault disappears or changes.
+            let without = |value: &(usize, usize)| {
+                let others = choice.iter().filter(|other| *other != value);
                 attempt(&others.copied().collect::<Vec<_>>()).err()
             };
-            let cures = |element: &&(usize, usize)| without(element).is_none();
-            let changes = |element: &&(usize, usize)| without(element).as_ref() != Some(&error);
+            let cures = |value: &&(usize, usize)| without(value).is_none();
+            let changes = |value: &&(usize, usize)| without(value).as_ref() != Some(&error);
             let culprit = choice.iter().find(cures).or_else(|| choice.iter().find(changes));
-            let (axis, element) = *culprit.or(choice.last()).unwrap_or(&(0, 0));
-            self.blame(axis, element, member, &error)
+            let (axis, value) = *culprit.or(choice.last()).unwrap_or(&(0, 0));
+            self.blame(axis, value, member, &error)
         })
     }
 
-    /// An error that points at a key of the sweep file.
+    /// Creates an error that points at a key of the sweep file.
     pub fn error_at(&self, path: &str, message: impl Into<String>) -> CaseError {
         self.document.error_at(path, message)
     }
 
-    /// The base case with these elements of these axes.
+    /// Returns the base case with these values of these axes.
     pub(crate) fn case(&self, choice: &[(usize, usize)]) -> Result<Case, CaseError> {
+        self.read(choice, &[])
+    }
+
+    /// Returns all faults of the base case with these values of these axes, each alone.
+    pub(crate) fn faults(&self, choice: &[(usize, usize)]) -> Vec<CaseError> {
+        read_repaired(|repairs| self.read(choice, repairs)).1
+    }
+
+    fn read(&self, choice: &[(usize, usize)], repairs: &[Repair]) -> Result<Case, CaseError> {
         let assign =
-            |(axis, element): &(usize, usize)| self.axes[*axis].assignments(*element, &self.text);
+            |(axis, value): &(usize, usize)| self.axes[*axis].assignments(*value, &self.text);
         let assignments = choice.iter().flat_map(assign).collect();
         let insertions = Insertions { name: &self.name, text: &self.text, assignments };
         let Base { path, name, text, overrides } = &self.base;
         let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
         let folder = path.parent().unwrap_or(Path::new(""));
-        Case::build(name, &stem, text, folder, overrides, insertions)
+        let document = Document::parse(name, text, overrides, Some(insertions), repairs)?;
+        Case::of_document(document, &stem, folder)
     }
 
-    /// All faults of the base case with these elements of these axes, each alone.
-    pub(crate) fn faults(&self, choice: &[(usize, usize)]) -> Vec<CaseError> {
-        let assign =
-            |(axis, element): &(usize, usize)| self.axes[*axis].assignments(*element, &self.text);
-        let Base { path, name, text, overrides } = &self.base;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Case::faults_with((name, text), folder, overrides, || Insertions {
-            name: &self.name,
-            text: &self.text,
-            assignments: choice.iter().flat_map(assign).collect(),
-        })
-    }
-
-    /// The error of a member that points into the base case, pointed at an element.
+    /// Converts an error of a member that points into the base case into one that points at a value.
     pub(crate) fn blame(
         &self,
         axis: usize,
-        element: usize,
+        value: usize,
         member: usize,
         error: &CaseError,
     ) -> CaseError {
@@ -259,7 +255,7 @@ impl Sweep {
         let help = error.help().map_or(member.clone(), |help| format!("{help}; {member}"));
         self.document
             .error_on(
-                self.axes[axis].elements[element].span.clone(),
+                self.axes[axis].values[value].span.clone(),
                 format!("no valid case with this value: {} ({place})", error.message()),
             )
             .with_help(help)
@@ -282,24 +278,24 @@ fn count_members(
     combine: Combine,
     max_members: u64,
 ) -> Result<usize, CaseError> {
-    let lengths = axes.iter().map(|axis| axis.elements.len());
+    let lengths = axes.iter().map(|axis| axis.values.len());
     let n_members = match combine {
         Combine::All => lengths.fold(1usize, usize::saturating_mul),
         Combine::Paired => {
             let first = &axes[0];
-            let n = first.elements.len();
-            if let Some(other) = axes.iter().find(|axis| axis.elements.len() != n) {
+            let n = first.values.len();
+            if let Some(other) = axes.iter().find(|axis| axis.values.len() != n) {
                 let count =
                     |n: usize| if n == 1 { "1 value".into() } else { format!("{n} values") };
                 let message = format!(
                     "{} has {}, {} has {}",
                     other.name(),
-                    count(other.elements.len()),
+                    count(other.values.len()),
                     first.name(),
                     count(n)
                 );
                 return Err(document.error_on(other.span.clone(), message).with_help(
-                    "paired lists are of one length; combine = \"all\" takes lists of any length",
+                    "give all lists the same length, or set combine = \"all\"",
                 ));
             }
             n
@@ -328,15 +324,15 @@ fn read_base(
         }
         document
             .error_at("case", format!("{name}: {}", error.message()))
-            .with_help("case names the base case, relative to the sweep file")
+            .with_help("give the path of the base case, relative to the sweep file")
     })?;
     Ok(Base { path, name, text, overrides: overrides.to_vec() })
 }
 
-/// An override of a varied key would have no effect.
+/// Rejects overrides of varied keys, which would have no effect.
 fn check_overrides(sweep: &str, axes: &[Axis], overrides: &[String]) -> Result<(), CaseError> {
     for text in overrides {
-        // What is wrong with an override itself is found with the first member.
+        // A fault of an override itself is found with the first member.
         let Ok(assignment) = overrides::parse(text, 0) else { continue };
         let mut keys = axes.iter().flat_map(|axis| &axis.keys);
         if let Some(swept) = keys.find(|swept| swept.contains(&assignment.path)) {
@@ -345,7 +341,7 @@ fn check_overrides(sweep: &str, axes: &[Axis], overrides: &[String]) -> Result<(
                 format!("--set {key}=…"),
                 format!("{sweep} varies {}; the override has no effect", swept.key),
             );
-            return Err(error.with_help("change the list in the sweep file, or drop the override"));
+            return Err(error.with_help("change the list in the sweep file, or remove the override"));
         }
     }
     Ok(())

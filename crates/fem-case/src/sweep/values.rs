@@ -1,10 +1,9 @@
-//! Values of a varied key that are not written one by one: a range, `{ from = "5 cm/s", to = "2 m/s",
-//! n = 40, log = true }`, or the rows of a CSV file, `{ table = "pairs.csv" }`.
+//! Values of a varied key as a range, `{ from = "5 cm/s", to = "2 m/s", n = 40, log = true }`, or as the rows of a CSV
+//! file, `{ table = "pairs.csv" }`.
 //!
-//! The values of a range are evenly apart, or have the same ratio with `log`: x_k = from + (to −
-//! from) k / (n − 1), or from (to / from)^(k / (n − 1)); the ends are as they are written, those
-//! between in the unit of `to`. Of a table each row is one value of all keys of the axis, in columns of their
-//! names or in those that `columns` lists.
+//! The values of a range are evenly spaced, or have a constant ratio with `log`: x_k = from + (to − from) k / (n − 1), or
+//! from (to / from)^(k / (n − 1)). The ends are as written; the values between have the unit of `to`. Each row of a table
+//! is one value of all keys of the axis, from the columns of their names or from those in `columns`.
 
 use std::ops::Range;
 use std::path::Path;
@@ -19,25 +18,26 @@ use crate::quantity::units::{Dimension, parse_quantity};
 use crate::quantity::{Number, Quantity};
 use crate::source::document::Document;
 use crate::source::explain::explain;
-use crate::sweep::axes::Element;
+use crate::sweep::axes::AxisValue;
 
-/// Values of one range.
+/// The largest number of values of a range.
 const MOST_VALUES: u64 = 10_000_000;
 const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perhaps with log = true";
 
-/// What is wrong with a table of values.
+/// An error in a table of values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RowsFault {
-    /// What was found, and in which line.
+    /// The value or text that was found, and its line.
     pub message: String,
     /// Allowed values, or the suggested fix.
     pub help: String,
 }
 
-/// Reads a table, of which messages have the name: of each row the cells of these columns.
+/// Reads a table from its name for messages, its bytes and the names of columns; returns the cells of these columns, row
+/// by row.
 pub type ReadRows = dyn Fn(&str, &[u8], &[String]) -> Result<Vec<Vec<String>>, RowsFault>;
 
-/// Whether a table under `[vary]` makes values: no key of a case is called so.
+/// Returns whether a table under `[vary]` is a range or a CSV file; no key of a case has these names.
 pub(crate) fn is_values(table: &DeTable<'_>) -> bool {
     ["from", "to", "table"].iter().any(|key| table.contains_key(*key))
 }
@@ -60,22 +60,22 @@ struct RowsTable {
 }
 
 /// Reads the values of the keys of an axis.
-pub(crate) struct Values<'a> {
+pub(crate) struct ValuesReader<'a> {
     pub(crate) document: &'a Document,
-    /// Where the sweep file lies, and how tables are read.
+    /// The folder of the sweep file, and the reader of tables.
     pub(crate) tables: (&'a Path, &'a ReadRows),
-    /// The keys in words.
+    /// The keys, separated by commas.
     pub(crate) name: &'a str,
 }
 
-impl Values<'_> {
-    /// The values that a table under `[vary]` makes, of these keys.
+impl ValuesReader<'_> {
+    /// Returns the values of these keys that a table under `[vary]` gives.
     pub(crate) fn read(
         &self,
         table: &DeTable<'_>,
         span: Range<usize>,
         keys: &[&str],
-    ) -> Result<Vec<Element>, CaseError> {
+    ) -> Result<Vec<AxisValue>, CaseError> {
         let tree = Spanned::new(span.clone(), table.clone());
         let tree = toml::de::Deserializer::from(tree);
         let explained = |error: toml::de::Error| match error.message().starts_with("missing field")
@@ -97,7 +97,7 @@ impl Values<'_> {
         self.document.error_on(span, format!("{}: {}", self.name, message.into())).with_help(help)
     }
 
-    fn range(&self, range: &RangeTable, span: &Range<usize>) -> Result<Vec<Element>, CaseError> {
+    fn range(&self, range: &RangeTable, span: &Range<usize>) -> Result<Vec<AxisValue>, CaseError> {
         let (first, last) = (self.end(&range.from)?, self.end(&range.to)?);
         let (start, unit) = match (first.unit == last.unit, first.in_unit_of(&last)) {
             (true, _) => (first.number, &first.unit),
@@ -105,19 +105,19 @@ impl Values<'_> {
             (false, None) => {
                 let message =
                     format!("the ends have the units {:?} and {:?}", first.unit, last.unit);
-                let help = "write both ends in units of one quantity; a bare number is SI";
+                let help = "write both ends in units of the same quantity; a bare number is in SI units";
                 return Err(self.fault(range.to.span(), message, help));
             }
         };
         let to = last.number;
         let n = *range.n.get_ref();
         if !(2..=MOST_VALUES).contains(&n) {
-            let help = format!("a range has 2 to {MOST_VALUES} values; one value is a list, [1.0]");
+            let help = format!("n must be from 2 to {MOST_VALUES}; write a single value as a list, [1.0]");
             return Err(self.fault(range.n.span(), format!("n is {n}"), &help));
         }
         if range.log && !(start > 0.0 && to > 0.0) {
             let end = if start > 0.0 { &range.to } else { &range.from };
-            let help = "with log = true both ends are greater than 0";
+            let help = "with log = true both ends must be greater than 0";
             return Err(self.fault(end.span(), "this end is not greater than 0", help));
         }
         let value = |k: u64| {
@@ -130,13 +130,13 @@ impl Values<'_> {
             }
         };
         let text = |k| match unit.as_str() {
-            // The ends are as they are written.
+            // The ends are as written.
             _ if k == 0 => first.text(),
-            // As TOML has it: 1.0, not 1.
+            // TOML writes 1.0, not 1.
             "" => format!("{:?}", value(k)),
             unit => format!("{} {unit}", value(k)),
         };
-        Ok((0..n).map(|k| Element::made(vec![text(k)], span.clone())).collect())
+        Ok((0..n).map(|k| AxisValue::made(vec![text(k)], span.clone())).collect())
     }
 
     fn end(&self, bound: &Spanned<Quantity<Number>>) -> Result<End, CaseError> {
@@ -153,7 +153,7 @@ impl Values<'_> {
                 End { number, unit: unit.to_string(), si, dimension: Some(dimension) }
             }
         };
-        end.number.is_finite().then_some(end).ok_or_else(|| fault("this is no end of a range"))
+        end.number.is_finite().then_some(end).ok_or_else(|| fault("this is not a number"))
     }
 
     fn rows(
@@ -161,7 +161,7 @@ impl Values<'_> {
         rows: &RowsTable,
         span: &Range<usize>,
         keys: &[&str],
-    ) -> Result<Vec<Element>, CaseError> {
+    ) -> Result<Vec<AxisValue>, CaseError> {
         let fault = |message: String, help: &str| self.fault(rows.table.span(), message, help);
         let wanted = match &rows.columns {
             None => keys.iter().map(ToString::to_string).collect(),
@@ -172,7 +172,7 @@ impl Values<'_> {
                 return Err(self.fault(
                     columns.span(),
                     message,
-                    "name one column a key, in their order",
+                    "name one column per key, in the order of the keys",
                 ));
             }
         };
@@ -180,16 +180,16 @@ impl Values<'_> {
         let path = folder.join(rows.table.get_ref());
         let name = path.display().to_string();
         let bytes = bytes_at(&path, &name).map_err(|error| {
-            let help = "table names a CSV file, relative to the sweep file";
+            let help = "give the path of a CSV file, relative to the sweep file";
             fault(format!("{name}: {}", error.message()), help)
         })?;
         let read = read_rows(&name, &bytes, &wanted);
         let read = read.map_err(|RowsFault { message, help }| fault(message, &help))?;
-        Ok(read.into_iter().map(|texts| Element::made(texts, span.clone())).collect())
+        Ok(read.into_iter().map(|texts| AxisValue::made(texts, span.clone())).collect())
     }
 }
 
-/// An end of a range: as written, and in SI; a bare number is SI and of any dimension.
+/// An end of a range as written and in SI. A bare number is in SI and has any dimension.
 struct End {
     number: f64,
     unit: String,
@@ -198,7 +198,7 @@ struct End {
 }
 
 impl End {
-    /// Its number in the unit of another end of the same dimension.
+    /// Returns the number in the unit of another end of the same dimension.
     fn in_unit_of(&self, other: &Self) -> Option<f64> {
         let both = self.dimension.zip(other.dimension);
         let scale = match other.dimension {
@@ -208,7 +208,7 @@ impl End {
         both.is_none_or(|(own, other)| own == other).then_some(self.si / scale)
     }
 
-    /// As written.
+    /// Returns the end as written.
     fn text(&self) -> String {
         match self.unit.as_str() {
             "" => format!("{:?}", self.number),
@@ -217,14 +217,14 @@ impl End {
     }
 }
 
-/// The number of a quantity, not scaled, and its unit as written.
+/// Splits a quantity into its number and its unit as written.
 fn split_unit(text: &str) -> (f64, &str) {
     let ends = text.char_indices().map(|(index, _)| index).chain([text.len()]).rev();
     let number = |end: usize| Some((text[..end].trim_end().parse().ok()?, text[end..].trim()));
     ends.filter(|end| *end > 0).find_map(number).unwrap_or((f64::NAN, text))
 }
 
-/// A quantity with five digits of its number; none of what is no quantity.
+/// Returns a quantity rounded to five digits; `None` if the text is not a quantity.
 pub(crate) fn rounded(text: &str) -> Option<String> {
     let (number, unit) = split_unit(text);
     let rounded: f64 = format!("{number:.4e}").parse().ok()?;
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn made_quantities_are_said_in_five_digits() {
+    fn quantities_are_rounded_to_five_digits() {
         for (text, expected) in [
             ("0.06640570446680345 m/s", Some("0.066406 m/s")),
             ("2 m/s", Some("2 m/s")),
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_of_a_case_are_no_values() {
+    fn tables_of_a_case_are_not_values() {
         let is = |text: &str| match DeValue::parse(text).unwrap().into_inner() {
             DeValue::Table(table) => is_values(&table),
             _ => false,

@@ -10,9 +10,9 @@ use crate::library;
 use crate::scene::body::{Body, Shape};
 use crate::schema::{BodyTable, CaseFile, SphereTable};
 use crate::source::explain::{listed, near};
-use crate::source::key_path::{is_bare, join, quote_key};
+use crate::source::toml_syntax::{is_bare, join, quote_key};
 
-/// The name of a body's material where the library has it, knows no loss of it, and the case gives none.
+/// Returns the name of a body's material if it is the library's, without a published loss, and the case gives none.
 fn unpublished_loss(file: &CaseFile, body: &BodyTable) -> Option<String> {
     let name = body.material.as_ref()?;
     library::is_without_loss(name, file.material.get(name)?)
@@ -20,6 +20,7 @@ fn unpublished_loss(file: &CaseFile, body: &BodyTable) -> Option<String> {
 }
 
 impl Check<'_> {
+    /// Returns the two bodies.
     pub(super) fn bodies(&self, file: &CaseFile) -> Result<[Body; 2], CaseError> {
         let mut materials = BTreeMap::new();
         for (name, table) in &file.material {
@@ -37,8 +38,8 @@ impl Check<'_> {
                 _ => format!("the case has {count} [[body]] tables"),
             };
             return Err(self.error(path, message).with_help(
-                "exactly two bodies collide, the first below the second; a rigid plane is a body \
-                 with wall = {}, a block that never ends one with half_space = {}",
+                "write exactly two [[body]] tables, the lower body first; wall = {} makes a rigid plane, \
+                 half_space = {} a semi-infinite body",
             ));
         };
         let (lower_shape, lower_speed) = self.body("body.0", lower, &materials)?;
@@ -49,7 +50,7 @@ impl Check<'_> {
                 .conflict("body.1.name", &["body.0.name"], message)
                 .with_help("give each its own name"));
         }
-        if let (Some(below), Some(above)) = (endless(lower), endless(upper)) {
+        if let (Some(below), Some(above)) = (unbounded(lower), unbounded(upper)) {
             let message = match (below, above) {
                 ("wall", "wall") => "both bodies are walls",
                 ("half_space", "half_space") => "both bodies are half-spaces",
@@ -57,10 +58,10 @@ impl Check<'_> {
             };
             let keys = [join("body.0", below), join("body.1", above)];
             return Err(self.conflict(&keys[1], &[&keys[0]], message).with_help(
-                "one must be a sphere; write sphere = { diameter = \"22.2 mm\" } here",
+                "one body must be a sphere: write sphere = { diameter = \"22.2 mm\" } here",
             ));
         }
-        // What falls may be at rest at first, or fly up.
+        // A falling body may start at rest or move up.
         if file.gravity.is_none() && lower_speed + upper_speed <= 0.0 {
             let keys = ["body.0.approach_speed", "body.1.approach_speed"];
             let is_first_at_fault = lower_speed <= upper_speed && self.document.has(keys[0]);
@@ -74,7 +75,7 @@ impl Check<'_> {
                 "approach_speed is toward the other body; the sum must be greater than 0",
             ));
         }
-        // Sums with 0, so that a body at rest has the velocity 0, never -0.
+        // Adding to 0 gives a body at rest the velocity 0, never -0.
         let (lower_velocity, upper_velocity) = (0.0 + lower_speed, 0.0 - upper_speed);
         Ok([
             Body {
@@ -96,7 +97,7 @@ impl Check<'_> {
         ])
     }
 
-    /// Yield strength of the material that a body names, Pa.
+    /// Returns the yield strength of a body's material, Pa.
     fn yield_strength(&self, file: &CaseFile, body: &BodyTable) -> Result<Option<f64>, CaseError> {
         let Some(name) = &body.material else { return Ok(None) };
         let path = join(&join("material", &quote_key(name)), "yield_strength");
@@ -104,7 +105,7 @@ impl Check<'_> {
         self.optional(&path, given, POSITIVE)
     }
 
-    /// Shape and approach speed.
+    /// Returns the shape and the approach speed, m/s.
     fn body(
         &self,
         path: &str,
@@ -124,7 +125,7 @@ impl Check<'_> {
                     self.number(&join(&at_sphere, "diameter"), &sphere.diameter, POSITIVE)?;
                 if sphere.mesh.as_ref().is_some_and(String::is_empty) {
                     let error = self.error(&join(&at_sphere, "mesh"), "mesh is an empty path");
-                    return Err(error.with_help("name a mesh file, or leave the key out"));
+                    return Err(error.with_help("name a mesh file, or remove the key"));
                 }
                 let mesh = sphere.mesh.as_ref().map(|mesh| self.folder.join(mesh));
                 let material = self.material_of(path, table, materials)?;
@@ -137,18 +138,18 @@ impl Check<'_> {
                 if table.material.is_some() {
                     let error =
                         self.conflict(&at("material"), &[&at("wall")], "a wall has no material");
-                    let help = "it is rigid; leave the key out, or write half_space = {}";
+                    let help = "a wall is rigid: remove the key, or write half_space = {} for a deformable body";
                     return Err(error.with_help(help));
                 }
                 Shape::Wall
             }
         };
-        let allowed = if endless(table).is_some() { NOT_NEGATIVE } else { ANY };
+        let allowed = if unbounded(table).is_some() { NOT_NEGATIVE } else { ANY };
         let speed = self.optional(&at("approach_speed"), table.approach_speed.as_ref(), allowed)?;
         Ok((shape, speed.unwrap_or(0.0)))
     }
 
-    /// The one shape that a body is given.
+    /// Returns the only shape of a body.
     fn shape_key<'t>(&self, path: &str, table: &'t BodyTable) -> Result<Key<'t>, CaseError> {
         let given: Vec<(&str, Key)> = [
             table.sphere.as_ref().map(|sphere| ("sphere", Key::Sphere(sphere))),
@@ -199,7 +200,7 @@ impl Check<'_> {
                 .with_help(format!("name a material; {known}")));
         };
         materials.get(name.as_str()).cloned().ok_or_else(|| {
-            let error = self.error(&join(path, "material"), format!("no material \"{name}\""));
+            let error = self.error(&join(path, "material"), format!("there is no material \"{name}\""));
             if library::is_of_library(name) {
                 let bare = name.trim_start_matches(library::PREFIX);
                 let near = library::nearest_to(bare);
@@ -214,7 +215,7 @@ impl Check<'_> {
     }
 }
 
-/// The shape that a body is given.
+/// The shape of a body as written.
 #[derive(Clone, Copy)]
 enum Key<'t> {
     Sphere(&'t SphereTable),
@@ -222,8 +223,8 @@ enum Key<'t> {
     HalfSpace,
 }
 
-/// The key of a body without an end.
-fn endless(table: &BodyTable) -> Option<&'static str> {
+/// Returns the key of a wall or a half-space.
+fn unbounded(table: &BodyTable) -> Option<&'static str> {
     let wall = table.wall.map(|_| "wall");
     wall.or(table.half_space.map(|_| "half_space"))
 }

@@ -1,14 +1,14 @@
-//! Materials. What makes one impossible is known to fem-material; here its errors get a place.
+//! `[material.NAME]`: fem-material decides whether a material is possible; here its errors are given a position.
 
 use fem_material::{ElasticModuli, Material, MaterialError, ModuliInput, PronySeries, PronyTerm};
 
 use super::{ANY, Check, POSITIVE};
 use crate::error::CaseError;
 use crate::schema::{MaterialTable, RelaxationTable};
-use crate::source::key_path::join;
+use crate::source::toml_syntax::join;
 
 impl Check<'_> {
-    /// The material of the table at `path`.
+    /// Returns the material of the table at `path`.
     pub(super) fn material(
         &self,
         path: &str,
@@ -58,7 +58,7 @@ impl Check<'_> {
                     let message = "both decay_rate and relaxation_time are given";
                     let (rate, time) = (at("decay_rate"), at("relaxation_time"));
                     let error = self.conflict(&time, &[&rate], message);
-                    return Err(error.with_help("keep one of the two; each is the other's inverse"));
+                    return Err(error.with_help("keep one of the two: each is the inverse of the other"));
                 }
                 (None, None) => {
                     let message = "neither decay_rate nor relaxation_time is given";
@@ -72,8 +72,8 @@ impl Check<'_> {
         Ok(terms)
     }
 
-    /// Points at the key that a material error is about. Where it is about several together, the
-    /// first one listed here is the one to blame unless an override gave another.
+    /// Creates an error that points at the key of a material error. If it is about several keys, the first one listed
+    /// here is blamed unless an override gave another.
     fn material_error(&self, path: &str, error: &MaterialError, n_terms: usize) -> CaseError {
         let at = |key: &str| join(path, key);
         let at_term = |index: usize, key: &str| at(&format!("relaxation.terms.{index}.{key}"));
@@ -90,7 +90,7 @@ impl Check<'_> {
             MaterialError::ModuliCount { given } => {
                 let third = given.get(2).map_or(path.to_string(), |key| at(key));
                 let given = given.iter().map(|key| at(key));
-                let help = "any two fix an isotropic solid; the others follow from them";
+                let help = "give exactly two: the other moduli of an isotropic solid follow from them";
                 ([third].into_iter().chain(given).collect(), Some(help))
             }
             MaterialError::NoRelaxationTerms => (vec![at("relaxation.terms")], None),
@@ -99,7 +99,7 @@ impl Check<'_> {
             }
             MaterialError::RelaxationWeightSum { .. } => {
                 let weights = (0..n_terms).map(|index| at_term(index, "weight"));
-                let help = "a weight is G_k/G_0; what they leave of 1 never relaxes";
+                let help = "a weight is G_k/G_0; the rest to 1 is the share that never relaxes";
                 ([at("relaxation.terms")].into_iter().chain(weights).collect(), Some(help))
             }
             MaterialError::RelaxationTime { index, .. } => {

@@ -1,13 +1,12 @@
-//! From the case as written to a scene: units converted, limits checked, names resolved, each
-//! fault pointed at.
+//! Validation: turns a case as written into a scene. Units are converted, limits checked and names resolved; each fault
+//! points at its key.
 
 mod accuracy;
 mod bodies;
 pub(crate) mod gravity;
 mod materials;
 mod models;
-mod probes;
-mod snapshots;
+mod output;
 
 use std::path::Path;
 
@@ -17,7 +16,7 @@ use crate::scene::{Limits, MeshSettings, Scene};
 use crate::schema::CaseFile;
 use crate::source::document::Document;
 
-/// Numbers that a key allows.
+/// The numbers that a key allows, as text and as a test.
 pub(crate) struct Allowed {
     words: &'static str,
     test: fn(f64) -> bool,
@@ -33,13 +32,13 @@ const NOT_NEGATIVE: Allowed = allowed("0 or greater", |x| x >= 0.0);
 const ABOVE_ONE: Allowed = allowed("greater than 1", |x| x > 1.0);
 const STEP_FACTOR: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const MASS_SCALING: Allowed = allowed("from 0 (none) to 0.1", |x| (0.0..=0.1).contains(&x));
-/// Whole numbers up to where doubles still count without gaps.
+/// Whole numbers up to the largest that doubles represent without gaps.
 const COUNT: Allowed =
     allowed("a whole number from 1 to 9e15", |x| (1.0..=9e15).contains(&x) && x.fract() == 0.0);
 
-/// The scene of a case, or its first fault.
+/// Returns the scene of a case, or its first fault.
 ///
-/// Mesh files are looked for beside the case, in `folder`.
+/// Relative mesh files are looked for in `folder`.
 pub(crate) fn validate(
     document: &Document,
     file: &CaseFile,
@@ -47,70 +46,59 @@ pub(crate) fn validate(
     folder: &Path,
 ) -> Result<Scene, CaseError> {
     let check = Check { document, folder };
-    let bodies = check.bodies(file)?;
-    let gap = file.start.as_ref().and_then(|start| start.gap.as_ref());
-    let gap = check.optional("start.gap", gap, NOT_NEGATIVE)?;
-    let gravity = check.gravity(file, &bodies, gap.unwrap_or_default())?;
+    let start = file.start.clone().unwrap_or_default();
     let mesh = file.mesh.clone().unwrap_or_default();
     let contact = file.contact.clone().unwrap_or_default();
     let time = file.time.clone().unwrap_or_default();
+    let output = file.output.clone().unwrap_or_default();
     let limits = file.limits.clone().unwrap_or_default();
-    let snapshots = file.output.as_ref().and_then(|output| output.snapshots.as_ref());
-    let probes = file.output.as_ref().map_or(&[][..], |output| &output.probe);
-    let probes = check.probes(probes, &bodies)?;
-    let count = |key: &str, value| -> Result<Option<u64>, CaseError> {
-        Ok(check.optional(key, value, COUNT)?.map(|count| count as u64))
-    };
+    // The number at a key of one of these tables.
+    macro_rules! number {
+        ($table:ident.$key:ident, $allowed:expr) => {
+            check.optional(
+                concat!(stringify!($table), ".", stringify!($key)),
+                $table.$key.as_ref(),
+                $allowed,
+            )?
+        };
+    }
+    let bodies = check.bodies(file)?;
+    let gap = number!(start.gap, NOT_NEGATIVE);
+    let gravity = check.gravity(file, &bodies, gap.unwrap_or_default())?;
+    let probes = check.probes(&output.probe, &bodies)?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_else(|| stem.to_string()),
         bodies,
         gap,
         gravity,
         mesh: MeshSettings {
-            contact_element_size: check.optional(
-                "mesh.contact_element_size",
-                mesh.contact_element_size.as_ref(),
-                POSITIVE,
-            )?,
-            refined_radius: check.optional(
-                "mesh.refined_radius",
-                mesh.refined_radius.as_ref(),
-                POSITIVE,
-            )?,
-            growth: check.optional("mesh.growth", mesh.growth.as_ref(), ABOVE_ONE)?,
-            far_radius: check.optional("mesh.far_radius", mesh.far_radius.as_ref(), POSITIVE)?,
+            contact_element_size: number!(mesh.contact_element_size, POSITIVE),
+            refined_radius: number!(mesh.refined_radius, POSITIVE),
+            growth: number!(mesh.growth, ABOVE_ONE),
+            far_radius: number!(mesh.far_radius, POSITIVE),
             staggered: mesh.staggered,
         },
         contact_method: contact.method,
-        penalty_factor: check.optional(
-            "contact.penalty_factor",
-            contact.penalty_factor.as_ref(),
-            POSITIVE,
-        )?,
-        step_factor: check.optional("time.step_factor", time.step_factor.as_ref(), STEP_FACTOR)?,
-        mass_scaling: check.optional(
-            "time.mass_scaling",
-            time.mass_scaling.as_ref(),
-            MASS_SCALING,
-        )?,
-        snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
+        penalty_factor: number!(contact.penalty_factor, POSITIVE),
+        step_factor: number!(time.step_factor, STEP_FACTOR),
+        mass_scaling: number!(time.mass_scaling, MASS_SCALING),
+        snapshots: output.snapshots.as_ref().map(|value| check.snapshots(value)).transpose()?,
         probes,
-        fields: file.output.as_ref().and_then(|output| output.fields.clone()),
-        wants_report: file.output.as_ref().and_then(|output| output.report).unwrap_or(true),
+        fields: output.fields,
+        wants_report: output.report.unwrap_or(true),
         model: check.model(file.model.as_ref())?,
         accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),
         limits: Limits {
-            elements: count("limits.elements", limits.elements.as_ref())?,
-            element_updates: count("limits.element_updates", limits.element_updates.as_ref())?,
-            memory: check
-                .optional("limits.memory", limits.memory.as_ref(), COUNT)?
-                .map(|bytes| bytes as u64),
+            elements: number!(limits.elements, COUNT).map(|count| count as u64),
+            element_updates: number!(limits.element_updates, COUNT).map(|count| count as u64),
+            memory: number!(limits.memory, COUNT).map(|bytes| bytes as u64),
         },
         refinement: 1.0,
     })
 }
 
+/// Checks the tables of a case; `folder` is that of relative mesh files.
 pub(crate) struct Check<'a> {
     document: &'a Document,
     folder: &'a Path,
@@ -121,11 +109,12 @@ impl Check<'_> {
         self.document.error_at(path, message)
     }
 
-    /// An error at one of several keys that contradict each other; see [`Document::blamed`].
+    /// Creates an error at one of several keys that contradict each other; see [`Document::blamed`].
     fn conflict(&self, default: &str, others: &[&str], message: impl Into<String>) -> CaseError {
         self.error(self.document.blamed(default, others), message)
     }
 
+    /// Returns a number in SI if the key allows it.
     fn number<K: QuantityKind>(
         &self,
         path: &str,
@@ -146,6 +135,7 @@ impl Check<'_> {
         }
     }
 
+    /// Returns the number of an optional key in SI if the key allows it.
     pub(crate) fn optional<K: QuantityKind>(
         &self,
         path: &str,

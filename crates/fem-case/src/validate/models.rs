@@ -8,7 +8,7 @@ use crate::quantity::{Count, Number, Quantity};
 use crate::scene::model::{CondensedOptions, ModelChoice};
 use crate::schema::model_tables::{CondensedTable, End, LawKey, LawTable, ModelTable};
 use crate::source::explain::listed;
-use crate::source::key_path::join;
+use crate::source::toml_syntax::join;
 
 const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));
@@ -31,7 +31,7 @@ impl Allowed {
 }
 
 impl Check<'_> {
-    /// The model that `[model]` chooses; absent, explicit finite elements.
+    /// Returns the model that `[model]` selects; by default explicit finite elements.
     pub(super) fn model(&self, table: Option<&ModelTable>) -> Result<ModelChoice, CaseError> {
         let Some(table) = table else { return Ok(ModelChoice::default()) };
         let ModelTable { fem, condensed, ting, hertz, law, auto } = table;
@@ -44,7 +44,7 @@ impl Check<'_> {
             ("auto", auto.is_some()),
         ];
         let given: Vec<_> = given.into_iter().filter(|(_, is)| *is).map(|(name, _)| name).collect();
-        self.exactly_one("model", &given, "model", "fem = {}, or leave [model] out")?;
+        self.exactly_one("model", &given, "model", "fem = {}, or remove [model]")?;
         if auto.is_some() {
             return Ok(ModelChoice::Auto);
         }
@@ -83,7 +83,7 @@ impl Check<'_> {
         }))
     }
 
-    /// The one key that is given.
+    /// Returns the only key that is given.
     fn exactly_one<'n>(
         &self,
         path: &str,
@@ -102,7 +102,7 @@ impl Check<'_> {
                 let message = format!("{path} has the keys {}", listed(given));
                 Err(self
                     .conflict(&join(path, last), &paths, message)
-                    .with_help(format!("exactly one {what} computes the collision")))
+                    .with_help(format!("keep exactly one {what}")))
             }
         }
     }
@@ -140,7 +140,7 @@ impl Check<'_> {
             let place = if end.is_some() { join(&path, "end") } else { join("model.law", "end") };
             let message = format!("{name} ends at zero force by its definition");
             let error = self.error(&place, message);
-            return Err(error.with_help("leave end out; the same law with another end is tsuji"));
+            return Err(error.with_help("remove end; the same law with another end is tsuji"));
         }
         let tolerance = inner.or(outer).unwrap_or(LawImpact::DEFAULT_TOLERANCE);
         Ok(ModelChoice::Law { law, end_rule, tolerance })

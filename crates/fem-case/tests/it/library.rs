@@ -144,10 +144,10 @@ fn an_unknown_one_is_told_what_there_is() {
 #[test]
 fn a_loss_that_is_not_published_is_said() {
     let said = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unpublished_loss();
-    assert!(said(BALL, &[]).unwrap().contains("what pmma loses in an impact is not published"));
+    assert!(said(BALL, &[]).unwrap().contains("the loss of pmma in an impact is not published"));
     // As `fem-run new` writes it, and as a resolved case has it.
     let copy = table_text("pmma").unwrap() + &BALL.replace("lib:pmma", "pmma");
-    assert!(said(&copy, &[]).unwrap().contains("what pmma loses"));
+    assert!(said(&copy, &[]).unwrap().contains("the loss of pmma"));
     let resolved = parse(BALL, &[]).unwrap().file().clone();
     assert!(Case::of(resolved).unwrap().scene().unpublished_loss().is_some());
     let relaxing = "material.'lib:pmma'.relaxation={ acts_on = 'shear', terms = [{ weight = 0.1, \

@@ -102,19 +102,19 @@ fn faults_in_the_value() {
     fault(
         "body.0.approach_speed",
         "body.0.approach_speed=«1 kg/s»",
-        "approach_speed wants a speed",
+        "approach_speed must be a speed",
     );
     fault("body.0.held", "body.0.held=«yes»", "held is a string");
-    fault("title", "title=«{glass»", "no TOML value");
-    fault("title", "title=«[1, 2»", "no TOML value");
-    fault("title", "title=«a = 2»", "no TOML value");
-    fault("model", "model=«tng»", "model is \"tng\", which is none of its values");
-    fault("title", "title=«\"glass»", "no TOML value");
-    fault("title", "title=«'a' b»", "no TOML value");
-    fault("start.gap", "start.gap=«1\ntitle = 2»", "no TOML value");
+    fault("title", "title=«{glass»", "not a TOML value");
+    fault("title", "title=«[1, 2»", "not a TOML value");
+    fault("title", "title=«a = 2»", "not a TOML value");
+    fault("model", "model=«tng»", "model is \"tng\", which is not allowed");
+    fault("title", "title=«\"glass»", "not a TOML value");
+    fault("title", "title=«'a' b»", "not a TOML value");
+    fault("start.gap", "start.gap=«1\ntitle = 2»", "not a TOML value");
     fault("start.gap", "start.gap«=»", "no value after");
     fault("start.gap", "start.gap «=» ", "no value after");
-    fault("start.gap", "start.gap=«\"1 kg\"»", "is a mass; gap wants a length");
+    fault("start.gap", "start.gap=«\"1 kg\"»", "is a mass; gap must be a length");
     fault("body.0.sphere.diameter", "body.0.sphere.diameter=«nan»", "not finite");
     fault("body.0.sphere", "body.0.sphere={diameter=«true»}", "diameter is a boolean");
     fault("body.0.sphere", "body.0.sphere=«{}»", "`diameter` is missing");
@@ -164,13 +164,13 @@ fn words_that_are_no_toml_are_a_string() {
 
 #[test]
 fn faults_in_the_key() {
-    fault("body.2.name", "body.«2».name='x'", "no index of this array of 2");
-    fault("body.2", "body.«2»={}", "no index of this array of 2");
-    fault("body.first.name", "body.«first».name='x'", "no index");
-    fault("body.-1.name", "body.«-1».name='x'", "no index");
+    fault("body.2.name", "body.«2».name='x'", "not an index of this array of 2");
+    fault("body.2", "body.«2»={}", "not an index of this array of 2");
+    fault("body.first.name", "body.«first».name='x'", "not an index");
+    fault("body.-1.name", "body.«-1».name='x'", "not an index");
     let long = "body.«99999999999999999999».name='x'";
-    fault("body.99999999999999999999.name", long, "no index");
-    fault("output.snapshots.1", "output.snapshots.«1»='maximum'", "no index of this array of 1");
+    fault("body.99999999999999999999.name", long, "not an index");
+    fault("output.snapshots.1", "output.snapshots.«1»='maximum'", "not an index of this array of 1");
     fault("material.glass.density.x", "material.glass.«density».x=1", "a single value");
     fault("mesh.size", "mesh.«size»=1", "unknown key `size` in mesh");
     fault("weather", "«weather»=1", "unknown key `weather`");
@@ -179,10 +179,10 @@ fn faults_in_the_key() {
     fault(".body", "«.»body=1", "empty");
     fault("body.", "body.«=»1", "empty");
     fault("", "«=»1", "empty");
-    fault("a b", "a «b»=1", "cannot stand in a key");
-    fault("größe", "gr«ö»ße=1", "cannot stand in a key");
-    fault("a[0]", "a«[»0]=1", "cannot stand in a key");
-    fault("\"a=1", "«\"a=1»", "does not end");
+    fault("a b", "a «b»=1", "is not allowed in a key");
+    fault("größe", "gr«ö»ße=1", "is not allowed in a key");
+    fault("a[0]", "a«[»0]=1", "is not allowed in a key");
+    fault("\"a=1", "«\"a=1»", "has no end");
     fault("title", "«title»", "no `=`");
     fault("", "«»", "empty");
     let deep = ["a"; 40].join(".");

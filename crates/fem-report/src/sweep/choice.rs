@@ -121,7 +121,7 @@ fn column(sweep: &Sweep, k: usize, name: &str) -> Result<&'static str, CaseError
 
 /// Returns the longest axis of a sweep without numbers, with its values counted.
 fn counted(sweep: &Sweep) -> HorizontalKey {
-    let lengths = sweep.axes.iter().map(|axis| axis.elements.len()).enumerate();
+    let lengths = sweep.axes.iter().map(|axis| axis.values.len()).enumerate();
     let (axis, n) = lengths.rev().max_by_key(|(_, n)| *n).unwrap_or((0, 0));
     let key = sweep.places().position(|(of_key, _)| of_key == axis).unwrap_or(0);
     let values = (1..=n).map(|k| k as f64).collect();

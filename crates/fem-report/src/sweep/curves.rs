@@ -56,7 +56,7 @@ pub fn curves(
 fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
     let part = |axis: &usize| {
         let of = &sweep.axes[*axis];
-        let element = &of.elements[elements[*axis]];
+        let element = &of.values[elements[*axis]];
         let mut names: Vec<String> = Vec::new();
         let mut values: Vec<String> = Vec::new();
         for (k, key) in of.keys.iter().enumerate() {

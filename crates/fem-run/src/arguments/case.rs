@@ -60,7 +60,7 @@ impl CaseArguments {
     /// As [`CaseArguments::load`].
     pub fn load_and_warn(&self) -> Result<Case, CaseError> {
         let case = self.load()?;
-        standard_output::warn(case.scene().oddities());
+        standard_output::warn(case.scene().implausible_numbers());
         Ok(case)
     }
 

@@ -51,7 +51,7 @@ impl Serialize for KeyValues<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let places = self.0.keys().zip(self.0.places());
         serializer.collect_map(places.map(|(swept, (axis, key))| {
-            let values = self.0.axes[axis].elements.iter().map(|element| element.text(key));
+            let values = self.0.axes[axis].values.iter().map(|element| element.text(key));
             (&swept.key, values.collect::<Vec<_>>())
         }))
     }

@@ -51,7 +51,7 @@ fn files_that_are_no_sweep_are_refused() {
 #[test]
 fn keys_that_cannot_be_varied_are_refused() {
     refused(&vary("'body.0.approach_sped' = [1]"), "3:9", &["unknown key", "approach_speed"]);
-    refused(&vary("'body.2.approach_speed' = [1]"), "3:7", &["no index"]);
+    refused(&vary("'body.2.approach_speed' = [1]"), "3:7", &["not an index"]);
     refused(&vary("'body.0..approach_speed' = [1]"), "3:9", &["empty"]);
     refused(&vary("'body.0.name.x' = [1]"), "3:9", &["single value"]);
     refused(&vary("'body.0.approach_speed' = []"), "3:27", &["no values"]);
@@ -71,9 +71,9 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
     refused(&range("{ from = 1, to = 2 }"), "3:27", &["there is no `n`", "log = true"]);
     refused(&range("{ from = 1, to = 2, n = 1 }"), "3:51", &["n is 1", "2 to"]);
     refused(&range("{ from = 1, to = 2, n = 3, logs = true }"), "3:54", &["unknown key", "log"]);
-    refused(&range("{ from = '1 mm', to = '2 s', n = 3 }"), "3:49", &["units of one quantity"]);
+    refused(&range("{ from = '1 mm', to = '2 s', n = 3 }"), "3:49", &["units of the same quantity"]);
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", &["furlong"]);
-    refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", &["no end of a range"]);
+    refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", &["not a number"]);
     refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", &["greater than 0"]);
     // The range is valid, but its values are not lengths.
     let lengths = vary("'body.0.approach_speed' = { from = '1 m', to = '2 m', n = 3 }");
@@ -219,7 +219,7 @@ fn warnings_of_members_are_told_once() {
         let told: Vec<&str> =
             ran.stderr.lines().filter(|line| line.contains("is not published")).collect();
         assert!(
-            told.len() == 1 && told[0].starts_with("warning: what pmma loses"),
+            told.len() == 1 && told[0].starts_with("warning: the loss of pmma"),
             "{}",
             ran.stderr
         );

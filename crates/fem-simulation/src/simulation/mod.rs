@@ -205,7 +205,7 @@ impl Simulation {
         let own = self.mesh_warning().into_iter().chain(self.springs_warning());
         let own = own.chain(self.cheaper());
         let scene = self.case.scene();
-        let of_scene = scene.oddities().into_iter().chain(scene.unpublished_loss());
+        let of_scene = scene.implausible_numbers().into_iter().chain(scene.unpublished_loss());
         of_scene
             .chain(self.shear_waves_warning())
             .chain(self.choice_warning())
@@ -249,7 +249,7 @@ impl Simulation {
     /// Returns all warnings about a collision: those before it, those of its result, and those of its model.
     pub fn warnings_with(&self, collision: &Collision, errors: &ErrorEstimate) -> Vec<String> {
         let scene = self.case.scene();
-        let mut warnings = scene.oddities();
+        let mut warnings = scene.implausible_numbers();
         warnings.extend(scene.unpublished_loss());
         warnings.extend(self.choice_warning());
         warnings.extend(self.decisions(collision).warnings);

@@ -41,7 +41,7 @@ impl KeyNumbers {
         let of_key = |(axis, _): (usize, usize)| OfKey {
             axis,
             unit: None,
-            numbers: vec![Found::NotYet; sweep.axes[axis].elements.len()],
+            numbers: vec![Found::NotYet; sweep.axes[axis].values.len()],
             is_written: true,
         };
         Self(sweep.places().map(of_key).collect())
@@ -60,7 +60,7 @@ impl KeyNumbers {
             let found = case.number_at(swept.parts());
             *place = found.map_or(Found::Other, |(number, _)| Found::Number(number));
             of_key.unit = of_key.unit.or(found.map(|(_, unit)| unit));
-            let text = sweep.axes[axis].elements[choice[axis]].text(key);
+            let text = sweep.axes[axis].values[choice[axis]].text(key);
             of_key.is_written &= found.is_none_or(|(number, _)| text.parse() == Ok(number));
         }
     }

@@ -124,9 +124,9 @@ fn every_model_and_law_is_read() {
 
 #[test]
 fn faults_point_at_their_key() {
-    fault("law = { kuwabara_kono = { a = «\"1 um\"» } }", "a wants a time", "10 us");
-    fault("law = { linear = { k = «\"1 Pa\"» } }", "is a pressure; k wants a stiffness", "N/m");
-    fault("law = { power = { k = «\"1 N/m\"», gamma = 1 } }", "k wants a plain number", "");
+    fault("law = { kuwabara_kono = { a = «\"1 um\"» } }", "a must be a time", "10 us");
+    fault("law = { linear = { k = «\"1 Pa\"» } }", "is a pressure; k must be a stiffness", "N/m");
+    fault("law = { power = { k = «\"1 N/m\"», gamma = 1 } }", "k must be a plain number", "");
     fault("law = { kuwabara_kono = { «b» = 1 } }", "unknown key `b`", "a, eta_1, eta_2, end");
     fault("law = { «kuwabara» = {} }", "unknown key `kuwabara`", "did you mean `kuwabara_kono`");
     fault("law = { bordbar_hyppanen = «{ a = 1e-6 }» }", "`n` is missing", "n = ");
@@ -143,7 +143,7 @@ fn faults_point_at_their_key() {
         "eta_1 and eta_2",
     );
     fault("law = { kuwabara_kono = «{ eta_1 = 1 }» }", "`eta_2` is missing", "Pa s");
-    fault("law = { hertz = { end = «\"zero\"» } }", "none of its values", "zero_force");
+    fault("law = { hertz = { end = «\"zero\"» } }", "which is not allowed", "zero_force");
     fault("law = { hertz = { tolerance = «0» } }", "tolerance is 0", "1e-10");
     fault("law = { hertz = { tolerance = 1e-5 }, tolerance = «1e-6» }", "given twice", "keep");
     fault("law = { zhang_whiten = { e = 0.9, end = «\"zero_overlap\"» } }", "zero force", "tsuji");

@@ -30,24 +30,24 @@ fn what_falls_needs_something_below_that_bears_it() {
     parse(BALL).unwrap();
     parse(&BALL.replace(WALL, &format!("{SPHERE}\nheld = true"))).unwrap();
     let (weight, held) = ("«[gravity]»", format!("{SPHERE}\nheld = true"));
-    fault(&[(WALL, SPHERE), ("[gravity]", weight)], "nothing bears \"floor\"", "held = true");
+    fault(&[(WALL, SPHERE), ("[gravity]", weight)], "nothing supports the free sphere \"floor\"", "held = true");
     let above = "sphere = { diameter = 0.02 }\nmaterial = \"glass\"\napproach_speed = 0.5\n";
-    fault(&[(WALL, &held), (above, "wall = {}\n"), ("[gravity]", weight)], "is no sphere", "wall");
+    fault(&[(WALL, &held), (above, "wall = {}\n"), ("[gravity]", weight)], "is not a sphere", "wall");
     fault(
         &[(WALL, &held), ("approach_speed = 0.5", "approach_speed = 0.5\nheld = «true»")],
         "both bodies are held",
         "free sphere",
     );
-    fault(&[("approach_speed = 0.5", "held = «true»")], "is held, and lies above", "free sphere");
-    fault(&[(WALL, "wall = {}\nheld = «true»")], "is no sphere", "leave the key out");
-    fault(&[(WALL, "wall = {}\napproach_speed = «0.1»")], "bears a weight, and moves", "leave");
+    fault(&[("approach_speed = 0.5", "held = «true»")], "is held and cannot fall", "free sphere");
+    fault(&[(WALL, "wall = {}\nheld = «true»")], "is not a sphere", "remove the key");
+    fault(&[(WALL, "wall = {}\napproach_speed = «0.1»")], "moves", "remove approach_speed");
 }
 
 #[test]
 fn without_gravity_nothing_is_held_and_nothing_comes_back() {
     fault(&[(GRAVITY, ""), ("= 3", "= «3»")], "bounces without [gravity]", "9.81 m/s^2");
     let held = format!("{SPHERE}\nheld = «true»");
-    fault(&[(GRAVITY, ""), (STOP, ""), (WALL, &held)], "is held, without [gravity]", "9.81 m/s^2");
+    fault(&[(GRAVITY, ""), (STOP, ""), (WALL, &held)], "is held, but there is no [gravity]", "9.81 m/s^2");
     // A table without a key says nothing.
     parse(&BALL.replace(GRAVITY, "").replace(STOP, "[stop]\n")).unwrap();
 }
@@ -62,7 +62,7 @@ fn numbers() {
         fault(&[("bounces = 3", &format!("bounces = {wrong}"))], "bounces is", "");
     }
     let at_rest = [("approach_speed = 0.5\n", ""), ("gap = 0.1", "gap = «0»")];
-    fault(&at_rest, "falls at 0.0 m/s", "gap = \"10 cm\"");
+    fault(&at_rest, "meets its support at 0.0 m/s", "gap = \"10 cm\"");
 }
 
 /// Torricelli: √(v² + 2 g h), thrown down or up; time of flight from h + v t − g t²/2 = 0.

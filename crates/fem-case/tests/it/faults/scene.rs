@@ -110,7 +110,7 @@ fn bodies() {
     );
     is(
         format!("{glass}{}", two.replace("wall = {}", "wall = {}\nmaterial = «'glass'»")),
-        "no material",
+        "has no material",
     );
     is(
         "[[body]]\nname = 'a'\nwall = {}\n[[body]]\nname = 'b'\nwall = «{}»".to_string(),
@@ -181,11 +181,11 @@ fn bodies() {
 #[test]
 fn snapshots() {
     let list = "[\"mid-compression\", \"maximum\"]";
-    fault(list, "[\"maximum\", «\"maximun\"»]", "no label", "did you mean `maximum`?");
+    fault(list, "[\"maximum\", «\"maximun\"»]", "not the label", "did you mean `maximum`?");
     fault(list, "[\"maximum\", «\"maximum\"»]", "twice", "");
     fault(list, "[\"maximum\", «1e-6»]", "mixes", "");
     fault(list, "[\"1 us\", «\"maximum\"»]", "mixes", "");
-    fault(list, "[«\"1 um\"»]", "is a length; snapshots wants a time", "");
+    fault(list, "[«\"1 um\"»]", "is a length; snapshots must be a time", "");
     fault(list, "[«-1e-6»]", "snapshots is -1e-6 s", "");
     fault(list, "[«[]»]", "snapshots.0 is an array", "");
     fault(list, "«0»", "snapshots is 0", "a whole number");
@@ -195,7 +195,7 @@ fn snapshots() {
 #[test]
 fn models() {
     fault("fem = {}", "auto = «3»", "auto is an integer", "");
-    fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "exactly one");
+    fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "keep exactly one");
     fault("[model]\nfem = {}", "«[model]»", "names no model", "fem = {}");
 }
 

@@ -14,7 +14,7 @@ const FAULTS: &[(Change, &str, &str)] = &[
     (
         |file| sphere(file).diameter = "22.2 kg".into(),
         "body.0.sphere.diameter",
-        "\"22.2 kg\" is a mass; diameter wants a length",
+        "\"22.2 kg\" is a mass; diameter must be a length",
     ),
     (
         |file| glass(file).youngs_modulus = Some("63 Gpa".into()),
@@ -131,7 +131,7 @@ const FAULTS: &[(Change, &str, &str)] = &[
     ),
     (|file| sphere(file).mesh = Some(String::new()), "body.0.sphere.mesh", "an empty path"),
     // Snapshots.
-    (|file| snapshots(file, &["maximum", "maximun"]), "output.snapshots.1", "no label"),
+    (|file| snapshots(file, &["maximum", "maximun"]), "output.snapshots.1", "not the label"),
     (
         |file| file.output.get_or_insert_default().snapshots = Some(SnapshotsValue::Count(1.5)),
         "output.snapshots",

@@ -1,9 +1,25 @@
-//! Helpers for readers of TOML: spans that count from elsewhere, messages of one line.
+//! TOML syntax: dotted paths of keys (`body.0.sphere.diameter`, `material."my glass".density`), spans that are
+//! counted from elsewhere, and messages of one line.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-/// The same value with all of its spans moved by `start`.
+/// Returns `path.key`, or just the key at the root.
+pub(crate) fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
+}
+
+/// Returns a key as one part of a dotted path: bare if TOML allows that, quoted if not.
+pub(crate) fn quote_key(key: &str) -> String {
+    if !key.is_empty() && key.chars().all(is_bare) { key.to_string() } else { format!("{key:?}") }
+}
+
+/// Returns whether a key may contain this character without quotes.
+pub(crate) fn is_bare(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_' || c == '-'
+}
+
+/// Returns the same value with all of its spans moved by `start`.
 pub(crate) fn shift(value: Spanned<DeValue<'_>>, start: usize) -> Spanned<DeValue<'_>> {
     let span = value.span();
     let value = match value.into_inner() {
@@ -25,7 +41,7 @@ pub(crate) fn shift(value: Spanned<DeValue<'_>>, start: usize) -> Spanned<DeValu
     Spanned::new(span.start + start..span.end + start, value)
 }
 
-/// The parser's messages may go on with a list of what it expected.
+/// Returns the first line of a parser's message; a list of expected tokens may follow it.
 pub(crate) fn first_line(message: &str) -> String {
     message.lines().next().unwrap_or("not TOML").to_string()
 }

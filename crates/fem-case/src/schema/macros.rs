@@ -1,5 +1,21 @@
-//! Words of a fixed list, such as `"auto" | "on" | "off"`: strict (a string and nothing else),
-//! with the list at hand for messages.
+//! Macros that declare tables of optional keys, and words of a fixed list such as `"auto" | "on" | "off"`: strict (a
+//! string and nothing else), with the list at hand for messages.
+
+/// Declares a table of a case file all of whose keys are optional; absent keys are not written. The text describes the
+/// table in messages.
+macro_rules! optional_keys {
+    ($(#[$meta:meta])* $name:ident, $expecting:literal {
+        $($(#[$doc:meta])* $key:ident: $type:ty,)+
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[serde(deny_unknown_fields, expecting = $expecting)]
+        pub struct $name {
+            $($(#[$doc])* #[serde(skip_serializing_if = "Option::is_none")] pub $key: Option<$type>,)+
+        }
+    };
+}
 
 /// Declares an enum whose variants are written as words in a case file.
 macro_rules! keywords {
@@ -9,15 +25,15 @@ macro_rules! keywords {
         pub enum $name { $($(#[$doc])* $variant,)+ }
 
         impl $name {
-            /// Every word, in the order in which messages list them.
+            /// All words, in the order in which messages list them.
             pub const WORDS: &'static [&'static str] = &[$($word,)+];
 
-            /// The word of this variant.
+            /// Returns the word of this variant.
             pub fn word(self) -> &'static str {
                 match self { $(Self::$variant => $word,)+ }
             }
 
-            /// The variant of a word.
+            /// Returns the variant of a word.
             pub fn from_word(word: &str) -> Option<Self> {
                 match word { $($word => Some(Self::$variant),)+ _ => None }
             }
@@ -60,4 +76,4 @@ macro_rules! keywords {
     };
 }
 
-pub(crate) use keywords;
+pub(crate) use {keywords, optional_keys};

@@ -1,5 +1,4 @@
-//! Source spans of the keys of a case by dotted path (`body.0.sphere.diameter`): a stretch of a
-//! text, or code.
+//! Origins of the keys of a case by dotted path (`body.0.sphere.diameter`): a span of a text, or code.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,81 +6,81 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
-use crate::source::key_path::{join, quote_key};
+use crate::source::toml_syntax::{join, quote_key};
 
-/// Where a key and its value come from.
+/// The origin of a key and its value.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Position {
-    /// They stand in a text; see [`Document`](crate::source::document::Document) for the line of offsets.
+pub(crate) enum KeyOrigin {
+    /// Spans of a text, in the offsets of [`Document`](crate::source::document::Document).
     Text { key: Range<usize>, value: Range<usize> },
     /// Code gave the value: with the whole case (0), or in its first, second, … edit.
     Code { edit: usize },
 }
 
-/// The positions of all keys that a case gives.
+/// Origins of all keys that a case gives.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Positions {
-    by_path: BTreeMap<String, Position>,
+pub(crate) struct KeyOrigins {
+    by_path: BTreeMap<String, KeyOrigin>,
     arrays: Vec<String>,
     n_edits: usize,
 }
 
-impl Positions {
-    /// Of a tree that was parsed.
+impl KeyOrigins {
+    /// Returns the origins of the keys of a tree that was parsed.
     pub(crate) fn of_text(tree: &DeTable<'_>) -> Self {
-        let mut positions = Self::default();
+        let mut origins = Self::default();
         for (key, value) in tree {
-            positions.record(quote_key(key.get_ref()), key.span(), value);
+            origins.record(quote_key(key.get_ref()), key.span(), value);
         }
-        positions
+        origins
     }
 
-    /// Of a tree that stands in no text.
+    /// Returns the origins of the keys of a tree that code made.
     pub(crate) fn of_code(tree: &Table) -> Self {
-        let mut positions = Self::default();
+        let mut origins = Self::default();
         for (key, value) in tree {
-            positions.put(&quote_key(key), value);
+            origins.put(&quote_key(key), value);
         }
-        positions
+        origins
     }
 
-    /// After an edit that made `before` into `after`: keys with another value come from the edit,
-    /// and so do tables and arrays that lost one; all others come from where they came.
+    /// Returns the origins after an edit that made `before` into `after`: keys with another value come from the
+    /// edit, and so do tables and arrays that lost a key; all others keep their origin.
     pub(crate) fn edited(&self, before: &Table, after: &Table) -> Self {
-        let mut positions = self.clone();
-        positions.n_edits += 1;
-        positions.follow("", children_of_table(before), children_of_table(after));
-        positions
+        let mut origins = self.clone();
+        origins.n_edits += 1;
+        origins.follow("", children_of_table(before), children_of_table(after));
+        origins
     }
 
-    /// Where the key at a path comes from, if the case gives it.
-    pub(crate) fn get(&self, path: &str) -> Option<&Position> {
+    /// Returns the origin of the key at a path, if the case gives it.
+    pub(crate) fn get(&self, path: &str) -> Option<&KeyOrigin> {
         self.by_path.get(path)
     }
 
-    /// Where the key at a path comes from, or else the nearest table around it that has a place.
-    pub(crate) fn nearest(&self, mut path: &str) -> Option<&Position> {
+    /// Returns the origin of the key at a path, or else that of the nearest table around it.
+    pub(crate) fn nearest(&self, mut path: &str) -> Option<&KeyOrigin> {
         loop {
-            if let Some(position) = self.get(path) {
-                return Some(position);
+            if let Some(origin) = self.get(path) {
+                return Some(origin);
             }
             path = &path[..path.rfind('.')?];
         }
     }
 
-    /// The path whose value or else key has this span; the deepest if several have.
+    /// Returns the path whose value, or else whose key, has this span; the deepest of several.
     pub(crate) fn path_of(&self, span: &Range<usize>) -> Option<&str> {
-        let deepest = |is_match: &dyn Fn(&Position) -> bool| {
-            let found = self.by_path.iter().filter(|(_, position)| is_match(position));
+        let deepest = |is_match: &dyn Fn(&KeyOrigin) -> bool| {
+            let found = self.by_path.iter().filter(|(_, origin)| is_match(origin));
             found.map(|(path, _)| path.as_str()).max_by_key(|path| path.matches('.').count())
         };
-        deepest(&|position| matches!(position, Position::Text { value, .. } if value == span))
+        deepest(&|origin| matches!(origin, KeyOrigin::Text { value, .. } if value == span))
             .or_else(|| {
-                deepest(&|position| matches!(position, Position::Text { key, .. } if key == span))
+                deepest(&|origin| matches!(origin, KeyOrigin::Text { key, .. } if key == span))
             })
     }
 
-    /// The paths of all arrays that stand in a text.
+    /// Returns the paths of all arrays in the texts.
     pub(crate) fn arrays(&self) -> &[String] {
         &self.arrays
     }
@@ -101,24 +100,24 @@ impl Positions {
             }
             _ => {}
         }
-        self.by_path.insert(path, Position::Text { key, value: value.span() });
+        self.by_path.insert(path, KeyOrigin::Text { key, value: value.span() });
     }
 
-    /// Code gave this value, with all that it holds.
+    /// Records that code gave this value, with all that it contains.
     fn put(&mut self, path: &str, value: &Value) {
-        self.by_path.insert(path.to_string(), Position::Code { edit: self.n_edits });
+        self.by_path.insert(path.to_string(), KeyOrigin::Code { edit: self.n_edits });
         for (key, value) in children(value).unwrap_or_default() {
             self.put(&join(path, &key), value);
         }
     }
 
-    /// Nothing is given at this path any more, nor below.
+    /// Removes the origins at and below this path.
     fn forget(&mut self, path: &str) {
         let below = join(path, "");
         self.by_path.retain(|other, _| other != path && !other.starts_with(&below));
     }
 
-    /// From the keys of one table or array to those that an edit left in its place.
+    /// Updates the origins below a table or array that an edit changed.
     fn follow(&mut self, path: &str, before: Children<'_>, after: Children<'_>) {
         for (key, value) in &after {
             let path = join(path, key);
@@ -134,13 +133,13 @@ impl Positions {
         for key in before.keys().filter(|key| !after.contains_key(*key)) {
             self.forget(&join(path, key));
             if !path.is_empty() {
-                self.by_path.insert(path.to_string(), Position::Code { edit: self.n_edits });
+                self.by_path.insert(path.to_string(), KeyOrigin::Code { edit: self.n_edits });
             }
         }
     }
 }
 
-/// Keys or indices, and what they lead to.
+/// Values by their keys or indices.
 type Children<'v> = BTreeMap<String, &'v Value>;
 
 fn children(value: &Value) -> Option<Children<'_>> {
