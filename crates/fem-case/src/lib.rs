@@ -65,8 +65,8 @@ pub use error::CaseError;
 pub use fem_material::engineering;
 pub use quantity::units::{Dimension, UnitError, parse_quantity};
 pub use quantity::{
-    Acceleration, Bytes, Count, Damping, Density, QuantityInfo, Length, Number, Quantity, QuantityError,
-    QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
+    Acceleration, Bytes, Count, Damping, Density, Length, Number, Quantity, QuantityError,
+    QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
 pub use scene::body::{Body, Shape};
 pub use scene::model::{CondensedOptions, ModelChoice};

@@ -16,7 +16,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
 use crate::json_schema::quantity_pattern::pattern;
-use crate::quantity::{QuantityInfo, Number, Quantity, QuantityKind, Time};
+use crate::quantity::{Number, Quantity, QuantityInfo, QuantityKind, Time};
 use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
 use crate::schema::{CaseFile, LawTable, ModelTable, SnapshotLabel, SnapshotsValue};
 use crate::sweep::file::SweepFile;

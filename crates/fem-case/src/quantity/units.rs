@@ -149,7 +149,9 @@ impl Parser<'_> {
         self.rest = self.rest.trim_start();
         let scale = if self.take(&["("]).is_some() {
             if depth == DEEPEST_PARENTHESIS {
-                return Err(UnitError::Malformed("its parentheses are nested too deeply".to_string()));
+                return Err(UnitError::Malformed(
+                    "its parentheses are nested too deeply".to_string(),
+                ));
             }
             if self.rest.trim_start().starts_with(')') {
                 return Err(UnitError::Malformed("its parentheses are empty".to_string()));

@@ -13,9 +13,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::{
-    Acceleration, Bytes, Count, Length, Number, Quantity, QuantityKind, Time,
-};
+use crate::quantity::{Acceleration, Bytes, Count, Length, Number, Quantity, QuantityKind, Time};
 use crate::schema::macros::{keywords, optional_keys};
 
 pub use crate::schema::accuracy_table::*;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::CaseError;
 use crate::quantity::{
-    Count, Damping, QuantityInfo, Number, Quantity, QuantityKind, Speed, Stiffness, Time, Viscosity,
+    Count, Damping, Number, Quantity, QuantityInfo, QuantityKind, Speed, Stiffness, Time, Viscosity,
 };
 use crate::schema::body_tables::EmptyTable;
 use crate::schema::macros::{keywords, optional_keys};

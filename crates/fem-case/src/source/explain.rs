@@ -75,8 +75,11 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     if let Some(rest) = message.strip_prefix("unknown variant ") {
         let (found, allowed) = split_backticked(rest);
         let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
-        return at(format!("{path} is \"{found}\", which is not allowed"))
-            .with_help(format!("{}write one of {}", near(found, &allowed), quoted.join(", ")));
+        return at(format!("{path} is \"{found}\", which is not allowed")).with_help(format!(
+            "{}write one of {}",
+            near(found, &allowed),
+            quoted.join(", ")
+        ));
     }
     if let Some((found, wanted)) =
         message.strip_prefix("invalid type: ").and_then(|rest| rest.rsplit_once(", expected "))
@@ -86,9 +89,11 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
             found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
         if let (Some(names), Some(word)) = (names_at(path), found.strip_prefix("string ")) {
             let word = word.trim_matches('"');
-            return at(format!("{path} is \"{word}\", which is not allowed")).with_help(
-                format!("{}write one of {}, or a table", near(word, names), names.join(", ")),
-            );
+            return at(format!("{path} is \"{word}\", which is not allowed")).with_help(format!(
+                "{}write one of {}, or a table",
+                near(word, names),
+                names.join(", ")
+            ));
         }
         let found = if is_date { "a date or time".to_string() } else { with_article(found) };
         return at(format!("{} is {found}", name(path)))

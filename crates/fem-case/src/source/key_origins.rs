@@ -74,10 +74,9 @@ impl KeyOrigins {
             let found = self.by_path.iter().filter(|(_, origin)| is_match(origin));
             found.map(|(path, _)| path.as_str()).max_by_key(|path| path.matches('.').count())
         };
-        deepest(&|origin| matches!(origin, KeyOrigin::Text { value, .. } if value == span))
-            .or_else(|| {
-                deepest(&|origin| matches!(origin, KeyOrigin::Text { key, .. } if key == span))
-            })
+        deepest(&|origin| matches!(origin, KeyOrigin::Text { value, .. } if value == span)).or_else(
+            || deepest(&|origin| matches!(origin, KeyOrigin::Text { key, .. } if key == span)),
+        )
     }
 
     /// Returns the paths of all arrays in the texts.

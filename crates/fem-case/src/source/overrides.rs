@@ -159,7 +159,10 @@ fn quoted_part(text: &str, quote: char) -> Option<(String, usize)> {
 }
 
 /// Inserts the value into the tree.
-pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> Result<(), OverrideError> {
+pub(crate) fn apply<'t>(
+    root: &mut DeTable<'t>,
+    assignment: Assignment<'t>,
+) -> Result<(), OverrideError> {
     let Assignment { path, mut value } = assignment;
     let names: Vec<&str> = path.iter().map(|part| part.get_ref().as_str()).collect();
     expand_choice(&names, &mut value);
@@ -275,7 +278,10 @@ enum Child<'a, 't> {
 }
 
 impl<'a, 't> Place<'a, 't> {
-    fn of(value: &'a mut Spanned<DeValue<'t>>, part: &Spanned<String>) -> Result<Self, OverrideError> {
+    fn of(
+        value: &'a mut Spanned<DeValue<'t>>,
+        part: &Spanned<String>,
+    ) -> Result<Self, OverrideError> {
         match value.get_mut() {
             DeValue::Table(table) => Ok(Place::Table(table)),
             DeValue::Array(array) => Ok(Place::Array(array)),

@@ -265,7 +265,9 @@ impl Reader<'_> {
             }
             DeValue::Array(array) => {
                 if array.is_empty() {
-                    let error = self.document.error_on(value.span(), format!("the list of {name} is empty"));
+                    let error = self
+                        .document
+                        .error_on(value.span(), format!("the list of {name} is empty"));
                     return faults.push(error.with_help("write at least one value"));
                 }
                 let values = array.iter().map(|value| self.written(&name, value));

@@ -36,8 +36,7 @@ impl Sweep {
             return first;
         }
         let tried = |axis: usize| 0..self.axes[axis].values.len().min(MOST_TRIED);
-        let alone =
-            |axis: usize| tried(axis).find(|value| attempt(&[(axis, *value)]).is_none());
+        let alone = |axis: usize| tried(axis).find(|value| attempt(&[(axis, *value)]).is_none());
         // If an axis has no valid value, the base case's own value is used.
         let valid: Vec<Option<usize>> = match self.combine {
             Combine::All => (0..self.axes.len()).map(alone).collect(),

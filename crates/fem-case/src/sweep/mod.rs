@@ -294,9 +294,9 @@ fn count_members(
                     first.name(),
                     count(n)
                 );
-                return Err(document.error_on(other.span.clone(), message).with_help(
-                    "give all lists the same length, or set combine = \"all\"",
-                ));
+                return Err(document
+                    .error_on(other.span.clone(), message)
+                    .with_help("give all lists the same length, or set combine = \"all\""));
             }
             n
         }
@@ -341,7 +341,9 @@ fn check_overrides(sweep: &str, axes: &[Axis], overrides: &[String]) -> Result<(
                 format!("--set {key}=…"),
                 format!("{sweep} varies {}; the override has no effect", swept.key),
             );
-            return Err(error.with_help("change the list in the sweep file, or remove the override"));
+            return Err(
+                error.with_help("change the list in the sweep file, or remove the override")
+            );
         }
     }
     Ok(())

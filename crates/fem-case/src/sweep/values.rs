@@ -105,14 +105,16 @@ impl ValuesReader<'_> {
             (false, None) => {
                 let message =
                     format!("the ends have the units {:?} and {:?}", first.unit, last.unit);
-                let help = "write both ends in units of the same quantity; a bare number is in SI units";
+                let help =
+                    "write both ends in units of the same quantity; a bare number is in SI units";
                 return Err(self.fault(range.to.span(), message, help));
             }
         };
         let to = last.number;
         let n = *range.n.get_ref();
         if !(2..=MOST_VALUES).contains(&n) {
-            let help = format!("n must be from 2 to {MOST_VALUES}; write a single value as a list, [1.0]");
+            let help =
+                format!("n must be from 2 to {MOST_VALUES}; write a single value as a list, [1.0]");
             return Err(self.fault(range.n.span(), format!("n is {n}"), &help));
         }
         if range.log && !(start > 0.0 && to > 0.0) {

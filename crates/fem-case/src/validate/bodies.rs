@@ -200,7 +200,8 @@ impl Check<'_> {
                 .with_help(format!("name a material; {known}")));
         };
         materials.get(name.as_str()).cloned().ok_or_else(|| {
-            let error = self.error(&join(path, "material"), format!("there is no material \"{name}\""));
+            let error =
+                self.error(&join(path, "material"), format!("there is no material \"{name}\""));
             if library::is_of_library(name) {
                 let bare = name.trim_start_matches(library::PREFIX);
                 let near = library::nearest_to(bare);

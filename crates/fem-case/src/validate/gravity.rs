@@ -75,7 +75,8 @@ impl Check<'_> {
             return refuse("gravity", message);
         }
         if matches!(lower.shape, Shape::Sphere { .. }) && !lower.held {
-            let message = format!("gravity is on, but nothing supports the free sphere \"{}\"", lower.name);
+            let message =
+                format!("gravity is on, but nothing supports the free sphere \"{}\"", lower.name);
             return refuse("gravity", message);
         }
         if lower.velocity != 0.0 {
@@ -85,8 +86,7 @@ impl Check<'_> {
         }
         let impact_speed = impact_speed(upper.velocity, acceleration, gap);
         if !(impact_speed > 0.0 && impact_speed.is_finite()) {
-            let message =
-                format!("\"{}\" meets its support at {impact_speed:?} m/s", upper.name);
+            let message = format!("\"{}\" meets its support at {impact_speed:?} m/s", upper.name);
             let given = ["body.1.approach_speed", "start.gap"];
             let path = given.into_iter().find(|path| self.document.has(path)).unwrap_or("gravity");
             return Err(self.error(path, message).with_help(

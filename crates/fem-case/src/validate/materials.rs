@@ -58,7 +58,9 @@ impl Check<'_> {
                     let message = "both decay_rate and relaxation_time are given";
                     let (rate, time) = (at("decay_rate"), at("relaxation_time"));
                     let error = self.conflict(&time, &[&rate], message);
-                    return Err(error.with_help("keep one of the two: each is the inverse of the other"));
+                    return Err(
+                        error.with_help("keep one of the two: each is the inverse of the other")
+                    );
                 }
                 (None, None) => {
                     let message = "neither decay_rate nor relaxation_time is given";
@@ -90,7 +92,8 @@ impl Check<'_> {
             MaterialError::ModuliCount { given } => {
                 let third = given.get(2).map_or(path.to_string(), |key| at(key));
                 let given = given.iter().map(|key| at(key));
-                let help = "give exactly two: the other moduli of an isotropic solid follow from them";
+                let help =
+                    "give exactly two: the other moduli of an isotropic solid follow from them";
                 ([third].into_iter().chain(given).collect(), Some(help))
             }
             MaterialError::NoRelaxationTerms => (vec![at("relaxation.terms")], None),

@@ -170,7 +170,11 @@ fn faults_in_the_key() {
     fault("body.-1.name", "body.«-1».name='x'", "not an index");
     let long = "body.«99999999999999999999».name='x'";
     fault("body.99999999999999999999.name", long, "not an index");
-    fault("output.snapshots.1", "output.snapshots.«1»='maximum'", "not an index of this array of 1");
+    fault(
+        "output.snapshots.1",
+        "output.snapshots.«1»='maximum'",
+        "not an index of this array of 1",
+    );
     fault("material.glass.density.x", "material.glass.«density».x=1", "a single value");
     fault("mesh.size", "mesh.«size»=1", "unknown key `size` in mesh");
     fault("weather", "«weather»=1", "unknown key `weather`");

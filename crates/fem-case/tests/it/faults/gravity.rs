@@ -30,9 +30,17 @@ fn what_falls_needs_something_below_that_bears_it() {
     parse(BALL).unwrap();
     parse(&BALL.replace(WALL, &format!("{SPHERE}\nheld = true"))).unwrap();
     let (weight, held) = ("«[gravity]»", format!("{SPHERE}\nheld = true"));
-    fault(&[(WALL, SPHERE), ("[gravity]", weight)], "nothing supports the free sphere \"floor\"", "held = true");
+    fault(
+        &[(WALL, SPHERE), ("[gravity]", weight)],
+        "nothing supports the free sphere \"floor\"",
+        "held = true",
+    );
     let above = "sphere = { diameter = 0.02 }\nmaterial = \"glass\"\napproach_speed = 0.5\n";
-    fault(&[(WALL, &held), (above, "wall = {}\n"), ("[gravity]", weight)], "is not a sphere", "wall");
+    fault(
+        &[(WALL, &held), (above, "wall = {}\n"), ("[gravity]", weight)],
+        "is not a sphere",
+        "wall",
+    );
     fault(
         &[(WALL, &held), ("approach_speed = 0.5", "approach_speed = 0.5\nheld = «true»")],
         "both bodies are held",
@@ -47,7 +55,11 @@ fn what_falls_needs_something_below_that_bears_it() {
 fn without_gravity_nothing_is_held_and_nothing_comes_back() {
     fault(&[(GRAVITY, ""), ("= 3", "= «3»")], "bounces without [gravity]", "9.81 m/s^2");
     let held = format!("{SPHERE}\nheld = «true»");
-    fault(&[(GRAVITY, ""), (STOP, ""), (WALL, &held)], "is held, but there is no [gravity]", "9.81 m/s^2");
+    fault(
+        &[(GRAVITY, ""), (STOP, ""), (WALL, &held)],
+        "is held, but there is no [gravity]",
+        "9.81 m/s^2",
+    );
     // A table without a key says nothing.
     parse(&BALL.replace(GRAVITY, "").replace(STOP, "[stop]\n")).unwrap();
 }
