@@ -154,8 +154,8 @@ impl<'a> Laboratory<'a> {
 
     fn run_explicit(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
         let explicit = Explicit::new(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
-        let ModelSetup { approach, want, estimate, .. } = explicit.setup();
-        let collide = |listener: &mut dyn Monitor| explicit.collide(approach, want, listener);
+        let ModelSetup { approach, request, estimate, .. } = explicit.setup();
+        let collide = |listener: &mut dyn Monitor| explicit.collide(approach, request, listener);
         let run = self.collide(case, estimate.hertz, collide)?;
         let model = explicit.bodies_of(&run.collision)?;
         Ok(Arc::new(ExplicitRun { model, run }))

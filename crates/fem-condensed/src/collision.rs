@@ -58,7 +58,7 @@ impl CondensedPair {
         frame: &Frame,
         damping: impl Into<Damping<'a>>,
         n_steps: usize,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Result<Collision, CondensedError> {
         let (speed, damping) = (frame.speed(), damping.into());
@@ -77,7 +77,7 @@ impl CondensedPair {
             let motion = ImpactMotion::new(self, speed, damping, time_step, n_points)?
                 .with_gravity(frame.gravity);
             Ok::<_, CondensedError>(
-                ImpactRun::new(self, motion, frame, want, n_steps, elastic.contact_time)
+                ImpactRun::new(self, motion, frame, request, n_steps, elastic.contact_time)
                     .until_parted(monitor),
             )
         };
@@ -86,10 +86,10 @@ impl CondensedPair {
             finished = run(n_all)?;
         }
         let mut collision = finished.collision;
-        if want.snapshots != SnapshotRequest::none() {
+        if request.snapshots != SnapshotRequest::none() {
             monitor.enter(Phase::Fields);
             let (trace, ending) = (&finished.trace, &collision.ending);
-            let request = &want.snapshots;
+            let request = &request.snapshots;
             match self.snapshots(frame, damping, time_step, trace, ending, request) {
                 Ok((snapshots, missing)) => {
                     collision.snapshots = snapshots;
@@ -98,10 +98,10 @@ impl CondensedPair {
                 Err(error) => collision.ending = Ending::Stopped(error.into()),
             }
         }
-        if !want.probes.is_empty() {
+        if !request.probes.is_empty() {
             monitor.enter(Phase::Fields);
             let last = finished.trace.len().saturating_sub(1);
-            match self.probed(frame, damping, time_step, last, &want.probes) {
+            match self.probed(frame, damping, time_step, last, &request.probes) {
                 Ok(probes) => collision.probes = probes,
                 Err(error) => collision.ending = Ending::Stopped(error.into()),
             }

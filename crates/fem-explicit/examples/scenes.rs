@@ -60,9 +60,9 @@ impl Scene {
         let model = Model::with_parts(bodies, approach, &settings, self.parts)?;
         let hertz = 80e-6 * (0.5 / self.speed).powf(0.2) * (63e9 / modulus).powf(0.4);
         let expected = Expectation { contact_time: hertz, approach: 0.3 * self.speed * hertz };
-        let want =
+        let request =
             OutputRequest { snapshots: SnapshotRequest::Count(4), ..OutputRequest::history() };
-        let collision = collide(&model, expected, &want, &mut ());
+        let collision = collide(&model, expected, &request, &mut ());
         let bytes = postcard::to_allocvec(&collision)?;
         let digest = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |digest, &byte| {
             (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)

@@ -34,9 +34,9 @@ static ALLOCATOR: Counting = Counting;
 
 /// Allocations and steps of a run.
 fn count(pair: &Pair) -> (usize, u64) {
-    let (model, want) = (pair.model(), pair.want());
+    let (model, request) = (pair.model(), pair.request());
     let before = COUNT.get();
-    let run = collide(&model, pair.expected(), &want, &mut ());
+    let run = collide(&model, pair.expected(), &request, &mut ());
     (COUNT.get() - before, run.steps.unwrap())
 }
 

@@ -149,7 +149,7 @@ impl Pair {
     ///
     /// # Errors
     /// A share that is not positive and finite.
-    pub fn softened(self, share: f64) -> Result<Self, LawError> {
+    pub fn with_modulus_share(self, share: f64) -> Result<Self, LawError> {
         let contact_modulus = self.contact_modulus * positive("share of the modulus", share)?;
         Ok(Self { contact_modulus: positive("contact_modulus", contact_modulus)?, ..self })
     }

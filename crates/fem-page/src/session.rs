@@ -72,9 +72,9 @@ impl Session {
         let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;
         let mut simulation = Simulation::sharing(case, &self.shared)?;
         let snapshots = SnapshotRequest::Count(ask.frames);
-        let want = OutputRequest { history_rows: ask.rows, snapshots, ..simulation.want().clone() };
+        let request = OutputRequest { history_rows: ask.rows, snapshots, ..simulation.request().clone() };
         let too_much = |error: OutputRequestError| CaseError::new(SOURCE, error.to_string());
-        simulation.ask_for(want).map_err(too_much)?;
+        simulation.ask_for(request).map_err(too_much)?;
         let setup = simulation.setup();
         let begun = RunStart {
             case: simulation.case().file().clone(),

@@ -141,7 +141,7 @@ fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
         patient.seen = (begin.elapsed().as_secs_f64(), 1.0);
     }
     let collision = patient.collision();
-    let n_snapshots = simulation.want().snapshots.len();
+    let n_snapshots = simulation.request().snapshots.len();
     let has_report = simulation.case().scene().wants_report() && n_snapshots > 0;
     let of_report = if has_report { REPORT } else { 0.0 };
     let files = making * ((FIELDS + FILE) * n_snapshots as f64 + of_report);

@@ -122,7 +122,7 @@ fn look_at(simulation: &Simulation) -> Result<(), String> {
         if EFFECTS.iter().all(|effect| effect.name() != verdict.name) {
             return Err(format!("an effect of no name, {}", verdict.name));
         }
-        simulation.left_out(verdict, &setup.estimate);
+        simulation.neglect_error(verdict, &setup.estimate);
     }
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| format!("no resolved case: {error}"))?;

@@ -214,7 +214,7 @@ fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyErro
 fn is_foretold(simulation: &Simulation, with: &Collision, without: &Collision) -> Option<bool> {
     let effect = EFFECTS.iter().find(|effect| effect.name() == FiniteStrain::NAME)?;
     let estimate = &simulation.setup().estimate;
-    let foretold = effect.left_out(simulation.case().scene(), estimate)?;
+    let foretold = effect.neglect_error(simulation.case().scene(), estimate)?;
     let hertz = &estimate.hertz;
     let is_within = |of: fn(&Collision) -> Option<f64>, foretold: Option<f64>, whole: f64| {
         let change = (of(without)? / of(with)? - 1.0).abs();

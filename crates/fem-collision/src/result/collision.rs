@@ -48,11 +48,11 @@ pub struct Collision {
     /// Scatter of the contact force from sample to sample, N; close to 0 for a smooth pulse.
     pub force_scatter: Option<f64>,
     /// When the force scatters most.
-    pub noisiest: Option<StepInstant>,
+    pub noisiest_instant: Option<StepInstant>,
     /// The deepest overlap of the surfaces; `None` for a contact without springs.
-    pub deepest: Option<DeepestOverlap>,
+    pub deepest_overlap: Option<DeepestOverlap>,
     /// The final candidate region of the contact, for models that limit the search.
-    pub searched: Option<CandidateRegion>,
+    pub candidate_region: Option<CandidateRegion>,
     /// Kinetic energy at the start, walls and half-spaces not counted, J.
     pub initial_energy: Option<f64>,
     /// Energy in each account at the end, J.
@@ -145,9 +145,9 @@ impl Collision {
             peak_pressure: None,
             peak_pressure_radius: None,
             force_scatter: None,
-            noisiest: None,
-            deepest: None,
-            searched: None,
+            noisiest_instant: None,
+            deepest_overlap: None,
+            candidate_region: None,
             initial_energy: None,
             energies: EnergyLedger::EMPTY,
             residual: None,

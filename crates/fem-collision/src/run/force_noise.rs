@@ -42,7 +42,7 @@ impl ForceNoise {
     }
 
     /// When the force bent most.
-    pub fn noisiest(&self) -> Option<StepInstant> {
+    pub fn noisiest_instant(&self) -> Option<StepInstant> {
         self.worst.map(|(_, at)| at)
     }
 
@@ -81,11 +81,11 @@ mod tests {
     #[test]
     fn the_noisiest_moment_is_where_the_force_bends_most() {
         let mut scatter = ForceNoise::default();
-        assert_eq!(scatter.noisiest(), None);
+        assert_eq!(scatter.noisiest_instant(), None);
         for (step, force) in [1.0, 1.1, 1.0, 4.0, 1.0, 1.2].into_iter().enumerate() {
             scatter.observe(force, StepInstant { time: 2.0 * step as f64, step: step as u64 });
         }
         // As it is seen: with the force after the spike.
-        assert_eq!(scatter.noisiest(), Some(StepInstant { time: 8.0, step: 4 }));
+        assert_eq!(scatter.noisiest_instant(), Some(StepInstant { time: 8.0, step: 4 }));
     }
 }

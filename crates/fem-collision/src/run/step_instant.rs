@@ -43,7 +43,7 @@ impl DeepestOverlap {
     /// The deeper of what was seen so far and a contact with this overlap; none of one without.
     pub fn of(so_far: Option<Self>, now: Self) -> Option<Self> {
         // What is no number is no overlap: the balance tells of it.
-        let is_deeper = now.overlap > so_far.map_or(0.0, |deepest| deepest.overlap);
+        let is_deeper = now.overlap > so_far.map_or(0.0, |deepest_overlap| deepest_overlap.overlap);
         if is_deeper { Some(now) } else { so_far }
     }
 

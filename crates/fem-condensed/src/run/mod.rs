@@ -65,7 +65,7 @@ pub(crate) struct ImpactRun<'a> {
     approach: InterpolatedPeak,
     force: InterpolatedPeak,
     scatter: ForceNoise,
-    deepest: Option<DeepestOverlap>,
+    deepest_overlap: Option<DeepestOverlap>,
     pulse: ForcePulse,
     aftermath: PostContactVibration,
     standstill: RestCriterion,
@@ -95,15 +95,15 @@ impl<'a> ImpactRun<'a> {
         pair: &'a CondensedPair,
         motion: ImpactMotion<'a>,
         frame: &'a Frame,
-        want: &OutputRequest,
+        request: &OutputRequest,
         n_steps: usize,
         elastic_contact_time: f64,
     ) -> Self {
         let steps = elastic_contact_time / motion.time_step;
-        let instants = want.history_rows.max(INSTANTS) as f64;
+        let instants = request.history_rows.max(INSTANTS) as f64;
         let per_step = (instants / steps).round().clamp(1.0, MOST_WITHIN_STEP) as u64;
         Self {
-            give_up: want.give_up_after * elastic_contact_time,
+            give_up: request.give_up_after * elastic_contact_time,
             expected_end: (1.0 + FLIGHT_AFTER) * elastic_contact_time,
             initial_energy: frame.initial(),
             pair,
@@ -125,13 +125,13 @@ impl<'a> ImpactRun<'a> {
             approach: InterpolatedPeak::default(),
             force: InterpolatedPeak::default(),
             scatter: ForceNoise::default(),
-            deepest: None,
+            deepest_overlap: None,
             pulse: ForcePulse::default(),
             aftermath: PostContactVibration::default(),
             standstill: RestCriterion::new(frame),
             turned: 0.0,
-            history: (want.history_rows > 0)
-                .then(|| History::new(want.history_rows, per_step as f64 * steps)),
+            history: (request.history_rows > 0)
+                .then(|| History::new(request.history_rows, per_step as f64 * steps)),
             last: None,
             before_last: None,
             opening: None,
@@ -239,8 +239,8 @@ impl<'a> ImpactRun<'a> {
         };
         self.scatter.observe(motion.force, now);
         if let Some((overlap, radius)) = motion.largest_overlap() {
-            self.deepest =
-                DeepestOverlap::of(self.deepest, DeepestOverlap { overlap, radius, at: now });
+            self.deepest_overlap =
+                DeepestOverlap::of(self.deepest_overlap, DeepestOverlap { overlap, radius, at: now });
         }
         if rate > 0.0 {
             self.turned = time;
@@ -361,9 +361,9 @@ impl<'a> ImpactRun<'a> {
             peak_pressure: Some(peaks.pressure),
             peak_pressure_radius: Some(peaks.pressure_radius),
             force_scatter: self.scatter.force(),
-            deepest: self.deepest,
-            noisiest: self.scatter.noisiest(),
-            searched: Some(self.pair.candidate_region()),
+            deepest_overlap: self.deepest_overlap,
+            noisiest_instant: self.scatter.noisiest_instant(),
+            candidate_region: Some(self.pair.candidate_region()),
             initial_energy: Some(frame.kinetic(frame.speed())),
             energies: self.last.map_or(EnergyLedger::EMPTY, |end| end.energies(frame)),
             residual: self.last.map(|end| end.residual),

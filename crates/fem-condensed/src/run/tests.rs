@@ -28,14 +28,14 @@ fn pair() -> CondensedPair {
 
 /// Runs a collision whose motion is modified after a third of the contact.
 fn disturbed(disturb: impl FnOnce(&mut ImpactMotion<'_>)) -> Collision {
-    let (pair, want) = (pair(), OutputRequest::history());
+    let (pair, request) = (pair(), OutputRequest::history());
     let frame = pair.frame(0.5).unwrap();
     pair.prepare(0.5, pair.relaxations()).unwrap();
     let n_points = pair.points.len();
     let time_step = CONTACT_TIME / N_STEPS as f64;
     let motion =
         ImpactMotion::new(&pair, 0.5, pair.relaxations().into(), time_step, n_points).unwrap();
-    let mut run = ImpactRun::new(&pair, motion, &frame, &want, N_STEPS, CONTACT_TIME);
+    let mut run = ImpactRun::new(&pair, motion, &frame, &request, N_STEPS, CONTACT_TIME);
     run.record();
     for _ in 0..N_STEPS / 3 {
         assert_eq!(run.advance(&mut ()), Ok(None));

@@ -26,8 +26,8 @@ fn run_explicit(scene: &Scene) -> Collision {
         Model::new(scene.inputs(ELEMENTS), Approach::at(scene.speed).unwrap(), &settings).unwrap();
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let want = OutputRequest { give_up_after: 20.0, ..OutputRequest::history() };
-    fem_explicit::collide(&model, expected, &want, &mut ())
+    let request = OutputRequest { give_up_after: 20.0, ..OutputRequest::history() };
+    fem_explicit::collide(&model, expected, &request, &mut ())
 }
 
 /// Width of a pulse where the relative velocity passes half of its change on the way in and out:

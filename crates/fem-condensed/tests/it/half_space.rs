@@ -272,13 +272,13 @@ fn waves_leave_beside_all_else() {
 fn fields_of_a_half_space() {
     let ball = Ball::of_glass(1.0);
     let pair = ball.condensed();
-    let want = OutputRequest {
+    let request = OutputRequest {
         snapshots: SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]),
         ..OutputRequest::quantities()
     };
     let still = pair.frame(1.0).unwrap();
     let frame = Frame { approach: Approach::new([3.0, 2.0], 0.0).unwrap(), ..still };
-    let run = pair.collide(&frame, [None; 2], CondensedPair::N_STEPS, &want, &mut ()).unwrap();
+    let run = pair.collide(&frame, [None; 2], CondensedPair::N_STEPS, &request, &mut ()).unwrap();
     let snapshot = run.snapshot(SnapshotInstant::Maximum).unwrap();
     let [block, sphere] = [0, 1].map(|side| snapshot.displacement(side));
     let [lower, upper] = pair.inputs().each_ref().map(|input| input.mesh().unwrap());

@@ -23,9 +23,9 @@ fn pair(scene: &Scene, vibration_modes: usize, has_springs: bool) -> CondensedPa
 /// With so many rows, and fields at every named instant.
 fn collide(pair: &CondensedPair, frame: &Frame, history_rows: usize) -> Collision {
     let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
-    let want = OutputRequest { history_rows, snapshots, ..OutputRequest::quantities() };
+    let request = OutputRequest { history_rows, snapshots, ..OutputRequest::quantities() };
     let n_steps = CondensedPair::N_STEPS;
-    pair.collide(frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap()
+    pair.collide(frame, pair.relaxations(), n_steps, &request, &mut ()).unwrap()
 }
 
 /// Exact bits: `==` of numbers that are the same is what `Collision` has, none of them NaN.

@@ -94,9 +94,9 @@ fn a_stopped_run_keeps_what_it_has() {
             self.0 < 2
         }
     }
-    let collide = |want: &OutputRequest, monitor: &mut dyn Monitor| {
+    let collide = |request: &OutputRequest, monitor: &mut dyn Monitor| {
         let n_steps = CondensedPair::N_STEPS;
-        pair.collide(&pair.frame(0.5).unwrap(), [None; 2], n_steps, want, monitor).unwrap()
+        pair.collide(&pair.frame(0.5).unwrap(), [None; 2], n_steps, request, monitor).unwrap()
     };
     let run = collide(&OutputRequest::history(), &mut StopAtSecond(0));
     let Ending::Stopped(Stop::Interrupted { step, .. }) = run.ending else {

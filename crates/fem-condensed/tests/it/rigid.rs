@@ -202,8 +202,8 @@ fn snapshots_have_the_fields_of_the_other_body() {
     let Frame { masses, reduced_mass, .. } = frame;
     let inverse: f64 = masses.iter().map(|mass| mass.unwrap().recip()).sum();
     assert!((reduced_mass * inverse - 1.0).abs() < 1e-15);
-    let want = OutputRequest { snapshots: SnapshotRequest::Count(3), ..OutputRequest::history() };
-    let run = pair.collide(&frame, pair.relaxations(), 200, &want, &mut ()).unwrap();
+    let request = OutputRequest { snapshots: SnapshotRequest::Count(3), ..OutputRequest::history() };
+    let run = pair.collide(&frame, pair.relaxations(), 200, &request, &mut ()).unwrap();
     assert!(!run.snapshots.is_empty());
     for snapshot in &run.snapshots {
         assert!(snapshot.bodies[0].displacement.is_empty());

@@ -20,8 +20,8 @@ fn drawn(
     snapshots: SnapshotRequest,
     n_steps: usize,
 ) -> Collision {
-    let want = OutputRequest { snapshots, ..OutputRequest::quantities() };
-    pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap()
+    let request = OutputRequest { snapshots, ..OutputRequest::quantities() };
+    pair.collide(&frame, pair.relaxations(), n_steps, &request, &mut ()).unwrap()
 }
 
 /// Everything that the snapshots say about the bodies as a whole, for every kind of body.
@@ -257,13 +257,13 @@ fn fields_are_the_explicit_ones() {
     let request = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let want = OutputRequest {
+    let request = OutputRequest {
         history_rows: 100,
         snapshots: request.clone(),
         give_up_after: 20.0,
         ..OutputRequest::history()
     };
-    let reference = fem_explicit::collide(&model, expected, &want, &mut ());
+    let reference = fem_explicit::collide(&model, expected, &request, &mut ());
     let settings = PairSettings {
         contact: ContactModel::Springs(stiffness),
         vibration_modes: 12,

@@ -22,8 +22,8 @@ fn collide(
     loop {
         let frame = pair.frame(scene.speed).unwrap();
         let n_steps = CondensedPair::N_STEPS;
-        let want = OutputRequest { give_up_after, ..OutputRequest::quantities() };
-        let run = pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap();
+        let request = OutputRequest { give_up_after, ..OutputRequest::quantities() };
+        let run = pair.collide(&frame, pair.relaxations(), n_steps, &request, &mut ()).unwrap();
         match run.outgrown_radius() {
             Some(radius) => pair = pair.enlarge(2.0 * radius).unwrap(),
             None => return (scene, run),
@@ -90,9 +90,9 @@ fn bodies_that_stay_have_no_last_contact() {
     let pair = scene.condensed(4.0).enlarge(2e-3).unwrap();
     let frame = pair.frame(scene.speed).unwrap();
     let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
-    let want = OutputRequest { snapshots, ..OutputRequest::quantities() };
+    let request = OutputRequest { snapshots, ..OutputRequest::quantities() };
     let n_steps = CondensedPair::N_STEPS;
-    let run = pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap();
+    let run = pair.collide(&frame, pair.relaxations(), n_steps, &request, &mut ()).unwrap();
     assert_eq!(run.ending, Ending::Together);
     let labels: Vec<_> = run.snapshots.iter().filter_map(|snapshot| snapshot.label).collect();
     assert_eq!(labels, [SnapshotInstant::MidCompression, SnapshotInstant::Maximum]);

@@ -25,7 +25,7 @@ pub(crate) struct ContactLog {
     /// Largest contact force, N.
     pub peak_force: f64,
     /// Largest penetration of the springs.
-    pub deepest: Option<DeepestOverlap>,
+    pub deepest_overlap: Option<DeepestOverlap>,
     /// Largest approach, m.
     pub max_approach: f64,
     was_closed: bool,
@@ -53,7 +53,7 @@ impl ContactLog {
             episodes: 0,
             force: 0.0,
             peak_force: 0.0,
-            deepest: None,
+            deepest_overlap: None,
             max_approach: 0.0,
             was_closed: false,
             has_receded: false,
@@ -71,7 +71,7 @@ impl ContactLog {
             self.peak_force = nan_aware_max_abs(self.peak_force, contact.force);
             let (overlap, radius, at) =
                 (contact.overlap, contact.overlap_radius, StepInstant { time, step });
-            self.deepest = DeepestOverlap::of(self.deepest, DeepestOverlap { overlap, radius, at });
+            self.deepest_overlap = DeepestOverlap::of(self.deepest_overlap, DeepestOverlap { overlap, radius, at });
         }
         self.was_closed = is_closed;
         // Bodies farther apart than at first touch do not count; a value that is not a number does.

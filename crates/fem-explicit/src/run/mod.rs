@@ -49,11 +49,11 @@ use step::{record_stop, step};
 pub fn collide(
     model: &Model,
     expected: Expectation,
-    want: &OutputRequest,
+    request: &OutputRequest,
     monitor: &mut dyn Monitor,
 ) -> Collision {
     monitor.enter(Phase::Collision);
-    let mut run = Run::new(model, expected, want);
+    let mut run = Run::new(model, expected, request);
     while monitor.report(run.progress()) && run.advance(STEPS_BETWEEN_REPORTS).is_none() {}
     run.finish()
 }
@@ -109,9 +109,9 @@ pub struct Run<M> {
 
 impl<M: Deref<Target = Model>> Run<M> {
     /// Starts a run at first touch.
-    pub fn new(model: M, expected: Expectation, want: &OutputRequest) -> Self {
-        let restart_state = RestartState::new(&model, expected, want);
-        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, want));
+    pub fn new(model: M, expected: Expectation, request: &OutputRequest) -> Self {
+        let restart_state = RestartState::new(&model, expected, request);
+        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, request));
         Self { model, restart_state, scratch, probing }
     }
 
@@ -124,7 +124,7 @@ impl<M: Deref<Target = Model>> Run<M> {
         if !restart_state.fits(&model) {
             return Err(ModelError::ForeignRestartState);
         }
-        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, restart_state.want()));
+        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, restart_state.request()));
         Ok(Self { model, restart_state, scratch, probing })
     }
 

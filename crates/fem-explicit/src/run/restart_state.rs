@@ -31,7 +31,7 @@ pub struct RestartState {
     /// Estimates by closed forms.
     pub(crate) expected: Expectation,
     /// Output that was requested.
-    want: OutputRequest,
+    request: OutputRequest,
     /// Approach of the model.
     approach: Approach,
     /// Fingerprint of the model, see [`fingerprint`].
@@ -42,7 +42,7 @@ pub struct RestartState {
 
 impl RestartState {
     /// Returns the state at first touch.
-    pub(crate) fn new(model: &Model, expected: Expectation, want: &OutputRequest) -> Self {
+    pub(crate) fn new(model: &Model, expected: Expectation, request: &OutputRequest) -> Self {
         let expected_steps = expected.contact_time / model.time_step();
         let state = State::at_first_touch(model);
         Self {
@@ -50,15 +50,15 @@ impl RestartState {
             ledger: Ledger::new(model, &state),
             state,
             sampled: SampledHistory::new(model, expected_steps),
-            history: (want.history_rows > 0)
-                .then(|| History::new(want.history_rows, expected_steps)),
-            recorder: Recorder::new(&want.snapshots, model, expected),
+            history: (request.history_rows > 0)
+                .then(|| History::new(request.history_rows, expected_steps)),
+            recorder: Recorder::new(&request.snapshots, model, expected),
             probes: Vec::new(),
-            last_valid: LastValidState::new(want),
+            last_valid: LastValidState::new(request),
             stability: MaterialStability::default(),
             ending: None,
             expected,
-            want: want.clone(),
+            request: request.clone(),
             approach: *model.approach(),
             fingerprint: fingerprint(model),
             candidate_radius: model.candidate_radius(),
@@ -86,8 +86,8 @@ impl RestartState {
     }
 
     /// Returns the output that was requested when the run began.
-    pub fn want(&self) -> &OutputRequest {
-        &self.want
+    pub fn request(&self) -> &OutputRequest {
+        &self.request
     }
 
     /// Returns the estimates by closed forms from when the run began.
@@ -102,7 +102,7 @@ impl RestartState {
 
     /// Returns the time after first touch at which the run gives up, s.
     pub(crate) fn max_time(&self) -> f64 {
-        self.want.give_up_after * self.expected.contact_time
+        self.request.give_up_after * self.expected.contact_time
     }
 
     /// Whether it can belong to a run of a model: approach, candidate region, fingerprint and sizes of all fields agree, and
@@ -121,11 +121,11 @@ impl RestartState {
             && self.log.fits(state)
             && self.ledger.fits(model, state)
             && self.sampled.fits(model, state)
-            && self.history.is_some() == (self.want.history_rows > 0)
+            && self.history.is_some() == (self.request.history_rows > 0)
             && self.history.as_ref().is_none_or(history_fits)
-            && self.recorder.fits(model, &self.want.snapshots)
-            && probes_fit(&self.probes, &self.want, state.time)
-            && self.last_valid.fits(model, state, &self.want)
+            && self.recorder.fits(model, &self.request.snapshots)
+            && probes_fit(&self.probes, &self.request, state.time)
+            && self.last_valid.fits(model, state, &self.request)
             && self.stability.fits(model, state)
     }
 }

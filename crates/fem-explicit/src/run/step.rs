@@ -172,7 +172,7 @@ fn ending(
         });
     }
     let element_updates = step.saturating_mul(model.n_elements() as u64);
-    if element_updates >= run.want().most_element_updates {
+    if element_updates >= run.request().most_element_updates {
         return Err(Stop::TooManyUpdates { time, step, element_updates });
     }
     Ok(None)

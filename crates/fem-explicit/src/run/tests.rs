@@ -21,7 +21,7 @@ const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 }
 
 const COUNT: SnapshotRequest = SnapshotRequest::Count(3);
 
-fn want(snapshots: SnapshotRequest) -> OutputRequest {
+fn request(snapshots: SnapshotRequest) -> OutputRequest {
     OutputRequest {
         history_rows: 100,
         snapshots,
@@ -33,7 +33,7 @@ fn want(snapshots: SnapshotRequest) -> OutputRequest {
 /// Multiplies the velocities of the lower body between two steps.
 fn disturbed(factor: f64) -> Collision {
     let model = model();
-    let mut run = Run::new(&model, EXPECTED, &want(SnapshotRequest::none()));
+    let mut run = Run::new(&model, EXPECTED, &request(SnapshotRequest::none()));
     assert_eq!(run.advance(128), None);
     for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
         *v *= factor;
@@ -62,9 +62,9 @@ fn energy_out_of_nowhere_stops_the_run() {
 #[test]
 fn a_run_that_fails_leaves_its_last_sound_state() {
     let model = model();
-    let labels = || want(SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]));
-    for (want, is_kept) in [(labels(), true), (want(SnapshotRequest::none()), false)] {
-        let mut run = Run::new(&model, EXPECTED, &want);
+    let labels = || request(SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]));
+    for (request, is_kept) in [(labels(), true), (request(SnapshotRequest::none()), false)] {
+        let mut run = Run::new(&model, EXPECTED, &request);
         assert_eq!(run.advance(128), None);
         let disturbed_at = run.restart_state.state.time;
         for v in run.restart_state.state.bodies[0].velocity.as_flattened_mut() {
@@ -92,9 +92,9 @@ fn a_run_that_fails_leaves_its_last_sound_state() {
 #[test]
 fn a_sound_state_in_which_a_run_stops_is_the_last_one() {
     let model = model();
-    let want =
-        OutputRequest { most_element_updates: 200 * model.n_elements() as u64, ..want(COUNT) };
-    let mut run = Run::new(&model, EXPECTED, &want);
+    let request =
+        OutputRequest { most_element_updates: 200 * model.n_elements() as u64, ..request(COUNT) };
+    let mut run = Run::new(&model, EXPECTED, &request);
     run.advance(128);
     let mut resumed = Run::resume(&model, run.restart_state().clone()).unwrap();
     let collisions = [&mut run, &mut resumed].map(|run| run.advance(u64::MAX).cloned());
@@ -132,7 +132,7 @@ fn an_undisturbed_run_ends() {
 fn snapshots_and_rows_belong_to_the_same_instant() {
     let model = model();
     let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]);
-    let run = collide(&model, EXPECTED, &want(snapshots), &mut ());
+    let run = collide(&model, EXPECTED, &request(snapshots), &mut ());
     let [snapshot] = &run.snapshots[..] else { panic!("{:?}", run.warnings) };
     let row = run.history.iter().find(|row| row.time == snapshot.time).unwrap();
     let mut approach = 0.0;
@@ -214,7 +214,7 @@ fn every_step_has_the_energy_of_a_balance() {
             let approach = Approach::at(0.01).unwrap();
             let model = Model::with_parts([lower, sphere(Side::Above)], approach, &settings, parts)
                 .unwrap();
-            let mut run = Run::new(&model, LONG, &want(SnapshotRequest::none()));
+            let mut run = Run::new(&model, LONG, &request(SnapshotRequest::none()));
             let mut scratch = Scratch::new(&model);
             let (mut worst, mut largest, mut n_closed): (f64, f64, u32) = (0.0, 0.0, 0);
             while run.advance(1).is_none() {
@@ -245,7 +245,7 @@ fn every_step_has_the_energy_of_a_balance() {
 #[test]
 fn a_contact_that_adds_energy_is_seen_in_the_step() {
     let model = model();
-    let mut run = Run::new(&model, LONG, &want(SnapshotRequest::none()));
+    let mut run = Run::new(&model, LONG, &request(SnapshotRequest::none()));
     assert_eq!(run.advance(128), None);
     // Two steps that are none of a balance, in the contact.
     let is_due = |run: &Run<&Model>, ahead: u64| {

@@ -21,8 +21,8 @@ pub(crate) struct LastValidState {
 
 impl LastValidState {
     /// Keeps states if snapshots are requested, otherwise none.
-    pub fn new(want: &OutputRequest) -> Self {
-        Self { is_wanted: is_wanted(want), ..Self::default() }
+    pub fn new(request: &OutputRequest) -> Self {
+        Self { is_wanted: is_wanted(request), ..Self::default() }
     }
 
     /// Takes note of a sampled instant whose energy adds up; its forces are in `scratch`.
@@ -63,12 +63,12 @@ impl LastValidState {
     }
 
     /// Whether it can belong to a run of a model in a state, with a request.
-    pub fn fits(&self, model: &Model, state: &State, want: &OutputRequest) -> bool {
+    pub fn fits(&self, model: &Model, state: &State, request: &OutputRequest) -> bool {
         let is_valid = |kept: &Snapshot| fits(kept, model) && kept.time <= state.time;
-        self.is_wanted == is_wanted(want) && self.kept.as_ref().is_none_or(is_valid)
+        self.is_wanted == is_wanted(request) && self.kept.as_ref().is_none_or(is_valid)
     }
 }
 
-fn is_wanted(want: &OutputRequest) -> bool {
-    want.snapshots != SnapshotRequest::none()
+fn is_wanted(request: &OutputRequest) -> bool {
+    request.snapshots != SnapshotRequest::none()
 }

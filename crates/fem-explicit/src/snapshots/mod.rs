@@ -114,9 +114,9 @@ pub(crate) struct Probing {
 
 impl Probing {
     /// Finds the places of the requested probes in the meshes of a model.
-    pub fn new(model: &Model, want: &OutputRequest) -> Self {
+    pub fn new(model: &Model, request: &OutputRequest) -> Self {
         let meshes = model.bodies().each_ref().map(|body| body.mesh());
-        Self { probes: Probes::new(meshes, &want.probes), all: Snapshot::default() }
+        Self { probes: Probes::new(meshes, &request.probes), all: Snapshot::default() }
     }
 
     /// Appends the sample of an instant t_n to those so far; its forces are in `scratch`.
@@ -138,8 +138,8 @@ impl Probing {
 }
 
 /// Whether samples of probes can belong to a run with this request at a time, s.
-pub(crate) fn probes_fit(samples: &[Snapshot], want: &OutputRequest, time: f64) -> bool {
-    let n = want.probes.len();
+pub(crate) fn probes_fit(samples: &[Snapshot], request: &OutputRequest, time: f64) -> bool {
+    let n = request.probes.len();
     let is_complete = |one: &Snapshot| {
         one.bodies.iter().all(|fields| {
             [fields.displacement.len(), fields.velocity.len(), fields.stress.len()] == [n; 3]

@@ -88,13 +88,13 @@ fn it_is_resumed_and_another_is_refused() {
     let pair = Pair { velocities: [5.0, 0.0], history_rows: 0, ..fast() };
     let (bare, usual) = (pair.model(), model(&pair, ViscosityCoefficients::default()));
     let n_bytes = |model: &Model| {
-        let run = Run::new(model, pair.expected(), &pair.want());
+        let run = Run::new(model, pair.expected(), &pair.request());
         postcard::to_stdvec(run.restart_state()).unwrap().len()
     };
     let n_nodes: usize = bare.bodies().iter().map(|body| body.n_nodes()).sum();
     // Its force, its work and its means, pairs of eight bytes, and the lengths of three fields of each body.
     assert_eq!(n_bytes(&usual), n_bytes(&bare) + 3 * 16 * n_nodes + 3 * 2);
-    let mut run = Run::new(&usual, pair.expected(), &pair.want());
+    let mut run = Run::new(&usual, pair.expected(), &pair.request());
     assert_eq!(run.advance(200), None);
     let bytes = postcard::to_stdvec(run.restart_state()).unwrap();
     let memory = || postcard::from_bytes(&bytes).unwrap();

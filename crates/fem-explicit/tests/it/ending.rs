@@ -26,7 +26,7 @@ fn an_ended_run_does_no_step_more() {
     let mut names = Vec::new();
     for pair in endings() {
         let model = pair.model();
-        let mut run = Run::new(&model, pair.expected(), &pair.want());
+        let mut run = Run::new(&model, pair.expected(), &pair.request());
         assert_eq!(run.advance(10), None);
         assert_eq!(run.restart_state().ending(), None);
         let ending = run.advance(u64::MAX).unwrap().clone();
@@ -61,19 +61,19 @@ fn a_run_that_is_left_is_interrupted_where_it_is() {
     let model = pair.model();
     let n_steps = pair.run_model(&model).steps.unwrap();
     for step in [0, 1, n_steps / 2, n_steps - 1] {
-        for want in [
-            pair.want(),
-            OutputRequest { history_rows: 7, ..pair.want() },
+        for request in [
+            pair.request(),
+            OutputRequest { history_rows: 7, ..pair.request() },
             OutputRequest::quantities(),
         ] {
-            let mut run = Run::new(&model, pair.expected(), &want);
+            let mut run = Run::new(&model, pair.expected(), &request);
             assert_eq!(run.advance(step), None);
             let time = run.restart_state().time();
             let left = run.finish();
             assert_eq!(left.ending, Ending::Stopped(Stop::Interrupted { time, step }));
             assert_eq!([left.restitution, left.contact_time], [None; 2]);
             assert!(left.energies.entries().count() > 2 && left.residual.is_some());
-            assert_eq!(left.history.is_empty(), want.history_rows == 0);
+            assert_eq!(left.history.is_empty(), request.history_rows == 0);
             if let Some(row) = left.history.last() {
                 assert_eq!((row.time, row.energies), (time, left.energies));
             }
@@ -85,7 +85,7 @@ fn a_run_that_is_left_is_interrupted_where_it_is() {
 #[test]
 fn a_run_can_hold_its_model() {
     fn begun(pair: &Pair) -> Run<Arc<Model>> {
-        Run::new(Arc::new(pair.model()), pair.expected(), &pair.want())
+        Run::new(Arc::new(pair.model()), pair.expected(), &pair.request())
     }
     fn finished(mut run: Run<Arc<Model>>) -> Collision {
         while run.advance(64).is_none() {}

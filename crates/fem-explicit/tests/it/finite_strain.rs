@@ -212,9 +212,9 @@ fn the_time_step_follows_and_resumes() {
     let terms: &[(f64, f64)] = &[(0.5, 1e-3), (0.2, 1e-2)];
     let ball = Ball { speed: 8.0, n: 6.0, nu: 0.45, penalty: 1.0, terms, ..Ball::default() };
     let model = ball.model();
-    let want = OutputRequest::history();
+    let request = OutputRequest::history();
     let whole = ball.run();
-    let mut memory = Run::new(&model, ball.expected(), &want).restart_state().clone();
+    let mut memory = Run::new(&model, ball.expected(), &request).restart_state().clone();
     let mut steps = Vec::new();
     let resumed = loop {
         let bytes = postcard::to_stdvec(&memory).unwrap();

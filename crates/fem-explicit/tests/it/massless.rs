@@ -159,7 +159,7 @@ fn a_resumed_run_is_the_same_to_the_bit() {
     let pair = Pair { relaxation: Some(ActsOn::Shear), ..coarse() };
     let model = pair.model();
     let whole = pair.run_model(&model);
-    let mut memory = Run::new(&model, pair.expected(), &pair.want()).restart_state().clone();
+    let mut memory = Run::new(&model, pair.expected(), &pair.request()).restart_state().clone();
     let resumed = loop {
         let mut run = Run::resume(&model, memory).unwrap();
         if run.advance(61).is_some() {
@@ -170,7 +170,7 @@ fn a_resumed_run_is_the_same_to_the_bit() {
     assert_eq!(resumed, whole);
     // The same springs between nodes that have mass are another model.
     let penalty = Pair { method: ContactMethod::Penalty, ..pair.clone() }.model();
-    let memory = Run::new(&model, pair.expected(), &pair.want()).restart_state().clone();
+    let memory = Run::new(&model, pair.expected(), &pair.request()).restart_state().clone();
     assert!(Run::resume(&penalty, memory).is_err());
 }
 

@@ -124,7 +124,7 @@ fn a_rigid_sphere_can_be_met() {
 fn a_run_can_be_resumed() {
     let pair = Pair { element_size: 110e-6, ..coarse() };
     let [plain, moved] = of_pair(&pair, [0, 1].map(|body| pair.sphere(body)));
-    let mut run = Run::new(&moved, pair.expected(), &pair.want());
+    let mut run = Run::new(&moved, pair.expected(), &pair.request());
     let first = run.restart_state().clone();
     assert!(Run::resume(&plain, first).is_err(), "a memory of another contact");
     while run.advance(97).is_none() {
@@ -244,13 +244,13 @@ fn a_body_at_finite_strain_has_it_by_itself() {
         assert!(with(None).interface().is_some());
         let model = with(Some(HyperelasticLaw::NeoHooke));
         assert!(model.interface().is_none());
-        let want = OutputRequest { history_rows: 1000, ..OutputRequest::history() };
-        let mut run = Run::new(&model, expected, &want);
+        let request = OutputRequest { history_rows: 1000, ..OutputRequest::history() };
+        let mut run = Run::new(&model, expected, &request);
         while run.advance(211).is_none() {
             run = Run::resume(&model, run.restart_state().clone()).unwrap();
         }
         let run = run.finish();
-        assert_eq!(run, collide(&model, expected, &want, &mut ()));
+        assert_eq!(run, collide(&model, expected, &request, &mut ()));
         assert_eq!(run.ending, Ending::Parted);
         let found = quantities(&run);
         assert!(found.residual < 5e-5, "{}", found.residual);

@@ -162,7 +162,7 @@ fn an_interrupted_run_returns_what_it_has() {
         for n_reports in [1, 25] {
             let pair = Pair { history_rows, ..coarse() };
             let mut stopper = Stopper { left: n_reports, seen: Vec::new() };
-            let run = collide(&pair.model(), pair.expected(), &pair.want(), &mut stopper);
+            let run = collide(&pair.model(), pair.expected(), &pair.request(), &mut stopper);
             let Some(&Stop::Interrupted { time, step }) = run.stop() else { panic!("{run:?}") };
             assert_eq!(stopper.seen.len(), n_reports);
             let last = stopper.seen.last().unwrap();
@@ -195,7 +195,7 @@ fn an_interrupted_run_returns_what_it_has() {
 fn a_finished_run_reports_its_progress() {
     let pair = coarse();
     let mut watcher = Stopper { left: usize::MAX, seen: Vec::new() };
-    let run = collide(&pair.model(), pair.expected(), &pair.want(), &mut watcher);
+    let run = collide(&pair.model(), pair.expected(), &pair.request(), &mut watcher);
     assert_eq!(run.ending, Ending::Parted);
     let found = quantities(&run);
     // Every 64 steps.

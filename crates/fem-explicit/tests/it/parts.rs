@@ -29,7 +29,7 @@ fn on_both<F: NodeForce + Clone>(force: &F) -> Parts {
 
 /// The run stored, read back and resumed every 97 steps.
 fn in_pieces(pair: &Pair, model: &Model) -> Collision {
-    let mut run = Run::new(model, pair.expected(), &pair.want());
+    let mut run = Run::new(model, pair.expected(), &pair.request());
     while run.advance(97).is_none() {
         let bytes = postcard::to_stdvec(run.restart_state()).unwrap();
         run = Run::resume(model, postcard::from_bytes(&bytes).unwrap()).unwrap();
@@ -39,7 +39,7 @@ fn in_pieces(pair: &Pair, model: &Model) -> Collision {
 
 /// Bytes of the memory before the first step.
 fn n_bytes(pair: &Pair, model: &Model) -> usize {
-    let run = Run::new(model, pair.expected(), &pair.want());
+    let run = Run::new(model, pair.expected(), &pair.request());
     postcard::to_stdvec(run.restart_state()).unwrap().len()
 }
 
@@ -317,7 +317,7 @@ fn a_contact_with_history_takes_the_place_of_the_penalty() {
         let n_nodes: usize = plain.bodies().iter().map(|body| body.n_nodes()).sum();
         assert_eq!(n_bytes(&pair, &other), n_bytes(&pair, &plain) + 16 * n_nodes + 2 * 2);
         // A memory with more fields is of another model.
-        let memory = Run::new(&other, pair.expected(), &pair.want()).restart_state().clone();
+        let memory = Run::new(&other, pair.expected(), &pair.request()).restart_state().clone();
         assert_eq!(
             Run::resume(&plain, memory.clone()).err(),
             Some(ModelError::ForeignRestartState)

@@ -51,7 +51,7 @@ fn in_pieces(
     n_steps: u64,
     mut look: impl FnMut(&RestartState, Progress),
 ) -> Collision {
-    let mut memory = Run::new(model, pair.expected(), &pair.want()).restart_state().clone();
+    let mut memory = Run::new(model, pair.expected(), &pair.request()).restart_state().clone();
     loop {
         let mut run = Run::resume(model, stored(&memory)).unwrap();
         let has_ended = run.advance(n_steps).is_some();
@@ -98,7 +98,7 @@ fn a_run_resumes_from_its_first_steps() {
     let whole = pair.run_model(&model);
     assert_eq!(whole.snapshots[0].time, 1e-6);
     for n_steps in 0..5 {
-        let mut run = Run::new(&model, pair.expected(), &pair.want());
+        let mut run = Run::new(&model, pair.expected(), &pair.request());
         assert_eq!(run.advance(n_steps), None);
         assert_eq!(run.restart_state().step(), n_steps);
         let mut resumed = Run::resume(&model, stored(run.restart_state())).unwrap();
@@ -132,7 +132,7 @@ fn odd_runs_resume_alike() {
 fn one_step_at_a_time_is_many_at_once() {
     for pair in materials() {
         let model = pair.model();
-        let new = || Run::new(&model, pair.expected(), &pair.want());
+        let new = || Run::new(&model, pair.expected(), &pair.request());
         let (mut single, mut many) = (new(), new());
         for n_steps in [1, 30, 400, 1000] {
             for _ in 0..n_steps {
@@ -152,9 +152,9 @@ fn one_step_at_a_time_is_many_at_once() {
 #[test]
 fn nothing_happens_by_itself() {
     let (pair, model) = (small(), small().model());
-    let mut run = Run::new(&model, pair.expected(), &pair.want());
+    let mut run = Run::new(&model, pair.expected(), &pair.request());
     let start = run.restart_state().clone();
-    assert_eq!((start.want(), start.expected()), (&pair.want(), pair.expected()));
+    assert_eq!((start.request(), start.expected()), (&pair.request(), pair.expected()));
     assert_eq!(run.advance(0), None);
     assert_eq!(run.restart_state(), &start);
 }
@@ -163,7 +163,7 @@ fn nothing_happens_by_itself() {
 fn a_memory_of_another_model_is_refused() {
     let pair = small();
     let model = pair.model();
-    let mut run = Run::new(&model, pair.expected(), &pair.want());
+    let mut run = Run::new(&model, pair.expected(), &pair.request());
     assert_eq!(run.advance(300), None);
     assert!(Run::resume(&model, run.restart_state().clone()).is_ok());
     let wall = pair.model_of([BodyInput::Wall, pair.sphere(1)]);
@@ -201,7 +201,7 @@ fn a_memory_of_a_model_that_differs_in_little_is_refused() {
         Model::new([BodyInput::Wall, sphere], pair.approach(), settings).unwrap()
     };
     let plain = model(&upper, &soft);
-    let mut run = Run::new(&plain, pair.expected(), &pair.want());
+    let mut run = Run::new(&plain, pair.expected(), &pair.request());
     assert_eq!(run.advance(300), None);
     assert!(Run::resume(&model(&upper, &soft), stored(run.restart_state())).is_ok());
 
@@ -234,7 +234,7 @@ fn an_interrupted_run_is_the_beginning_of_the_whole() {
         let model = pair.model();
         let whole = pair.run_model(&model);
         let n_half = quantities(&whole).steps / 2;
-        let run = collide(&model, pair.expected(), &pair.want(), &mut StopAt(n_half));
+        let run = collide(&model, pair.expected(), &pair.request(), &mut StopAt(n_half));
         assert!(run.is_interrupted());
         let (stop, rows) = run.history.split_last().unwrap();
         assert!(stop.time >= rows.last().unwrap().time);

@@ -232,7 +232,7 @@ fn a_light_rigid_bead_is_stable() {
     let settings = Settings { candidate_radius: 60e-6, ..pair.settings() };
     let light = Model::new(bodies, Approach::at(speed).unwrap(), &settings).unwrap();
     let expected = Expectation { contact_time: 6e-6, approach: 1e-6 };
-    let run = collide(&light, expected, &pair.want(), &mut ());
+    let run = collide(&light, expected, &pair.request(), &mut ());
     let found = quantities(&run);
     assert!(found.residual < 1e-5, "{}", found.residual);
     assert!((found.restitution - 1.0).abs() < 5e-3, "{}", found.restitution);
@@ -253,13 +253,13 @@ fn a_resumed_run_is_the_same_to_the_bit() {
         let whole = pair.run_model(&model);
         assert_eq!(whole.snapshots.len(), 3);
         assert!(whole.snapshots.iter().all(|s| s.bodies[rigid].displacement.is_empty()));
-        let mut run = Run::new(&model, pair.expected(), &pair.want());
+        let mut run = Run::new(&model, pair.expected(), &pair.request());
         while run.advance(97).is_none() {
             run = Run::resume(&model, stored(run.restart_state())).unwrap();
         }
         assert_eq!(run.finish(), whole);
 
-        let mut run = Run::new(&model, pair.expected(), &pair.want());
+        let mut run = Run::new(&model, pair.expected(), &pair.request());
         assert_eq!(run.advance(300), None);
         let mut larger = bodies_of(&pair, rigid, 1.0);
         if let BodyInput::Rigid { radius, .. } = &mut larger[rigid] {

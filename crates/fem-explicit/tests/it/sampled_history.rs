@@ -25,10 +25,10 @@ fn but_rows(run: &Collision) -> String {
 fn run_for(
     model: &Model,
     expected: Expectation,
-    want: OutputRequest,
+    request: OutputRequest,
     history_rows: usize,
 ) -> Collision {
-    collide(model, expected, &OutputRequest { history_rows, ..want }, &mut ())
+    collide(model, expected, &OutputRequest { history_rows, ..request }, &mut ())
 }
 
 #[test]
@@ -57,14 +57,14 @@ fn so_are_those_of_odd_runs() {
     {
         let model = pair.model();
         let expected = Expectation { contact_time, ..pair.expected() };
-        let want = OutputRequest {
+        let request = OutputRequest {
             give_up_after: pair.max_time / contact_time,
             ..OutputRequest::history()
         };
-        let whole = run_for(&model, expected, want.clone(), 1000);
+        let whole = run_for(&model, expected, request.clone(), 1000);
         assert_eq!(whole.is_complete(), contact_time < HERTZ_TIME);
         for history_rows in [0, 30, 3000] {
-            let other = run_for(&model, expected, want.clone(), history_rows);
+            let other = run_for(&model, expected, request.clone(), history_rows);
             assert_eq!(but_rows(&other), but_rows(&whole), "{history_rows} rows");
             // The state where it stopped is the last row, whenever one was due.
             if let Some(row) = other.history.last() {
@@ -82,8 +82,8 @@ fn so_are_those_of_odd_runs() {
 fn more_rows_show_the_same_run() {
     let pair = Pair { relaxation: Some(ActsOn::All), step_factor: 0.3, ..small() };
     let model = pair.model();
-    let few = run_for(&model, pair.expected(), pair.want(), 1000).history;
-    let many = run_for(&model, pair.expected(), pair.want(), 5000).history;
+    let few = run_for(&model, pair.expected(), pair.request(), 1000).history;
+    let many = run_for(&model, pair.expected(), pair.request(), 5000).history;
     assert!(many.len() > 3 * few.len(), "{} {}", many.len(), few.len());
     assert!(many.windows(2).all(|two| two[0].time < two[1].time));
     let common = few.iter().filter(|row| many.contains(row)).count();

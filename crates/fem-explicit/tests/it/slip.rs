@@ -35,7 +35,7 @@ fn model(pair: &Pair, material: Option<Material>, surface_slip: bool) -> Model {
 }
 
 fn in_pieces(pair: &Pair, model: &Model) -> Collision {
-    let mut memory = Run::new(model, pair.expected(), &pair.want()).restart_state().clone();
+    let mut memory = Run::new(model, pair.expected(), &pair.request()).restart_state().clone();
     loop {
         let mut run = Run::resume(model, memory).unwrap();
         if run.advance(4001).is_some() {
@@ -139,6 +139,6 @@ fn is_the_same_in_pieces(pair: &Pair) {
     let run = pair.run_model(&slipping);
     assert_eq!(in_pieces(pair, &slipping), run);
     assert_ne!(pair.run_model(&plain), run);
-    let memory = Run::new(&plain, pair.expected(), &pair.want()).restart_state().clone();
+    let memory = Run::new(&plain, pair.expected(), &pair.request()).restart_state().clone();
     assert_eq!(Run::resume(&slipping, memory).err(), Some(ModelError::ForeignRestartState));
 }

@@ -90,5 +90,5 @@ pub fn kuwabara_kono_values(law: &LawInput, context: &LawContext<'_>) -> LawValu
                        lasting stiffness";
         return Err(LawInputError::Materials { message, help: GIVE });
     };
-    Ok((vec![time], context.pair.softened(relaxation.equilibrium_weight())?))
+    Ok((vec![time], context.pair.with_modulus_share(relaxation.equilibrium_weight())?))
 }

@@ -93,7 +93,7 @@ fn kelvins_law_is_the_slow_limit_of_ting() {
         let partner = |diameter| Partner::solid_sphere(diameter, &body);
         let pair = Pair::new(partner(22.2e-3), partner(15.9e-3)).unwrap();
         let relaxation = PairRelaxation::new(Some(&body), Some(&body)).unwrap();
-        let slow = pair.softened(relaxation.equilibrium_weight()).unwrap();
+        let slow = pair.with_modulus_share(relaxation.equilibrium_weight()).unwrap();
         let law = kuwabara_kono(&slow, relaxation.dissipation_time().unwrap()).unwrap();
         let kelvin = LawImpact::new(&slow, law).impact(0.5).unwrap();
         let ting = Ting::new(&pair, relaxation).impact(0.5).unwrap();

@@ -159,7 +159,7 @@ impl Side {
     /// Returns the simulation of the run.
     pub fn simulation(&self) -> Simulation {
         let mut simulation = Simulation::new(self.case()).expect("a scene");
-        simulation.ask_for(self.want()).expect("a run");
+        simulation.ask_for(self.request()).expect("a run");
         simulation
     }
 
@@ -174,14 +174,14 @@ impl Side {
     pub fn start(&self, contact: Option<&Explicit>, simulation: &Simulation) -> Box<dyn Stepper> {
         match contact {
             Some(model) => {
-                let course = model.start(&model.setup().approach, &self.want());
+                let course = model.start(&model.setup().approach, &self.request());
                 course.expect("explicit elements go in steps")
             }
             None => simulation.start(),
         }
     }
 
-    fn want(&self) -> OutputRequest {
+    fn request(&self) -> OutputRequest {
         match self.kept {
             Kept::Quantities => OutputRequest::quantities(),
             Kept::History => OutputRequest::history(),

@@ -135,6 +135,6 @@ fn in_series(a: f64, b: Option<f64>) -> f64 {
 fn foretold(simulation: &fem::Simulation) -> Result<NeglectError, Fault> {
     let effect = EFFECTS.iter().find(|effect| effect.name() == "finite strain");
     let estimate = &simulation.setup().estimate;
-    let left_out = |effect: &&dyn Effect| effect.left_out(simulation.case().scene(), estimate);
-    Ok(effect.and_then(left_out).ok_or("nothing is foretold")?)
+    let neglect_error = |effect: &&dyn Effect| effect.neglect_error(simulation.case().scene(), estimate);
+    Ok(effect.and_then(neglect_error).ok_or("nothing is foretold")?)
 }

@@ -130,8 +130,8 @@ fn effects(simulation: &Simulation) -> String {
     let setup = simulation.setup();
     let header = ["", "", "restitution", "contact time", "peak force", ""].map(String::from);
     let rows = setup.decisions.verdicts.iter().map(|verdict| {
-        let left_out = simulation.left_out(verdict, &setup.estimate).unwrap_or_default();
-        let [restitution, time, force] = run_report::changes(&left_out);
+        let neglect_error = simulation.neglect_error(verdict, &setup.estimate).unwrap_or_default();
+        let [restitution, time, force] = run_report::changes(&neglect_error);
         let switch = run_report::on_or_off(verdict).to_string();
         [switch, verdict.name.to_string(), restitution, time, force, verdict.reason.clone()]
     });

@@ -164,7 +164,7 @@ fn write_tables(
     write_table(folder, HISTORY_FILE, summary, |file| {
         Ok(history_csv(file, simulation.case().scene(), &collision.history)?)
     })?;
-    let probes = &simulation.want().probes;
+    let probes = &simulation.request().probes;
     if !probes.is_empty() {
         write_table(folder, PROBES_FILE, summary, |file| {
             Ok(probes_csv(file, probes, &collision.probes)?)

@@ -117,11 +117,11 @@ pub fn decide(
             return Err(lacking(scene, effect));
         }
         let Some(answer) = answer else { continue };
-        let need = effect.need(scene, estimate).unwrap_or_default();
+        let relevance = effect.relevance(scene, estimate).unwrap_or_default();
         let obeys = answer.obeys();
-        let (is_called_for, doubt) = (need.is_called_for, need.warning.clone());
+        let (is_called_for, model_form_error) = (relevance.is_called_for, relevance.warning.clone());
         let is_inherent = matches!(answer, Support::Inherent { .. });
-        let (active, reason, warnings) = answer.of(need, switch);
+        let (active, reason, warnings) = answer.of(relevance, switch);
         if switch == Some(Switch::Off) && active {
             return Err(inherent(scene, effect, &reason));
         }
@@ -129,17 +129,17 @@ pub fn decide(
         decisions.verdicts.push(EffectDecision { name: effect.name(), active, reason, is_lacking });
         decisions.warnings.extend(warnings);
         if switch == Some(Switch::On) && obeys && !is_called_for {
-            let left_out = effect.left_out(scene, estimate).unwrap_or_default();
+            let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let name = effect.name();
             decisions.warnings.push(format!(
-                "{name} is forced on where the scene does not call for it, which changes {left_out}"
+                "{name} is forced on where the scene does not call for it, which changes {neglect_error}"
             ));
         }
         if switch == Some(Switch::Off) && obeys && is_called_for {
-            let left_out = effect.left_out(scene, estimate).unwrap_or_default();
-            let mut warning = left_out.warning(effect.name());
-            if let Some(doubt) = doubt {
-                warning += &format!(": {doubt}");
+            let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
+            let mut warning = neglect_error.warning(effect.name());
+            if let Some(model_form_error) = model_form_error {
+                warning += &format!(": {model_form_error}");
             }
             decisions.warnings.push(warning);
         }

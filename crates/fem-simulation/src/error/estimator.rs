@@ -252,9 +252,9 @@ fn across(collision: &Collision, size: f64) -> [f64; 2] {
 /// and spans few elements. Meshes of similar size then agree on a wrong pressure, and no finer one is tried for it.
 pub(super) fn early_pressure_radius(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let size = subject(simulation, collision)?.size;
-    let softened = simulation.estimate(collision)?.softened;
-    let radius = softened.pressure_radius;
-    let is_early = radius < EARLY * softened.sizes.max_contact_radius;
+    let effective = simulation.estimate(collision)?.effective;
+    let radius = effective.pressure_radius;
+    let is_early = radius < EARLY * effective.sizes.max_contact_radius;
     (is_early && radius < FEW_AT_PRESSURE * size).then_some(radius)
 }
 
@@ -262,7 +262,7 @@ pub(super) fn early_pressure_radius(simulation: &Simulation, collision: &Collisi
 /// pressure that elements do not resolve.
 fn beside_closed_form(simulation: &Simulation, collision: &Collision) -> f64 {
     let estimate = simulation.estimate(collision);
-    let expected = estimate.map(|estimate| estimate.softened.sizes.peak_pressure);
+    let expected = estimate.map(|estimate| estimate.effective.sizes.peak_pressure);
     let both = collision.peak_pressure.zip(expected);
     both.map_or(0.0, |(value, expected)| CLOSED_FORM_PRESSURE * (1.0 - expected / value).abs())
 }

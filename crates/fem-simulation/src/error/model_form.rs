@@ -48,9 +48,9 @@ fn model_form_errors(
     let scene = simulation.scene_of_model();
     let error = |EffectSummary { verdict, error_if_left_out }: &EffectSummary| {
         let standing =
-            EffectStatus { is_lacking: verdict.is_lacking, left_out: *error_if_left_out };
+            EffectStatus { is_lacking: verdict.is_lacking, neglect_error: *error_if_left_out };
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
-        Some(effect.doubt(&scene, &estimate, &standing))
+        Some(effect.model_form_error(&scene, &estimate, &standing))
     };
     let loss = simulation.case().scene().unpublished_loss().map(|_| ModelFormError::of_loss());
     effects.iter().filter_map(error).chain(loss).collect()

@@ -287,8 +287,8 @@ fn collide(
     });
     let shared = simulation.shared().for_reference_runs();
     let reference = Simulation::sharing(case.ok()?, &shared).ok()?;
-    let want = OutputRequest { most_element_updates, ..OutputRequest::quantities() };
-    let collision = reference.model().collide(approach, &want, &mut ());
+    let request = OutputRequest { most_element_updates, ..OutputRequest::quantities() };
+    let collision = reference.model().collide(approach, &request, &mut ());
     Some((reference, collision))
 }
 

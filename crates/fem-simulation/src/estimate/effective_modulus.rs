@@ -108,13 +108,13 @@ impl EffectiveModuli {
 impl Sizes {
     /// Returns the sizes for an impact. Bodies that stay together have the contact time of equally soft
     /// elastic ones.
-    fn of(impact: &Impact, softened: &HertzImpact) -> Self {
+    fn of(impact: &Impact, effective: &HertzImpact) -> Self {
         Self {
-            contact_time: impact.contact_time.unwrap_or_else(|| softened.contact_time()),
+            contact_time: impact.contact_time.unwrap_or_else(|| effective.contact_time()),
             peak_force: impact.peak_force,
             max_approach: impact.max_approach,
             max_contact_radius: impact.max_contact_radius,
-            peak_pressure: impact.peak_pressure.unwrap_or_else(|| softened.peak_pressure()),
+            peak_pressure: impact.peak_pressure.unwrap_or_else(|| effective.peak_pressure()),
         }
     }
 }
@@ -138,7 +138,7 @@ impl Estimate {
         if self.relaxed == 0.0 {
             return came;
         }
-        let sizes = &mut came.softened.sizes;
+        let sizes = &mut came.effective.sizes;
         for (size, of_collision) in [
             (&mut sizes.contact_time, collision.contact_time),
             (&mut sizes.peak_force, collision.peak_force),

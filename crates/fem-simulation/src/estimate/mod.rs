@@ -46,11 +46,11 @@ pub struct Estimate {
     /// modulus that is lost over the contact.
     pub relaxed: f64,
     /// The contact as relaxation makes it, by which effects are judged: Hertz' of elastic bodies.
-    pub softened: EffectiveModuli,
+    pub effective: EffectiveModuli,
     /// As [`Estimate::mach`], of the moduli that the contact meets.
-    pub softened_mach: f64,
+    pub effective_mach: f64,
     /// As [`Estimate::ringing`], of the moduli that the contact meets.
-    pub softened_ringing: f64,
+    pub effective_ringing: f64,
 }
 
 impl Estimate {
@@ -129,13 +129,13 @@ impl Estimate {
             .filter_map(|material| material.relaxation())
             .map(|series| 1.0 - series.relaxation(contact_time))
             .fold(0.0, f64::max);
-        let softened = match relaxed > MUCH {
+        let effective = match relaxed > MUCH {
             true => EffectiveModuli::much(scene, &hertz).ok(),
             false => None,
         };
         let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
-        let softened = softened.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
-        let twin = softened.twin(scene);
+        let effective = effective.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
+        let twin = effective.twin(scene);
         Ok(Self {
             hertz,
             contact_time,
@@ -146,9 +146,9 @@ impl Estimate {
             mach: mach(scene, speed),
             ringing: ringing(scene, hertz.contact_time()),
             relaxed,
-            softened,
-            softened_mach: mach(&twin, speed),
-            softened_ringing: ringing(&twin, softened.hertz.contact_time()),
+            effective,
+            effective_mach: mach(&twin, speed),
+            effective_ringing: ringing(&twin, effective.hertz.contact_time()),
         })
     }
 }

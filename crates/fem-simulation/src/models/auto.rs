@@ -2,7 +2,7 @@
 //!
 //! What a case asks for is in `[output]` (fields, or none) and in `[accuracy]`. What a model is off by
 //! is estimated before anything is computed: what the effects are worth that the scene calls for and
-//! the model lacks ([`Effect::left_out`]), and what its own approximations are known to cost. Effects
+//! the model lacks ([`Effect::neglect_error`]), and what its own approximations are known to cost. Effects
 //! that no model has choose none; the plan warns of them.
 //! One that lacks what nothing foretells the worth of does not serve, nor one whose result would itself advise another.
 
@@ -72,12 +72,12 @@ pub struct ExpectedError {
 }
 
 impl From<&ModelFormError> for ExpectedError {
-    fn from(doubt: &ModelFormError) -> Self {
+    fn from(model_form_error: &ModelFormError) -> Self {
         Self {
-            restitution: doubt.size(QuantityOfInterest::Restitution),
-            contact_time_s: doubt.size(QuantityOfInterest::ContactTime),
-            peak_force_n: doubt.size(QuantityOfInterest::PeakForce),
-            peak_pressure_pa: doubt.size(QuantityOfInterest::PeakPressure),
+            restitution: model_form_error.size(QuantityOfInterest::Restitution),
+            contact_time_s: model_form_error.size(QuantityOfInterest::ContactTime),
+            peak_force_n: model_form_error.size(QuantityOfInterest::PeakForce),
+            peak_pressure_pa: model_form_error.size(QuantityOfInterest::PeakPressure),
         }
     }
 }
@@ -289,7 +289,7 @@ impl Candidate {
 
     /// Returns the errors of the model's approximations.
     fn own_error(&self, scene: &Scene, estimate: &Estimate) -> ModelFormError {
-        let sizes = &estimate.softened.sizes;
+        let sizes = &estimate.effective.sizes;
         let accuracy = scene.accuracy();
         let default = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
         let is_made_finer = self.has_fields && scene.mesh().contact_element_size.is_none();
@@ -317,9 +317,9 @@ impl Candidate {
             let is_followed = is_made_finer && (FINEST..1.0).contains(&share);
             Some(own * scale * if is_followed { share } else { 1.0 })
         };
-        let of_size = EffectStatus { is_lacking: false, left_out: None };
+        let of_size = EffectStatus { is_lacking: false, neglect_error: None };
         let of_size = match self.is_first_order {
-            true => FiniteSizeEffect.doubt(scene, estimate, &of_size),
+            true => FiniteSizeEffect.model_form_error(scene, estimate, &of_size),
             false => ModelFormError::NOTHING,
         };
         ModelFormError::by(own).and(of_size)
@@ -333,29 +333,29 @@ impl Candidate {
         scene: &Scene,
         estimate: &Estimate,
     ) -> Option<ModelFormError> {
-        let is_called_for = || effect.need(scene, estimate).is_some_and(|need| need.is_called_for);
-        let left_out = effect.left_out(scene, estimate);
-        let doubt = match &left_out {
+        let is_called_for = || effect.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
+        let neglect_error = effect.neglect_error(scene, estimate);
+        let model_form_error = match &neglect_error {
             None if is_called_for() => return None,
             None => return Some(ModelFormError::NOTHING),
             // A material's law is taken as it is given: by how much laws differ tells no model from another.
-            Some(left_out) if effect.name() == FiniteStrain::NAME => {
-                ModelFormError::of(left_out, estimate)
+            Some(neglect_error) if effect.name() == FiniteStrain::NAME => {
+                ModelFormError::of(neglect_error, estimate)
             }
             Some(_) => {
-                let standing = EffectStatus { is_lacking: true, left_out };
-                effect.doubt(scene, estimate, &standing)
+                let standing = EffectStatus { is_lacking: true, neglect_error };
+                effect.model_form_error(scene, estimate, &standing)
             }
         };
         // A contact that does not end has no time to be off by.
         let is_known = [QuantityOfInterest::Restitution, QuantityOfInterest::PeakForce]
             .into_iter()
-            .all(|headline| doubt.size(headline).is_some());
+            .all(|headline| model_form_error.size(headline).is_some());
         let part = match effect.name() == PartnerWaves::NAME {
             true => self.own_waves(scene, estimate),
             false => 1.0,
         };
-        is_known.then(|| doubt.told().times(part))
+        is_known.then(|| model_form_error.told().times(part))
     }
 
     /// Returns the reason why its result would advise another model at any tolerance.
@@ -427,7 +427,7 @@ impl Candidate {
 
 /// The largest error over the tolerance.
 fn excess(error: &ModelFormError, estimate: &Estimate, accuracy: &Accuracy) -> f64 {
-    let sizes = &estimate.softened.sizes;
+    let sizes = &estimate.effective.sizes;
     let over =
         |headline: QuantityOfInterest, allowed: f64| error.size(headline).unwrap_or(0.0) / allowed;
     [

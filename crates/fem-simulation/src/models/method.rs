@@ -80,7 +80,7 @@ pub trait Model: fmt::Debug + Send + Sync {
     fn collide(
         &self,
         approach: &Approach,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision;
 
@@ -120,7 +120,7 @@ pub struct ModelSetup {
     /// How the scene's bodies meet.
     pub approach: Approach,
     /// Output request of the run.
-    pub want: OutputRequest,
+    pub request: OutputRequest,
     /// Closed-form estimate.
     pub estimate: Estimate,
     /// Which effects are on, and why.

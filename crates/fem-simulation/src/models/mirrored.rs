@@ -72,23 +72,23 @@ impl<M: Model> Model for Mirrored<M> {
     fn collide(
         &self,
         approach: &Approach,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
         match half_of(approach) {
             Ok(half) => {
-                let want = &in_half(want);
-                Whole::of(approach).collision(self.half.collide(&half, want, monitor))
+                let request = &in_half(request);
+                Whole::of(approach).collision(self.half.collide(&half, request, monitor))
             }
             Err(stop) => Collision::stopped(*approach, stop),
         }
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
+    fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
         let whole = Whole::of(approach);
         match half_of(approach) {
             Ok(half) => {
-                let half = self.half.start(&half, &in_half(want))?;
+                let half = self.half.start(&half, &in_half(request))?;
                 Some(Box::new(MirroredCourse { half, whole }))
             }
             Err(stop) => Some(stopped(*approach, stop)),
@@ -113,12 +113,12 @@ impl<M: Model> Model for Mirrored<M> {
 }
 
 /// Returns the output request of the half: places in the upper body are mirrored to the lower one.
-fn in_half(want: &OutputRequest) -> OutputRequest {
-    let mut want = want.clone();
-    for probe in want.probes.iter_mut().filter(|probe| probe.side == 1) {
+fn in_half(request: &OutputRequest) -> OutputRequest {
+    let mut request = request.clone();
+    for probe in request.probes.iter_mut().filter(|probe| probe.side == 1) {
         (probe.side, probe.place[1]) = (0, -probe.place[1]);
     }
-    want
+    request
 }
 
 /// How the lower body meets the plane between both.
@@ -178,9 +178,9 @@ impl Whole {
             approach: self.approach,
             energies,
             residual: half.residual.map(|residual| 2.0 * residual),
-            deepest: half
-                .deepest
-                .map(|deepest| DeepestOverlap { overlap: 2.0 * deepest.overlap, ..deepest }),
+            deepest_overlap: half
+                .deepest_overlap
+                .map(|deepest_overlap| DeepestOverlap { overlap: 2.0 * deepest_overlap.overlap, ..deepest_overlap }),
             max_approach: half.max_approach.map(|approach| 2.0 * approach),
             initial_energy: half.initial_energy.map(|energy| 2.0 * energy + of_centre),
             bodies: [after(0), after(1)],

@@ -50,12 +50,12 @@ impl OwnFrame {
     }
 
     /// What is asked for, at times since first touch.
-    pub fn want(&self, want: &OutputRequest) -> OutputRequest {
-        let mut want = want.clone();
-        if let SnapshotRequest::Times(times) = &mut want.snapshots {
+    pub fn request(&self, request: &OutputRequest) -> OutputRequest {
+        let mut request = request.clone();
+        if let SnapshotRequest::Times(times) = &mut request.snapshots {
             times.iter_mut().for_each(|time| *time -= self.delay());
         }
-        want
+        request
     }
 
     /// How far a run is, in the time of the case.
@@ -86,8 +86,8 @@ impl OwnFrame {
             },
             first_contact: own.first_contact.map(later),
             last_contact: own.last_contact.map(later),
-            noisiest: own.noisiest.map(|at| at.later_by(self.delay())),
-            deepest: own.deepest.map(|deepest| deepest.later_by(self.delay())),
+            noisiest_instant: own.noisiest_instant.map(|at| at.later_by(self.delay())),
+            deepest_overlap: own.deepest_overlap.map(|deepest_overlap| deepest_overlap.later_by(self.delay())),
             residual_since: own.residual_since.map(|at| at.later_by(self.delay())),
             initial_energy: initial,
             energies: self.energies(own.energies, masses, last),
@@ -179,7 +179,7 @@ mod tests {
         // ½·2·1 + ½·1·4 = 3 J there, ½·2·9 = 9 J here.
         assert_eq!(3.0 + frame.gained(masses, frame.own().velocities()), 9.0);
         assert_eq!(frame.wall_work(masses, [0.0, 0.0]), 0.0);
-        assert_eq!(frame.want(&OutputRequest::quantities()), OutputRequest::quantities());
+        assert_eq!(frame.request(&OutputRequest::quantities()), OutputRequest::quantities());
         let snapshot = Snapshot { time: 0.5, ..Snapshot::default() };
         // 2 s of flight at 3 m/s and at rest, then half a second with the mass centre.
         let carried = frame.snapshot(snapshot);

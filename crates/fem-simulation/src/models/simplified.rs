@@ -62,14 +62,14 @@ impl Model for Simplified {
     fn collide(
         &self,
         approach: &Approach,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        self.model.collide(approach, want, monitor)
+        self.model.collide(approach, request, monitor)
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        self.model.start(approach, want)
+    fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
+        self.model.start(approach, request)
     }
 
     fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {

@@ -31,11 +31,11 @@ pub trait Stepper {
 pub(crate) fn begun(
     model: &Arc<dyn Model>,
     approach: &Approach,
-    want: &OutputRequest,
+    request: &OutputRequest,
 ) -> Box<dyn Stepper> {
-    model.start(approach, want).unwrap_or_else(|| {
-        let (model, approach, want) = (model.clone(), *approach, want.clone());
-        let collide = move |monitor: &mut dyn Monitor| model.collide(&approach, &want, monitor);
+    model.start(approach, request).unwrap_or_else(|| {
+        let (model, approach, request) = (model.clone(), *approach, request.clone());
+        let collide = move |monitor: &mut dyn Monitor| model.collide(&approach, &request, monitor);
         Box::new(InOneGo::of(approach, collide))
     })
 }

@@ -224,7 +224,7 @@ impl Plan {
     }
 
     /// Returns the output request of a run.
-    pub fn want(&self) -> OutputRequest {
+    pub fn request(&self) -> OutputRequest {
         OutputRequest {
             snapshots: self.snapshots.clone(),
             most_element_updates: self.max_element_updates,

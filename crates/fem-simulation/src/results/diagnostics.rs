@@ -175,7 +175,7 @@ impl<'a> Run<'a> {
                  % of the approach, write contact.penalty_factor = {}{}",
                 100.0 * of_approach,
                 100.0 * of_element,
-                self.collision.deepest.map_or(String::new(), |deepest| format!(", deepest {deepest}")),
+                self.collision.deepest_overlap.map_or(String::new(), |deepest_overlap| format!(", deepest {deepest_overlap}")),
                 100.0 * LARGEST_PENETRATION,
                 two_digits((ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor).max(USUAL)),
                 self.shorter_elements(excess)
@@ -199,7 +199,7 @@ impl<'a> Run<'a> {
         Some(format!(
             "the contact force scatters by {:.1} % of its peak{}; above {} %, peaks are too high: {}",
             100.0 * noise(self.collision)?,
-            self.collision.noisiest.map_or(String::new(), |at| format!(", most about {at}")),
+            self.collision.noisiest_instant.map_or(String::new(), |at| format!(", most about {at}")),
             100.0 * LARGEST_NOISE,
             self.quieter.advice()
         ))

@@ -227,7 +227,7 @@ pub(super) struct Shown<'a> {
 /// All but a last contact that was not the last, and a second one of the same instant: viewers draw two
 /// files of one time on top of each other.
 pub(super) fn shown<'a>(simulation: &Simulation, collision: &'a Collision) -> Shown<'a> {
-    let request = &simulation.want().snapshots;
+    let request = &simulation.request().snapshots;
     let mut shown = Shown { snapshots: Vec::new(), warnings: Vec::new() };
     for snapshot in &collision.snapshots {
         let label = label(snapshot, request);

@@ -105,9 +105,9 @@ fn all_element_updates(
 fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary> {
     let estimate = simulation.estimate(collision);
     let worth = |verdict: EffectDecision| {
-        let left_out =
-            estimate.as_ref().and_then(|estimate| simulation.left_out(&verdict, estimate));
-        EffectSummary { verdict, error_if_left_out: left_out }
+        let neglect_error =
+            estimate.as_ref().and_then(|estimate| simulation.neglect_error(&verdict, estimate));
+        EffectSummary { verdict, error_if_left_out: neglect_error }
     };
     simulation.decisions(collision).verdicts.into_iter().map(worth).collect()
 }

@@ -93,7 +93,7 @@ pub struct Simulation {
     case: Case,
     model: Arc<dyn Model>,
     chosen: Option<SelectedModel>,
-    want: OutputRequest,
+    request: OutputRequest,
     resolved: CaseFile,
     shared: SharedModels,
     /// Elements across a length over those that the plan takes at first.
@@ -132,9 +132,9 @@ impl Simulation {
         let model: Arc<dyn Model> = Arc::from(model_of(&scene, shared).map_err(of_case)?);
         let resolved = resolved(&scene, case.file().clone()).map_err(of_case)?;
         let chosen = chosen(&scene).map_err(of_case)?;
-        let mut want = model.setup().want.clone();
-        want.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
-        Ok(Self { case, model, chosen, want, resolved, shared: shared.clone(), refinement, levels })
+        let mut request = model.setup().request.clone();
+        request.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
+        Ok(Self { case, model, chosen, request, resolved, shared: shared.clone(), refinement, levels })
     }
 
     /// The same on a finer mesh, asked for the same.
@@ -144,10 +144,10 @@ impl Simulation {
         levels: Vec<RefinementLevel>,
     ) -> Result<Self, CaseError> {
         let mut finer = Self::at(self.case.clone(), &self.shared, refinement, levels)?;
-        let probes = std::mem::take(&mut finer.want.probes);
-        finer.want = self.want.clone();
-        if !self.want.probes.is_empty() {
-            finer.want.probes = probes;
+        let probes = std::mem::take(&mut finer.request.probes);
+        finer.request = self.request.clone();
+        if !self.request.probes.is_empty() {
+            finer.request.probes = probes;
         }
         Ok(finer)
     }
@@ -315,8 +315,8 @@ impl Simulation {
     }
 
     /// What the run is asked for.
-    pub fn want(&self) -> &OutputRequest {
-        &self.want
+    pub fn request(&self) -> &OutputRequest {
+        &self.request
     }
 
     /// The case with every default filled in: it runs again to the same bits.
@@ -328,9 +328,9 @@ impl Simulation {
     ///
     /// # Errors
     /// More rows or snapshots than a run keeps, times that are no times.
-    pub fn ask_for(&mut self, want: OutputRequest) -> Result<(), OutputRequestError> {
-        want.check()?;
-        self.want = want;
+    pub fn ask_for(&mut self, request: OutputRequest) -> Result<(), OutputRequestError> {
+        request.check()?;
+        self.request = request;
         Ok(())
     }
 
@@ -360,8 +360,8 @@ impl Simulation {
     /// Makes the run compute no fields to draw, nor warn of those that could not be had. All else
     /// keeps its bits, the resolved case too.
     pub fn skip_snapshots(&mut self) {
-        self.want.snapshots = SnapshotRequest::none();
-        self.want.probes.clear();
+        self.request.snapshots = SnapshotRequest::none();
+        self.request.probes.clear();
     }
 
     /// Computes the collision, on finer meshes until its tolerance is met, and estimates its errors.
@@ -404,7 +404,7 @@ impl Simulation {
 
     /// Computes the collision.
     pub fn run(&self, monitor: &mut dyn Monitor) -> Collision {
-        self.model.collide(&self.setup().approach, &self.want, monitor)
+        self.model.collide(&self.setup().approach, &self.request, monitor)
     }
 
     /// Begins the collision: the caller decides when it goes on.
@@ -431,7 +431,7 @@ impl Simulation {
     /// # Ok::<(), fem_case::CaseError>(())
     /// ```
     pub fn start(&self) -> Box<dyn Stepper> {
-        begun(&self.model, &self.setup().approach, &self.want)
+        begun(&self.model, &self.setup().approach, &self.request)
     }
 
     /// Goes on from what a course of this case knew and was asked for, to the same bits.
@@ -452,9 +452,9 @@ impl Simulation {
     }
 
     /// By how much the numbers of a collision of which closed forms say this change without an effect.
-    pub fn left_out(&self, verdict: &EffectDecision, estimate: &Estimate) -> Option<NeglectError> {
+    pub fn neglect_error(&self, verdict: &EffectDecision, estimate: &Estimate) -> Option<NeglectError> {
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
-        effect.left_out(&self.scene_of_model(), estimate)
+        effect.neglect_error(&self.scene_of_model(), estimate)
     }
 
     /// The scene with the model that computes it, where the case leaves that open.

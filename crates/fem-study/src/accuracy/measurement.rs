@@ -42,9 +42,9 @@ impl Measurement {
     ) -> Result<Self, CaseError> {
         let mut simulation = Simulation::sharing(variant.case.clone(), shared)?;
         let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
-        let want = OutputRequest { snapshots, ..simulation.want().clone() };
+        let request = OutputRequest { snapshots, ..simulation.request().clone() };
         // A label more or less is no fault.
-        let _ = simulation.ask_for(want);
+        let _ = simulation.ask_for(request);
         let collision = simulation.run(monitor);
         let (elements, memory) = match simulation.setup().cost {
             Cost::Steps { elements, memory, .. } => (elements, Some(memory)),

@@ -21,12 +21,12 @@ fn a_collision_does_not_depend_on_those_before_it() {
     for method in METHODS {
         let simulation = simulation(method.name(), &[]);
         let model = simulation.model();
-        let (own, want) = (simulation.setup().approach, OutputRequest::history());
-        let collide = |approach: &Approach| plain(&model.collide(approach, &want, &mut ()));
+        let (own, request) = (simulation.setup().approach, OutputRequest::history());
+        let collide = |approach: &Approach| plain(&model.collide(approach, &request, &mut ()));
         let first = collide(&own);
         let between = collide(&fast());
         assert_eq!((first.approach, between.approach), (own, fast()));
-        if let (Some(small), Some(large)) = (first.searched, between.searched) {
+        if let (Some(small), Some(large)) = (first.candidate_region, between.candidate_region) {
             assert!(large.radius > 1.4 * small.radius, "{}", method.name());
         }
         assert!(first.is_complete() && between.is_complete(), "{}", method.name());
@@ -75,7 +75,7 @@ fn a_summary_is_of_the_collision_that_was_computed() {
 fn a_want_beyond_measure_is_refused() {
     for method in METHODS {
         let mut simulation = simulation(method.name(), &[]);
-        for want in [
+        for request in [
             OutputRequest { history_rows: usize::MAX, ..OutputRequest::history() },
             OutputRequest {
                 snapshots: SnapshotRequest::Count(usize::MAX),
@@ -87,9 +87,9 @@ fn a_want_beyond_measure_is_refused() {
             },
         ] {
             let approach = simulation.setup().approach;
-            let collision = simulation.model().collide(&approach, &want, &mut ());
+            let collision = simulation.model().collide(&approach, &request, &mut ());
             assert!(matches!(collision.stop(), Some(Stop::NotMade(_))), "{}", method.name());
-            assert!(simulation.ask_for(want).is_err());
+            assert!(simulation.ask_for(request).is_err());
         }
     }
 }

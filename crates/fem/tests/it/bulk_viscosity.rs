@@ -62,13 +62,13 @@ fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
 fn another_approach_is_decided_anew() {
     for bodies in ["start={}", TWINS] {
         let simulation = fem(&[SLOW, bodies]);
-        let want = OutputRequest {
+        let request = OutputRequest {
             snapshots: fem_collision::SnapshotRequest::none(),
             ..OutputRequest::quantities()
         };
         for (speed, expected) in [(60.0, false), (80.0, true)] {
             let approach = Approach::at(speed).unwrap();
-            let collision = simulation.model().collide(&approach, &want, &mut ());
+            let collision = simulation.model().collide(&approach, &request, &mut ());
             assert_eq!(collision.energies.has(Account::BulkViscosity), expected, "{speed}");
             let decisions = simulation.decisions(&collision);
             let own = decisions.verdicts.iter().find(|verdict| verdict.name == "bulk viscosity");

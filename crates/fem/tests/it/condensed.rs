@@ -128,8 +128,8 @@ fn cases_share_a_pair() {
         let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
         let case = parse(&overrides).unwrap();
         let condensed = Condensed::new(case.scene(), &shared).unwrap();
-        let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
-        let collision = condensed.collide(&approach, &want, &mut ());
+        let (approach, request) = (condensed.setup().approach, condensed.setup().request.clone());
+        let collision = condensed.collide(&approach, &request, &mut ());
         assert_eq!(collision.history, run(&overrides).history);
         condensed
     };
@@ -264,8 +264,8 @@ fn an_enlarged_pair_is_not_put_back() {
     };
     let condensed = |case: Case| {
         let condensed = Condensed::new(case.scene(), &shared).unwrap();
-        let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
-        condensed.collide(&approach, &want, &mut ()).searched.unwrap().radius
+        let (approach, request) = (condensed.setup().approach, condensed.setup().request.clone());
+        condensed.collide(&approach, &request, &mut ()).candidate_region.unwrap().radius
     };
     let small = condensed(soft(0.0));
     // It sinks in so much deeper that the region does not reach.
@@ -365,7 +365,7 @@ fn what_needs_no_fields_keeps_no_factors() {
     assert!(kept(probe).0 > 500_000);
     let (bytes, simulation) = kept("output.snapshots=[]");
     assert_eq!(bytes, 0);
-    let snapshots = kept("output.report=false").1.want().snapshots.clone();
+    let snapshots = kept("output.report=false").1.request().snapshots.clone();
     assert_eq!(snapshots.len(), 4);
     let asked =
         fem_collision::OutputRequest { snapshots, ..fem_collision::OutputRequest::quantities() };

@@ -37,8 +37,8 @@ fn a_course_that_is_left_is_interrupted() {
 
 /// Put away after so many pieces, through text, and taken up again.
 fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Collision {
-    let (model, want) = (simulation.model(), OutputRequest::history());
-    let mut course = model.start(approach, &want).unwrap();
+    let (model, request) = (simulation.model(), OutputRequest::history());
+    let mut course = model.start(approach, &request).unwrap();
     for _ in 0..n_pieces {
         course.advance(&mut ());
     }

@@ -264,10 +264,10 @@ fn flatter_than_what_was_computed_nothing_is_foretold() {
         let simulation = simulation(set).unwrap();
         let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
         let is_lacking = !verdict(&simulation).active;
-        let left_out = FiniteStrain.left_out(scene, estimate);
-        let doubt = FiniteStrain.doubt(scene, estimate, &EffectStatus { is_lacking, left_out });
-        let is_known = left_out.is_some_and(|left_out| left_out != NeglectError::default());
-        [is_known, QuantityOfInterest::ALL.iter().all(|headline| doubt.size(*headline).is_some())]
+        let neglect_error = FiniteStrain.neglect_error(scene, estimate);
+        let error = FiniteStrain.model_form_error(scene, estimate, &EffectStatus { is_lacking, neglect_error });
+        let is_known = neglect_error.is_some_and(|neglect_error| neglect_error != NeglectError::default());
+        [is_known, QuantityOfInterest::ALL.iter().all(|headline| error.size(*headline).is_some())]
     };
     // a/R of 0.81 and 0.87.
     let [flat, flatter] = ["body.1.approach_speed='10 m/s'", "body.1.approach_speed='12 m/s'"];

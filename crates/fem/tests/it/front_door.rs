@@ -57,12 +57,12 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     assert!(matches!(setup.cost, Cost::Factors { .. }));
     let hertz: &HertzImpact = &setup.estimate.hertz;
     assert!(hertz.contact_time() > 0.0 && setup.approach.speed() == 0.1);
-    let want = OutputRequest {
+    let request = OutputRequest {
         snapshots: SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]),
         ..OutputRequest::history()
     };
-    assert_eq!(simulation.want().snapshots, want.snapshots);
-    simulation.ask_for(want).unwrap();
+    assert_eq!(simulation.request().snapshots, request.snapshots);
+    simulation.ask_for(request).unwrap();
 
     let mut panel = Panel { phases: Vec::new(), reports_left: u64::MAX };
     let collision: Collision = simulation.run(&mut panel);

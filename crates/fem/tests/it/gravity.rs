@@ -55,7 +55,7 @@ fn a_weight_is_worth_what_is_foretold() {
     let with = simulation(&let_down);
     let verdicts = &with.setup().decisions.verdicts;
     let gravity = verdicts.iter().find(|verdict| verdict.name == "gravity").unwrap();
-    let foretold = with.left_out(gravity, &with.setup().estimate).unwrap();
+    let foretold = with.neglect_error(gravity, &with.setup().estimate).unwrap();
     let none = "gravity.acceleration=1e-9";
     let (with, without) = (with.run(&mut ()), run(&[&let_down[..], &[none]].concat()));
     let change = |with: Option<f64>, without: Option<f64>| with.unwrap() - without.unwrap();

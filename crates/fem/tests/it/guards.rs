@@ -168,14 +168,14 @@ fn springs_that_are_too_soft_are_told_how_stiff_to_be() {
         assert!(message.contains("% of an element, deepest "), "{message}");
         // On the axis, at the largest force.
         let (_, collision) = run(GLASS, &[COARSE, &factor]);
-        let deepest = collision.deepest.unwrap();
-        assert!(message.contains(&deepest.to_string()), "{message}");
+        let deepest_overlap = collision.deepest_overlap.unwrap();
+        assert!(message.contains(&deepest_overlap.to_string()), "{message}");
         let ends = [collision.first_contact, collision.last_contact].map(Option::unwrap);
         let middle = 0.5 * (ends[0] + ends[1]);
-        assert!((deepest.at.time - middle).abs() < 0.1 * (ends[1] - ends[0]), "{deepest}");
-        assert!(deepest.radius < 0.3 * collision.max_contact_radius.unwrap(), "{deepest}");
+        assert!((deepest_overlap.at.time - middle).abs() < 0.1 * (ends[1] - ends[0]), "{deepest_overlap}");
+        assert!(deepest_overlap.radius < 0.3 * collision.max_contact_radius.unwrap(), "{deepest_overlap}");
         // F = k ∫ overlap dA, of a paraboloid at most twice its mean.
-        assert!(deepest.overlap < 0.5 * collision.max_approach.unwrap(), "{deepest}");
+        assert!(deepest_overlap.overlap < 0.5 * collision.max_approach.unwrap(), "{deepest_overlap}");
     }
 }
 
@@ -185,8 +185,8 @@ fn a_run_at_its_limit_goes_on_where_that_is_raised() {
     let fluid = "material.glass.relaxation={acts_on='all', terms=[{weight=0.995, relaxation_time='0.3 us'}]}";
     let mesh = ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.6 mm'", fluid];
     let mut simulation = run(GLASS, &mesh).0;
-    let want = simulation.want().clone();
-    simulation.ask_for(fem::OutputRequest { most_element_updates: 100_000, ..want }).unwrap();
+    let request = simulation.request().clone();
+    simulation.ask_for(fem::OutputRequest { most_element_updates: 100_000, ..request }).unwrap();
     let collision = simulation.run(&mut ());
     let stop = collision.stop().expect("a stop");
     assert!(matches!(stop, Stop::TooManyUpdates { .. }), "{stop}");

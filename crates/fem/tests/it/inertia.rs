@@ -37,7 +37,7 @@ fn simulation(text: &str, set: &[&str]) -> Simulation {
 fn foretold(text: &str) -> [f64; 3] {
     let simulation = simulation(text, &["model.hertz={}"]);
     let estimate = &simulation.setup().estimate;
-    let told = Vibration.left_out(simulation.case().scene(), estimate).unwrap();
+    let told = Vibration.neglect_error(simulation.case().scene(), estimate).unwrap();
     let NeglectError { restitution, contact_time_s, peak_force_n } = told;
     let (time, force) = (estimate.hertz.contact_time(), estimate.hertz.peak_force());
     [restitution.unwrap(), contact_time_s.unwrap() / time, peak_force_n.unwrap() / force]

@@ -149,10 +149,10 @@ fn a_contact_that_outgrows_the_searched_region_is_run_again() {
     // Half of the largest contact radius, 0.223 mm.
     plan.candidate_radius = 0.11e-3;
     let explicit = Explicit::with_plan(case.scene(), plan).unwrap();
-    let ModelSetup { approach, want, .. } = explicit.setup().clone();
-    let collision = explicit.collide(&approach, &want, &mut ());
+    let ModelSetup { approach, request, .. } = explicit.setup().clone();
+    let collision = explicit.collide(&approach, &request, &mut ());
     assert!(collision.is_complete());
-    assert!(collision.searched.unwrap().radius > 0.223e-3);
+    assert!(collision.candidate_region.unwrap().radius > 0.223e-3);
     // The model stays as it was built.
     assert!(explicit.bodies().candidate_radius() < 0.12e-3);
     assert!((collision.restitution.unwrap() - 1.0).abs() < 1e-3);

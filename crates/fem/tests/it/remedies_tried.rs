@@ -145,7 +145,7 @@ const ROWS: [Row; 13] = [
 ];
 
 /// What a run without snapshots came to: nothing, or the words of what stopped or refused it with their remedy.
-fn failure(case: &str, overrides: &[&str], want: Option<f64>) -> Option<(String, String)> {
+fn failure(case: &str, overrides: &[&str], request: Option<f64>) -> Option<(String, String)> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     let case = Case::parse("case.toml", case, Path::new("."), &overrides).unwrap();
     let mut simulation = match Simulation::new(case) {
@@ -155,9 +155,9 @@ fn failure(case: &str, overrides: &[&str], want: Option<f64>) -> Option<(String,
         }
     };
     simulation.skip_snapshots();
-    if let Some(give_up_after) = want {
-        let want = OutputRequest { give_up_after, ..simulation.want().clone() };
-        simulation.ask_for(want).unwrap();
+    if let Some(give_up_after) = request {
+        let request = OutputRequest { give_up_after, ..simulation.request().clone() };
+        simulation.ask_for(request).unwrap();
     }
     let collision = simulation.run(&mut ());
     let stop = collision.stop()?;

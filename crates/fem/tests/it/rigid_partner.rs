@@ -100,7 +100,7 @@ fn what_is_forced_changes_what_is_foretold() {
         let warnings = forced.setup().warnings().join("\n");
         assert!(warnings.contains("forced to be rigid"), "{model}: {warnings}");
         let setup = forced.setup();
-        let foretold = forced.left_out(verdict(&forced), &setup.estimate).unwrap();
+        let foretold = forced.neglect_error(verdict(&forced), &setup.estimate).unwrap();
         let (rigid, whole) = (forced.run(&mut ()), run(&set));
         let found = (rigid.contact_time.unwrap() - whole.contact_time.unwrap()).abs();
         let ratio = found / foretold.contact_time_s.unwrap();

@@ -195,8 +195,8 @@ fn the_next_order_is_a_doubt_of_models_that_have_the_first() {
             let set: Vec<&str> = set.iter().map(String::as_str).chain([model]).collect();
             let simulation = simulation(&set);
             let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
-            let left_out = SurfaceSlip.left_out(scene, estimate);
-            let doubt = SurfaceSlip.doubt(scene, estimate, &EffectStatus { is_lacking, left_out });
+            let neglect_error = SurfaceSlip.neglect_error(scene, estimate);
+            let error = SurfaceSlip.model_form_error(scene, estimate, &EffectStatus { is_lacking, neglect_error });
             let hertz = &estimate.hertz;
             let scales = [hertz.contact_time(), hertz.peak_force(), hertz.max_approach()];
             let numbers = [
@@ -204,7 +204,7 @@ fn the_next_order_is_a_doubt_of_models_that_have_the_first() {
                 QuantityOfInterest::PeakForce,
                 QuantityOfInterest::MaxApproach,
             ];
-            [0, 1, 2].map(|k: usize| doubt.size(numbers[k]).unwrap().abs() / scales[k])
+            [0, 1, 2].map(|k: usize| error.size(numbers[k]).unwrap().abs() / scales[k])
         };
         for model in ["model.condensed={}", "model.ting={}"] {
             for (told, [first_order, whole]) in shares(model, false).into_iter().zip(found) {

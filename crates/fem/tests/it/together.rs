@@ -87,9 +87,9 @@ fn bodies_that_flow_have_one_answer() {
 #[test]
 fn runs_wait_for_what_is_foretold() {
     let elastic = simulation("condensed", "all", 1e-3, "1 ms");
-    assert_eq!(elastic.want().give_up_after, OutputRequest::GIVE_UP_AFTER);
+    assert_eq!(elastic.request().give_up_after, OutputRequest::GIVE_UP_AFTER);
     let times = ["0.2 us", "0.05 us"].map(|time| simulation("condensed", "all", 1.0, time));
-    let [early, late] = times.each_ref().map(|simulation| simulation.want().give_up_after);
+    let [early, late] = times.each_ref().map(|simulation| simulation.request().give_up_after);
     assert!(early > OutputRequest::GIVE_UP_AFTER && late > early, "{early} {late}");
 }
 
@@ -100,7 +100,7 @@ fn a_run_ends_at_its_limit() {
     let Cost::Steps { element_updates: expected, .. } = simulation.setup().cost else { panic!() };
     let limit = expected / 10;
     simulation
-        .ask_for(OutputRequest { most_element_updates: limit, ..simulation.want().clone() })
+        .ask_for(OutputRequest { most_element_updates: limit, ..simulation.request().clone() })
         .unwrap();
     let collision = simulation.run(&mut ());
     assert!(

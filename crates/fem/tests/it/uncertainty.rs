@@ -129,10 +129,10 @@ fn what_is_left_out_adds_up() {
     let [hertz, sized] = [HERTZ, "model.hertz.finite_size=true"]
         .map(|chosen| summary(GLASS, &[&set[..], &[chosen]].concat()));
     let size = hertz.effects.iter().find(|effect| effect.verdict.name == "finite size").unwrap();
-    let left_out = size.error_if_left_out.unwrap().contact_time_s.unwrap();
+    let neglect_error = size.error_if_left_out.unwrap().contact_time_s.unwrap();
     let step = model(&hertz)[1] - model(&sized)[1];
     // The term's own second order is what is left.
-    assert!((step / left_out - 1.0).abs() < 0.05, "{step:e} {left_out:e}");
+    assert!((step / neglect_error - 1.0).abs() < 0.05, "{step:e} {neglect_error:e}");
 }
 
 /// Bodies that stay together have no contact time, and nothing is said of what is not told.

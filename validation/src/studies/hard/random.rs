@@ -249,19 +249,19 @@ fn waves(theirs: &Ran) -> [f64; 3] {
     let verdicts = theirs.verdicts();
     let waves = verdicts.iter().find(|one| one.name == PartnerWaves::NAME && one.active);
     let Some(estimate) = theirs.simulation.estimate(&theirs.collision) else { return [0.0; 3] };
-    let worth = waves.and_then(|waves| theirs.simulation.left_out(waves, &estimate));
+    let worth = waves.and_then(|waves| theirs.simulation.neglect_error(waves, &estimate));
     let worth =
         worth.map_or([0.0; 3], |worth| shares(&worth, &estimate).map(Option::unwrap_or_default));
     worth.map(|share| RADIATION_WITHIN * share)
 }
 
 /// Returns the changes of restitution, and of contact time and peak force over Hertz' values.
-fn shares(left_out: &NeglectError, estimate: &Estimate) -> [Option<f64>; 3] {
+fn shares(neglect_error: &NeglectError, estimate: &Estimate) -> [Option<f64>; 3] {
     let hertz = &estimate.hertz;
     [
-        left_out.restitution,
-        left_out.contact_time_s.map(|time| time / hertz.contact_time()),
-        left_out.peak_force_n.map(|force| force / hertz.peak_force()),
+        neglect_error.restitution,
+        neglect_error.contact_time_s.map(|time| time / hertz.contact_time()),
+        neglect_error.peak_force_n.map(|force| force / hertz.peak_force()),
     ]
 }
 
@@ -273,8 +273,8 @@ fn explained(ours: &Ran, theirs: &Ran) -> [f64; 3] {
         let lacking = lacks.verdicts();
         let is_lacking = |name: &str| !lacking.iter().any(|one| one.name == name && one.active);
         for verdict in has.verdicts().iter().filter(|one| one.active && is_lacking(one.name)) {
-            let Some(left_out) = has.simulation.left_out(verdict, &estimate) else { continue };
-            for (sum, share) in sum.iter_mut().zip(shares(&left_out, &estimate)) {
+            let Some(neglect_error) = has.simulation.neglect_error(verdict, &estimate) else { continue };
+            for (sum, share) in sum.iter_mut().zip(shares(&neglect_error, &estimate)) {
                 *sum += share.unwrap_or(0.0);
             }
         }

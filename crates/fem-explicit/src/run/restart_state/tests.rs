@@ -28,13 +28,13 @@ fn requests() -> [SnapshotRequest; 3] {
     [labels, SnapshotRequest::Count(3), SnapshotRequest::Times(vec![0.5, 3.0, 1e3])]
 }
 
-fn want(snapshots: SnapshotRequest) -> OutputRequest {
+fn request(snapshots: SnapshotRequest) -> OutputRequest {
     OutputRequest { history_rows: 20, snapshots, give_up_after: 5.0, ..OutputRequest::history() }
 }
 
 /// After so many steps, or at the end of the run.
 fn memory(model: &Model, snapshots: SnapshotRequest, n_steps: u64) -> RestartState {
-    let mut run = Run::new(model, EXPECTED, &want(snapshots));
+    let mut run = Run::new(model, EXPECTED, &request(snapshots));
     run.advance(n_steps);
     run.restart_state().clone()
 }
@@ -141,7 +141,7 @@ fn a_time_that_is_no_number_is_refused() {
     type Damage = (&'static str, fn(&mut RestartState));
     let damages: [Damage; 5] = [
         ("time", |memory| memory.state.time = f64::NAN),
-        ("longest time", |memory| memory.want.give_up_after = f64::NAN),
+        ("longest time", |memory| memory.request.give_up_after = f64::NAN),
         ("first contact", |memory| memory.log.first_contact = Some(f64::NAN)),
         ("last row", |memory| memory.sampled.last.as_mut().unwrap().time = f64::NAN),
         ("approach", |memory| memory.approach = Approach::at(0.02).unwrap()),
@@ -160,8 +160,8 @@ fn a_memory_grows_by_what_is_asked_for() {
     let n_bytes = |memory: &RestartState| postcard::to_stdvec(memory).unwrap().len();
     let n_nodes: usize = model.bodies().iter().map(|body| body.n_nodes()).sum();
     let bare = |n_steps: u64| {
-        let want = OutputRequest { history_rows: 0, ..want(SnapshotRequest::none()) };
-        let mut run = Run::new(&model, EXPECTED, &want);
+        let request = OutputRequest { history_rows: 0, ..request(SnapshotRequest::none()) };
+        let mut run = Run::new(&model, EXPECTED, &request);
         run.advance(n_steps);
         run.restart_state().clone()
     };

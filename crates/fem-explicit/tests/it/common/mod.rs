@@ -121,7 +121,7 @@ impl Pair {
         Expectation { contact_time: HERTZ_TIME * time, approach: HERTZ_APPROACH * length }
     }
 
-    pub fn want(&self) -> OutputRequest {
+    pub fn request(&self) -> OutputRequest {
         OutputRequest {
             history_rows: self.history_rows,
             snapshots: self.snapshots.clone(),
@@ -135,7 +135,7 @@ impl Pair {
     }
 
     pub fn run_model(&self, model: &Model) -> Collision {
-        collide(model, self.expected(), &self.want(), &mut ())
+        collide(model, self.expected(), &self.request(), &mut ())
     }
 }
 

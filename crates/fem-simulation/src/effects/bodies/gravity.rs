@@ -40,7 +40,7 @@ impl Effect for Gravity {
         Self::NAME
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let Some(gravity) = scene.gravity() else {
             return Some(Relevance {
                 number: "the case has none".to_string(),
@@ -62,7 +62,7 @@ impl Effect for Gravity {
     }
 
     /// Applies to the first contact; without gravity there is no other.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let acceleration = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
         let hertz = &estimate.hertz;
         let share = acceleration * hertz.max_approach() / hertz.approach_speed().powi(2);

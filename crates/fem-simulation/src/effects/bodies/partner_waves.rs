@@ -75,7 +75,7 @@ impl PartnerWaves {
             }
             Some(Switch::Auto) | None => {
                 let radiating = large(crossed(scene, estimate), RADIATION_LIMIT);
-                let hertz = &estimate.softened.hertz;
+                let hertz = &estimate.effective.hertz;
                 let shares = radiating.iter().flatten();
                 let share: f64 = shares.map(|material| radiated_share(hertz, material)).sum();
                 if share <= Ting::MAX_RADIATED_SHARE { radiating } else { [None, None] }
@@ -97,7 +97,7 @@ impl PartnerWaves {
                 return Some(material);
             };
             // e = e' + (1 + e') m/M of the two mass centres.
-            let loss = lost(radiated_share(&estimate.softened.hertz, &material));
+            let loss = lost(radiated_share(&estimate.effective.hertz, &material));
             let is_heavy = 2.0 * other / own < OWN_MOTION * loss;
             (!has_modes && (is_heavy || is_forced)).then_some(material)
         })
@@ -168,7 +168,7 @@ impl Effect for PartnerWaves {
         effects.partner_waves
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let crossed = crossed(scene, estimate);
         let share = radiated(&crossed, estimate);
         let largest =
@@ -201,7 +201,7 @@ impl Effect for PartnerWaves {
 
     /// Between Ting's impacts with and without; where they are no term, or no correction any more, what
     /// a half-space takes of the restitution.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
         let with = ComputedScene::quiet(&Self::switched(scene, switch))?;
         let without = Self::switched(&with, Some(Switch::Off));
@@ -229,20 +229,20 @@ impl Effect for PartnerWaves {
     }
 
     /// The radiation term has a relative error; a mesh resolves the waves.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
-        let &EffectStatus { is_lacking, left_out } = standing;
+    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+        let &EffectStatus { is_lacking, neglect_error } = standing;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
-        let Some(left_out) = left_out.filter(|_| !is_of_mesh) else {
+        let Some(neglect_error) = neglect_error.filter(|_| !is_of_mesh) else {
             return ModelFormError::NOTHING;
         };
         let part = if is_lacking { 1.0 } else { Self::error_of_term(scene, estimate) };
         // Where closed forms tell the loss alone.
-        let others = SHARE_OF_LOSS * left_out.restitution.unwrap_or(f64::NAN);
+        let others = SHARE_OF_LOSS * neglect_error.restitution.unwrap_or(f64::NAN);
         let shares = NeglectError::shares(estimate, others, others);
         let told = NeglectError {
-            contact_time_s: left_out.contact_time_s.or(shares.contact_time_s),
-            peak_force_n: left_out.peak_force_n.or(shares.peak_force_n),
-            ..left_out
+            contact_time_s: neglect_error.contact_time_s.or(shares.contact_time_s),
+            peak_force_n: neglect_error.peak_force_n.or(shares.peak_force_n),
+            ..neglect_error
         };
         ModelFormError::of(&told, estimate).times(part)
     }
@@ -259,7 +259,7 @@ struct Crossed<'a> {
 
 /// The bodies that waves cross: those of a material.
 fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2] {
-    let EffectiveModuli { after, hertz, .. } = &estimate.softened;
+    let EffectiveModuli { after, hertz, .. } = &estimate.effective;
     scene.bodies().each_ref().map(|body| {
         let material = left_at(body.material()?, *after);
         let way = hertz.contact_time() * material.shear_wave_speed();
@@ -272,7 +272,7 @@ fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2
 /// [`SMOOTHED`].
 fn missing_of_term(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
     let modulus = |hertz: &HertzImpact| hertz.pair().contact_modulus();
-    let kept = modulus(&estimate.softened.hertz) / modulus(&estimate.hertz);
+    let kept = modulus(&estimate.effective.hertz) / modulus(&estimate.hertz);
     (SMOOTHED * radiated(crossed, estimate)).powi(2) * (kept.powi(-2) - 1.0).max(0.0)
 }
 
@@ -283,7 +283,7 @@ fn radiated(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
 
 /// Share of the energy that bodies of such passages keep.
 fn taken(crossed: &[Option<Crossed>; 2], estimate: &Estimate, counts: fn(f64) -> bool) -> f64 {
-    let hertz = &estimate.softened.hertz;
+    let hertz = &estimate.effective.hertz;
     let bodies = crossed.iter().flatten().filter(|body| counts(body.passage));
     bodies.map(|body| radiated_share(hertz, &body.material) * kept(body.passage)).sum()
 }

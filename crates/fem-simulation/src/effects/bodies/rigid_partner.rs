@@ -40,7 +40,7 @@ impl Effect for RigidPartner {
     }
 
     /// It saves work and changes next to nothing: a scene may allow it, none calls for it.
-    fn need(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number =
             stiffer(scene).map_or_else(|| "the partner is rigid".to_string(), |s| s.number());
         Some(Relevance { number, ..Relevance::default() })
@@ -79,12 +79,12 @@ impl Effect for RigidPartner {
     }
 
     /// Nature has none: it is what taking a body as rigid changes.
-    fn doubt(&self, _: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
-        ModelFormError::of(&standing.left_out.unwrap_or_default(), estimate)
+    fn model_form_error(&self, _: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+        ModelFormError::of(&standing.neglect_error.unwrap_or_default(), estimate)
     }
 
     /// Of a body that is taken as rigid: what it gives way, relaxes and radiates.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().rigid_partner;
         let taken = stiffer(scene).filter(|stiffer| match switch {
             Some(Switch::On) => true,

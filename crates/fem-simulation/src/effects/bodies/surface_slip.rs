@@ -62,7 +62,7 @@ impl Effect for SurfaceSlip {
         effects.surface_slip
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let RelativeError { contact_time, peak_force, .. } = change(scene, estimate);
         let [time, force] = [contact_time, peak_force].map(|share| percent(share.abs()));
         let slope = estimate.contact_radius * mismatch(scene, estimate).abs();
@@ -86,7 +86,7 @@ impl Effect for SurfaceSlip {
     }
 
     /// Difference between Ting's impacts with and without slip; zero between like bodies.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if !is_called_for(scene) {
             return Some(NeglectError::NOTHING);
         }
@@ -95,15 +95,15 @@ impl Effect for SurfaceSlip {
     }
 
     /// The next order of the series spring is neglected; elements compute the slip fully.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
         let share = match (standing.is_lacking, scene.model()) {
             (true, _) => 1.0,
             (false, ModelChoice::Fem) => 0.0,
             (false, _) => NEXT_ORDER * estimate.strain,
         };
-        match &standing.left_out {
+        match &standing.neglect_error {
             _ if share == 0.0 || !is_called_for(scene) => ModelFormError::NOTHING,
-            Some(left_out) => ModelFormError::of(left_out, estimate).times(share),
+            Some(neglect_error) => ModelFormError::of(neglect_error, estimate).times(share),
             None => ModelFormError::default(),
         }
     }

@@ -32,7 +32,7 @@ const WEAKENING: f64 = 5.0;
 /// 0.1 to 3 % lose 0.0048, 0.0021, 0.0019 and 0.0023 of it between elements and none, where this has 0.0051, 0.0029, 0.0011
 /// and 0.0022.
 const OF_RELAXED: f64 = 2.0;
-/// The same of bodies that ring because their bulk waves are slow, over [`Estimate::softened_ringing`]: of the glass pair with
+/// The same of bodies that ring because their bulk waves are slow, over [`Estimate::effective_ringing`]: of the glass pair with
 /// ν = −0.99, elements against none.
 const RINGING_LOSS: f64 = 0.05;
 const RINGING_LENGTHENING: f64 = 0.035;
@@ -52,11 +52,11 @@ impl Effect for Vibration {
         Self::NAME
     }
 
-    fn need(&self, _: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, _: &Scene, estimate: &Estimate) -> Option<Relevance> {
         Some(Relevance {
-            is_called_for: estimate.softened_mach.max(estimate.softened_ringing)
+            is_called_for: estimate.effective_mach.max(estimate.effective_ringing)
                 > QUASI_STATIC_LIMIT,
-            number: match estimate.softened_ringing > estimate.softened_mach {
+            number: match estimate.effective_ringing > estimate.effective_mach {
                 true => "bulk waves are slow, Poisson's ratio is negative".to_string(),
                 false => number(estimate),
             },
@@ -64,10 +64,10 @@ impl Effect for Vibration {
         })
     }
 
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let mach = own_mach(scene, estimate);
         let slowness = slowness(scene, estimate);
-        let ringing = estimate.softened_ringing;
+        let ringing = estimate.effective_ringing;
         let lengths = NeglectError::shares(
             estimate,
             LENGTHENING * slowness + RINGING_LENGTHENING * ringing,
@@ -135,17 +135,17 @@ impl Vibration {
                 above(estimate, QUASI_STATIC_LIMIT)
             ));
         }
-        if estimate.softened_ringing > QUASI_STATIC_LIMIT {
+        if estimate.effective_ringing > QUASI_STATIC_LIMIT {
             warnings.push(format!(
                 "bulk waves are so slow in a body of negative Poisson's ratio that it rings, and the contact so \
                  short that few modes do not follow: about {} of the restitution, {} of the contact time and {} of the \
                  peak force; use model fem",
-                percent(RINGING_LOSS * estimate.softened_ringing),
-                percent(RINGING_LENGTHENING * estimate.softened_ringing),
-                percent(RINGING_WEAKENING * estimate.softened_ringing)
+                percent(RINGING_LOSS * estimate.effective_ringing),
+                percent(RINGING_LENGTHENING * estimate.effective_ringing),
+                percent(RINGING_WEAKENING * estimate.effective_ringing)
             ));
         }
-        if estimate.softened_mach > MACH_LIMIT {
+        if estimate.effective_mach > MACH_LIMIT {
             warnings.push(format!(
                 "{} steep fronts form that no mode of vibration carries: use model fem",
                 above(estimate, MACH_LIMIT)
@@ -155,7 +155,7 @@ impl Vibration {
     }
 
     fn needs_modes(estimate: &Estimate, n_asked: usize) -> bool {
-        estimate.softened_mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES
+        estimate.effective_mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES
     }
 
     /// Why a result with so many modes would advise more of them, or explicit elements
@@ -175,16 +175,16 @@ impl Vibration {
 
     /// Why no number of modes carries what inertia does in a scene, if none does.
     fn beyond_modes(estimate: &Estimate) -> Option<&'static str> {
-        if estimate.softened_mach > MACH_LIMIT {
+        if estimate.effective_mach > MACH_LIMIT {
             return Some("steep fronts form that no mode carries");
         }
-        (estimate.softened_ringing > QUASI_STATIC_LIMIT)
+        (estimate.effective_ringing > QUASI_STATIC_LIMIT)
             .then_some("bulk waves are too slow for few modes")
     }
 
     /// Returns the answer of a model of rigid bodies with one degree of freedom.
     pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Support {
-        let warning = (estimate.softened_mach > MACH_LIMIT).then(|| {
+        let warning = (estimate.effective_mach > MACH_LIMIT).then(|| {
             format!(
                 "{} the bodies vibrate, which this model leaves out",
                 above(estimate, MACH_LIMIT)
@@ -205,7 +205,7 @@ fn parts<'a>(scene: &'a Scene, estimate: &'a Estimate) -> impl Iterator<Item = (
 /// energies; a body is no faster than its waves. Like bodies meet as each would a wall at half the speed.
 fn own_mach(scene: &Scene, estimate: &Estimate) -> f64 {
     let own = |(body, part): (&Body, f64)| {
-        let waves = left_at(body.material()?, estimate.softened.after).shear_wave_speed();
+        let waves = left_at(body.material()?, estimate.effective.after).shear_wave_speed();
         Some(part * (part * estimate.hertz.approach_speed() / waves).min(1.0))
     };
     parts(scene, estimate).filter_map(own).sum()
@@ -222,10 +222,10 @@ fn own_mach(scene: &Scene, estimate: &Estimate) -> f64 {
 /// since δ ~ F T²/m*, ω ~ c_s/D and F̈ ~ F/T², the first term being that of bodies at rest. With Hertz' contact time it grows
 /// as (v/c_s)^(4/5). Waves that do not come back within the contact do nothing to it.
 fn slowness(scene: &Scene, estimate: &Estimate) -> f64 {
-    let softened = &estimate.softened;
+    let effective = &estimate.effective;
     let of_body = |(body, part): (&Body, f64)| {
-        let waves = left_at(body.material()?, softened.after).shear_wave_speed();
-        let passage = body.diameter()? / (waves * softened.hertz.contact_time());
+        let waves = left_at(body.material()?, effective.after).shear_wave_speed();
+        let passage = body.diameter()? / (waves * effective.hertz.contact_time());
         Some(part * passage.min(1.0).powi(4))
     };
     parts(scene, estimate).filter_map(of_body).sum()

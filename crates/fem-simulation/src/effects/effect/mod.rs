@@ -29,7 +29,7 @@ pub trait Effect: Sync {
     }
 
     /// Returns whether the scene calls for the effect, or `None` if only the built model can decide.
-    fn need(&self, _: &Scene, _: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, _: &Scene, _: &Estimate) -> Option<Relevance> {
         None
     }
 
@@ -49,19 +49,19 @@ pub trait Effect: Sync {
 
     /// Returns the change of restitution, contact time and peak force without the effect, whether or not it
     /// is called for; `None` if closed forms cannot estimate it.
-    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
         None
     }
 
     /// Returns the model-form error because of the effect. It is the error of neglecting the effect if the
     /// model lacks it, and zero for purely numerical effects.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
         if !standing.is_lacking {
             return ModelFormError::NOTHING;
         }
-        let is_called_for = || self.need(scene, estimate).is_some_and(|need| need.is_called_for);
-        match &standing.left_out {
-            Some(left_out) => ModelFormError::of(left_out, estimate),
+        let is_called_for = || self.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
+        match &standing.neglect_error {
+            Some(neglect_error) => ModelFormError::of(neglect_error, estimate),
             None if is_called_for() => ModelFormError::default(),
             None => ModelFormError::NOTHING,
         }

@@ -27,8 +27,8 @@ pub struct ModelFormError([Option<f64>; 6]);
 pub struct EffectStatus {
     /// Whether the run lacks the effect.
     pub is_lacking: bool,
-    /// Error of neglecting the effect ([`Effect::left_out`](super::Effect::left_out)).
-    pub left_out: Option<NeglectError>,
+    /// Error of neglecting the effect ([`Effect::neglect_error`](super::Effect::neglect_error)).
+    pub neglect_error: Option<NeglectError>,
 }
 
 impl ModelFormError {
@@ -41,15 +41,15 @@ impl ModelFormError {
     }
 
     /// Returns the error that follows from neglecting an effect.
-    pub fn of(left_out: &NeglectError, estimate: &Estimate) -> Self {
-        let NeglectError { restitution, contact_time_s, peak_force_n } = *left_out;
-        let sizes = &estimate.softened.sizes;
+    pub fn of(neglect_error: &NeglectError, estimate: &Estimate) -> Self {
+        let NeglectError { restitution, contact_time_s, peak_force_n } = *neglect_error;
+        let sizes = &estimate.effective.sizes;
         let time = contact_time_s.map(|change| change / sizes.contact_time);
         let force = peak_force_n.map(|change| change / sizes.peak_force);
         let both = time.zip(force);
         // Bodies that stay together have no contact time, and come as much closer as they press less.
         let softer = time.or(force);
-        let doubt = Self::by(|headline| match headline {
+        let model_form_error = Self::by(|headline| match headline {
             QuantityOfInterest::Restitution => restitution,
             QuantityOfInterest::ContactTime => contact_time_s,
             QuantityOfInterest::PeakForce => peak_force_n,
@@ -61,7 +61,7 @@ impl ModelFormError {
                 both.or(force.zip(force)).map(|(time, force)| (time + force) * sizes.peak_pressure)
             }
         });
-        doubt.checked()
+        model_form_error.checked()
     }
 
     /// Returns the error of an unknown loss: the restitution is unknown. The other quantities depend on the
@@ -84,13 +84,13 @@ impl ModelFormError {
 
     /// Replaces values that are not finite by `None`.
     pub(in crate::effects) fn checked(self) -> Self {
-        Self(self.0.map(|doubt| doubt.filter(|size| size.is_finite())))
+        Self(self.0.map(|model_form_error| model_form_error.filter(|size| size.is_finite())))
     }
 
     /// Multiplies all errors by a factor.
     #[must_use]
     pub fn times(self, share: f64) -> Self {
-        Self(self.0.map(|doubt| doubt.map(|size| share * size)))
+        Self(self.0.map(|model_form_error| model_form_error.map(|size| share * size)))
     }
 
     /// Adds two errors; `None` if either is.
@@ -104,6 +104,6 @@ impl ModelFormError {
     /// Replaces unknown errors by zero: sums of these are lower bounds.
     #[must_use]
     pub fn told(self) -> Self {
-        Self(self.0.map(|doubt| doubt.or(Some(0.0))))
+        Self(self.0.map(|model_form_error| model_form_error.or(Some(0.0))))
     }
 }

@@ -35,8 +35,8 @@ impl NeglectError {
     pub(crate) fn shares(estimate: &Estimate, contact_time: f64, peak_force: f64) -> Self {
         Self {
             restitution: Some(0.0),
-            contact_time_s: finite(contact_time * estimate.softened.sizes.contact_time),
-            peak_force_n: finite(peak_force * estimate.softened.sizes.peak_force),
+            contact_time_s: finite(contact_time * estimate.effective.sizes.contact_time),
+            peak_force_n: finite(peak_force * estimate.effective.sizes.peak_force),
         }
     }
 

@@ -40,7 +40,7 @@ pub(in crate::effects) const MACH_LIMIT: f64 = 0.02;
 pub(in crate::effects) fn number(estimate: &Estimate) -> String {
     format!(
         "approach speed / shear wave speed = {}",
-        engineering::number(estimate.softened_mach, 2)
+        engineering::number(estimate.effective_mach, 2)
     )
 }
 
@@ -48,7 +48,7 @@ pub(in crate::effects) fn number(estimate: &Estimate) -> String {
 pub(in crate::effects) fn above(estimate: &Estimate, limit: f64) -> String {
     format!(
         "the approach speed is {} of the shear wave speed; above {}",
-        percent(estimate.softened_mach),
+        percent(estimate.effective_mach),
         percent(limit)
     )
 }

@@ -53,10 +53,10 @@ impl Support {
     /// Returns whether the effect is on, the reason, and the warnings.
     pub(in crate::effects) fn of(
         self,
-        need: Relevance,
+        relevance: Relevance,
         switch: Option<Switch>,
     ) -> (bool, String, Vec<String>) {
-        let Relevance { is_called_for, number, otherwise, left_open, warning } = need;
+        let Relevance { is_called_for, number, otherwise, left_open, warning } = relevance;
         let none = Vec::new;
         match self {
             Self::Is { active, reason, warnings } => (active, reason, warnings),
@@ -94,7 +94,7 @@ fn joined(parts: [&str; 3]) -> String {
 mod tests {
     use super::*;
 
-    fn need(is_called_for: bool) -> Relevance {
+    fn relevance(is_called_for: bool) -> Relevance {
         Relevance {
             is_called_for,
             number: "x = 1".into(),
@@ -109,22 +109,22 @@ mod tests {
         let computes = || Support::Computes { idle: "nothing is kept" };
         let none = Vec::new;
         let auto = Some(Switch::Auto);
-        assert_eq!(computes().of(need(true), auto), (true, "x = 1".into(), none()));
+        assert_eq!(computes().of(relevance(true), auto), (true, "x = 1".into(), none()));
         let idle = "x = 1; small; nothing is kept";
-        assert_eq!(computes().of(need(false), None), (false, idle.into(), none()));
-        let doubt = vec!["x is large".to_string()];
-        assert_eq!(Support::Lacks.of(need(false), auto), (false, "x = 1; small".into(), doubt));
-        let (active, reason, warnings) = Support::Lacks.of(need(true), auto);
+        assert_eq!(computes().of(relevance(false), None), (false, idle.into(), none()));
+        let model_form_error = vec!["x is large".to_string()];
+        assert_eq!(Support::Lacks.of(relevance(false), auto), (false, "x = 1; small".into(), model_form_error));
+        let (active, reason, warnings) = Support::Lacks.of(relevance(true), auto);
         assert!(!active && reason.contains("not available") && reason.contains("all of it"));
         assert_eq!(warnings, ["x is large"]);
         let own = Support::is(true, "always").warning(["beware".to_string()]);
-        assert_eq!(own.of(need(true), None), (true, "always".into(), vec!["beware".into()]));
+        assert_eq!(own.of(relevance(true), None), (true, "always".into(), vec!["beware".into()]));
     }
 
     #[test]
     fn what_a_model_computes_obeys_its_switch() {
         let of = |is_called_for, switch| {
-            Support::Computes { idle: "" }.of(need(is_called_for), Some(switch))
+            Support::Computes { idle: "" }.of(relevance(is_called_for), Some(switch))
         };
         let (active, reason, warnings) = of(false, Switch::On);
         assert!(active && reason.contains("forced on") && warnings.is_empty());

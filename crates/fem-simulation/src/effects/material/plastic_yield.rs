@@ -35,7 +35,7 @@ impl Effect for PlasticYield {
         Self::NAME
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
         let first = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure));
         Some(match first {
@@ -45,7 +45,7 @@ impl Effect for PlasticYield {
     }
 
     /// Central estimate of the closed forms.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
         let (_, first) = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))?;
         if first.ratio() <= 1.0 {
@@ -88,7 +88,7 @@ fn may_yield(material: &Material) -> bool {
 }
 
 fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
-    let peak = estimate.softened.sizes.peak_pressure;
+    let peak = estimate.effective.sizes.peak_pressure;
     let share = peak / estimate.hertz.pair().contact_modulus();
     let reached = |body: &Body| {
         let material = body.material().filter(|material| may_yield(material))?;

@@ -45,7 +45,7 @@ impl Effect for Viscoelasticity {
         effects.viscoelasticity
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let relaxing = relaxing(scene);
         if relaxing.is_empty() {
             return Some(Relevance {
@@ -72,18 +72,18 @@ impl Effect for Viscoelasticity {
         if relaxing(scene).is_empty() {
             return Ok(None);
         }
-        let need = self.need(scene, estimate).unwrap_or_default();
+        let relevance = self.relevance(scene, estimate).unwrap_or_default();
         Ok(match scene.effects().viscoelasticity {
             Some(Switch::On) => None,
             Some(Switch::Off) => {
                 let elastic =
                     materials(scene).map(|material| material.map(Material::without_relaxation));
-                let answer = Support::is(false, format!("{}; switched off", need.number));
+                let answer = Support::is(false, format!("{}; switched off", relevance.number));
                 Some(TransformedScene { scene: made_of(scene, elastic), answer })
             }
             Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
                 let n_kept: usize = folded.materials.iter().map(n_terms).sum();
-                let answer = Support::is(n_kept > 0, in_words(&need, &folded, estimate, n_kept));
+                let answer = Support::is(n_kept > 0, in_words(&relevance, &folded, estimate, n_kept));
                 TransformedScene { scene: made_of(scene, folded.materials), answer }
             }),
         })
@@ -91,14 +91,14 @@ impl Effect for Viscoelasticity {
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
         let is_off = scene.effects().viscoelasticity == Some(Switch::Off);
-        let left_out =
-            (is_off && !relaxing(scene).is_empty()).then(|| self.left_out(scene, estimate));
-        left_out.map(|left_out| left_out.unwrap_or_default().warning(Self::NAME))
+        let neglect_error =
+            (is_off && !relaxing(scene).is_empty()).then(|| self.neglect_error(scene, estimate));
+        neglect_error.map(|neglect_error| neglect_error.unwrap_or_default().warning(Self::NAME))
     }
 
     /// Difference between Ting's impacts of relaxing and of elastic bodies, with the waves radiated by
     /// each.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if relaxing(scene).is_empty() {
             return Some(NeglectError::NOTHING);
         }
@@ -147,7 +147,7 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
 
 /// Returns how many terms are followed and the effect of the others, as text.
 fn in_words(
-    need: &Relevance,
+    relevance: &Relevance,
     folded: &FastSlowLimits,
     estimate: &Estimate,
     n_kept: usize,
@@ -162,7 +162,7 @@ fn in_words(
     format!(
         "{}; {n_kept} of {} terms followed in time, {n_fast} over before the contact and {n_slow} too \
          slow for it, which changes {error}",
-        need.number,
+        relevance.number,
         n_kept + n_fast + n_slow
     )
 }

@@ -77,7 +77,7 @@ impl Effect for BulkViscosity {
         effects.bulk_viscosity
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let is_finite = FiniteStrain::laws(scene, estimate) != [None; 2];
         let is_called_for = is_called_for(scene, estimate.mach, is_finite);
         let otherwise = match estimate.mach > MACH_LIMIT {
@@ -85,8 +85,8 @@ impl Effect for BulkViscosity {
             false => "no steep fronts to spread",
         };
         let warning = is_called_for.then(|| {
-            let doubt = above(estimate, MACH_LIMIT);
-            format!("{doubt} steep fronts ring in the mesh, in pressure above all")
+            let model_form_error = above(estimate, MACH_LIMIT);
+            format!("{model_form_error} steep fronts ring in the mesh, in pressure above all")
         });
         Some(Relevance {
             is_called_for,
@@ -98,13 +98,13 @@ impl Effect for BulkViscosity {
     }
 
     /// It belongs to the mesh, not to the physical system.
-    fn doubt(&self, _: &Scene, _: &Estimate, _: &EffectStatus) -> ModelFormError {
+    fn model_form_error(&self, _: &Scene, _: &Estimate, _: &EffectStatus) -> ModelFormError {
         ModelFormError::NOTHING
     }
 
     /// The contact time changes by no more than the ringing that ends it. At finite strain the contact
     /// itself damps what rings, and nothing is foretold.
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if FiniteStrain::laws(scene, estimate) != [None; 2] {
             return None;
         }

@@ -18,8 +18,8 @@ impl ContactSearch {
     pub const NAME: &'static str = "contact search";
 
     /// Returns the answer of a model that searches this region.
-    pub(crate) fn within(searched: &CandidateRegion) -> Support {
-        let CandidateRegion { radius, n_points, at_nodes } = searched;
+    pub(crate) fn within(candidate_region: &CandidateRegion) -> Support {
+        let CandidateRegion { radius, n_points, at_nodes } = candidate_region;
         let points = if *at_nodes { "points" } else { "integration points" };
         let flight = "free flight is not stepped";
         Support::is(
@@ -34,12 +34,12 @@ impl Effect for ContactSearch {
         Self::NAME
     }
 
-    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
         Some(NeglectError::NOTHING)
     }
 
     /// The region may have grown during the run.
     fn found(&self, _: &Scene, collision: &Collision) -> Option<Support> {
-        collision.searched.as_ref().map(Self::within)
+        collision.candidate_region.as_ref().map(Self::within)
     }
 }

@@ -66,7 +66,7 @@ impl Effect for MirrorSymmetry {
     }
 
     /// It saves work and changes nothing: a scene may allow it, none calls for it.
-    fn need(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number = match scene.has_identical_bodies() {
             true => "the bodies are identical; both are computed all the same",
             false => "the bodies differ",
@@ -74,7 +74,7 @@ impl Effect for MirrorSymmetry {
         Some(Relevance { number: number.to_string(), ..Relevance::default() })
     }
 
-    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
         Some(NeglectError::NOTHING)
     }
 }

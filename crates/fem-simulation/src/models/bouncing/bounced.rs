@@ -108,7 +108,7 @@ impl Bounced {
     }
 
     /// Takes a contact; the speed (m/s) at which the ball comes down again, if it does.
-    pub fn take(&mut self, mut collision: Collision, want: &OutputRequest) -> Option<f64> {
+    pub fn take(&mut self, mut collision: Collision, request: &OutputRequest) -> Option<f64> {
         let add = |sum: Option<u64>, more: Option<u64>| {
             more.map(|more| sum.unwrap_or_default().saturating_add(more)).or(sum)
         };
@@ -166,7 +166,7 @@ impl Bounced {
         if self.bounces.len() < self.gravity.bounces
             && let Some(end) = &end
         {
-            self.chain.fly(end, &landing, want.history_rows > 0);
+            self.chain.fly(end, &landing, request.history_rows > 0);
         }
         Some(landing.speed)
     }

@@ -96,8 +96,8 @@ impl Bouncing {
     }
 
     /// A collision under way, of a want that has been checked.
-    fn course(&self, approach: &Approach, want: &OutputRequest) -> BouncingCourse {
-        BouncingCourse::new(&self.ball, approach, want)
+    fn course(&self, approach: &Approach, request: &OutputRequest) -> BouncingCourse {
+        BouncingCourse::new(&self.ball, approach, request)
     }
 }
 
@@ -166,23 +166,23 @@ impl Model for Bouncing {
     fn collide(
         &self,
         approach: &Approach,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        if let Err(error) = want.check() {
+        if let Err(error) = request.check() {
             return Collision::stopped(*approach, error.into());
         }
         monitor.enter(Phase::Collision);
-        let mut course = self.course(approach, want);
+        let mut course = self.course(approach, request);
         // A contact that is computed in one go reports by itself.
         let goes_in_steps = matches!(self.setup().cost, Cost::Steps { .. });
         while course.advance(monitor) && (!goes_in_steps || monitor.report(course.progress())) {}
         Box::new(course).finish()
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        Some(match want.check() {
-            Ok(()) => Box::new(self.course(approach, want)),
+    fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
+        Some(match request.check() {
+            Ok(()) => Box::new(self.course(approach, request)),
             Err(error) => stopped(*approach, error.into()),
         })
     }
@@ -201,25 +201,25 @@ impl Model for Bouncing {
 }
 
 /// Returns the output request of the first contact, which begins at a time (s) of the case.
-fn first_want(want: &OutputRequest, time: f64) -> OutputRequest {
-    let snapshots = match &want.snapshots {
+fn first_request(request: &OutputRequest, time: f64) -> OutputRequest {
+    let snapshots = match &request.snapshots {
         SnapshotRequest::Times(times) => SnapshotRequest::Times(
             times.iter().map(|one| one - time).filter(|t| *t >= 0.0).collect(),
         ),
         other => other.clone(),
     };
-    OutputRequest { history_rows: want.history_rows.max(FEWEST_ROWS), snapshots, ..want.clone() }
+    OutputRequest { history_rows: request.history_rows.max(FEWEST_ROWS), snapshots, ..request.clone() }
 }
 
 /// Returns the output request of a later contact, after a number of element updates.
-fn later_want(want: &OutputRequest, n_contacts: usize, element_updates: u64) -> OutputRequest {
-    let share = ROWS_OF_ALL.saturating_mul(want.history_rows) / n_contacts.max(1);
+fn later_request(request: &OutputRequest, n_contacts: usize, element_updates: u64) -> OutputRequest {
+    let share = ROWS_OF_ALL.saturating_mul(request.history_rows) / n_contacts.max(1);
     OutputRequest {
-        history_rows: share.min(want.history_rows).max(FEWEST_ROWS),
+        history_rows: share.min(request.history_rows).max(FEWEST_ROWS),
         snapshots: SnapshotRequest::none(),
         probes: Vec::new(),
-        most_element_updates: want.most_element_updates.saturating_sub(element_updates),
-        ..want.clone()
+        most_element_updates: request.most_element_updates.saturating_sub(element_updates),
+        ..request.clone()
     }
 }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bounced::Bounced;
 use super::chain::Chain;
-use super::{Ball, fallen, first_want, later_want};
+use super::{Ball, fallen, first_request, later_request};
 use crate::models::method::Model;
 use crate::models::restart_state::RestartState;
 use crate::models::stepper::{Stepper, begun};
@@ -20,7 +20,7 @@ use crate::rejection::Rejection;
 pub(crate) struct Bounces {
     /// Initial state of the ball, and the output request of all contacts.
     approach: Approach,
-    want: OutputRequest,
+    request: OutputRequest,
     /// Results of the finished contacts.
     so_far: Bounced,
     /// Speed (m/s) of the contact for which the present model was made anew, if it was.
@@ -41,8 +41,8 @@ impl Bounces {
     /// Output request of the present contact.
     fn asked(&self, ball: &Ball) -> OutputRequest {
         match self.so_far.n_contacts() {
-            0 => first_want(&self.want, self.so_far.time()),
-            _ => later_want(&self.want, ball.gravity.bounces, self.so_far.element_updates()),
+            0 => first_request(&self.request, self.so_far.time()),
+            _ => later_request(&self.request, ball.gravity.bounces, self.so_far.element_updates()),
         }
     }
 
@@ -50,14 +50,14 @@ impl Bounces {
     fn fits(&self, ball: &Ball, contact: &fem_explicit::RestartState, met: &Approach) -> bool {
         let (speed, time, _) = ball.fall(&self.approach);
         let is_first = self.so_far.n_contacts() == 0;
-        self.want.check().is_ok()
+        self.request.check().is_ok()
             && self.so_far.is_sound(&ball.gravity)
             && self.so_far.snapshots().iter().all(|one| has_sizes(one, ball.first.meshes()))
             && self.so_far.first_touch() == time
             && (!is_first || met.speed() == speed)
             && met.velocities()[0] == 0.0
             && met.gap() == 0.0
-            && *contact.want() == self.asked(ball)
+            && *contact.request() == self.asked(ball)
     }
 }
 
@@ -73,10 +73,10 @@ fn has_sizes(snapshot: &Snapshot, meshes: [Option<&SphereMesh>; 2]) -> bool {
 
 impl BouncingCourse {
     /// A ball about to fall.
-    pub fn new(ball: &Arc<Ball>, approach: &Approach, want: &OutputRequest) -> Self {
+    pub fn new(ball: &Arc<Ball>, approach: &Approach, request: &OutputRequest) -> Self {
         let (speed, time, _) = ball.fall(approach);
         let so_far = Bounced::new(Chain::new(time), ball.gravity);
-        let known = Bounces { approach: *approach, want: want.clone(), so_far, made_at: None };
+        let known = Bounces { approach: *approach, request: request.clone(), so_far, made_at: None };
         let present = ball.first.clone();
         let mut course = Self { ball: ball.clone(), known, present, contact: None };
         course.touch(speed);
@@ -131,7 +131,7 @@ impl BouncingCourse {
             }
             _ => collision,
         };
-        self.known.so_far.take(collision, &self.known.want)
+        self.known.so_far.take(collision, &self.known.request)
     }
 }
 

@@ -143,7 +143,7 @@ impl Condensed {
         let setup = ModelSetup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach,
-            want: plan.want(),
+            request: plan.request(),
             estimate: plan.estimate,
             decisions,
             unread,
@@ -179,9 +179,9 @@ impl Condensed {
         relaxations: [Option<&PronySeries>; 2],
         n_steps: usize,
     ) -> Result<f64, Stop> {
-        let want = OutputRequest::quantities();
+        let request = OutputRequest::quantities();
         let approach = Approach::at(speed).map_err(CondensedError::from)?;
-        let collision = self.follow(&approach, relaxations, n_steps, &want, &mut ());
+        let collision = self.follow(&approach, relaxations, n_steps, &request, &mut ());
         match (collision.ending, collision.restitution) {
             (Ending::Stopped(stop), _) => Err(stop),
             (_, restitution) => Ok(restitution.unwrap_or_default()),
@@ -194,7 +194,7 @@ impl Condensed {
         approach: &Approach,
         relaxations: [Option<&PronySeries>; 2],
         n_steps: usize,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
         let radiation = match self.radiation(approach.speed()) {
@@ -204,18 +204,18 @@ impl Condensed {
         let damping = Damping { relaxations, radiation };
         let mut collide = |pair: &CondensedPair| {
             let frame = frame_of(&self.scene, approach, pair.reduced_mass());
-            match pair.collide(&frame, damping, n_steps, want, &mut *monitor) {
+            match pair.collide(&frame, damping, n_steps, request, &mut *monitor) {
                 Ok(collision) => collision,
                 Err(error) => Collision {
                     initial_energy: Some(frame.kinetic(frame.speed())),
                     bodies: pair.bodies_before(&frame),
-                    searched: Some(pair.candidate_region()),
+                    candidate_region: Some(pair.candidate_region()),
                     factor_bytes: Some(pair.factor_bytes() as u64),
                     ..Collision::stopped(*approach, stop_of(error, approach))
                 },
             }
         };
-        let checked = want.check().map_err(Stop::from);
+        let checked = request.check().map_err(Stop::from);
         let mut pair = match checked.and_then(|()| self.pair_at(approach)) {
             Ok(pair) => pair,
             Err(stop) => return Collision::stopped(*approach, stop),
@@ -308,7 +308,7 @@ impl Model for Condensed {
     fn collide(
         &self,
         approach: &Approach,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
         let bodies = self.scene.bodies().each_ref();
@@ -323,7 +323,7 @@ impl Model for Condensed {
         let n_steps = n_steps(self.options, slower, estimate.relaxed);
         let duration = slower.end * (1.0 + FLIGHT_AFTER) * estimate.hertz.contact_time();
         let mut foretold = Foretold { monitor, begin: approach.first_touch(), duration };
-        self.follow(approach, relaxations, n_steps, want, &mut foretold)
+        self.follow(approach, relaxations, n_steps, request, &mut foretold)
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

@@ -139,7 +139,7 @@ impl Explicit {
         let setup = ModelSetup {
             description: "model fem, explicit finite elements".to_string(),
             approach,
-            want: plan.want(),
+            request: plan.request(),
             estimate: plan.estimate,
             decisions,
             unread: {
@@ -168,9 +168,9 @@ impl Explicit {
     /// # Errors
     /// A collision of other bodies.
     pub fn bodies_of(&self, collision: &Collision) -> Result<Arc<Bodies>, ModelError> {
-        let searched = collision.searched.unwrap_or(self.bodies.candidate_region());
+        let candidate_region = collision.candidate_region.unwrap_or(self.bodies.candidate_region());
         let frame = self.made.own_frame(&collision.approach)?;
-        self.bodies_at(frame.own(), searched.radius)
+        self.bodies_at(frame.own(), candidate_region.radius)
     }
 
     /// Bodies that meet like this in their own frame and look for contact out to a radius, m: the model's
@@ -183,14 +183,14 @@ impl Explicit {
     }
 
     /// A collision under way.
-    fn course(&self, approach: &Approach, want: &OutputRequest) -> Box<dyn Stepper> {
-        match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
+    fn course(&self, approach: &Approach, request: &OutputRequest) -> Box<dyn Stepper> {
+        match request.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
-                let (expected, want) = (estimate.expectation(), frame.want(want));
+                let (expected, request) = (estimate.expectation(), frame.request(request));
                 let duration = expected_duration(&self.made.scene, &estimate, approach);
-                let run = Run::new(bodies, expected, &want);
+                let run = Run::new(bodies, expected, &request);
                 let made = self.made.clone();
-                Box::new(ExplicitCourse { made, frame, expected, duration, want, run })
+                Box::new(ExplicitCourse { made, frame, expected, duration, request, run })
             }
             Err(stop) => stopped(*approach, stop),
         }
@@ -251,15 +251,15 @@ impl Model for Explicit {
     fn collide(
         &self,
         approach: &Approach,
-        want: &OutputRequest,
+        request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
         monitor.enter(Phase::Collision);
-        to_the_end(self.course(approach, want), monitor)
+        to_the_end(self.course(approach, request), monitor)
     }
 
-    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        Some(self.course(approach, want))
+    fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
+        Some(self.course(approach, request))
     }
 
     fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
@@ -270,7 +270,7 @@ impl Model for Explicit {
         if bounces.is_some() || approach != *frame.own() {
             return Err(refused(ModelError::ForeignRestartState));
         }
-        let want = memory.want().clone();
+        let request = memory.request().clone();
         let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
         let run = Run::resume(bodies, memory).map_err(refused)?;
         let scene = &self.made.scene;
@@ -278,7 +278,7 @@ impl Model for Explicit {
             .map_err(|error| Rejection::new("body", error.to_string()))?;
         let duration = expected_duration(scene, &estimate, &approach);
         let made = self.made.clone();
-        Ok(Box::new(ExplicitCourse { made, frame, expected, duration, want, run }))
+        Ok(Box::new(ExplicitCourse { made, frame, expected, duration, request, run }))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
@@ -298,7 +298,7 @@ struct ExplicitCourse {
     expected: Expectation,
     /// Time of the run, in seconds.
     duration: f64,
-    want: OutputRequest,
+    request: OutputRequest,
     run: Run<Arc<Bodies>>,
 }
 
@@ -311,7 +311,7 @@ impl Stepper for ExplicitCourse {
         }
         let Some(larger) = self.made.larger(self.run.model()) else { return false };
         monitor.enter(Phase::Collision);
-        self.run = Run::new(Arc::new(larger), self.expected, &self.want);
+        self.run = Run::new(Arc::new(larger), self.expected, &self.request);
         true
     }
 

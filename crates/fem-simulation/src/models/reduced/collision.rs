@@ -18,7 +18,7 @@ pub(super) fn of_impact(
     frame: &Frame,
     pair: &Pair,
     law: Option<&ContactLaw>,
-    want: &OutputRequest,
+    request: &OutputRequest,
 ) -> Collision {
     let has_radius = law.is_none_or(|law| law.elastic_exponent() == HERTZ_EXPONENT);
     let rows = Rows { frame, has_radius };
@@ -44,9 +44,9 @@ pub(super) fn of_impact(
         peak_pressure: impact.peak_pressure,
         peak_pressure_radius: None,
         force_scatter: None,
-        noisiest: None,
-        deepest: None,
-        searched: None,
+        noisiest_instant: None,
+        deepest_overlap: None,
+        candidate_region: None,
         initial_energy: Some(frame.kinetic(frame.speed())),
         energies: end.map_or(EnergyLedger::EMPTY, |row| row.energies),
         residual: end.and_then(|row| row.residual),
@@ -67,7 +67,7 @@ pub(super) fn of_impact(
         repeated_contact_solutions: None,
         bounces: Vec::new(),
         rest: None,
-        history: rows.of(impact, pair, law, want.history_rows),
+        history: rows.of(impact, pair, law, request.history_rows),
         snapshots: Vec::new(),
         probes: Vec::new(),
         warnings: is_together.then(|| STAY_TOGETHER.to_string()).into_iter().collect(),

@@ -83,14 +83,14 @@ pub(super) fn unread_keys(scene: &Scene) -> Vec<String> {
 
 /// What the model has of the relaxation.
 fn relaxation(scene: &Scene, estimate: &Estimate, has: Relaxation) -> Support {
-    let need = Viscoelasticity.need(scene, estimate).unwrap_or_default();
-    if !need.is_called_for {
+    let relevance = Viscoelasticity.relevance(scene, estimate).unwrap_or_default();
+    if !relevance.is_called_for {
         return Support::Inherent { idle: "" };
     }
     if has == Relaxation::Nothing && scene.effects().viscoelasticity == Some(Switch::On) {
         return Support::Lacks;
     }
-    let reason = need.number;
+    let reason = relevance.number;
     match has {
         Relaxation::Whole => Support::Inherent { idle: "" },
         Relaxation::SlowLimit => {

@@ -89,7 +89,7 @@ impl Reduced {
         let setup = ModelSetup {
             description,
             approach: approach_of(scene)?,
-            want: OutputRequest::history(),
+            request: OutputRequest::history(),
             estimate,
             decisions,
             unread: effects::unread_keys(scene),
@@ -133,14 +133,14 @@ impl Model for Reduced {
     }
 
     /// Closed forms and short integrations: nobody needs to look on.
-    fn collide(&self, approach: &Approach, want: &OutputRequest, _: &mut dyn Monitor) -> Collision {
-        if let Err(error) = want.check() {
+    fn collide(&self, approach: &Approach, request: &OutputRequest, _: &mut dyn Monitor) -> Collision {
+        if let Err(error) = request.check() {
             return Collision::stopped(*approach, error.into());
         }
         match self.impact(approach.speed()) {
             Ok(impact) => {
                 let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
-                collision::of_impact(&impact, &frame, &self.pair, self.law(), want)
+                collision::of_impact(&impact, &frame, &self.pair, self.law(), request)
             }
             Err(error) => Collision::stopped(*approach, stop_of(&error)),
         }

@@ -18,7 +18,7 @@ pub(super) fn of_hertz(
     if equilibrium_weight == 0.0 {
         return Ok(None);
     }
-    let hertz = StaticHertz::new(&pair.softened(equilibrium_weight)?, force)?;
+    let hertz = StaticHertz::new(&pair.with_modulus_share(equilibrium_weight)?, force)?;
     Ok(Some(StaticContact {
         force,
         approach: hertz.approach,

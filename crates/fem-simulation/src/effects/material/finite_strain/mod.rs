@@ -123,8 +123,8 @@ impl FiniteStrain {
             return answer.unwrap_or(Support::Computes { idle: "" });
         };
         let why = format!("called for, but {}", strained.not_borne());
-        let left_out = FiniteStrain.left_out(scene, estimate).unwrap_or_default();
-        let warning = format!("{} is {why}; small strain leaves out {left_out}", Self::NAME);
+        let neglect_error = FiniteStrain.neglect_error(scene, estimate).unwrap_or_default();
+        let warning = format!("{} is {why}; small strain leaves out {neglect_error}", Self::NAME);
         let active = Self::laws(scene, estimate).iter().any(Option::is_some);
         Support::is(active, why).warning([warning])
     }
@@ -141,7 +141,7 @@ impl FiniteStrain {
             .iter()
             .any(|body| body.material().is_some() && is_partial(body))
             .then_some(())?;
-        let number = FiniteStrain.need(scene, estimate)?.number;
+        let number = FiniteStrain.relevance(scene, estimate)?.number;
         let nearness = format!(
             "elements within {} of first touch, {:.1} contact radii, have it, and those farther away stay at small \
              strain, which leaves out at most {} % of the tolerance",
@@ -171,7 +171,7 @@ impl FiniteStrain {
              any deformation",
             material.law().name()
         );
-        let number = FiniteStrain.need(scene, estimate)?.number;
+        let number = FiniteStrain.relevance(scene, estimate)?.number;
         Some(Support::is(true, number).warning([warning]))
     }
 }
@@ -264,7 +264,7 @@ impl Effect for FiniteStrain {
         effects.finite_strain
     }
 
-    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let open = in_words(scene, estimate);
         let is_called_for = is_called_for(scene, estimate);
         let warning = is_called_for.then(|| {
@@ -291,7 +291,7 @@ impl Effect for FiniteStrain {
         })
     }
 
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if is_beyond(scene, estimate) {
             return Some(NeglectError::default());
         }
@@ -302,7 +302,7 @@ impl Effect for FiniteStrain {
 
     /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
     /// their laws may differ from those that were computed where the case names none.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
         let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = Strained::of_both(scene, estimate);
         let both =
@@ -311,7 +311,7 @@ impl Effect for FiniteStrain {
         if both().any(|(body, law)| body.is_beyond() && body.may_differ_from(law)) {
             return ModelFormError::default();
         }
-        let change = both().map(|(body, law)| body.doubt(law)).sum();
+        let change = both().map(|(body, law)| body.model_form_error(law)).sum();
         let change = with_waves(scene, estimate, change);
         let Departure { restitution, contact_time, peak_force, peak_pressure } =
             with_relaxation(scene, estimate, change);
@@ -320,7 +320,7 @@ impl Effect for FiniteStrain {
             left_small.map(|(body, _)| body.share * body.deformation.flatness.powi(2)).sum();
         let lost = OF_RELAXED_LOSS * flattened * relaxed_loss(scene, estimate);
         let shares = NeglectError::shares(estimate, contact_time, peak_force);
-        let sizes = &estimate.softened.sizes;
+        let sizes = &estimate.effective.sizes;
         // F = πa² times the mean pressure.
         let radius = 0.5 * (peak_force + peak_pressure) * sizes.max_contact_radius;
         ModelFormError::of(&shares, estimate)

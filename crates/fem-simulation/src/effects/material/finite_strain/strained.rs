@@ -71,7 +71,7 @@ impl<'a> Strained<'a> {
 
     /// Returns the largest distance of a possible law from the computed one; with no law it is small
     /// strain.
-    pub fn doubt(&self, computed: Option<HyperelasticLaw>) -> Departure {
+    pub fn model_form_error(&self, computed: Option<HyperelasticLaw>) -> Departure {
         let nu = self.material.instantaneous().poissons_ratio();
         let laws = self.possible_laws().into_iter();
         let each = laws.map(|law| Departure::up_to([Some(law), computed], nu, self.deformation));

@@ -21,7 +21,7 @@ fn foretold(text: &str, set: &[&str], effect: &str) -> NeglectError {
     let setup = simulation.setup();
     let verdict = setup.decisions.verdicts.iter().find(|verdict| verdict.name == effect).unwrap();
     assert!(verdict.active, "{}", verdict.reason);
-    simulation.left_out(verdict, &setup.estimate).unwrap()
+    simulation.neglect_error(verdict, &setup.estimate).unwrap()
 }
 
 /// Within a factor of three, where it is more than another error of the same number, and where closed
@@ -204,9 +204,9 @@ fn extreme_scenes_have_numbers_or_none() {
                     let simulation = simulation(BALL, &set);
                     let setup = simulation.setup();
                     for verdict in &setup.decisions.verdicts {
-                        let left_out = simulation.left_out(verdict, &setup.estimate);
+                        let neglect_error = simulation.neglect_error(verdict, &setup.estimate);
                         let NeglectError { restitution, contact_time_s, peak_force_n } =
-                            left_out.unwrap_or_default();
+                            neglect_error.unwrap_or_default();
                         let told = [restitution, contact_time_s, peak_force_n];
                         let is_number = |change: &f64| change.is_finite() && *change >= 0.0;
                         assert!(told.iter().flatten().all(is_number), "{set:?} {verdict:?}");
