@@ -72,7 +72,8 @@ impl Session {
         let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;
         let mut simulation = Simulation::sharing(case, &self.shared)?;
         let snapshots = SnapshotRequest::Count(ask.frames);
-        let request = OutputRequest { history_rows: ask.rows, snapshots, ..simulation.request().clone() };
+        let request =
+            OutputRequest { history_rows: ask.rows, snapshots, ..simulation.request().clone() };
         let too_much = |error: OutputRequestError| CaseError::new(SOURCE, error.to_string());
         simulation.ask_for(request).map_err(too_much)?;
         let setup = simulation.setup();

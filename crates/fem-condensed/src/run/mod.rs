@@ -239,8 +239,10 @@ impl<'a> ImpactRun<'a> {
         };
         self.scatter.observe(motion.force, now);
         if let Some((overlap, radius)) = motion.largest_overlap() {
-            self.deepest_overlap =
-                DeepestOverlap::of(self.deepest_overlap, DeepestOverlap { overlap, radius, at: now });
+            self.deepest_overlap = DeepestOverlap::of(
+                self.deepest_overlap,
+                DeepestOverlap { overlap, radius, at: now },
+            );
         }
         if rate > 0.0 {
             self.turned = time;

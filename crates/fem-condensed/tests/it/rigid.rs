@@ -202,7 +202,8 @@ fn snapshots_have_the_fields_of_the_other_body() {
     let Frame { masses, reduced_mass, .. } = frame;
     let inverse: f64 = masses.iter().map(|mass| mass.unwrap().recip()).sum();
     assert!((reduced_mass * inverse - 1.0).abs() < 1e-15);
-    let request = OutputRequest { snapshots: SnapshotRequest::Count(3), ..OutputRequest::history() };
+    let request =
+        OutputRequest { snapshots: SnapshotRequest::Count(3), ..OutputRequest::history() };
     let run = pair.collide(&frame, pair.relaxations(), 200, &request, &mut ()).unwrap();
     assert!(!run.snapshots.is_empty());
     for snapshot in &run.snapshots {

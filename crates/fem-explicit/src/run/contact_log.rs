@@ -71,7 +71,8 @@ impl ContactLog {
             self.peak_force = nan_aware_max_abs(self.peak_force, contact.force);
             let (overlap, radius, at) =
                 (contact.overlap, contact.overlap_radius, StepInstant { time, step });
-            self.deepest_overlap = DeepestOverlap::of(self.deepest_overlap, DeepestOverlap { overlap, radius, at });
+            self.deepest_overlap =
+                DeepestOverlap::of(self.deepest_overlap, DeepestOverlap { overlap, radius, at });
         }
         self.was_closed = is_closed;
         // Bodies farther apart than at first touch do not count; a value that is not a number does.

@@ -124,7 +124,8 @@ impl<M: Deref<Target = Model>> Run<M> {
         if !restart_state.fits(&model) {
             return Err(ModelError::ForeignRestartState);
         }
-        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, restart_state.request()));
+        let (scratch, probing) =
+            (Scratch::new(&model), Probing::new(&model, restart_state.request()));
         Ok(Self { model, restart_state, scratch, probing })
     }
 

@@ -63,7 +63,8 @@ pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 3] {
 
 /// Returns `e by 0.072, T by 0.39 µs, F by 3.5 N`, without what does not change.
 fn neglect_error(neglect_error: &Value) -> String {
-    let number = |key: &str| neglect_error.get(key).and_then(Value::as_f64).filter(|size| *size != 0.0);
+    let number =
+        |key: &str| neglect_error.get(key).and_then(Value::as_f64).filter(|size| *size != 0.0);
     let parts = [
         number("restitution").map(|size| format!("e by {}", rounded(size))),
         number("contact_time_s").map(|size| format!("T by {}", two_digits(size, "s"))),

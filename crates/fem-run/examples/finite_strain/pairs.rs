@@ -135,6 +135,7 @@ fn in_series(a: f64, b: Option<f64>) -> f64 {
 fn foretold(simulation: &fem::Simulation) -> Result<NeglectError, Fault> {
     let effect = EFFECTS.iter().find(|effect| effect.name() == "finite strain");
     let estimate = &simulation.setup().estimate;
-    let neglect_error = |effect: &&dyn Effect| effect.neglect_error(simulation.case().scene(), estimate);
+    let neglect_error =
+        |effect: &&dyn Effect| effect.neglect_error(simulation.case().scene(), estimate);
     Ok(effect.and_then(neglect_error).ok_or("nothing is foretold")?)
 }

@@ -119,7 +119,8 @@ pub fn decide(
         let Some(answer) = answer else { continue };
         let relevance = effect.relevance(scene, estimate).unwrap_or_default();
         let obeys = answer.obeys();
-        let (is_called_for, model_form_error) = (relevance.is_called_for, relevance.warning.clone());
+        let (is_called_for, model_form_error) =
+            (relevance.is_called_for, relevance.warning.clone());
         let is_inherent = matches!(answer, Support::Inherent { .. });
         let (active, reason, warnings) = answer.of(relevance, switch);
         if switch == Some(Switch::Off) && active {

@@ -294,7 +294,8 @@ impl ErrorEstimator {
             return Some(FaultySetting::ChatteringSprings);
         }
         // On average springs overlap by half as much, and the contact lasts longer as the approach grows.
-        let overlap = collision.deepest_overlap.map_or(0.0, |deepest_overlap| deepest_overlap.overlap);
+        let overlap =
+            collision.deepest_overlap.map_or(0.0, |deepest_overlap| deepest_overlap.overlap);
         let of_springs = 0.5 * overlap / collision.max_approach?;
         let is_soft = scene.penalty_factor().is_some_and(|factor| factor < 1.0);
         (is_soft && of_springs > miss.tolerance).then_some(FaultySetting::SoftSprings)

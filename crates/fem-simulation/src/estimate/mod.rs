@@ -134,7 +134,8 @@ impl Estimate {
             false => None,
         };
         let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
-        let effective = effective.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
+        let effective =
+            effective.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
         let twin = effective.twin(scene);
         Ok(Self {
             hertz,

@@ -333,7 +333,8 @@ impl Candidate {
         scene: &Scene,
         estimate: &Estimate,
     ) -> Option<ModelFormError> {
-        let is_called_for = || effect.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
+        let is_called_for =
+            || effect.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
         let neglect_error = effect.neglect_error(scene, estimate);
         let model_form_error = match &neglect_error {
             None if is_called_for() => return None,

@@ -199,7 +199,9 @@ impl<'a> Run<'a> {
         Some(format!(
             "the contact force scatters by {:.1} % of its peak{}; above {} %, peaks are too high: {}",
             100.0 * noise(self.collision)?,
-            self.collision.noisiest_instant.map_or(String::new(), |at| format!(", most about {at}")),
+            self.collision
+                .noisiest_instant
+                .map_or(String::new(), |at| format!(", most about {at}")),
             100.0 * LARGEST_NOISE,
             self.quieter.advice()
         ))

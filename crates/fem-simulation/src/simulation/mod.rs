@@ -134,7 +134,16 @@ impl Simulation {
         let chosen = chosen(&scene).map_err(of_case)?;
         let mut request = model.setup().request.clone();
         request.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
-        Ok(Self { case, model, chosen, request, resolved, shared: shared.clone(), refinement, levels })
+        Ok(Self {
+            case,
+            model,
+            chosen,
+            request,
+            resolved,
+            shared: shared.clone(),
+            refinement,
+            levels,
+        })
     }
 
     /// The same on a finer mesh, asked for the same.
@@ -452,7 +461,11 @@ impl Simulation {
     }
 
     /// By how much the numbers of a collision of which closed forms say this change without an effect.
-    pub fn neglect_error(&self, verdict: &EffectDecision, estimate: &Estimate) -> Option<NeglectError> {
+    pub fn neglect_error(
+        &self,
+        verdict: &EffectDecision,
+        estimate: &Estimate,
+    ) -> Option<NeglectError> {
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
         effect.neglect_error(&self.scene_of_model(), estimate)
     }

@@ -368,7 +368,8 @@ fn the_pressure_of_half_spaces_is_off_by_what_it_says() {
         let run = simulation(text, &[more, model]);
         let collision = run.run(&mut ());
         let standing = EffectStatus { is_lacking: false, neglect_error: None };
-        let error = FiniteSizeEffect.model_form_error(run.case().scene(), &run.setup().estimate, &standing);
+        let error =
+            FiniteSizeEffect.model_form_error(run.case().scene(), &run.setup().estimate, &standing);
         let bar = error.size(QuantityOfInterest::PeakPressure).unwrap();
         let error = (collision.peak_pressure.unwrap() - truth).abs();
         // The truth is known to 0.3 %.

@@ -265,8 +265,13 @@ fn flatter_than_what_was_computed_nothing_is_foretold() {
         let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
         let is_lacking = !verdict(&simulation).active;
         let neglect_error = FiniteStrain.neglect_error(scene, estimate);
-        let error = FiniteStrain.model_form_error(scene, estimate, &EffectStatus { is_lacking, neglect_error });
-        let is_known = neglect_error.is_some_and(|neglect_error| neglect_error != NeglectError::default());
+        let error = FiniteStrain.model_form_error(
+            scene,
+            estimate,
+            &EffectStatus { is_lacking, neglect_error },
+        );
+        let is_known =
+            neglect_error.is_some_and(|neglect_error| neglect_error != NeglectError::default());
         [is_known, QuantityOfInterest::ALL.iter().all(|headline| error.size(*headline).is_some())]
     };
     // a/R of 0.81 and 0.87.

@@ -172,10 +172,19 @@ fn springs_that_are_too_soft_are_told_how_stiff_to_be() {
         assert!(message.contains(&deepest_overlap.to_string()), "{message}");
         let ends = [collision.first_contact, collision.last_contact].map(Option::unwrap);
         let middle = 0.5 * (ends[0] + ends[1]);
-        assert!((deepest_overlap.at.time - middle).abs() < 0.1 * (ends[1] - ends[0]), "{deepest_overlap}");
-        assert!(deepest_overlap.radius < 0.3 * collision.max_contact_radius.unwrap(), "{deepest_overlap}");
+        assert!(
+            (deepest_overlap.at.time - middle).abs() < 0.1 * (ends[1] - ends[0]),
+            "{deepest_overlap}"
+        );
+        assert!(
+            deepest_overlap.radius < 0.3 * collision.max_contact_radius.unwrap(),
+            "{deepest_overlap}"
+        );
         // F = k ∫ overlap dA, of a paraboloid at most twice its mean.
-        assert!(deepest_overlap.overlap < 0.5 * collision.max_approach.unwrap(), "{deepest_overlap}");
+        assert!(
+            deepest_overlap.overlap < 0.5 * collision.max_approach.unwrap(),
+            "{deepest_overlap}"
+        );
     }
 }
 

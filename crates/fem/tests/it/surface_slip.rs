@@ -196,7 +196,11 @@ fn the_next_order_is_a_doubt_of_models_that_have_the_first() {
             let simulation = simulation(&set);
             let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
             let neglect_error = SurfaceSlip.neglect_error(scene, estimate);
-            let error = SurfaceSlip.model_form_error(scene, estimate, &EffectStatus { is_lacking, neglect_error });
+            let error = SurfaceSlip.model_form_error(
+                scene,
+                estimate,
+                &EffectStatus { is_lacking, neglect_error },
+            );
             let hertz = &estimate.hertz;
             let scales = [hertz.contact_time(), hertz.peak_force(), hertz.max_approach()];
             let numbers = [

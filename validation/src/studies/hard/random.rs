@@ -273,7 +273,9 @@ fn explained(ours: &Ran, theirs: &Ran) -> [f64; 3] {
         let lacking = lacks.verdicts();
         let is_lacking = |name: &str| !lacking.iter().any(|one| one.name == name && one.active);
         for verdict in has.verdicts().iter().filter(|one| one.active && is_lacking(one.name)) {
-            let Some(neglect_error) = has.simulation.neglect_error(verdict, &estimate) else { continue };
+            let Some(neglect_error) = has.simulation.neglect_error(verdict, &estimate) else {
+                continue;
+            };
             for (sum, share) in sum.iter_mut().zip(shares(&neglect_error, &estimate)) {
                 *sum += share.unwrap_or(0.0);
             }

@@ -104,7 +104,12 @@ impl Effect for FiniteSizeEffect {
     }
 
     /// Where it is a term it is its first order; of the pressure no model of half-spaces has it.
-    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        standing: &EffectStatus,
+    ) -> ModelFormError {
         let second_order = SECOND_ORDER * estimate.strain.powi(2);
         let of_size = match standing.is_lacking {
             true => ModelFormError::of(&standing.neglect_error.unwrap_or_default(), estimate),

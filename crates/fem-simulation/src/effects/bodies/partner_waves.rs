@@ -229,7 +229,12 @@ impl Effect for PartnerWaves {
     }
 
     /// The radiation term has a relative error; a mesh resolves the waves.
-    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        standing: &EffectStatus,
+    ) -> ModelFormError {
         let &EffectStatus { is_lacking, neglect_error } = standing;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
         let Some(neglect_error) = neglect_error.filter(|_| !is_of_mesh) else {

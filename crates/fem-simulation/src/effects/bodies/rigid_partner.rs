@@ -79,7 +79,12 @@ impl Effect for RigidPartner {
     }
 
     /// Nature has none: it is what taking a body as rigid changes.
-    fn model_form_error(&self, _: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(
+        &self,
+        _: &Scene,
+        estimate: &Estimate,
+        standing: &EffectStatus,
+    ) -> ModelFormError {
         ModelFormError::of(&standing.neglect_error.unwrap_or_default(), estimate)
     }
 

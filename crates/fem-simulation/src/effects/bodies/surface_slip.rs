@@ -95,7 +95,12 @@ impl Effect for SurfaceSlip {
     }
 
     /// The next order of the series spring is neglected; elements compute the slip fully.
-    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        standing: &EffectStatus,
+    ) -> ModelFormError {
         let share = match (standing.is_lacking, scene.model()) {
             (true, _) => 1.0,
             (false, ModelChoice::Fem) => 0.0,

@@ -55,11 +55,17 @@ pub trait Effect: Sync {
 
     /// Returns the model-form error because of the effect. It is the error of neglecting the effect if the
     /// model lacks it, and zero for purely numerical effects.
-    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        standing: &EffectStatus,
+    ) -> ModelFormError {
         if !standing.is_lacking {
             return ModelFormError::NOTHING;
         }
-        let is_called_for = || self.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
+        let is_called_for =
+            || self.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
         match &standing.neglect_error {
             Some(neglect_error) => ModelFormError::of(neglect_error, estimate),
             None if is_called_for() => ModelFormError::default(),

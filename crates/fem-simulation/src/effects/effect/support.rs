@@ -113,7 +113,10 @@ mod tests {
         let idle = "x = 1; small; nothing is kept";
         assert_eq!(computes().of(relevance(false), None), (false, idle.into(), none()));
         let model_form_error = vec!["x is large".to_string()];
-        assert_eq!(Support::Lacks.of(relevance(false), auto), (false, "x = 1; small".into(), model_form_error));
+        assert_eq!(
+            Support::Lacks.of(relevance(false), auto),
+            (false, "x = 1; small".into(), model_form_error)
+        );
         let (active, reason, warnings) = Support::Lacks.of(relevance(true), auto);
         assert!(!active && reason.contains("not available") && reason.contains("all of it"));
         assert_eq!(warnings, ["x is large"]);

@@ -83,7 +83,8 @@ impl Effect for Viscoelasticity {
             }
             Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
                 let n_kept: usize = folded.materials.iter().map(n_terms).sum();
-                let answer = Support::is(n_kept > 0, in_words(&relevance, &folded, estimate, n_kept));
+                let answer =
+                    Support::is(n_kept > 0, in_words(&relevance, &folded, estimate, n_kept));
                 TransformedScene { scene: made_of(scene, folded.materials), answer }
             }),
         })

@@ -208,11 +208,19 @@ fn first_request(request: &OutputRequest, time: f64) -> OutputRequest {
         ),
         other => other.clone(),
     };
-    OutputRequest { history_rows: request.history_rows.max(FEWEST_ROWS), snapshots, ..request.clone() }
+    OutputRequest {
+        history_rows: request.history_rows.max(FEWEST_ROWS),
+        snapshots,
+        ..request.clone()
+    }
 }
 
 /// Returns the output request of a later contact, after a number of element updates.
-fn later_request(request: &OutputRequest, n_contacts: usize, element_updates: u64) -> OutputRequest {
+fn later_request(
+    request: &OutputRequest,
+    n_contacts: usize,
+    element_updates: u64,
+) -> OutputRequest {
     let share = ROWS_OF_ALL.saturating_mul(request.history_rows) / n_contacts.max(1);
     OutputRequest {
         history_rows: share.min(request.history_rows).max(FEWEST_ROWS),

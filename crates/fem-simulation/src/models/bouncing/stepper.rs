@@ -76,7 +76,8 @@ impl BouncingCourse {
     pub fn new(ball: &Arc<Ball>, approach: &Approach, request: &OutputRequest) -> Self {
         let (speed, time, _) = ball.fall(approach);
         let so_far = Bounced::new(Chain::new(time), ball.gravity);
-        let known = Bounces { approach: *approach, request: request.clone(), so_far, made_at: None };
+        let known =
+            Bounces { approach: *approach, request: request.clone(), so_far, made_at: None };
         let present = ball.first.clone();
         let mut course = Self { ball: ball.clone(), known, present, contact: None };
         course.touch(speed);

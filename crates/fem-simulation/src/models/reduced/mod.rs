@@ -133,7 +133,12 @@ impl Model for Reduced {
     }
 
     /// Closed forms and short integrations: nobody needs to look on.
-    fn collide(&self, approach: &Approach, request: &OutputRequest, _: &mut dyn Monitor) -> Collision {
+    fn collide(
+        &self,
+        approach: &Approach,
+        request: &OutputRequest,
+        _: &mut dyn Monitor,
+    ) -> Collision {
         if let Err(error) = request.check() {
             return Collision::stopped(*approach, error.into());
         }

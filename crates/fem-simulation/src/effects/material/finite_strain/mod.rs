@@ -302,7 +302,12 @@ impl Effect for FiniteStrain {
 
     /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
     /// their laws may differ from those that were computed where the case names none.
-    fn model_form_error(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        standing: &EffectStatus,
+    ) -> ModelFormError {
         let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = Strained::of_both(scene, estimate);
         let both =
