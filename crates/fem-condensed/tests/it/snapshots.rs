@@ -254,12 +254,12 @@ fn fields_are_the_explicit_ones() {
         mass_times: [1.0; 2],
     };
     let model = fem_explicit::Model::new(bodies, Approach::at(0.5).unwrap(), &settings).unwrap();
-    let request = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
+    let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
     let request = OutputRequest {
         history_rows: 100,
-        snapshots: request.clone(),
+        snapshots: snapshots.clone(),
         give_up_after: 20.0,
         ..OutputRequest::history()
     };
@@ -270,7 +270,7 @@ fn fields_are_the_explicit_ones() {
         ..scene.settings()
     };
     let pair = CondensedPair::new(scene.inputs(5.0), settings).unwrap();
-    let run = drawn(&pair, pair.frame(0.5).unwrap(), request, 1000);
+    let run = drawn(&pair, pair.frame(0.5).unwrap(), snapshots, 1000);
     for side in 0..2 {
         let (found, expected) =
             (&run.snapshots[0].bodies[side], &reference.snapshots[0].bodies[side]);
