@@ -3,7 +3,7 @@
 use crate::geometry::{QuadGeometry, QuadraturePoint, quadrature};
 use crate::stiffness::{ElementMatrix, ElementStiffness};
 
-/// Element matrices of the B-bar element: the dilatation is the element's mean,
+/// Returns the element matrices of the B-bar element: the dilatation is the element's mean,
 /// the deviatoric strain is integrated with 2 × 2 Gauss points.
 pub fn b_bar(corners: &[[f64; 2]; 4]) -> ElementStiffness {
     let geometry = QuadGeometry::new(corners);
@@ -23,7 +23,7 @@ pub fn b_bar(corners: &[[f64; 2]; 4]) -> ElementStiffness {
     ElementStiffness { bulk, deviatoric }
 }
 
-/// Strain at a point due to a unit displacement of degree of freedom i.
+/// Returns the strain at a point due to a unit displacement of degree of freedom i.
 fn unit_strain(p: &QuadraturePoint, i: usize) -> [f64; 4] {
     let a = i / 2;
     if i.is_multiple_of(2) {

@@ -6,8 +6,8 @@
 //! p_k(x) = (x - d_k)\, p_{k-1}(x) - e_{k-1}^2\, p_{k-2}(x), \qquad p_0 = 1,
 //! ```
 //!
-//! has real roots alone. From above them all Laguerre's steps go down to the largest and never beyond it
-//! (Wilkinson 1965, chapter 7): four or five are enough, a quarter of the time of all eigenvalues.
+//! has only real roots. From above, Laguerre's method converges monotonically to the largest root (Wilkinson 1965,
+//! chapter 7). Four or five steps are sufficient, in a quarter of the time for all eigenvalues.
 
 use nalgebra::SVector;
 
@@ -15,12 +15,13 @@ use crate::stiffness::ElementMatrix;
 
 /// Degrees of freedom of an element.
 const N: usize = 8;
-/// More than are ever taken: of a double root, of which each step leaves three fifths, some thirty.
+/// Upper limit on the number of steps. A double root takes about thirty, because each step leaves three fifths of the
+/// error.
 const MOST_STEPS: usize = 60;
-/// A step that is smaller than this share of the root is rounding.
+/// Relative size below which a step is rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Largest λ of K x = λ M x with M the lumped corner masses (kg), in 1/s².
+/// Returns the largest λ of K x = λ M x with M the lumped corner masses (kg), in 1/s².
 ///
 /// Degrees of freedom of zero mass are left out, and so are the radial ones of
 /// corners on the axis, which do not move; `on_axis` marks those.
@@ -34,7 +35,7 @@ pub fn largest_eigenvalue(stiffness: &ElementMatrix, masses: &[f64; 4], on_axis:
         if fixed || masses[corner] <= 0.0 { 0.0 } else { masses[corner].sqrt().recip() }
     });
     let scaled = ElementMatrix::from_fn(|i, j| stiffness[(i, j)] * scale[i] * scale[j]);
-    // Nothing pulls, or something is no number. Squares of the rest are numbers.
+    // The matrix is zero or not finite. Otherwise squares do not overflow.
     let size = scaled.amax();
     if !(size > 0.0 && size.is_finite()) {
         return size;
@@ -43,7 +44,7 @@ pub fn largest_eigenvalue(stiffness: &ElementMatrix, masses: &[f64; 4], on_axis:
     size * largest_of_tridiagonal(&diagonal, &beside)
 }
 
-/// The largest eigenvalue of a matrix that has nothing but a diagonal and one beside it.
+/// Returns the largest eigenvalue of a symmetric tridiagonal matrix.
 fn largest_of_tridiagonal(diagonal: &SVector<f64, N>, beside: &SVector<f64, { N - 1 }>) -> f64 {
     // Gershgorin's circles end below this.
     let reach = |k: usize| {
@@ -70,7 +71,7 @@ fn largest_of_tridiagonal(diagonal: &SVector<f64, N>, beside: &SVector<f64, { N 
     bound * root
 }
 
-/// The characteristic polynomial of a tridiagonal matrix, its slope and its second derivative.
+/// Returns the characteristic polynomial of a tridiagonal matrix, its slope and its second derivative.
 fn characteristic(
     diagonal: &SVector<f64, N>,
     beside: &SVector<f64, { N - 1 }>,

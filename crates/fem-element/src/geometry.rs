@@ -44,7 +44,7 @@ pub(crate) struct QuadraturePoint {
     pub gradient_y: [f64; 4],
 }
 
-/// The 2 × 2 Gauss points, exact for every integral of a straight-sided quad's
+/// Returns the 2 × 2 Gauss points, exact for every integral of a straight-sided quad's
 /// volume, mean gradients and lumped volumes.
 #[inline]
 pub(crate) fn quadrature(corners: &[[f64; 2]; 4]) -> [QuadraturePoint; 4] {
@@ -72,7 +72,7 @@ pub(crate) fn quadrature(corners: &[[f64; 2]; 4]) -> [QuadraturePoint; 4] {
     })
 }
 
-/// Σ of what points have of each corner, by their weights.
+/// Returns the weighted sum over the points of a quantity of each corner.
 #[inline]
 fn weighted(
     points: &[QuadraturePoint; 4],
@@ -87,7 +87,7 @@ fn weighted(
     sums
 }
 
-/// ∫ N_a 2πr dA, m³, of the quad with the given corners (r, y) in m: [`QuadGeometry::nodal_volumes`] alone.
+/// Returns [`QuadGeometry::nodal_volumes`] of the quad with the given corners (r, y) in m.
 pub fn nodal_volumes(corners: &[[f64; 2]; 4]) -> [f64; 4] {
     weighted(&quadrature(corners), |p, a| p.shape[a])
 }
@@ -124,7 +124,7 @@ impl QuadGeometry {
         Self { volume, nodal_volumes, gradient_r, gradient_y, hoop, hourglass, hourglass_measures }
     }
 
-    /// Mean strain (ε_rr, ε_yy, ε_θθ, γ_ry) of corner displacements (u_r, u_y).
+    /// Returns the mean strain (ε_rr, ε_yy, ε_θθ, γ_ry) of corner displacements (u_r, u_y).
     pub fn mean_strain(&self, u: &[[f64; 2]; 4]) -> [f64; 4] {
         let mut strain = [0.0; 4];
         for a in 0..4 {

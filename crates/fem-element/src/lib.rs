@@ -4,12 +4,12 @@
 //! strain is (ε_rr, ε_yy, ε_θθ, γ_ry). All integrals are over the body of
 //! revolution, 2π r dA.
 //!
-//! * [`QuadGeometry`]: everything about an element that its corners decide;
-//! * [`mean_gradient`]: the element of the product, one stress with hourglass
+//! * [`QuadGeometry`]: the geometry of an element;
+//! * [`mean_gradient`]: the element of all models, one mean stress with hourglass
 //!   stiffness, as bulk and deviatoric matrices;
-//! * [`b_bar`]: fully integrated with mean dilatation, the reference that the
-//!   former is measured against;
-//! * [`largest_eigenvalue`]: of an element's stiffness against its masses.
+//! * [`b_bar`]: a fully integrated element with mean dilatation, the reference for
+//!   tests;
+//! * [`largest_eigenvalue`]: the largest eigenvalue of an element's stiffness against its masses.
 
 mod b_bar;
 mod eigenvalue;

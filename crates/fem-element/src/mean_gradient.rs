@@ -1,4 +1,4 @@
-//! One mean stress an element, and hourglass stiffness.
+//! The element with one mean stress and hourglass stiffness.
 //!
 //! ```math
 //! \mathbf f = V \bar B^T \boldsymbol\sigma(\bar{\boldsymbol\varepsilon})
@@ -14,7 +14,7 @@ use crate::geometry::QuadGeometry;
 use crate::stiffness::{ElementMatrix, ElementStiffness};
 
 impl QuadGeometry {
-    /// Mean dilatation of unit displacements, 1/m.
+    /// Returns the mean dilatation of unit displacements, 1/m.
     pub(crate) fn dilatation(&self) -> SVector<f64, 8> {
         SVector::from_fn(|i, _| {
             let a = i / 2;
@@ -35,8 +35,8 @@ impl QuadGeometry {
     }
 }
 
-/// Lower triangle, row by row, of the stiffness matrix of the mean-gradient element, N/m; degrees of freedom
-/// u_r, u_y corner by corner. What [`mean_gradient`] has, for moduli (Pa) and in a quarter of the time.
+/// Returns the lower triangle, row by row, of the stiffness matrix of the mean-gradient element, N/m; degrees of
+/// freedom u_r, u_y corner by corner. It is that of [`mean_gradient`] for given moduli (Pa), in a quarter of the time.
 pub fn mean_gradient_stiffness(
     geometry: &QuadGeometry,
     bulk_modulus: f64,
@@ -86,7 +86,7 @@ pub fn mean_gradient_stiffness(
     lower
 }
 
-/// Element matrices of the mean-gradient element.
+/// Returns the element matrices of the mean-gradient element.
 pub fn mean_gradient(geometry: &QuadGeometry) -> ElementStiffness {
     let dilatation = geometry.dilatation();
     let bulk = dilatation * dilatation.transpose() * geometry.volume;

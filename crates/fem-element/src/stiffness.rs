@@ -11,12 +11,12 @@ pub type ElementMatrix = SMatrix<f64, 8, 8>;
 pub struct ElementStiffness {
     /// Stiffness for unit bulk modulus.
     pub bulk: ElementMatrix,
-    /// For unit shear modulus, hourglass stiffness included.
+    /// Stiffness for unit shear modulus, hourglass stiffness included.
     pub deviatoric: ElementMatrix,
 }
 
 impl ElementStiffness {
-    /// Stiffness for the given moduli (Pa), N/m.
+    /// Returns the stiffness for the given moduli (Pa), N/m.
     #[inline]
     pub fn combine(&self, bulk_modulus: f64, shear_modulus: f64) -> ElementMatrix {
         self.bulk * bulk_modulus + self.deviatoric * shear_modulus

@@ -4,14 +4,14 @@
 //! M \ddot u = -\int B^T (K_{bulk} + G\,dev)\, d V + f_{nodes} + f_{contact}
 //! ```
 //!
-//! Strains in a collision of glass are of the order of 1 %, so bodies are linear by default: the geometry is integrated once,
-//! and a step reads and writes nodal vectors alone. Elements are axisymmetric quads with one mean stress and hourglass
-//! stiffness ([`fem_element`]), masses are lumped, and time is advanced by central differences, with a step that is proved
-//! stable for bodies and contact ([`Model`]).
+//! Strains in a collision of glass are of the order of 1 %, so bodies are linear by default: the geometry is integrated
+//! once, and a step reads and writes nodal vectors alone. Elements are axisymmetric quads with one mean stress and
+//! hourglass stiffness ([`fem_element`]), masses are lumped, and time is advanced by central differences, with a step
+//! that is proved stable for bodies and contact ([`Model`]).
 //!
-//! A body may be at finite strain instead, by a law of [`fem_material::finite`] ([`Parts::finite_strain`]). Its elements are
-//! total Lagrangian and read the undeformed geometry too. Their stiffness changes, and the time step follows the critical
-//! step of the deformed bodies.
+//! A body may be at finite strain instead, by a law of [`fem_material::finite`] ([`Parts::finite_strain`]). Its
+//! elements are total Lagrangian and read the undeformed geometry too. Their stiffness changes, and the time step
+//! follows the critical step of the deformed bodies.
 //!
 //! A step is a list of phases. Stress, forces on nodes and contact are parts, chosen once when the model is built:
 //!
@@ -38,15 +38,15 @@
 //! ```
 //!
 //! A part declares the fields of history that it needs. The run keeps them beside displacement and velocity, in a
-//! [`RestartState`]. A part adds the energies that it stores, gives and dissipates to [`Accounts`], which the ledger balances.
-//! A part that is switched off is absent: an elastic body has no history, and an empty list costs nothing.
+//! [`RestartState`]. A part adds the energies that it stores, gives and dissipates to [`Accounts`], which the ledger
+//! balances. A part that is switched off is absent: an elastic body has no history, and an empty list costs nothing.
 //!
-//! A rigid sphere is a body of one node that carries its mass, without stress and elements: the contact adds its forces to
-//! that node. A wall is the same with infinite mass and without forces.
+//! A rigid sphere is a body of one node that carries its mass, without stress and elements: the contact adds its forces
+//! to that node. A wall is the same with infinite mass and without forces.
 //!
 //! [`collide`] runs a [`Model`] from first touch until the bodies have separated and returns a
-//! [`Collision`](fem_collision::Collision): history with energies, snapshots, and the quantities of the collision. [`Run`] does
-//! the same in pieces. [`FreeMotion`] is one body without contact.
+//! [`Collision`](fem_collision::Collision): history with energies, snapshots, and the quantities of the collision.
+//! [`Run`] does the same in pieces. [`FreeMotion`] is one body without contact.
 //!
 //! ```text
 //! run        a run in steps, its restart state, its stops, its results
@@ -87,6 +87,8 @@ pub use contact::{Contact, ContactMethod, Massless, MovedContact, Springs};
 pub use error::ModelError;
 pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;
+#[doc(hidden)]
+pub use lanes::limit_lanes;
 pub use model::{Model, Parts};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{RestartState, Run, collide};

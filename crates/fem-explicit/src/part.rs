@@ -15,17 +15,17 @@ pub type NodalField = Vec<[f64; 2]>;
 
 /// A part of the step: a stress, a force on the nodes or a contact.
 ///
-/// A part is chosen once, when the model is built, and is constant over a run. Its state are the fields of history that it
-/// declares: the run keeps them, zero at first, passes them to every call, and lets the part advance them at the end of each
-/// step. A part that a body does not have stores and computes nothing.
+/// A part is chosen once, when the model is built, and is constant over a run. Its state are the fields of history that
+/// it declares: the run keeps them, zero at first, passes them to every call, and lets the part advance them at the end
+/// of each step. A part that a body does not have stores and computes nothing.
 pub trait Part: Any + Debug + Send + Sync {
     /// Returns the number of its nodal fields of history for a body. A part without history is not asked to advance.
     fn n_history(&self) -> usize {
         0
     }
 
-    /// Takes the time step (s) once, when the model is built. If the stiffness of a body changes, it is the longest of a run
-    /// ([`Motion::time_step`]).
+    /// Takes the time step (s) once, when the model is built. If the stiffness of a body changes, it is the longest of
+    /// a run ([`Motion::time_step`]).
     fn set_time_step(&mut self, _: f64) {}
 }
 
@@ -93,7 +93,7 @@ impl<P: Part + ?Sized> Placed<P> {
         Self { part, fields: first..*n_fields }
     }
 
-    /// Whether it has a history to advance.
+    /// Returns whether it has a history to advance.
     pub fn has_history(&self) -> bool {
         !self.fields.is_empty()
     }

@@ -80,7 +80,7 @@ impl State {
         }
     }
 
-    /// Whether its fields have the sizes of the model, and its time is that of its step.
+    /// Returns whether its fields have the sizes of the model, and its time is that of its step.
     pub fn fits(&self, model: &Model) -> bool {
         let n_contact = model.contact().n_history();
         self.step <= MOST_STEPS

@@ -49,7 +49,7 @@ impl RelativeError {
         }
     }
 
-    /// Whether the magnitude of each error is at most that of the tolerance.
+    /// Returns whether the magnitude of each error is at most that of the tolerance.
     pub fn is_within(&self, tolerance: &Self) -> bool {
         self.restitution.abs() <= tolerance.restitution
             && self.contact_time.abs() <= tolerance.contact_time

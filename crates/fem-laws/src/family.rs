@@ -75,7 +75,7 @@ pub enum KeyKind {
 }
 
 impl KeyKind {
-    /// SI unit, and exponents of metre, kilogram, second.
+    /// Returns the SI unit, and exponents of metre, kilogram, second.
     const fn unit(self) -> (&'static str, [i32; 3]) {
         match self {
             Self::Number => ("", [0; 3]),
@@ -143,7 +143,7 @@ impl Role {
         Self { role: ParameterRole::Number, unit: None, default, limits }
     }
 
-    /// The unit of a key that is a plain number in a case file, since its unit depends on an exponent.
+    /// Sets the unit of a key that is a plain number in a case file, because its unit depends on an exponent.
     const fn in_unit(self, unit: &'static str) -> Self {
         Self { unit: Some(unit), ..self }
     }
@@ -300,7 +300,7 @@ impl LawInput {
         self.values.iter().find(|(own, _)| *own == key).map(|(_, value)| *value)
     }
 
-    /// Whether the law takes its damping from the relaxation of the materials.
+    /// Returns whether the law takes its damping from the relaxation of the materials.
     pub fn is_slow_limit(&self) -> bool {
         self.family == LawFamily::KuwabaraKono && self.values.is_empty()
     }
@@ -352,7 +352,7 @@ impl From<LawError> for LawInputError {
     }
 }
 
-/// The keys are the parameters.
+/// Returns the parameters, which are the keys.
 fn parameters_as_given(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     let parameters = law.family.parameters().iter();
     let values = parameters.map(|parameter| law.get(parameter.key).unwrap_or_default());

@@ -26,7 +26,7 @@
 //! with G.
 //!
 //! Limits: ε ≪ 1. For a weak term with τ ≈ T, e and F are overestimated and T is underestimated by up to a
-//! factor of three. Beside terms that stay and relax strongly the estimate is off by up to a half.
+//! factor of three. With other terms that relax strongly the estimate has an error of up to a half.
 
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
@@ -104,7 +104,7 @@ struct Folding<'a> {
 }
 
 impl Folding<'_> {
-    /// Body, term and better fate, the least error first, each as if it were alone.
+    /// Returns body, term and the better limit of each term by itself, the least error first.
     fn candidates(&self) -> Vec<(usize, usize, Fate)> {
         let mut candidates = Vec::new();
         for (side, body) in self.bodies.iter().enumerate() {
@@ -176,12 +176,12 @@ fn terms(body: Option<&Material>) -> &[PronyTerm] {
     body.and_then(Material::relaxation).map_or(&[], PronySeries::terms)
 }
 
-/// 1/E*.
+/// Returns the compliance 1/E*, 1/Pa.
 fn compliance(bodies: [Option<ElasticModuli>; 2]) -> f64 {
     bodies.iter().flatten().map(|moduli| moduli.plane_strain_modulus().recip()).sum()
 }
 
-/// ∂ ln(E/(1−ν²))/∂ ln G, with K or at constant K.
+/// Returns ∂ ln(E/(1−ν²))/∂ ln G, with K or at constant K.
 fn sensitivity(moduli: &ElasticModuli, acts_on: ActsOn) -> f64 {
     let (bulk, shear) = (3.0 * moduli.bulk_modulus(), moduli.shear_modulus());
     match acts_on {
@@ -190,7 +190,7 @@ fn sensitivity(moduli: &ElasticModuli, acts_on: ActsOn) -> f64 {
     }
 }
 
-/// The body's material without the folded terms.
+/// Returns the body's material without the folded terms.
 fn material(body: &Material, fates: &[Fate]) -> Option<Material> {
     let Some(series) = body.relaxation().filter(|_| fates.iter().any(|fate| *fate != Fate::Kept))
     else {

@@ -54,7 +54,8 @@ impl Impact {
 }
 
 impl ImpactInstant {
-    /// First touch at a relative speed, m/s; `pressure` and `energies` say whether the model computes them.
+    /// Returns the state at first touch at a relative speed, m/s; `pressure` and `energies` are whether the model
+    /// computes them.
     pub(crate) fn first_touch(speed: f64, pressure: bool, energies: bool) -> Self {
         Self {
             time: 0.0,

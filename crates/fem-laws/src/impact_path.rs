@@ -37,7 +37,7 @@ impl<'a> ImpactPath<'a> {
         Self { gravity: acceleration, ..self }
     }
 
-    /// The state at a time after first touch, s; first touch itself before it. `None` of a
+    /// Returns the state at a time after first touch, s; first touch itself before it. `None` of a
     /// collision without instants.
     pub fn at(&self, time: f64) -> Option<ImpactInstant> {
         let after = self.history.partition_point(|instant| instant.time <= time);
@@ -60,7 +60,7 @@ impl<'a> ImpactPath<'a> {
         }
     }
 
-    /// Between instant `k` and the next.
+    /// Interpolates between instant `k` and the next.
     fn between(&self, k: usize, time: f64) -> ImpactInstant {
         let (a, b) = (&self.history[k], &self.history[k + 1]);
         let length = b.time - a.time;
@@ -125,7 +125,7 @@ impl<'a> ImpactPath<'a> {
         }
     }
 
-    /// Slope at instant `k` of the parabola through it and its neighbours.
+    /// Returns the slope at instant `k` of the parabola through it and its neighbours.
     fn slope(&self, k: usize, value: fn(&ImpactInstant) -> f64) -> f64 {
         let last = self.history.len() - 1;
         let middle = k.clamp(1, last.max(2) - 1).min(last);
@@ -149,7 +149,7 @@ fn root(square: f64) -> f64 {
     square.max(0.0).sqrt()
 }
 
-/// The polynomial with these ends and slopes, at s in 0 ..= 1 of a length.
+/// Returns the polynomial with these ends and slopes, at s in 0 ..= 1 of a length.
 fn cubic(s: f64, length: f64, ends: [f64; 2], slopes: [f64; 2]) -> f64 {
     let t = 1.0 - s;
     // (1 + 2s)t² + (3 − 2s)s² = 1.
@@ -157,7 +157,7 @@ fn cubic(s: f64, length: f64, ends: [f64; 2], slopes: [f64; 2]) -> f64 {
     ends[0] + (ends[1] - ends[0]) * (3.0 - 2.0 * s) * s * s + bump
 }
 
-/// Value and derivative of the polynomial with these ends, slopes and curvatures.
+/// Returns the value and derivative of the polynomial with these ends, slopes and curvatures.
 fn quintic(s: f64, h: f64, ends: [f64; 2], slopes: [f64; 2], curvatures: [f64; 2]) -> (f64, f64) {
     let rise = ends[1] - ends[0];
     let [v0, v1] = slopes.map(|slope| h * slope);

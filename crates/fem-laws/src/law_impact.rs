@@ -64,18 +64,18 @@ impl LawImpact {
     /// Accuracy of restitution, time and force that [`LawImpact::new`] asks for.
     pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 
-    /// Ending at zero force, with the default tolerance.
+    /// Creates a model that ends at zero force, with the default tolerance.
     pub fn new(pair: &Pair, law: ContactLaw) -> Self {
         let (end_rule, tolerance) = (EndRule::default(), Self::DEFAULT_TOLERANCE);
         Self { pair: *pair, law, end_rule, tolerance, gravity: 0.0 }
     }
 
-    /// This law with another end of contact.
+    /// Sets the rule for the end of contact.
     pub fn with_end_rule(self, end_rule: EndRule) -> Self {
         Self { end_rule, ..self }
     }
 
-    /// With another tolerance, 1e-10 to 1e-2.
+    /// Sets the tolerance, 1e-10 to 1e-2.
     ///
     /// # Errors
     /// A tolerance outside.
@@ -83,7 +83,7 @@ impl LawImpact {
         Ok(Self { tolerance: checked_tolerance(tolerance)?, ..self })
     }
 
-    /// With gravity along the approach (m/s²), on a ball above a body that does not move.
+    /// Adds gravity along the approach (m/s²), on a ball above a body that does not move.
     ///
     /// # Errors
     /// An acceleration that is negative or not finite.
@@ -91,7 +91,7 @@ impl LawImpact {
         Ok(Self { gravity: not_negative("gravity", acceleration)?, ..self })
     }
 
-    /// The collision at an approach speed, m/s.
+    /// Returns the collision at an approach speed, m/s.
     ///
     /// # Errors
     /// A speed that is not positive and finite; values so extreme that a result leaves the range
@@ -157,14 +157,14 @@ struct Oscillator {
 type State = [f64; 4];
 
 impl Oscillator {
-    /// The spring continues as an odd function, the dashpot as an even one, below x = 0, where only
+    /// Returns the force. The spring continues as an odd function, the dashpot as an even one, below x = 0, where only
     /// trial states of the integrator lie.
     fn force(&self, [x, w, ..]: State) -> f64 {
         let overlap = x.abs();
         (overlap.powf(self.gamma)).copysign(x) + self.damping * overlap.powf(self.n) * w
     }
 
-    /// dF/dt at x > 0.
+    /// Returns dF/dt at x > 0.
     fn force_rate(&self, state: State) -> f64 {
         let [x, w, ..] = state;
         let slowing = self.force(state) - self.gravity;
@@ -172,7 +172,8 @@ impl Oscillator {
         self.gamma * x.powf(self.gamma - 1.0) * w + self.damping * stretched
     }
 
-    /// Not positive when the contact is over; the power of x common to both parts of F is left out.
+    /// Returns a function that is not positive when the contact is over; the power of x common to both parts of F is
+    /// left out.
     fn margin(&self, end_rule: EndRule, [x, w, ..]: State) -> f64 {
         let common = self.gamma.min(self.n);
         match end_rule {
@@ -185,12 +186,12 @@ impl Oscillator {
         }
     }
 
-    /// Energy still in motion, spring and weight, of 1.
+    /// Returns the energy of motion, spring and weight over the initial energy.
     fn energy(&self, [x, w, ..]: State) -> f64 {
         w * w + 2.0 / (self.gamma + 1.0) * x.abs().powf(self.gamma + 1.0) - 2.0 * self.gravity * x
     }
 
-    /// b: braking by the dashpot alone, dẋ = −c xⁿ dx, stops at c xⁿ⁺¹ = n + 1.
+    /// Returns b: braking by the dashpot alone, dẋ = −c xⁿ dx, stops at c xⁿ⁺¹ = n + 1.
     fn braking_overlap(&self) -> f64 {
         if self.damping > 0.0 {
             ((self.n + 1.0) / self.damping).powf((self.n + 1.0).recip()).min(1.0)
@@ -199,7 +200,7 @@ impl Oscillator {
         }
     }
 
-    /// `Err`: the time reached.
+    /// Computes the collision; `Err` has the time reached.
     fn collide(&self, end_rule: EndRule, tolerance: f64) -> Result<Outcome, f64> {
         let braking = self.braking_overlap();
         // Errors add up over some hundred steps.
@@ -265,7 +266,7 @@ struct Watch<'a> {
 struct Last(State);
 
 impl Watch<'_> {
-    /// The state a part of a step after `from`, by a step of its own.
+    /// Returns the state a part of a step after `from`, by a separate step.
     fn after(&self, from: &State, part: f64) -> State {
         let mut last = Last(*from);
         if part > 0.0 {
@@ -276,7 +277,7 @@ impl Watch<'_> {
         last.0
     }
 
-    /// The largest part, up to `end`, of a step from `from` before `value` falls through 0, if it
+    /// Returns the largest part, up to `end`, of a step from `from` before `value` falls through 0, if it
     /// does.
     fn before_fall(&self, from: &State, end: f64, value: impl Fn(State) -> f64) -> Option<State> {
         let falls = value(*from) > 0.0 && value(self.after(from, end)) <= 0.0;
@@ -289,7 +290,7 @@ impl Watch<'_> {
         self.outcome.history.push((state, self.motion.oscillator.force(state)));
     }
 
-    /// For the extremes only.
+    /// Updates the extremes only.
     fn note(&mut self, state: State) {
         let force = self.motion.oscillator.force(state);
         self.outcome.peak_force = self.outcome.peak_force.max(force);

@@ -38,7 +38,7 @@ pub enum Partner {
 }
 
 impl Partner {
-    /// A solid sphere of a diameter (m) and a material. [`Pair::new`] checks the diameter.
+    /// Creates a solid sphere from a diameter (m) and a material. [`Pair::new`] checks the diameter.
     pub fn solid_sphere(diameter: f64, material: &Material) -> Self {
         Self::Sphere {
             radius: 0.5 * diameter,
@@ -47,12 +47,12 @@ impl Partner {
         }
     }
 
-    /// A half-space of a material.
+    /// Creates a half-space of a material.
     pub fn half_space(material: &Material) -> Self {
         Self::HalfSpace { plane_strain_modulus: material.instantaneous().plane_strain_modulus() }
     }
 
-    /// This sphere, held in its place; what else there is moves nowhere already.
+    /// Holds this sphere in its place; other bodies do not move anyway.
     #[must_use]
     pub fn held(self) -> Self {
         match self {
@@ -63,7 +63,7 @@ impl Partner {
         }
     }
 
-    /// Plane strain modulus E/(1−ν²), Pa; infinite for a rigid body.
+    /// Returns the plane strain modulus E/(1−ν²), Pa; infinite for a rigid body.
     pub fn plane_strain_modulus(&self) -> f64 {
         match *self {
             Self::Sphere { plane_strain_modulus, .. }
@@ -72,7 +72,7 @@ impl Partner {
         }
     }
 
-    /// Radius, mass and modulus.
+    /// Returns radius, mass and modulus.
     fn checked(&self) -> Result<[f64; 3], LawError> {
         match *self {
             Self::Sphere { radius, mass, plane_strain_modulus } => Ok([
@@ -89,18 +89,18 @@ impl Partner {
     }
 }
 
-/// ρπD³/6, kg, of a solid sphere of diameter D (m) and density ρ (kg/m³).
+/// Returns ρπD³/6, kg, of a solid sphere of diameter D (m) and density ρ (kg/m³).
 pub fn sphere_mass(diameter: f64, density: f64) -> f64 {
     density * PI * diameter.powi(3) / 6.0
 }
 
-/// Shares s of a contact's compliance of two bodies of these compliances of their own, such as 1/E′, in any
+/// Returns the shares s of two bodies in the compliance of a contact, from their own compliances, such as 1/E′, in any
 /// unit; nothing of a rigid one. At most one is.
 pub fn compliance_shares([first, second]: [f64; 2]) -> [f64; 2] {
     [first / (first + second), second / (first + second)]
 }
 
-/// The restitution of the mass centres of a body and a large partner, of the mass ratio m/M, from that of
+/// Returns the restitution of the mass centres of a body and a large partner, of the mass ratio m/M, from that of
 /// the body alone, e′.
 ///
 /// Until waves come back the partner is a half-space to the contact: it moves nowhere as a whole, and the
@@ -145,7 +145,7 @@ impl Pair {
         })
     }
 
-    /// This pair with a share of its modulus, such as what relaxation leaves of it.
+    /// Returns this pair with a share of its modulus, for instance after relaxation.
     ///
     /// # Errors
     /// A share that is not positive and finite.
@@ -154,23 +154,23 @@ impl Pair {
         Ok(Self { contact_modulus: positive("contact_modulus", contact_modulus)?, ..self })
     }
 
-    /// Effective radius R*, m.
+    /// Returns the effective radius R*, m.
     pub fn effective_radius(&self) -> f64 {
         self.effective_radius
     }
 
-    /// Effective mass m*, kg.
+    /// Returns the effective mass m*, kg.
     pub fn effective_mass(&self) -> f64 {
         self.effective_mass
     }
 
-    /// Contact modulus E*, Pa.
+    /// Returns the contact modulus E*, Pa.
     pub fn contact_modulus(&self) -> f64 {
         self.contact_modulus
     }
 }
 
-/// 1/(1/a + 1/b), at most one of them infinite, without overflow.
+/// Returns 1/(1/a + 1/b), at most one of them infinite, without overflow.
 fn in_series(a: f64, b: f64) -> f64 {
     let (smaller, larger) = (a.min(b), a.max(b));
     smaller / (1.0 + smaller / larger)

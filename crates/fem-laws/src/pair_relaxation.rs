@@ -63,12 +63,12 @@ impl PairRelaxation {
         Ok(Self { equilibrium_weight: compliance / equilibrium, terms })
     }
 
-    /// E*(t)/E*(0) at `time` (s) after a step; 1 at and before 0, up to rounding.
+    /// Returns E*(t)/E*(0) at `time` (s) after a step; 1 at and before 0, up to rounding.
     pub fn relaxation(&self, time: f64) -> f64 {
         relaxation_at(self.equilibrium_weight, &self.terms, time)
     }
 
-    /// Dissipation time of the slow limit, s, the A of [`crate::laws::kuwabara_kono`]; `None` if
+    /// Returns the dissipation time of the slow limit, s, the A of [`crate::laws::kuwabara_kono`]; `None` if
     /// either body flows.
     ///
     /// A contact that changes slowly next to every p_k meets E*(s) = E*∞(1 + A s) with
@@ -84,12 +84,12 @@ impl PairRelaxation {
         (self.equilibrium_weight > 0.0).then(|| viscosity / self.equilibrium_weight)
     }
 
-    /// g∞ = E*(∞)/E*(0), in 0 ..= 1; exactly 0 if either body flows, 1 if both are elastic.
+    /// Returns g∞ = E*(∞)/E*(0), in 0 ..= 1; exactly 0 if either body flows, 1 if both are elastic.
     pub fn equilibrium_weight(&self) -> f64 {
         self.equilibrium_weight
     }
 
-    /// The Maxwell elements, slowest first; none for two elastic bodies.
+    /// Returns the Maxwell elements, slowest first; none for two elastic bodies.
     pub fn terms(&self) -> &[PronyTerm] {
         &self.terms
     }

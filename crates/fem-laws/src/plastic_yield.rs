@@ -48,7 +48,7 @@ pub struct FirstYield {
     hertz: HertzImpact,
 }
 
-/// σ_M/p₀, the largest von Mises stress on the axis of a Hertz contact over the peak pressure, at a
+/// Returns σ_M/p₀, the largest von Mises stress on the axis of a Hertz contact over the peak pressure, at a
 /// Poisson's ratio.
 pub fn largest_von_mises(poissons_ratio: f64) -> f64 {
     let unit = HertzPressure { contact_radius: 1.0, peak_pressure: 1.0 };
@@ -70,7 +70,7 @@ impl FirstYield {
         Self { pressure, speed, yield_strength, hertz: *hertz }
     }
 
-    /// Peak pressure of the impact over that of first yield.
+    /// Returns the peak pressure of the impact over that of first yield.
     pub fn ratio(&self) -> f64 {
         self.hertz.peak_pressure() / self.pressure
     }
@@ -94,7 +94,7 @@ impl FirstYield {
     }
 }
 
-/// Thornton's restitution at the speed of first yield over the impact's.
+/// Returns Thornton's restitution at the speed of first yield over the impact's.
 fn thornton(x: f64) -> f64 {
     let loading = 1.0 - x * x / 6.0;
     let unloading = x / (x + 2.0 * (1.2 - 0.2 * x * x).sqrt());

@@ -30,7 +30,7 @@ use crate::numerics::functions::sin_cos;
 /// that takes their place, so that it converges faster than any power.
 const POINTS: u32 = 200;
 
-/// C(ν) of the radiated energy W = C/(μ c_s) ∫Ḟ² dt of a half-space.
+/// Returns C(ν) of the radiated energy W = C/(μ c_s) ∫Ḟ² dt of a half-space.
 pub fn radiation_coefficient(poissons_ratio: f64) -> f64 {
     let squared_ratio = (1.0 - 2.0 * poissons_ratio) / (2.0 * (1.0 - poissons_ratio));
     let gamma = squared_ratio.sqrt();
@@ -47,7 +47,7 @@ pub fn radiation_coefficient(poissons_ratio: f64) -> f64 {
         / (2.0 * PI)
 }
 
-/// c_s over the speed of Rayleigh's wave, where `function` falls through zero beyond 1.
+/// Returns c_s over the speed of Rayleigh's wave, where `function` falls through zero beyond 1.
 fn rayleigh_wave_number(function: impl Fn(f64) -> f64) -> f64 {
     // Rayleigh's wave is never slower than 0.69 c_s, at ν = −1.
     let (mut low, mut high) = (1.0, 1.5);
@@ -61,7 +61,7 @@ fn rayleigh_wave_number(function: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// −R' of R = (2x² − 1)² − 4x² αβ at x > 1.
+/// Returns −R' of R = (2x² − 1)² − 4x² αβ at x > 1.
 fn slope(x: f64, squared_ratio: f64) -> f64 {
     let (a, b) = ((x * x - squared_ratio).sqrt(), (x * x - 1.0).sqrt());
     let rise = 8.0 * x * (2.0 * x * x - 1.0);
@@ -69,7 +69,7 @@ fn slope(x: f64, squared_ratio: f64) -> f64 {
     fall - rise
 }
 
-/// ∫ f over a stretch with x = a + (b − a) sin²θ, which takes the square roots at its ends away.
+/// Returns ∫ f over a stretch with x = a + (b − a) sin²θ, which removes the square roots at its ends.
 fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     let step = 0.5 * PI / f64::from(POINTS);
     let point = |k: u32| {
@@ -79,7 +79,7 @@ fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     step * (0..POINTS).map(point).sum::<f64>()
 }
 
-/// γ of a half-space of this material, m s/N: of the radiated energy W = γ ∫Ḟ² dt, and of the
+/// Returns γ of a half-space of this material, m s/N: of the radiated energy W = γ ∫Ḟ² dt, and of the
 /// displacement −γ Ḟ beside what the force at rest would make,
 ///
 /// ```math
@@ -95,15 +95,15 @@ pub fn radiation_damping(material: &Material) -> f64 {
     radiation_coefficient(moduli.poissons_ratio()) / impedance
 }
 
-/// Share of the energy of approach that an elastic impact radiates into a body of this material, as if
+/// Returns the share of the energy of approach that an elastic impact radiates into a body of this material, as if
 /// it never ended.
 pub fn radiated_share(hertz: &HertzImpact, material: &Material) -> f64 {
     let sizes = [hertz.peak_force(), hertz.max_approach()];
     share_of_damping(hertz, sizes, radiation_damping(material))
 }
 
-/// The same of γ (m s/N) and of a pulse of Hertz' form with another peak force (N) and largest approach (m), as
-/// relaxation leaves them of an impact that would be `hertz`.
+/// Returns the same for γ (m s/N) and of a pulse of Hertz' form with another peak force (N) and largest approach (m),
+/// as relaxation leaves them of an impact that would be `hertz`.
 pub(crate) fn share_of_damping(
     hertz: &HertzImpact,
     [force, approach]: [f64; 2],

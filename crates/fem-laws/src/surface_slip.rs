@@ -62,7 +62,7 @@ impl SlipSurface {
         Self { curvature, material: material.cloned() }
     }
 
-    /// (1 − ν)/μ, 1/Pa.
+    /// Returns (1 − ν)/μ, 1/Pa.
     fn normal(&self) -> f64 {
         self.material.as_ref().map_or(0.0, |material| {
             let now = material.instantaneous();
@@ -70,12 +70,12 @@ impl SlipSurface {
         })
     }
 
-    /// (1 − 2ν)/μ before any relaxation, 1/Pa.
+    /// Returns (1 − 2ν)/μ before any relaxation, 1/Pa.
     fn tangential(&self) -> f64 {
         self.material.as_ref().map_or(0.0, |material| tangential_compliance(material, 1.0))
     }
 
-    /// g_k t at s = −p_k of a term of the contact's relaxation.
+    /// Returns g_k t at s = −p_k of a term of the contact's relaxation.
     fn fading(&self, term: &PronyTerm) -> f64 {
         let Some(material) = &self.material else { return 0.0 };
         let left = material.relaxation().map_or(1.0, |series| {
@@ -90,7 +90,7 @@ impl SlipSurface {
     }
 }
 
-/// (1 − 2ν)/μ (1/Pa) of what is left of the shear modulus.
+/// Returns (1 − 2ν)/μ (1/Pa) after relaxation to a share of the shear modulus.
 fn tangential_compliance(material: &Material, left: f64) -> f64 {
     let now = material.instantaneous();
     match material.relaxation().map(|series| series.acts_on()) {
@@ -117,18 +117,18 @@ impl SurfaceSlip {
         Self { faces, curvature, shares }
     }
 
-    /// c before any relaxation, m/N; negative where the stiffer body is the more curved one.
+    /// Returns c before any relaxation, m/N; negative where the stiffer body is the more curved one.
     pub fn compliance(&self) -> f64 {
         let [lower, upper] = self.faces.each_ref().map(SlipSurface::tangential);
         self.compliance_of(upper - lower)
     }
 
-    /// κ of the interface, 1/m, upward from the axis.
+    /// Returns κ of the interface, 1/m, positive if it rises from the axis outward.
     pub fn curvature(&self) -> f64 {
         self.curvature
     }
 
-    /// Shares s of the contact's compliance, lower body first.
+    /// Returns the shares s of the contact's compliance, lower body first.
     pub fn shares(&self) -> [f64; 2] {
         self.shares
     }
@@ -138,7 +138,7 @@ impl SurfaceSlip {
         self.curvature * mismatch / (4.0 * PI)
     }
 
-    /// κβ, 1/m, with the sign of c.
+    /// Returns κβ, 1/m, with the sign of c.
     pub fn mismatch(&self) -> f64 {
         let [lower, upper] = self.faces.each_ref().map(SlipSurface::normal);
         let modulus = 2.0 / (lower + upper);
@@ -155,7 +155,7 @@ impl SurfaceSlip {
         }
     }
 
-    /// In units of `length`, where the force is `force` u^(3/2) and relaxes as `relaxation`.
+    /// Returns the correction in units of `length`, where the force is `force` u^(3/2) and relaxes as `relaxation`.
     pub(crate) fn correction(
         &self,
         length: f64,

@@ -1,8 +1,7 @@
 //! Elastic moduli of an isotropic solid, from any two of its constants.
 //!
-//! Stored are the bulk modulus K and the shear modulus G: both are positive for every stable
-//! solid, and all the others follow from them without cancellation, however near Poisson's
-//! ratio ν comes to 1/2 or −1.
+//! The bulk modulus K and the shear modulus G are stored. Both are positive for every stable solid, and all others
+//! follow from them without cancellation, also if Poisson's ratio ν is near 1/2 or −1.
 //!
 //! ```math
 //! E = \frac{9KG}{3K+G}, \quad \nu = \frac{3K-2G}{2(3K+G)}, \quad \lambda = K - \tfrac23 G,
@@ -48,7 +47,7 @@ pub struct ElasticModuli {
 }
 
 impl ElasticModuli {
-    /// From exactly two constants.
+    /// Creates the moduli from exactly two constants.
     ///
     /// # Errors
     /// Fewer or more than two, a modulus that is not positive and finite, ν outside (−1, 1/2)
@@ -66,7 +65,7 @@ impl ElasticModuli {
         }
     }
 
-    /// From K and G; every positive pair is a stable solid.
+    /// Creates the moduli from K and G; every positive pair is a stable solid.
     ///
     /// # Errors
     /// A modulus that is not positive and finite.
@@ -77,7 +76,7 @@ impl ElasticModuli {
         })
     }
 
-    /// From E and ν: G = E/2(1+ν), K = E/3(1−2ν).
+    /// Creates the moduli from E and ν: G = E/2(1+ν), K = E/3(1−2ν).
     ///
     /// # Errors
     /// E that is not positive and finite, ν outside (−1, 1/2).
@@ -102,7 +101,7 @@ impl ElasticModuli {
         Self::from_bulk_shear(k, k * (3.0 * (1.0 - 2.0 * nu) / (2.0 * (1.0 + nu))))
     }
 
-    /// K = EG/3(3G−E); ν < 1/2 is E < 3G.
+    /// Creates the moduli with K = EG/3(3G−E); ν < 1/2 is E < 3G.
     fn from_youngs_shear(e: f64, g: f64) -> Result<Self, MaterialError> {
         let e = positive("youngs_modulus", e)?;
         let g = positive("shear_modulus", g)?;
@@ -118,7 +117,7 @@ impl ElasticModuli {
         Self::from_bulk_shear(e / 3.0 * (g / (3.0 * g - e)), g)
     }
 
-    /// G = 3KE/(9K−E); ν > −1 is E < 9K.
+    /// Creates the moduli with G = 3KE/(9K−E); ν > −1 is E < 9K.
     fn from_youngs_bulk(e: f64, k: f64) -> Result<Self, MaterialError> {
         let e = positive("youngs_modulus", e)?;
         let k = positive("bulk_modulus", k)?;
@@ -134,54 +133,54 @@ impl ElasticModuli {
         Self::from_bulk_shear(k, 3.0 * e * (k / (9.0 * k - e)))
     }
 
-    /// Bulk modulus K: pressure per relative loss of volume.
+    /// Returns the bulk modulus K: pressure per relative loss of volume.
     pub fn bulk_modulus(&self) -> f64 {
         self.bulk_modulus
     }
 
-    /// Shear modulus G.
+    /// Returns the shear modulus G.
     pub fn shear_modulus(&self) -> f64 {
         self.shear_modulus
     }
 
-    /// Young's modulus E.
+    /// Returns Young's modulus E.
     pub fn youngs_modulus(&self) -> f64 {
         youngs_modulus(self.bulk_modulus, self.shear_modulus)
     }
 
-    /// Poisson's ratio ν.
+    /// Returns Poisson's ratio ν.
     pub fn poissons_ratio(&self) -> f64 {
         poissons_ratio(self.bulk_modulus, self.shear_modulus)
     }
 
-    /// Lamé's first parameter λ; negative for ν < 0.
+    /// Returns Lamé's first parameter λ; negative for ν < 0.
     pub fn lame_lambda(&self) -> f64 {
         self.bulk_modulus - 2.0 / 3.0 * self.shear_modulus
     }
 
-    /// P-wave modulus M = λ + 2G: stress per strain when the sides are held.
+    /// Returns the P-wave modulus M = λ + 2G: stress per strain with fixed sides.
     pub fn p_wave_modulus(&self) -> f64 {
         self.bulk_modulus + 4.0 / 3.0 * self.shear_modulus
     }
 
-    /// E/(1−ν²), the modulus with which a body enters Hertz' contact.
+    /// Returns E/(1−ν²), the modulus with which a body enters Hertz' contact.
     pub fn plane_strain_modulus(&self) -> f64 {
         let (k, g) = (self.bulk_modulus, self.shear_modulus);
         4.0 * g * ((3.0 * k + g) / (3.0 * k + 4.0 * g))
     }
 
-    /// (1−2ν)/G, by which a surface moves along itself under a pressure: 0 of what keeps its volume.
+    /// Returns (1−2ν)/G, the tangential compliance of a surface under a pressure; 0 for an incompressible solid.
     pub fn tangential_compliance(&self) -> f64 {
         (self.bulk_modulus + self.shear_modulus / 3.0).recip()
     }
 }
 
-/// E of K > 0 and G ≥ 0.
+/// Returns E for K > 0 and G ≥ 0.
 pub(crate) fn youngs_modulus(k: f64, g: f64) -> f64 {
     9.0 * g * (k / (3.0 * k + g))
 }
 
-/// ν of K > 0 and G ≥ 0.
+/// Returns ν for K > 0 and G ≥ 0.
 pub(crate) fn poissons_ratio(k: f64, g: f64) -> f64 {
     (3.0 * k - 2.0 * g) / (2.0 * (3.0 * k + g))
 }

@@ -1,12 +1,12 @@
-//! SI numbers as people read them: `65.12 µs`, `2.31 GPa`.
+//! SI numbers in engineering notation: `65.12 µs`, `2.31 GPa`.
 
 /// Prefixes of powers of 1000, and the power of the first.
 const PREFIXES: [&str; 11] = ["a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
 const FIRST_POWER: i32 = -6;
-/// Digits that are shown of a number.
+/// Number of significant digits.
 const DIGITS: i32 = 4;
 
-/// A unit with a prefix, and how many of it make one SI unit.
+/// A unit with a prefix, and its number per SI unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
     symbol: String,
@@ -15,7 +15,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// The unit in which `value` has one to three digits before the point.
+    /// Returns the unit in which `value` has one to three digits before the point.
     pub fn fitting(value: f64, symbol: &str) -> Self {
         let size = value.abs();
         let exponent = if size > 0.0 && size.is_finite() { size.log10().floor() as i32 } else { 0 };
@@ -29,29 +29,29 @@ impl Unit {
         }
     }
 
-    /// Shows so many digits instead of four.
+    /// Shows `digits` digits instead of four.
     pub fn with_digits(mut self, digits: usize) -> Self {
         self.decimals = (self.decimals + digits).saturating_sub(DIGITS as usize);
         self
     }
 
-    /// The prefix with the unit: `µs`.
+    /// Returns the prefix with the unit: `µs`.
     pub fn symbol(&self) -> &str {
         &self.symbol
     }
 
-    /// The number that `value`, which is in SI, has in this unit.
+    /// Converts an SI value to this unit.
     pub fn scaled(&self, value: f64) -> f64 {
         value * self.scale
     }
 
-    /// `value`, which is in SI, in this unit.
+    /// Formats an SI value in this unit.
     pub fn show(&self, value: f64) -> String {
         format!("{:.*} {}", self.decimals, value * self.scale, self.symbol)
     }
 }
 
-/// `value` in its own fitting unit, or with an exponent where there is no prefix for it.
+/// Formats `value` in a fitting unit, or with an exponent if there is no prefix for it.
 pub fn show(value: f64, symbol: &str) -> String {
     let exponent = value.abs().log10();
     let last_power = FIRST_POWER + PREFIXES.len() as i32;
@@ -62,7 +62,7 @@ pub fn show(value: f64, symbol: &str) -> String {
     }
 }
 
-/// A number without a unit in so many digits: `0`, `0.034`, `5.4e-5`.
+/// Formats a number without a unit, with `digits` significant digits: `0`, `0.034`, `5.4e-5`.
 pub fn number(value: f64, digits: usize) -> String {
     let rounded: f64 = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
     if rounded == 0.0 {
@@ -74,8 +74,8 @@ pub fn number(value: f64, digits: usize) -> String {
     }
 }
 
-/// A text that begins with a number of more than seven digits, `5.49602204001348 cm/s`, with five of them; all
-/// else as it is.
+/// Shortens a text that begins with a number of more than seven digits, `5.49602204001348 cm/s`, to five digits.
+/// Other texts are unchanged.
 pub fn shortened(text: &str) -> String {
     let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e');
     let end = text.find(|c: char| !is_part(c)).unwrap_or(text.len());

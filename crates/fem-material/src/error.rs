@@ -91,7 +91,7 @@ pub enum MaterialError {
     },
 }
 
-/// `value` if it is positive and finite.
+/// Returns `value` if it is positive and finite.
 pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, MaterialError> {
     if value > 0.0 && value.is_finite() {
         Ok(value)

@@ -13,7 +13,7 @@
 use crate::elastic::ElasticModuli;
 
 impl ElasticModuli {
-    /// Stress `[rr, yy, tt, ry]`, Pa, of the strain `[e_rr, e_yy, e_tt, γ_ry]`.
+    /// Returns the stress `[rr, yy, tt, ry]`, Pa, of the strain `[e_rr, e_yy, e_tt, γ_ry]`.
     pub fn stress(&self, strain: [f64; 4]) -> [f64; 4] {
         let (volumetric, [rr, yy, tt]) = split(strain);
         let mean = self.bulk_modulus() * volumetric;
@@ -22,7 +22,7 @@ impl ElasticModuli {
         [mean + two_g * rr, mean + two_g * yy, mean + two_g * tt, shear]
     }
 
-    /// Energy per volume, J/m³, of the strain `[e_rr, e_yy, e_tt, γ_ry]`.
+    /// Returns the energy per volume, J/m³, of the strain `[e_rr, e_yy, e_tt, γ_ry]`.
     pub fn strain_energy_density(&self, strain: [f64; 4]) -> f64 {
         let (volumetric, [rr, yy, tt]) = split(strain);
         let shape = rr * rr + yy * yy + tt * tt + 0.5 * strain[3] * strain[3];
@@ -30,7 +30,7 @@ impl ElasticModuli {
     }
 }
 
-/// Volumetric strain and the deviator's normal components.
+/// Returns the volumetric strain and the normal components of the deviator.
 fn split([rr, yy, tt, _]: [f64; 4]) -> (f64, [f64; 3]) {
     let volumetric = rr + yy + tt;
     let mean = volumetric / 3.0;

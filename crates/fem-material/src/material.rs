@@ -6,8 +6,8 @@
 //! ```
 //!
 //! A wave front travels at the speed of the instantaneous moduli. E(t) and ν(t) are formed from
-//! K(t) and G(t) by the elastic identities: what a test of any length t would read off the two
-//! relaxation functions, not the viscoelastic Poisson's ratio of a creep or relaxation test.
+//! K(t) and G(t) by the elastic identities. So ν(t) is not the viscoelastic Poisson's ratio of a creep or relaxation
+//! test.
 
 use crate::elastic::{ElasticModuli, poissons_ratio, youngs_modulus};
 use crate::error::{MaterialError, positive};
@@ -24,7 +24,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// From a density (kg/m³), instantaneous moduli and a relaxation; without one it is elastic.
+    /// Creates a material from a density (kg/m³), instantaneous moduli and a relaxation; without one it is elastic.
     ///
     /// # Errors
     /// A density that is not positive and finite.
@@ -37,19 +37,19 @@ impl Material {
         Ok(Self { density, instantaneous, relaxation, law: None })
     }
 
-    /// The same material with another law at finite strain; small strain does not know it.
+    /// Sets the law at finite strain; it has no effect at small strain.
     #[must_use]
     pub fn with_law(self, law: HyperelasticLaw) -> Self {
         Self { law: Some(law), ..self }
     }
 
-    /// The elastic material with the same density and instantaneous moduli.
+    /// Returns the elastic material with the same density and instantaneous moduli.
     pub fn without_relaxation(&self) -> Self {
         Self { relaxation: None, ..self.clone() }
     }
 
-    /// The elastic material with the same density and the moduli that are left after all relaxation;
-    /// `None` of one that flows.
+    /// Returns the elastic material with the same density and the equilibrium moduli;
+    /// `None` for a material that flows.
     pub fn at_equilibrium(&self) -> Option<Self> {
         let Some(series) = &self.relaxation else { return Some(self.clone()) };
         let left = series.equilibrium_weight();
@@ -60,37 +60,37 @@ impl Material {
         Some(Self { instantaneous: moduli, relaxation: None, ..self.clone() })
     }
 
-    /// Density ρ, kg/m³.
+    /// Returns the density ρ, kg/m³.
     pub fn density(&self) -> f64 {
         self.density
     }
 
-    /// The energy that it stores at finite strain: neo-Hooke's where none was named.
+    /// Returns the law at finite strain; the default is neo-Hooke's.
     pub fn law(&self) -> HyperelasticLaw {
         self.law.unwrap_or_default()
     }
 
-    /// The law at finite strain, if it was named.
+    /// Returns the law at finite strain, if it was set.
     pub fn named_law(&self) -> Option<HyperelasticLaw> {
         self.law
     }
 
-    /// Moduli at the instant of straining.
+    /// Returns the instantaneous moduli.
     pub fn instantaneous(&self) -> &ElasticModuli {
         &self.instantaneous
     }
 
-    /// The relaxation; `None` for an elastic material.
+    /// Returns the relaxation; `None` for an elastic material.
     pub fn relaxation(&self) -> Option<&PronySeries> {
         self.relaxation.as_ref()
     }
 
-    /// G at `time` (s) after a step of strain.
+    /// Returns G at `time` (s) after a step of strain.
     pub fn shear_modulus_at(&self, time: f64) -> f64 {
         self.instantaneous.shear_modulus() * self.shear_fraction(time)
     }
 
-    /// K at `time` (s) after a step of strain.
+    /// Returns K at `time` (s) after a step of strain.
     pub fn bulk_modulus_at(&self, time: f64) -> f64 {
         if self.bulk_relaxes() {
             self.instantaneous.bulk_modulus() * self.shear_fraction(time)
@@ -99,7 +99,7 @@ impl Material {
         }
     }
 
-    /// E of G(t) and K(t).
+    /// Returns E for G(t) and K(t).
     pub fn youngs_modulus_at(&self, time: f64) -> f64 {
         if self.bulk_relaxes() {
             self.instantaneous.youngs_modulus() * self.shear_fraction(time)
@@ -108,7 +108,7 @@ impl Material {
         }
     }
 
-    /// ν of G(t) and K(t): constant if both relax, rising towards 1/2 if only G does.
+    /// Returns ν for G(t) and K(t): constant if both relax, rising towards 1/2 if only G does.
     pub fn poissons_ratio_at(&self, time: f64) -> f64 {
         if self.bulk_relaxes() {
             self.instantaneous.poissons_ratio()
@@ -117,18 +117,18 @@ impl Material {
         }
     }
 
-    /// G∞: what is left of the shear modulus after all relaxation.
+    /// Returns the equilibrium shear modulus G∞.
     pub fn equilibrium_shear_modulus(&self) -> f64 {
         let weight = self.relaxation.as_ref().map_or(1.0, PronySeries::equilibrium_weight);
         self.instantaneous.shear_modulus() * weight
     }
 
-    /// Speed of dilatational waves c_d, m/s.
+    /// Returns the speed of dilatational waves c_d, m/s.
     pub fn dilatational_wave_speed(&self) -> f64 {
         (self.instantaneous.p_wave_modulus() / self.density).sqrt()
     }
 
-    /// Speed of shear waves c_s, m/s.
+    /// Returns the speed of shear waves c_s, m/s.
     pub fn shear_wave_speed(&self) -> f64 {
         (self.instantaneous.shear_modulus() / self.density).sqrt()
     }

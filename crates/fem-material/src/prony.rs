@@ -1,4 +1,4 @@
-//! Relaxation as a Prony series: an equilibrium spring beside Maxwell elements.
+//! Relaxation as a Prony series: an equilibrium spring in parallel with Maxwell elements.
 //!
 //! ```math
 //! g(t) = g_\infty + \sum_k g_k e^{-t/\tau_k}, \qquad g_\infty = 1 - \sum_k g_k,
@@ -13,7 +13,7 @@ use crate::error::{MaterialError, positive};
 /// One Maxwell element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PronyTerm {
-    /// g_k = G_k/G_0, at least 0.
+    /// Weight g_k = G_k/G_0, at least 0.
     pub weight: f64,
     /// Relaxation time τ_k, s.
     pub relaxation_time: f64,
@@ -40,7 +40,7 @@ pub struct PronySeries {
 const WEIGHT_SUM_ROUNDING: f64 = 1e-12;
 
 impl PronySeries {
-    /// From at least one term; the weights sum to at most 1 (with 1e-12 for rounding).
+    /// Creates a series of at least one term; the weights sum to at most 1 (with 1e-12 for rounding).
     ///
     /// # Errors
     /// No term, a negative or non-finite weight, a sum above 1, a relaxation time that is not
@@ -65,7 +65,7 @@ impl PronySeries {
         Ok(Self { terms, acts_on, equilibrium_weight: (1.0 - sum).max(0.0) })
     }
 
-    /// The three-parameter solid: a spring k₁ in series with a Kelvin element (spring k₂ beside
+    /// Creates the three-parameter solid: a spring k₁ in series with a Kelvin element (spring k₂ parallel to
     /// dashpot η), fig. 5 of Bordbar & Hyppänen (2007).
     ///
     /// The stress is common, the strains add: σ = k₁ε₁ = k₂ε₂ + ηε̇₂, ε = ε₁ + ε₂. Hold ε from
@@ -108,33 +108,33 @@ impl PronySeries {
         Self::new(vec![term], acts_on)
     }
 
-    /// g at `time` (s) after a step of strain; 1 at and before 0, up to the rounding of the sum.
+    /// Returns g at `time` (s) after a step of strain; 1 at and before 0, up to the rounding of the sum.
     pub fn relaxation(&self, time: f64) -> f64 {
         relaxation_at(self.equilibrium_weight, &self.terms, time)
     }
 
-    /// What does not relax, g∞, in 0 ..= 1.
+    /// Returns the equilibrium weight g∞, in 0 ..= 1.
     pub fn equilibrium_weight(&self) -> f64 {
         self.equilibrium_weight
     }
 
-    /// Whether any term has a weight: a series without one is an elastic material.
+    /// Returns whether any term has a weight: a series without one is an elastic material.
     pub fn relaxes(&self) -> bool {
         self.terms.iter().any(|term| term.weight > 0.0)
     }
 
-    /// The Maxwell elements, in the order given.
+    /// Returns the Maxwell elements, in the order given.
     pub fn terms(&self) -> &[PronyTerm] {
         &self.terms
     }
 
-    /// Which moduli relax.
+    /// Returns which moduli relax.
     pub fn acts_on(&self) -> ActsOn {
         self.acts_on
     }
 }
 
-/// g∞ + Σ g_k e^(−t/τ_k) at `time`, s, after a step; that of a step at and before 0.
+/// Returns g∞ + Σ g_k e^(−t/τ_k) at `time` (s) after a step, or its value at 0 before that.
 pub fn relaxation_at(equilibrium_weight: f64, terms: &[PronyTerm], time: f64) -> f64 {
     let elapsed = if time < 0.0 { 0.0 } else { time };
     let decaying: f64 =

@@ -10,17 +10,17 @@
 //! for any Δt/τ: there is no stability limit, and the only approximation is the constant rate
 //! (Taylor, Pister & Goudreau 1970).
 
-/// Factors of the update, made once for each relaxation time and time step.
+/// Factors of the update for a relaxation time and a time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelaxationStep {
-    /// a: what is left of q after the step, in 0 ..= 1.
+    /// Factor a on q, in 0 ..= 1.
     pub decay: f64,
-    /// b: what q gains of Δu, in 0 ..= 1.
+    /// Factor b on Δu, in 0 ..= 1.
     pub gain: f64,
 }
 
 impl RelaxationStep {
-    /// For a relaxation time and a time step, both positive, s.
+    /// Creates the factors for a relaxation time and a time step, both positive, s.
     pub fn new(relaxation_time: f64, time_step: f64) -> Self {
         let ratio = time_step / relaxation_time;
         // The limit Δt/τ → 0, also reached when the ratio underflows.
@@ -28,7 +28,7 @@ impl RelaxationStep {
         Self { decay: (-ratio).exp(), gain }
     }
 
-    /// q at the end of a step in which u grew by `increment`.
+    /// Returns q at the end of a step in which u grew by `increment`.
     #[inline]
     pub fn advance(&self, q: f64, increment: f64) -> f64 {
         self.decay * q + self.gain * increment

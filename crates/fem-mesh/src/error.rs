@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a body could not be meshed or a mesh not be taken.
+/// The reason why a body cannot be meshed or a mesh is rejected.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshError {
     /// A length that must be positive and finite is not.
@@ -10,7 +10,7 @@ pub enum MeshError {
     Length {
         /// Name of the length.
         name: &'static str,
-        /// Its value, m.
+        /// Value that was given, m.
         value: f64,
     },
     /// The elements at the contact are too large to describe the sphere.
@@ -35,7 +35,7 @@ pub enum MeshError {
         /// Radius of the sphere, m.
         radius: f64,
     },
-    /// A half-space's mesh ends too near.
+    /// The far boundary of a half-space is too near.
     #[error(
         "far radius {far_radius:?} m is too small for a refined radius of {refined_radius:?} m; at least \
          twice that, {:?} m, is needed", 2.0 * refined_radius
@@ -52,7 +52,7 @@ pub enum MeshError {
     /// The mesh would have more nodes than indices.
     #[error("the mesh would have {0} elements; at most {max} can be numbered", max = u32::MAX / 2)]
     TooLarge(f64),
-    /// A foreign mesh is not a half disc in the place that is asked for.
+    /// An imported mesh is not a half disc at the required position.
     #[error("{0}")]
     Import(String),
 }

@@ -54,7 +54,7 @@ struct Layout {
 }
 
 impl HalfDisc {
-    /// Number of elements that [`HalfDisc::build`] makes.
+    /// Returns the number of elements that [`HalfDisc::build`] makes.
     ///
     /// # Errors
     /// The errors are those of [`HalfDisc::build`].
@@ -174,13 +174,13 @@ impl HalfDisc {
         Ok(Layout { n_block: m as usize, n_rings: n_rings as usize, near, far })
     }
 
-    /// (r, y) of ζ = x + i y.
+    /// Returns (r, y) of ζ = x + i y.
     fn image(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let scale = 2.0 * self.radius / ((1.0 + x) * (1.0 + x) + y * y);
         [scale * y, scale * (x * (1.0 + x) + y * y)]
     }
 
-    /// (r, y) of ζ with 1/ζ = x − i y.
+    /// Returns (r, y) of ζ with 1/ζ = x − i y.
     fn far_image(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let scale = 2.0 * self.radius / ((1.0 + x) * (1.0 + x) + y * y);
         [scale * y, scale * (1.0 + x)]

@@ -89,7 +89,7 @@ fn orient(nodes: &[[f64; 2]], quads: &mut [[u32; 4]]) {
     }
 }
 
-/// Nodes of the one closed boundary curve, in order, counter-clockwise.
+/// Returns the nodes of the one closed boundary curve, in order, counter-clockwise.
 fn boundary_loop(n_nodes: usize, quads: &[[u32; 4]]) -> Result<Vec<u32>, MeshError> {
     let mut edges: HashMap<(u32, u32), usize> = HashMap::new();
     for quad in quads {
@@ -97,7 +97,7 @@ fn boundary_loop(n_nodes: usize, quads: &[[u32; 4]]) -> Result<Vec<u32>, MeshErr
             *edges.entry((quad[a], quad[(a + 1) % 4])).or_default() += 1;
         }
     }
-    // The first, whatever the order of the map.
+    // The first edge, for any order of the map.
     let twice = edges.iter().filter(|(_, count)| **count > 1).map(|(edge, _)| edge).min();
     if let Some((a, b)) = twice {
         return Err(MeshError::Import(format!(
@@ -139,7 +139,7 @@ fn boundary_loop(n_nodes: usize, quads: &[[u32; 4]]) -> Result<Vec<u32>, MeshErr
     }))
 }
 
-/// Two nodes at the same place, to the bit.
+/// Returns two nodes at the same place, to the bit.
 fn at_one_place(nodes: &[[f64; 2]]) -> Option<[usize; 2]> {
     let mut known = HashMap::new();
     nodes.iter().enumerate().find_map(|(k, &[r, y])| {
@@ -149,7 +149,7 @@ fn at_one_place(nodes: &[[f64; 2]]) -> Option<[usize; 2]> {
     })
 }
 
-/// The centre's y, found from the extent of the boundary.
+/// Returns the centre's y, found from the extent of the boundary.
 fn centre_of(
     nodes: &[[f64; 2]],
     boundary: &[u32],
@@ -176,7 +176,7 @@ fn centre_of(
     }
 }
 
-/// Axis and surface, each from the contact pole to the far pole.
+/// Returns axis and surface, each from the contact pole to the far pole.
 fn split_boundary(
     nodes: &mut [[f64; 2]],
     mut boundary: Vec<u32>,

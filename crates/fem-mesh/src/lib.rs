@@ -10,7 +10,7 @@
 //! * [`QuarterDisc`]: a half-space, fine at the contact, out to any distance;
 //! * [`SphereMesh::import`]: a sphere from foreign nodes and quads, checked;
 //! * [`SphereMesh`]: nodes, quads, boundary curves and tributary measures;
-//! * [`Quality`]: the figures that tell a good mesh from a bad one.
+//! * [`Quality`]: measures of the quality of a mesh.
 
 mod error;
 mod half_disc;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::sphere_mesh::SphereMesh;
 
-/// Shares of the two ends of a straight segment in the area that it sweeps
+/// Returns the shares of the two ends of a straight segment in the area that it sweeps
 /// about the axis, ∫ N 2π r ds with linear N, in m².
 ///
 /// Exact: 2π l (2 r_i + r_j) / 6. The shares sum to the lateral area of the
@@ -15,12 +15,12 @@ pub fn segment_measures(start: [f64; 2], end: [f64; 2]) -> [f64; 2] {
     [share * (2.0 * start[0] + end[0]), share * (start[0] + 2.0 * end[0])]
 }
 
-/// Volume of a sphere, m³.
+/// Returns the volume of a sphere, m³.
 pub fn sphere_volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * radius.powi(3)
 }
 
-/// Volume between an arc of the circle of the given radius and its chord,
+/// Returns the volume between an arc of the circle of the given radius and its chord,
 /// swept about the axis, in m³. Both ends lie on the circle, the centre on the
 /// axis.
 ///
@@ -37,9 +37,8 @@ pub fn cap_volume(start: [f64; 2], end: [f64; 2], radius: f64) -> f64 {
     4.0 / 3.0 * PI * (radius * sin_half_angle).powi(3) * radial
 }
 
-/// Lumped masses of a homogeneous body, kg. What the chords of a sphere's boundary
-/// cut off is given to the boundary's nodes, so that the sum is ρπD³/6 exactly;
-/// a half-space has a plane, of which they cut nothing off.
+/// Returns the lumped masses of a homogeneous body, kg. The mass between a sphere's boundary and its
+/// chords is added to the boundary's nodes, so that the sum is ρπD³/6 exactly.
 ///
 /// `nodal_volumes` are the shares ∫ N 2πr dA of each element's corners, m³.
 pub fn lump_mass(mesh: &SphereMesh, density: f64, nodal_volumes: &[[f64; 4]]) -> Vec<f64> {

@@ -43,7 +43,7 @@ pub struct QuarterDisc {
     pub growth: Option<f64>,
 }
 
-/// Counts and radii.
+/// Numbers of cells and radii of the mesh.
 struct Layout {
     /// Cells along the block's edge.
     n_block: usize,
@@ -53,7 +53,7 @@ struct Layout {
 }
 
 impl QuarterDisc {
-    /// Number of elements that [`QuarterDisc::build`] makes.
+    /// Returns the number of elements that [`QuarterDisc::build`] makes.
     ///
     /// # Errors
     /// The errors are those of [`QuarterDisc::build`].

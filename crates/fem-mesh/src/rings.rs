@@ -3,27 +3,27 @@
 //! A block of m × m cells has its free corner drawn in; around it lie rings of 2 m cells, whose radii
 //! are in geometric progression. The block's outline fades into circles as a power of the radius.
 
-/// How far the free corner of a block is drawn in, so that the three cells
-/// that meet there have similar angles: the value of the best scaled Jacobian.
+/// Inward shift of the free corner of a block, so that the three cells that meet there have similar angles: the value
+/// with the best scaled Jacobian.
 const CORNER_DRAW: f64 = 0.1;
 /// Power of the radius with which a block's outline fades into circles. A true
 /// harmonic would fade with the fourth power (cos 4θ) and squeeze the rings at
 /// the block's corner; 1.5 keeps cells squarest (aspect ratio 1.4).
 const OUTLINE_DECAY: f64 = 1.5;
 
-/// Ratio of the radii of successive rings around m × m cells that makes their cells square.
+/// Returns the ratio of the radii of successive rings around m × m cells that makes their cells square.
 pub(crate) fn default_growth(m: f64) -> f64 {
     1.0 + std::f64::consts::FRAC_PI_4 / m
 }
 
-/// Share of a block's outline at a logarithmic distance x from it, of a length L:
+/// Returns the share of a block's outline at a logarithmic distance x from it, of a length L:
 /// sinh(p (L − x)) / sinh(p L), 1 at x = 0, 0 at x = L, e^{−p x} between.
 pub(crate) fn fade(x: f64, length: f64) -> f64 {
     let p = OUTLINE_DECAY;
     (-p * x).exp() * (-2.0 * p * (length - x)).exp_m1() / (-2.0 * p * length).exp_m1()
 }
 
-/// What all rings share at a station (0 on the axis, 2 m on the surface).
+/// Data of a station (0 on the axis, 2 m on the surface), common to all rings.
 pub(crate) struct Station {
     circle_angle: f64,
     /// Deviation of a block's outline from the circle.
@@ -34,7 +34,7 @@ pub(crate) struct Station {
 }
 
 impl Station {
-    /// Station k around blocks of m × m cells.
+    /// Returns station k around blocks of m × m cells.
     pub fn new(m: usize, k: usize) -> Self {
         let circle_angle = std::f64::consts::FRAC_PI_4 * k as f64 / m as f64;
         let [bx, by] = if k <= m {
@@ -64,7 +64,7 @@ pub(crate) struct Ring {
 }
 
 impl Ring {
-    /// Place of a station in the quarter plane.
+    /// Returns the position of a station in the quarter plane.
     pub fn point(&self, station: &Station) -> [f64; 2] {
         let Self { near_share, far_share, .. } = *self;
         let deviation = (near_share - far_share) * station.outline_log_radius;
@@ -80,14 +80,14 @@ impl Ring {
     }
 }
 
-/// The unit block with its free corner drawn in; its two fixed edges and their
+/// Maps the unit block to one with its free corner drawn in; its two fixed edges and their
 /// spacing stay as they are.
 pub(crate) fn block_point(u: f64, v: f64) -> [f64; 2] {
     let draw = 1.0 - CORNER_DRAW * u * u * v * v;
     [u * draw, v * draw]
 }
 
-/// Counter-clockwise quad (in r, y) between rows i, i+1 (toward the far pole)
+/// Returns the counter-clockwise quad (in r, y) between rows i, i+1 (toward the far pole)
 /// and columns j, j+1 (toward the surface).
 pub(crate) fn quad(node: &impl Fn(usize, usize) -> u32, i: usize, j: usize) -> [u32; 4] {
     [node(i, j), node(i, j + 1), node(i + 1, j + 1), node(i + 1, j)]

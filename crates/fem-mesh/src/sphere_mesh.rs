@@ -1,6 +1,6 @@
 //! Nodes, quads and boundary curves of the meridian of a sphere or of a half-space.
 
-/// On which side of the plane y = 0 a body lies.
+/// The side of the plane y = 0 on which a body lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// Body in y ≤ 0.
@@ -14,7 +14,7 @@ pub enum Side {
 ///
 /// The contact pole is the origin; all nodes have r ≥ 0. Quads are listed
 /// counter-clockwise in (r, y). The mesh of a half-space ends at a far boundary, beyond which the
-/// body goes on.
+/// body continues.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereMesh {
     radius: f64,
@@ -37,62 +37,62 @@ impl SphereMesh {
         Self { radius, nodes, quads, axis, surface, far_boundary }
     }
 
-    /// Radius of the sphere, m; infinite for a half-space.
+    /// Returns the radius of the sphere, m; infinite for a half-space.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Whether the body is a half-space.
+    /// Returns whether the body is a half-space.
     pub fn is_half_space(&self) -> bool {
         self.radius.is_infinite()
     }
 
-    /// Node positions (r, y), m.
+    /// Returns the node positions (r, y), m.
     pub fn nodes(&self) -> &[[f64; 2]] {
         &self.nodes
     }
 
-    /// Node numbers of each element, counter-clockwise.
+    /// Returns the node numbers of each element, counter-clockwise.
     pub fn quads(&self) -> &[[u32; 4]] {
         &self.quads
     }
 
-    /// Nodes with r = 0, from the contact pole to the far pole, or to a half-space's far boundary.
+    /// Returns the nodes with r = 0, from the contact pole to the far pole, or to a half-space's far boundary.
     pub fn axis(&self) -> &[u32] {
         &self.axis
     }
 
-    /// Nodes on the sphere's surface, from the contact pole to the far pole,
-    /// both included; of a half-space those of its plane, out to the far boundary.
+    /// Returns the nodes on the sphere's surface, from the contact pole to the far pole,
+    /// both included; for a half-space those of its plane, out to the far boundary.
     pub fn surface(&self) -> &[u32] {
         &self.surface
     }
 
-    /// Nodes where the mesh of a half-space ends, from the axis to the surface, both included; none
-    /// of a sphere.
+    /// Returns the nodes where the mesh of a half-space ends, from the axis to the surface, both included; none
+    /// for a sphere.
     pub fn far_boundary(&self) -> &[u32] {
         &self.far_boundary
     }
 
-    /// Distance of the far boundary from the contact pole, m; `None` of a sphere.
+    /// Returns the distance of the far boundary from the contact pole, m; `None` for a sphere.
     pub fn far_radius(&self) -> Option<f64> {
         let &on_axis = self.far_boundary.first()?;
         Some(self.nodes[on_axis as usize][1].abs())
     }
 
-    /// Corner positions of an element, (r, y) in m.
+    /// Returns the corner positions of an element, (r, y) in m.
     #[inline]
     pub fn corners(&self, element: usize) -> [[f64; 2]; 4] {
         self.quads[element].map(|node| self.nodes[node as usize])
     }
 
-    /// The side of the plane y = 0 on which the body lies.
+    /// Returns the side of the plane y = 0 on which the body lies.
     pub fn side(&self) -> Side {
         let far_end = self.axis[self.axis.len() - 1] as usize;
         if self.nodes[far_end][1] > 0.0 { Side::Above } else { Side::Below }
     }
 
-    /// This body on the given side of the plane y = 0.
+    /// Moves this body to the given side of the plane y = 0.
     pub fn on_side(mut self, side: Side) -> Self {
         if self.side() != side {
             for node in &mut self.nodes {

@@ -191,7 +191,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// What a disc leaves outside is what its forces leave of the overlap there.
+    /// The remaining overlap outside of a disc is that left by its forces.
     #[test]
     fn what_is_left_outside_is_the_overlap_there() {
         let n = 6;

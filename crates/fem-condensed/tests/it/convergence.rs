@@ -38,8 +38,8 @@ fn order_in_the_time_step() {
         })
         .collect();
     let found = order(&points);
-    // Fourth order where the force is smooth, of third what is off where nodes join; 3.3 measured. Without what is given
-    // back there it is 1.9, and the third is 2e-5.
+    // Fourth order where the force is smooth, of third what is off where nodes join; 3.3 measured. Without what is
+    // given back there it is 1.9, and the third is 2e-5.
     assert!(found > 2.6 && found < 4.4, "{found}");
     assert!(points[2].1 < 1e-6, "{points:?}");
 }
@@ -127,8 +127,9 @@ fn cost_in_counters() {
     assert!(pair.n_points() <= 14);
 }
 
-/// Bodies that relax much in shear, or that are soft against pressure and relax a good part of it, have as many blocks as
-/// they need without being asked: they are those of eight. Two alone are off by 2e-3 and 6e-3 in the restitution here.
+/// Bodies that relax much in shear, or that are soft against pressure and relax a good part of it, have as many blocks
+/// as they need without being asked: they are those of eight. With two alone the error of the restitution is 2e-3 and
+/// 6e-3 here.
 #[test]
 fn soft_bulk_and_strong_relaxation_have_the_blocks_they_need() {
     for (nu, left) in [(0.0165, 0.15), (0.0165, 0.06), (0.244, 0.06)] {
@@ -147,8 +148,8 @@ fn soft_bulk_and_strong_relaxation_have_the_blocks_they_need() {
     }
 }
 
-/// What elastic bodies store comes back, wherever nodes join and leave between steps: also where the contact ends
-/// between two, and no step is its middle.
+/// Elastic bodies return all stored energy for any instants at which nodes join and leave between steps, also where the
+/// contact ends between two, and no step is its middle.
 #[test]
 fn elastic_bodies_lose_nothing_to_steps() {
     for scene in

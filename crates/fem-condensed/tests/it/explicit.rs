@@ -8,7 +8,7 @@ use fem_material::ActsOn::{All, Shear};
 
 /// Elements across the contact radius.
 const ELEMENTS: f64 = 5.0;
-/// Penalty over contact modulus, soft enough for a quiet force.
+/// Penalty over contact modulus, soft enough for a smooth force.
 const PENALTY: f64 = 5.0;
 const MODES: usize = 12;
 

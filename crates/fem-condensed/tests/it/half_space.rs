@@ -218,7 +218,7 @@ fn a_fast_ball_loses_what_explicit_elements_say() {
     assert!(fine.residual_relative.unwrap() < 4e-6, "{:?}", fine.residual_relative);
 }
 
-/// What radiates nothing is elastic to the bit; a little radiates a little.
+/// Without radiation bodies are elastic to the bit; a small coefficient has a small effect.
 #[test]
 fn no_radiation_is_none_and_little_is_little() {
     let ball = Ball::of_glass(5.0);

@@ -1,4 +1,4 @@
-//! What is refused, and what is enlarged.
+//! Rejected input, and regions that are enlarged.
 
 use crate::common::{GLASS, Scene, collide, glass, material};
 use fem_collision::{BodyInput, Ending, Monitor, OutputRequest, Progress, Stop};

@@ -80,7 +80,7 @@ fn a_relaxing_sphere_on_a_rigid_one_is_ting() {
     }
 }
 
-/// What a run gives as numbers.
+/// The numbers of a run.
 fn numbers(run: &Collision) -> [f64; 6] {
     [
         run.restitution.unwrap(),

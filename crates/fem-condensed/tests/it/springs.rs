@@ -40,9 +40,10 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-/// In series with the bodies a spring is worth its compliance: what it adds to the contact time, and
-/// takes of the force, is of first order in 1/k, which falls with the element size. Measured over the
-/// factor and with eight elements: up to 1.3e-3 and 1.0e-3; stiff ones scatter by 5e-5. A contact that ends at the last point followed has a time 27 % too long.
+/// In series with the bodies a spring is worth its compliance: what it adds to the contact time, and takes of the
+/// force, is of first order in 1/k, which falls with the element size. Measured over the factor and with eight
+/// elements: up to 1.3e-3 and 1.0e-3; stiff ones scatter by 5e-5. A contact that ends at the last point followed has a
+/// time 27 % too long.
 #[test]
 fn what_springs_change_falls_with_their_stiffness() {
     for (name, scene) in scenes() {
@@ -67,7 +68,7 @@ fn what_springs_change_falls_with_their_stiffness() {
     }
 }
 
-/// A region that ends inside of the contact is seen whatever the pattern of closed points: the same
+/// A region that ends inside of the contact is detected for any pattern of closed points: the same
 /// collision in a larger region, or none.
 #[test]
 fn no_stiffness_hides_the_end_of_the_region() {

@@ -14,8 +14,8 @@ fn energy(matrix: &ElementMatrix, u: &Displacement) -> f64 {
     0.5 * u.dot(&(matrix * u))
 }
 
-/// The mean-gradient element sees four strains and two hourglass amplitudes. What is left of
-/// eight degrees of freedom is the axial translation and, away from the axis, the rolling of the
+/// The mean-gradient element sees four strains and two hourglass amplitudes. The motions without
+/// strain are the axial translation and, away from the axis, the rolling of the
 /// ring u_r = y − ȳ, u_y = −r, whose hoop strain vanishes in the mean. B-bar sees that too.
 #[test]
 fn matrices_are_symmetric_and_semidefinite_with_the_right_nullity() {

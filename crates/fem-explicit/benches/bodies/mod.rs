@@ -7,7 +7,6 @@ use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, SphereMesh};
 
-/// m.
 const RADIUS: f64 = 11.1e-3;
 
 /// These constructions cannot fail.

@@ -118,8 +118,8 @@ impl Body {
         }
     }
 
-    /// Makes a sphere or a half-space with masses of its nodes (kg), of which mass scaling has moved `added_mass` (kg), for
-    /// a time step (s).
+    /// Makes a sphere or a half-space with masses of its nodes (kg), of which mass scaling has moved `added_mass` (kg),
+    /// for a time step (s).
     pub(crate) fn of_mesh(
         unscaled: UnscaledMesh,
         velocity: f64,
@@ -187,7 +187,7 @@ impl Body {
         resultant
     }
 
-    /// Whether it is a wall, which keeps its velocity.
+    /// Returns whether it is a wall, which keeps its velocity.
     pub fn is_wall(&self) -> bool {
         self.mesh.is_none() && self.mass.is_infinite()
     }
@@ -259,8 +259,8 @@ impl Body {
         self.mesh.as_ref().map_or(0, |mesh| mesh.nodes().len())
     }
 
-    /// Returns the number of nodal fields of history that its parts keep. The stress keeps none if it is elastic, one and
-    /// one per Prony term if it relaxes at small strain, one if it relaxes at finite strain.
+    /// Returns the number of nodal fields of history that its parts keep. The stress keeps none if it is elastic, one
+    /// and one per Prony term if it relaxes at small strain, one if it relaxes at finite strain.
     pub fn n_history(&self) -> usize {
         self.n_history
     }
@@ -282,7 +282,7 @@ impl Body {
         self.n_element_history + self.n_history
     }
 
-    /// Whether its mass is finite: a wall and a half-space keep their velocity.
+    /// Returns whether its mass is finite: a wall and a half-space keep their velocity.
     pub(crate) fn is_free(&self) -> bool {
         self.mass.is_finite()
     }
@@ -302,8 +302,8 @@ impl Body {
         if self.held { 0.0 } else { self.mass.recip() }
     }
 
-    /// Removes the acceleration of the mass centre from the forces on its nodes. Returns the change of their sum along +y,
-    /// N.
+    /// Removes the acceleration of the mass centre from the forces on its nodes. Returns the change of their sum along
+    /// +y, N.
     pub(crate) fn hold(&self, forces: &mut Field) -> f64 {
         let resultant: f64 = forces.iter().map(|force| force[1]).sum();
         let acceleration = resultant / self.mass;
@@ -313,7 +313,7 @@ impl Body {
         -resultant
     }
 
-    /// Whether external forces beside the contact change its momentum.
+    /// Returns whether external forces beside the contact change its momentum.
     pub(crate) fn is_pushed(&self) -> bool {
         self.held || !self.node_forces.is_empty()
     }
@@ -331,7 +331,8 @@ impl Body {
         self.nodal_mass.iter().zip(field).map(|(m, x)| m * x[1]).sum()
     }
 
-    /// Overwrites the fields from which its stress follows: displacement, effective displacement, stress of the elements.
+    /// Overwrites the fields from which its stress follows: displacement, effective displacement, stress of the
+    /// elements.
     pub(crate) fn update_stress_fields(&self, state: &BodyState, fields: &mut BodyFields) {
         fields.displacement.clone_from(&state.displacement);
         match self.effective() {

@@ -122,7 +122,7 @@ impl BodyState {
         }
     }
 
-    /// Whether its fields have the sizes of a body, with `n_contact` fields of the contact.
+    /// Returns whether its fields have the sizes of a body, with `n_contact` fields of the contact.
     pub fn fits(&self, body: &Body, n_contact: usize) -> bool {
         let n = body.nodal_mass.len();
         let lengths = body.field_lengths().chain(std::iter::repeat_n(n, n_contact));

@@ -11,8 +11,8 @@ use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::stress::{self, FiniteStrainChoice, Stress};
 
-/// A body that contact and forces move, with its masses and a bound of the stiffness at its nodes, from which the time step
-/// is chosen.
+/// A body that contact and forces move, with its masses and a bound of the stiffness at its nodes, from which the time
+/// step is chosen.
 #[derive(Debug)]
 pub(crate) enum UnscaledBody {
     Meshed(Box<UnscaledMesh>),
@@ -42,8 +42,8 @@ impl UnscaledBody {
     /// Makes a body, some nodes of which may have no mass; `None` for a wall.
     ///
     /// # Errors
-    /// The mass of a rigid sphere is not positive and finite; forces act on a wall; an element has no mass; a rigid body is
-    /// to be at finite strain, or one that relaxes by too many terms.
+    /// The mass of a rigid sphere is not positive and finite; forces act on a wall; an element has no mass; a rigid
+    /// body is to be at finite strain, or one that relaxes by too many terms.
     pub fn new(
         input: BodyInput,
         finite_strain: Option<FiniteStrainChoice>,
@@ -90,7 +90,7 @@ impl UnscaledBody {
         }
     }
 
-    /// Whether its stiffness changes as it deforms.
+    /// Returns whether its stiffness changes as it deforms.
     pub fn changes_stiffness(&self) -> bool {
         match self {
             Self::Meshed(meshed) => meshed.stress.strain_measure().finite().is_some(),
@@ -111,8 +111,8 @@ impl UnscaledBody {
         }
     }
 
-    /// Returns the longest critical time step (s) within a budget of moved mass, kg. A rigid sphere has no light nodes, so
-    /// no mass is moved.
+    /// Returns the longest critical time step (s) within a budget of moved mass, kg. A rigid sphere has no light nodes,
+    /// so no mass is moved.
     pub fn scaled_time_step(&self, budget: f64) -> f64 {
         match self {
             Self::Meshed(meshed) => meshed.bound.scaled_time_step(budget),

@@ -125,8 +125,8 @@ pub trait Contact: Part {
     ) {
     }
 
-    /// Whether the next configuration is certainly in contact: `next` returns the displacements of its nodes (m), those
-    /// of nodes without mass as if they kept their velocity; `now` is the present contact.
+    /// Returns whether the next configuration is certainly in contact: `next` returns the displacements of its nodes
+    /// (m), those of nodes without mass as if they kept their velocity; `now` is the present contact.
     fn is_closed_next(
         &self,
         now: &ContactForces,

@@ -7,13 +7,14 @@
 //! E_n = \tfrac12 v_{n-1/2} \cdot M v_{n+1/2} + \tfrac12 u_n \cdot K u_n ,
 //! ```
 //!
-//! so kinetic energy is reported in this form. The parts of the bodies compute from the state what they store, are given and
-//! dissipate. The residual is stored + dissipated − initial − external work; a run stops where it grows too large. Powers are
-//! integrated by the trapezoidal rule over the sampled instants. Between them the contact alone is followed
-//! ([`ContactWork`]), which is the source of spurious energy if there is one.
+//! so kinetic energy is reported in this form. The parts of the bodies compute from the state what they store, are
+//! given and dissipate. The residual is stored + dissipated − initial − external work; a run stops where it grows too
+//! large. Powers are integrated by the trapezoidal rule over the sampled instants. Between them the contact alone is
+//! followed ([`ContactWork`]), which is the source of spurious energy if there is one.
 //!
-//! A half-space has infinite mass and keeps its velocity V far away, as a wall does. Its kinetic energy and momentum are those
-//! of its nodes relative to V; the support of its far boundary gives it momentum and, in that frame, no energy.
+//! A half-space has infinite mass and keeps its velocity V far away, as a wall does. Its kinetic energy and momentum
+//! are those of its nodes relative to V; the support of its far boundary gives it momentum and, in that frame, no
+//! energy.
 
 use fem_collision::{
     Account, BalanceSide, DissipatedEnergies, HistoryRow, LARGEST_RESIDUAL, StepInstant,
@@ -48,8 +49,8 @@ pub(crate) struct Ledger {
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
-    /// Initial momentum of the bodies, and the impulses of forces on their nodes and of the support of a half-space since, up to
-    /// t_n − Δt/2, N s.
+    /// Initial momentum of the bodies, and the impulses of forces on their nodes and of the support of a half-space
+    /// since, up to t_n − Δt/2, N s.
     given_momentum: f64,
     momentum_scale: f64,
     /// ∫ F dt up to t_n − Δt/2, N s.
@@ -130,7 +131,8 @@ impl Ledger {
         }
     }
 
-    /// Follows the share of the contact in every state, whose forces are in `scratch`, whether or not the state is sampled.
+    /// Follows the share of the contact in every state, whose forces are in `scratch`, whether or not the state is
+    /// sampled.
     ///
     /// # Errors
     /// The energy is not finite or has grown.
@@ -151,8 +153,8 @@ impl Ledger {
         self.shown.residual + self.since.energy
     }
 
-    /// Takes the forces of a step (s) in which the nodes have just moved, the contact force (N), and the energy that the contact
-    /// held before (J).
+    /// Takes the forces of a step (s) in which the nodes have just moved, the contact force (N), and the energy that
+    /// the contact held before (J).
     pub fn begin_step(
         &mut self,
         model: &Model,
@@ -181,8 +183,8 @@ impl Ledger {
         self.worst_momentum = nan_aware_max_abs(self.worst_momentum, drift);
     }
 
-    /// Adds the impulses over a time (s) of the forces in `scratch` and of the contact (N): over the step from t_n to t_n+1, or
-    /// over the time by which half a step has become shorter.
+    /// Adds the impulses over a time (s) of the forces in `scratch` and of the contact (N): over the step from t_n to
+    /// t_n+1, or over the time by which half a step has become shorter.
     pub fn push(&mut self, model: &Model, scratch: &Scratch, force: f64, time: f64) {
         self.impulse += time * force;
         for (side, body) in model.bodies().iter().enumerate() {
@@ -276,20 +278,20 @@ impl Ledger {
         }
     }
 
-    /// Whether the energy has added up so far.
+    /// Returns whether the energy has added up so far.
     pub fn adds_up(&self) -> bool {
         self.beyond.is_none()
     }
 
-    /// Whether it can belong to a run of a model in a state.
+    /// Returns whether it can belong to a run of a model in a state.
     pub fn fits(&self, model: &Model, state: &State) -> bool {
         let constants =
             |ledger: &Self| [ledger.initial, ledger.initial_relative, ledger.momentum_scale];
         constants(self) == constants(&Self::new(model, state)) && self.last_time <= state.time
     }
 
-    /// Returns the work of a moving wall or half-space on the other body up to t_n, J; `next` is the impulse of the contact
-    /// force over the next step, N s.
+    /// Returns the work of a moving wall or half-space on the other body up to t_n, J; `next` is the impulse of the
+    /// contact force over the next step, N s.
     fn wall_work(&self, model: &Model, next: f64) -> f64 {
         let impulse = self.impulse + 0.5 * next;
         let [lower, upper] = model.bodies();
@@ -300,8 +302,8 @@ impl Ledger {
         }
     }
 
-    /// Returns the side of a rigid sphere that only the contact moves, and its gain of kinetic energy from first touch to t_n, J;
-    /// `next` is as above.
+    /// Returns the side of a rigid sphere that only the contact moves, and its gain of kinetic energy from first touch
+    /// to t_n, J; `next` is as above.
     ///
     /// With the impulses J of the contact up to t_n ∓ Δt/2, ½ M v₋v₊ − ½ M v² = ½ v (J₋ + J₊) +
     /// J₋J₊/2M, without the cancellation by which the energy of a heavy sphere would be lost in rounding.

@@ -19,13 +19,13 @@ pub(crate) struct NodalSums {
 /// Fields on the nodes of a body.
 #[derive(Clone, Copy)]
 pub(crate) struct Nodes<'a> {
-    /// Masses, kg.
+    /// Masses of the nodes, kg.
     pub mass: &'a [f64],
-    /// Displacements, m.
+    /// Displacements of the nodes, m.
     pub displacement: &'a Field,
     /// Velocities at t_n − Δt/2, m/s.
     pub velocity: &'a Field,
-    /// Forces, N.
+    /// Forces on the nodes, N.
     pub forces: &'a Field,
 }
 
@@ -144,31 +144,6 @@ mod tests {
             }
             let nodes = Nodes { mass: &m, displacement: &u, velocity: &v, forces: &f };
             assert_eq!(NodalSums::of(nodes, time_step, far), plain, "{n}");
-        }
-    }
-
-    /// All lanes round alike and sum in the same order.
-    #[test]
-    #[cfg(target_arch = "x86_64")]
-    fn all_lanes_give_the_same_bits() {
-        use crate::lanes::{Avx2, Avx512, Plain, TwoRegisters, has_avx2, has_avx512};
-        let field = |a: f64| -> Vec<[f64; 2]> {
-            (0..67).map(|k| [a * f64::from(k), 1.0 + a * f64::from(k)].map(f64::sin)).collect()
-        };
-        let (u, v, f) = (field(0.7), field(1.1), field(1.3));
-        let mass: Vec<f64> = field(0.3).iter().map(|x| 1.5 + x[0]).collect();
-        let nodes = Nodes { mass: &mass, displacement: &u, velocity: &v, forces: &f };
-        let summing = || Summing { nodes, time_step: 0.3, far_velocity: 0.1 };
-        let [mut plain, mut avx2, mut avx512] = [NodalSums::default(); 3];
-        summing().on::<Plain<WIDE>>(&mut plain);
-        assert!(plain.twice_kinetic != 0.0);
-        if has_avx2() {
-            summing().on::<TwoRegisters<Avx2>>(&mut avx2);
-            assert_eq!(avx2, plain);
-        }
-        if has_avx512() {
-            summing().on::<Avx512>(&mut avx512);
-            assert_eq!(avx512, plain);
         }
     }
 }

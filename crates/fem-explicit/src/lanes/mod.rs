@@ -1,12 +1,17 @@
-//! Several elements at once: eight where they lie in rows ([`RowLanes`]) and at finite strain, whose long chains of operations
-//! would keep four lanes waiting; otherwise four.
+//! Several elements at once: eight where they lie in rows ([`RowLanes`]) and at finite strain, whose long chains of
+//! operations would keep four lanes waiting; otherwise four.
 //!
-//! The element kernels are written once over [`Lanes`] and compiled for plain arrays, for AVX2 with FMA and, with eight lanes,
-//! for AVX-512; the best is chosen at run time. Kernels of eight lanes fuse products and sums, and all lanes round once, so all
-//! give the same bits. Plain arrays do so by a library function on a processor without that instruction, slowly. WebAssembly
-//! has no such instruction, and rounds twice: there finite strain agrees to rounding, not in bits.
+//! The element kernels are written once over [`Lanes`] and compiled for plain arrays, for AVX2 with FMA and, with eight
+//! lanes, for AVX-512; the best is chosen at run time. Kernels of eight lanes fuse products and sums, and all lanes
+//! round once, so all give the same bits. Plain arrays do so by a library function on a processor without that
+//! instruction, slowly. WebAssembly has no such instruction, and rounds twice: there finite strain agrees to rounding,
+//! not in bits.
+//!
+//! Unit tests have plain arrays alone, since compiling the kernels of all lanes again takes minutes. The program
+//! `tests/it` runs collisions on lanes of every kind and compares their bits.
 
 use std::ops::{Add, Div, Mul, Sub};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 use fem_material::finite::{Number, inverse_cube_root_estimate, power_of_two};
 
@@ -48,15 +53,15 @@ pub(crate) trait LaneKernel<const N: usize = LANES> {
     /// The output of the loop.
     type Output: ?Sized;
 
-    /// Runs the loop. It and all that it calls must be `#[inline(always)]`, so that it is compiled for the instruction set of
-    /// its lanes. The output is a separate parameter, so that the compiler knows that it does not alias the kernel; as a field
-    /// of the kernel it cost a tenth of the time.
+    /// Runs the loop. It and all that it calls must be `#[inline(always)]`, so that it is compiled for the instruction
+    /// set of its lanes. The output is a separate parameter, so that the compiler knows that it does not alias the
+    /// kernel; as a field of the kernel it cost a tenth of the time.
     fn on<L: Lanes<N>>(self, output: &mut Self::Output);
 }
 
 /// Runs a kernel on the widest lanes that the processor has.
 pub(crate) fn run_lanes<K: LaneKernel>(kernel: K, output: &mut K::Output) {
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(test)))]
     {
         #[target_feature(enable = "avx2,fma")]
         fn on_avx2<K: LaneKernel>(kernel: K, output: &mut K::Output) {
@@ -98,7 +103,7 @@ pub(crate) fn run_wide_lanes<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Out
 
 /// Runs a kernel of rows on the widest lanes that the processor has.
 pub(crate) fn run_row_lanes<K: RowKernel>(kernel: K, output: &mut K::Output) {
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(test)))]
     {
         #[target_feature(enable = "avx512f")]
         fn on_avx512<K: RowKernel>(kernel: K, output: &mut K::Output) {
@@ -120,16 +125,27 @@ pub(crate) fn run_row_lanes<K: RowKernel>(kernel: K, output: &mut K::Output) {
     kernel.on::<Plain<WIDE>>(output);
 }
 
-/// Whether the processor has [`Avx512`]'s instructions.
-#[cfg(target_arch = "x86_64")]
-pub(crate) fn has_avx512() -> bool {
-    std::arch::is_x86_feature_detected!("avx512f")
+/// Widest lanes that kernels may use, see [`limit_lanes`].
+static WIDEST: AtomicU8 = AtomicU8::new(u8::MAX);
+
+/// Limits the lanes of this process: 0 for plain arrays, 1 for AVX2, 2 for AVX-512. Tests compare their results.
+#[doc(hidden)]
+pub fn limit_lanes(widest: u8) {
+    WIDEST.store(widest, Ordering::Relaxed);
 }
 
-/// Whether the processor has [`Avx2`]'s instructions.
-#[cfg(target_arch = "x86_64")]
-pub(crate) fn has_avx2() -> bool {
-    std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+/// Returns whether [`Avx512`]'s instructions are available and allowed.
+#[cfg(all(target_arch = "x86_64", not(test)))]
+fn has_avx512() -> bool {
+    WIDEST.load(Ordering::Relaxed) >= 2 && std::arch::is_x86_feature_detected!("avx512f")
+}
+
+/// Returns whether [`Avx2`]'s instructions are available and allowed.
+#[cfg(all(target_arch = "x86_64", not(test)))]
+fn has_avx2() -> bool {
+    WIDEST.load(Ordering::Relaxed) >= 1
+        && std::arch::is_x86_feature_detected!("avx2")
+        && std::arch::is_x86_feature_detected!("fma")
 }
 
 /// Lanes as an array, for any machine.
@@ -249,15 +265,10 @@ impl<const N: usize> Lanes<N> for Plain<N> {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-mod avx2;
-#[cfg(target_arch = "x86_64")]
-mod avx512;
 mod rows;
-#[cfg(target_arch = "x86_64")]
-mod two_registers;
+#[cfg(all(target_arch = "x86_64", not(test)))]
+mod x86_64;
 
 pub(crate) use rows::{ROW_PLACES, RowLanes};
-
-#[cfg(target_arch = "x86_64")]
-pub(crate) use {avx2::Avx2, avx512::Avx512, two_registers::TwoRegisters};
+#[cfg(all(target_arch = "x86_64", not(test)))]
+use x86_64::{Avx2, Avx512, TwoRegisters};

@@ -194,7 +194,7 @@ impl Model {
         self.step_factor
     }
 
-    /// Whether the stiffness of a body changes as it deforms, and the time step with it.
+    /// Returns whether the stiffness of a body changes as it deforms, and the time step with it.
     pub fn changes_stiffness(&self) -> bool {
         self.bodies.iter().any(|body| body.bound.is_some())
     }

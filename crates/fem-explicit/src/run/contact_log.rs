@@ -99,7 +99,7 @@ impl ContactLog {
         self.approach += time_step * self.approach_rate;
     }
 
-    /// Whether it can belong to a run in a state.
+    /// Returns whether it can belong to a run in a state.
     pub fn fits(&self, state: &State) -> bool {
         let times_fit = match (self.first_contact, self.last_contact) {
             (Some(first), Some(last)) => first <= last && last <= state.time,
@@ -109,8 +109,8 @@ impl ContactLog {
         times_fit && self.episodes <= state.step + 1
     }
 
-    /// Whether the bodies have separated at a time (s): the contact has been open for a fifth of its duration while they
-    /// recede, or gravity (as acceleration of the approach, m/s²) has brought the flight to its top.
+    /// Returns whether the bodies have separated at a time (s): the contact has been open for a fifth of its duration
+    /// while they recede, or gravity (as acceleration of the approach, m/s²) has brought the flight to its top.
     pub fn has_separated(&self, time: f64, gravity: f64) -> bool {
         let (Some(first), Some(last)) = (self.first_contact, self.last_contact) else {
             return false;

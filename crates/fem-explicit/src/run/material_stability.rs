@@ -1,8 +1,8 @@
 //! Search for elements whose law has lost its stability (loss of ellipticity).
 //!
-//! After loss of ellipticity strain localises in a band that depends on the mesh. Either the energy of the run stops adding
-//! up, or the time step becomes ever shorter: then the run stops for this reason. If neither happens, the instability was
-//! local, and the run ends with a warning.
+//! After loss of ellipticity strain localises in a band that depends on the mesh. Either the energy of the run stops
+//! adding up, or the time step becomes ever shorter: then the run stops for this reason. If neither happens, the
+//! instability was local, and the run ends with a warning.
 
 use fem_collision::{StepInstant, Stop};
 use serde::{Deserialize, Serialize};
@@ -73,7 +73,7 @@ impl MaterialStability {
         ))
     }
 
-    /// Whether it can belong to a run of a model in a state.
+    /// Returns whether it can belong to a run of a model in a state.
     pub fn fits(&self, model: &Model, state: &State) -> bool {
         self.lost.as_ref().is_none_or(|lost| {
             let n_elements = model.bodies().get(lost.body).map_or(0, |body| body.n_elements());
@@ -90,7 +90,7 @@ impl Lost {
     }
 }
 
-/// Whether a body has a law that can lose its stability.
+/// Returns whether a body has a law that can lose its stability.
 fn can_be_lost(model: &Model) -> bool {
     let mut stresses = model.bodies().iter().filter_map(Body::finite_strain);
     stresses.any(|stress| stress.can_lose_stability())

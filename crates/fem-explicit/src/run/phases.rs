@@ -8,7 +8,8 @@ use crate::model::Model;
 use crate::state::{Scratch, State};
 use crate::time::{StepControl, add_impulse};
 
-/// Computes the forces in the present configuration: of the stress, on the nodes, of the contact, and of what holds a body.
+/// Computes the forces in the present configuration: of the stress, on the nodes, of the contact, and of what holds a
+/// body.
 ///
 /// # Errors
 /// An element has collapsed: there are no forces.
@@ -39,8 +40,8 @@ pub(crate) fn update_forces(
 }
 
 /// Controls the time step, where the stiffness of the model changes: checks the strain rate or bounds the critical step
-/// when that is due, with the present forces in `scratch`. Returns the time (s) by which half a step becomes shorter, if
-/// the step changes.
+/// when that is due, with the present forces in `scratch`. Returns the time (s) by which half a step becomes shorter,
+/// if the step changes.
 ///
 /// # Errors
 /// No step is short enough.
@@ -78,8 +79,8 @@ pub(crate) fn update_time_step(
     Ok(Some(shorter))
 }
 
-/// Takes both bodies to the next instant: the nodes, the history of the stress, the nodes without mass and the history of
-/// the contact, then the history of the forces on nodes.
+/// Takes both bodies to the next instant: the nodes, the history of the stress, the nodes without mass and the history
+/// of the contact, then the history of the forces on nodes.
 pub(crate) fn advance(model: &Model, state: &mut State, scratch: &mut Scratch) {
     state.time = state.time_after(state.step + 1, model);
     state.step += 1;
@@ -108,7 +109,7 @@ fn advance_contact(model: &Model, state: &mut State, scratch: &mut Scratch) {
     model.contact().advance(motions, history, scratch.contact.as_mut());
 }
 
-/// Whether the next configuration is in contact; reads the present forces and moves nothing.
+/// Returns whether the next configuration is in contact; reads the present forces and moves nothing.
 pub(crate) fn is_closed_next(
     model: &Model,
     state: &State,

@@ -105,9 +105,9 @@ impl RestartState {
         self.request.give_up_after * self.expected.contact_time
     }
 
-    /// Whether it can belong to a run of a model: approach, candidate region, fingerprint and sizes of all fields agree, and
-    /// its parts do not contradict each other. Computed numbers are not computed again: a wrong one is found only where it
-    /// contradicts another.
+    /// Returns whether it can belong to a run of a model: approach, candidate region, fingerprint and sizes of all
+    /// fields agree, and its parts do not contradict each other. Computed numbers are not computed again: a wrong one
+    /// is found only where it contradicts another.
     pub(crate) fn fits(&self, model: &Model) -> bool {
         let Self { state, .. } = self;
         let history_fits = |history: &History| {

@@ -41,7 +41,7 @@ impl SampledHistory {
         }
     }
 
-    /// Whether this step is to be sampled.
+    /// Returns whether this step is to be sampled.
     pub fn is_due(&self, step: u64) -> bool {
         self.cadence.is_due(step)
     }
@@ -51,11 +51,11 @@ impl SampledHistory {
         self.aftermath = Some(PostContactVibration::default());
     }
 
-    /// Whether the bodies stay together, by the last sampled instant, a time (s) after first touch, at a rate of the
-    /// approach, m/s.
+    /// Returns whether the bodies stay together, by the last sampled instant, a time (s) after first touch, at a rate
+    /// of the approach, m/s.
     ///
-    /// Waves that leave into a half-space carry equal strain and kinetic energy, neither of which can separate the bodies, so
-    /// both are left out.
+    /// Waves that leave into a half-space carry equal strain and kinetic energy, neither of which can separate the
+    /// bodies, so both are left out.
     pub fn stays_together(&mut self, model: &Model, is_closed: bool, time: f64, rate: f64) -> bool {
         let Some(row) = &self.last else { return false };
         let is_stored =
@@ -72,7 +72,8 @@ impl SampledHistory {
         self.standstill.observe(&RelativeMotion { time, is_closed, force, rate, inner_energy })
     }
 
-    /// Takes the row of an instant, the impulse of the contact so far (N s), the step, and whether the contact is closed.
+    /// Takes the row of an instant, the impulse of the contact so far (N s), the step, and whether the contact is
+    /// closed.
     pub fn take(&mut self, row: HistoryRow, impulse: f64, step: u64, is_closed: bool) {
         self.cadence.count();
         let (radius, pressure) = (row.contact_radius, row.centre_pressure);
@@ -84,7 +85,7 @@ impl SampledHistory {
         self.last = Some(row);
     }
 
-    /// Whether it can belong to a run of a model in a state.
+    /// Returns whether it can belong to a run of a model in a state.
     pub fn fits(&self, model: &Model, state: &State) -> bool {
         self.cadence.is_sound()
             && self.standstill.is_of(&model.frame())

@@ -62,7 +62,7 @@ impl LastValidState {
         }
     }
 
-    /// Whether it can belong to a run of a model in a state, with a request.
+    /// Returns whether it can belong to a run of a model in a state, with a request.
     pub fn fits(&self, model: &Model, state: &State, request: &OutputRequest) -> bool {
         let is_valid = |kept: &Snapshot| fits(kept, model) && kept.time <= state.time;
         self.is_wanted == is_wanted(request) && self.kept.as_ref().is_none_or(is_valid)

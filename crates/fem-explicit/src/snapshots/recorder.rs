@@ -1,11 +1,11 @@
 //! The recorder: selects the states that are kept as snapshots.
 //!
 //! Half of the maximum approach is known only after the maximum. Therefore a state is kept as a candidate whenever the
-//! approach has grown by 3 %, and candidates below half of the present approach are dropped. No state is taken where the
-//! approach cannot be half of the maximum.
+//! approach has grown by 3 %, and candidates below half of the present approach are dropped. No state is taken where
+//! the approach cannot be half of the maximum.
 //!
-//! Snapshots that are spread evenly over the contact need its duration. Therefore states are kept at an even spacing, which
-//! doubles whenever there are too many of them.
+//! Snapshots that are spread evenly over the contact need its duration. Therefore states are kept at an even spacing,
+//! which doubles whenever there are too many of them.
 
 use fem_collision::{
     Expectation, OutputRequest, Snapshot, SnapshotInstant, SnapshotRequest, did_not_occur, evenly,
@@ -22,11 +22,12 @@ use crate::state::{Scratch, State};
 const CANDIDATE_RATIO: f64 = 1.03;
 /// Share of the expected approach at which candidates begin.
 const FIRST_CANDIDATE: f64 = 0.02;
-/// Below this share of the expected approach a candidate is taken only once the bodies have slowed down: at half of a small
-/// maximum they would have.
+/// Below this share of the expected approach a candidate is taken only once the bodies have slowed down: at half of a
+/// small maximum they would have.
 const SURE_SHARE: f64 = 0.25;
-/// Share of the speed at first touch above which bodies have not slowed down. A force that grows with the power p of the
-/// approach has taken 2^-(p + 1) of the energy at half of the maximum: 0.18 for Hertz' force, while this share takes 0.02.
+/// Share of the speed at first touch above which bodies have not slowed down. A force that grows with the power p of
+/// the approach has taken 2^-(p + 1) of the energy at half of the maximum: 0.18 for Hertz' force, while this share
+/// takes 0.02.
 const NOT_SLOWED: f64 = 0.99;
 
 /// The contact at an instant, as the recorder needs it.
@@ -182,7 +183,7 @@ impl Recorder {
         self.spacing *= 2.0;
     }
 
-    /// Whether it can belong to a run of a model with a request.
+    /// Returns whether it can belong to a run of a model with a request.
     pub fn fits(&self, model: &Model, asked: &SnapshotRequest) -> bool {
         let request_fits = match (&self.request, &in_order(asked)) {
             (SnapshotRequest::Times(times), SnapshotRequest::Times(asked)) => {

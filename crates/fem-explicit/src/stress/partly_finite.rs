@@ -1,14 +1,14 @@
 //! Finite strain near first touch, small strain elsewhere.
 //!
-//! Strains under a contact of radius a fall as (a/r)² with the distance r from its centre, and the correction of the energy
-//! by finite strain is of third order in them. The share of the correction beyond a radius R,
+//! Strains under a contact of radius a fall as (a/r)² with the distance r from its centre, and the correction of the
+//! energy by finite strain is of third order in them. The share of the correction beyond a radius R,
 //!
 //! ```math
 //! \int_R^\infty \left(\frac ar\right)^6 r^2\, dr \sim \left(\frac aR\right)^3 ,
 //! ```
 //!
-//! is chosen by R; an element at small strain costs a third of one at finite strain. Elements of both kinds store energies of
-//! their own and meet at nodes, so energy and momentum are conserved as with one kind alone.
+//! is chosen by R; an element at small strain costs a third of one at finite strain. Elements of both kinds store
+//! energies of their own and meet at nodes, so energy and momentum are conserved as with one kind alone.
 
 use std::fmt;
 
@@ -26,8 +26,8 @@ use super::port::{
 use super::small_strain;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
-/// The stress of a body of which some elements are at finite strain. Its history is that of the near elements, of elements
-/// and of nodes, followed by that of the far ones.
+/// The stress of a body of which some elements are at finite strain. Its history is that of the near elements, of
+/// elements and of nodes, followed by that of the far ones.
 struct PartlyFinite {
     near: Box<dyn FiniteStrainStress>,
     /// Numbers of the near elements, ascending.
@@ -43,8 +43,8 @@ struct FarElement {
     geometry: QuadGeometry,
 }
 
-/// Makes the stress of a material that follows a law at finite strain in elements whose centres are within a radius (m) of
-/// first touch, and is at small strain in the others.
+/// Makes the stress of a material that follows a law at finite strain in elements whose centres are within a radius (m)
+/// of first touch, and is at small strain in the others.
 pub(super) fn finite_strain_within(
     radius: f64,
     mesh: &SphereMesh,
@@ -130,7 +130,7 @@ impl Stress for PartlyFinite {
         self.near.n_element_history()
     }
 
-    /// Those of the near elements: undeformed, both kinds have the same stiffness.
+    /// Returns those of the elements at finite strain for all: undeformed, both kinds have the same stiffness.
     fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
         self.near.largest_eigenvalues(elements)
     }

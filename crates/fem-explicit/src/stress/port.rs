@@ -1,7 +1,7 @@
 //! The port of the stress: the traits that a step calls.
 //!
-//! No method has a default: a new one does not compile until every stress has answered it, also one that is made of others
-//! ([`PartlyFinite`](super::partly_finite)).
+//! No method has a default: a new one does not compile until every stress has answered it, also one that is made of
+//! others ([`PartlyFinite`](super::partly_finite)).
 
 use fem_element::{ElementMatrix, QuadGeometry};
 
@@ -65,8 +65,8 @@ pub(crate) trait Stress: Part {
     /// Returns the number of fields of history of the elements.
     fn n_element_history(&self) -> usize;
 
-    /// Returns, for each element, the largest eigenvalue of its undeformed stiffness against its lumped masses, s⁻², or a
-    /// bound of it.
+    /// Returns, for each element, the largest eigenvalue of its undeformed stiffness against its lumped masses, s⁻², or
+    /// a bound of it.
     fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64>;
 
     /// Sets the history of a body that is displaced (m) as a whole.
@@ -95,15 +95,15 @@ pub(crate) trait Stress: Part {
 
 /// A stress at small strain: it is linear in the motion, which a boundary without mass relies on.
 pub(crate) trait SmallStrainStress: Stress {
-    /// Returns the stiffness (N/m) of an element against a further displacement at the end of a step, once the time step is
-    /// known.
+    /// Returns the stiffness (N/m) of an element against a further displacement at the end of a step, once the time
+    /// step is known.
     fn stiffness_of_step(&self, geometry: &QuadGeometry) -> ElementMatrix;
 
     /// Adds the further displacement (m) of a node to the history, which has been advanced to the end of the step.
     fn shift(&self, node: usize, change: [f64; 2], history: &mut [NodalField]);
 
-    /// Returns which field of its history is the effective displacement, if the stress follows from another displacement
-    /// than that of the body.
+    /// Returns which field of its history is the effective displacement, if the stress follows from another
+    /// displacement than that of the body.
     fn effective(&self) -> Option<usize>;
 }
 
@@ -121,14 +121,14 @@ pub(crate) trait FiniteStrainStress: Stress {
     /// Returns the largest strain rate of any element, relative to its present deformation, 1/s.
     fn strain_rate(&self, motion: &Motion<'_>) -> f64;
 
-    /// Returns the largest ratio of an element's strain rate to its strain allowance, which is the least of those at its
-    /// corners, 1/s.
+    /// Returns the largest ratio of an element's strain rate to its strain allowance, which is the least of those at
+    /// its corners, 1/s.
     fn allowance_rate(&self, motion: &Motion<'_>, allowances: &[f64]) -> f64;
 
     /// Returns the element that is compressed most.
     fn most_compressed(&self, displacement: &Field) -> Collapse;
 
-    /// Whether the law can lose ellipticity, so that unstable elements have to be searched for.
+    /// Returns whether the law can lose ellipticity, so that unstable elements have to be searched for.
     fn can_lose_stability(&self) -> bool;
 
     /// Returns the least stable element, if it is unstable.

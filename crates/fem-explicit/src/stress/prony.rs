@@ -4,8 +4,8 @@
 //! \dot q_k + q_k/\tau_k = \dot u, \qquad w = g_\infty u + \sum_k g_k q_k
 //! ```
 //!
-//! A branch is advanced exactly for a constant rate ([`RelaxationStep`]). The relaxing part of the stress is that of the
-//! effective displacement w. [`RelaxingModuli`] defines which part relaxes:
+//! A branch is advanced exactly for a constant rate ([`RelaxationStep`]). The relaxing part of the stress is that of
+//! the effective displacement w. [`RelaxingModuli`] defines which part relaxes:
 //!
 //! ```math
 //! f = -(K_{bulk} + K_{shear})\, w \quad\text{(all moduli)}, \qquad
@@ -232,7 +232,7 @@ impl<R: RelaxingModuli> Stress for LinearViscoelastic<R> {
 }
 
 impl<R: RelaxingModuli> SmallStrainStress for LinearViscoelastic<R> {
-    /// The moduli are those that remain of a displacement that a step adds.
+    /// The moduli are those for a displacement that is added at the end of a step.
     fn stiffness_of_step(&self, geometry: &QuadGeometry) -> ElementMatrix {
         let weight = self.weight_of_step();
         let Moduli { bulk, shear } = R::lasting(self.elastic.moduli, weight);

@@ -2,18 +2,19 @@
 //!
 //! **Levels.** A run takes steps of Δt_0 2^(−level/16), with the model's step Δt_0 and levels 0 to 160.
 //!
-//! **Bounds.** From time to time the critical step of the deformed bodies is bounded anew ([`StepControl::after_bound`]):
-//! the sooner, the faster it changes and the faster the elements near the critical nodes are strained. The level follows
-//! the bound down at once, and up when the longer step leaves a margin of 1 %.
+//! **Bounds.** From time to time the critical step of the deformed bodies is bounded anew
+//! ([`StepControl::after_bound`]): the sooner, the faster it changes and the faster the elements near the critical
+//! nodes are strained. The level follows the bound down at once, and up when the longer step leaves a margin of 1 %.
 //!
 //! **Rate checks.** Between two bounds only the strain rate is evaluated, which is cheap
 //! ([`StepControl::after_rate_check`]). If it asks for a shorter step, the bound is brought forward.
 //!
-//! **Strain per step.** No element is strained by more than [`STRAIN_PER_STEP`] in a step. Leapfrog is stable within the
-//! critical step, but it conserves the energy of a body whose stiffness is constant during the step, and its error grows
-//! with the square of the strain per step.
+//! **Strain per step.** No element is strained by more than [`STRAIN_PER_STEP`] in a step. Leapfrog is stable within
+//! the critical step, but it conserves the energy of a body whose stiffness is constant during the step, and its error
+//! grows with the square of the strain per step.
 //!
-//! **Change of step.** Where the step changes from Δt to Δt′ at t_n, velocities at t_n − Δt/2 become those at t_n − Δt′/2,
+//! **Change of step.** Where the step changes from Δt to Δt′ at t_n, velocities at t_n − Δt/2 become those at t_n −
+//! Δt′/2,
 //!
 //! ```math
 //! v \leftarrow v + \tfrac12 (\Delta t - \Delta t')\, f_n/m,
@@ -79,9 +80,9 @@ impl StepDemand {
         (STRAIN_BETWEEN_BOUNDS / strain_rate).clamp(model_step, LONGEST_PAUSE * model_step)
     }
 
-    /// Returns the strain that an element may take before the next bound, from the critical steps (s) of its node and of
-    /// the bodies: [`STRAIN_BETWEEN_BOUNDS`], and half of the relative reserve of its node, since strain may shorten a
-    /// node's step by twice as much, ln(Δt_i/Δt) ≥ 1 − Δt/Δt_i.
+    /// Returns the strain that an element may take before the next bound, from the critical steps (s) of its node and
+    /// of the bodies: [`STRAIN_BETWEEN_BOUNDS`], and half of the relative reserve of its node, since strain may shorten
+    /// a node's step by twice as much, ln(Δt_i/Δt) ≥ 1 − Δt/Δt_i.
     pub fn strain_allowance(of_node: f64, critical: f64) -> f64 {
         STRAIN_BETWEEN_BOUNDS + 0.5 * (1.0 - critical / of_node)
     }
@@ -111,18 +112,18 @@ impl StepControl {
         since_time + step.saturating_sub(since_step) as f64 * self.time_step(model_step)
     }
 
-    /// Whether the critical step is to be bounded at this step.
+    /// Returns whether the critical step is to be bounded at this step.
     pub fn is_bound_due(&self, step: u64) -> bool {
         step >= self.next_bound
     }
 
-    /// Whether the strain rate is to be checked at this step.
+    /// Returns whether the strain rate is to be checked at this step.
     pub fn is_rate_check_due(&self, step: u64) -> bool {
         step >= self.next_rate_check
     }
 
-    /// Returns the control after a rate check; `None` where elements are strained faster (1/s) than the present steps can
-    /// follow, so that a bound is due.
+    /// Returns the control after a rate check; `None` where elements are strained faster (1/s) than the present steps
+    /// can follow, so that a bound is due.
     pub fn after_rate_check(self, step: u64, strain_rate: f64, model_step: f64) -> Option<Self> {
         let is_slow = level_for_strain_rate(model_step, strain_rate, 1.0) <= self.level;
         let pause = pause_of_rate_check(strain_rate * self.time_step(model_step));
@@ -164,7 +165,7 @@ impl StepControl {
         Some(Self { level, since, last_bound: (step, critical), next_bound, next_rate_check })
     }
 
-    /// Whether this can be the control of a run at a step.
+    /// Returns whether this can be the control of a run at a step.
     pub fn is_valid_at(&self, step: u64) -> bool {
         let critical = self.last_bound.1;
         self.level <= MOST_LEVELS
@@ -190,7 +191,8 @@ fn level_within(model_step: f64, allowed: f64, margin: f64) -> Option<u32> {
     (0..=MOST_LEVELS).find(|&level| model_step * level_factor(level) * margin <= allowed)
 }
 
-/// The same for a strain rate, 1/s. Elements that are strained faster than the shortest step can follow collapse.
+/// Returns the same for a strain rate, 1/s. Elements that are strained faster than the shortest step can follow
+/// collapse.
 fn level_for_strain_rate(model_step: f64, strain_rate: f64, margin: f64) -> u32 {
     level_within(model_step, STRAIN_PER_STEP / strain_rate, margin).unwrap_or(MOST_LEVELS)
 }

@@ -18,7 +18,6 @@ use crate::common::{Pair, quantities};
 struct Ball {
     law: Option<HyperelasticLaw>,
     nu: f64,
-    /// m/s.
     speed: f64,
     /// Elements over the radius at the contact.
     n: f64,

@@ -7,6 +7,7 @@ mod ending;
 mod finite_strain;
 mod flanks;
 mod half_space;
+mod lanes;
 mod massless;
 mod moved;
 mod outputs;

@@ -21,7 +21,7 @@
 //! that small-strain finite elements with contact along the axis approach; finite rotation of
 //! the surface is of the same order in a/R.
 
-/// c at R = a, and its slope in ln(R/a).
+/// Returns c at R = a, and its slope in ln(R/a).
 pub(crate) fn coefficient(nu: f64) -> (f64, f64) {
     let logarithm = 2.0 * (1.0 - 2.0 * nu).powi(2);
     let scale = (1.0 + nu) / (4.0 * std::f64::consts::PI);
@@ -30,7 +30,7 @@ pub(crate) fn coefficient(nu: f64) -> (f64, f64) {
     (scale * (series(nu) - axial + logarithm * weighing), scale * logarithm)
 }
 
-/// The summand of S(ν).
+/// Returns the summand of S(ν).
 fn summand(nu: f64) -> impl Fn(usize) -> f64 + Copy {
     let logarithm = 2.0 * (1.0 - 2.0 * nu).powi(2);
     move |index| {
@@ -46,7 +46,7 @@ fn summand(nu: f64) -> impl Fn(usize) -> f64 + Copy {
     }
 }
 
-/// S(ν). The summand falls as 1/n², so that sums to N lack a series in 1/N. Richardson's combinations of the
+/// Returns S(ν). The summand falls as 1/n², so that sums to N lack a series in 1/N. Richardson's combinations of the
 /// sums to some N, each twice the one before, take its first terms away and leave N⁻⁴/64.
 fn series(nu: f64) -> f64 {
     const N: usize = 128;

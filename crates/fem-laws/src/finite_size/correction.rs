@@ -34,7 +34,7 @@ impl Correction {
         self.beta += factor * other.beta;
     }
 
-    /// ∫F dδ of an elastic contact up to Hertz' u: with w = u^(3/2) the second part is ∫w dδ₂.
+    /// Returns ∫F dδ of an elastic contact up to Hertz' u: with w = u^(3/2) the second part is ∫w dδ₂.
     pub fn strain_energy(&self, hertz: f64) -> f64 {
         let half_space = 0.4 * hertz * hertz * hertz.sqrt();
         if *self == Self::NONE || hertz == 0.0 {
@@ -44,12 +44,12 @@ impl Correction {
         half_space + cube * (0.5 * (self.alpha - self.beta * ln(hertz)) - self.beta / 6.0)
     }
 
-    /// α − β ln u, 0 at u = 0.
+    /// Returns α − β ln u, 0 at u = 0.
     pub fn at(&self, hertz: f64) -> f64 {
         if hertz > 0.0 { self.alpha - self.beta * ln(hertz) } else { 0.0 }
     }
 
-    /// u, and ∂u/∂δ there, at δ (an open contact: 0), with the `remembered` Σ M_k (α_k − β_k ln u), after a
+    /// Returns u, and ∂u/∂δ there, at δ (an open contact: 0), with the `remembered` Σ M_k (α_k − β_k ln u), after a
     /// number of iterations of Newton's method.
     pub fn hertz_approach_after(
         &self,

@@ -67,7 +67,7 @@ impl FiniteSize {
         force * self.compliance(contact_radius, instantaneous)
     }
 
-    /// In units of `length`, where the force is `force` u^(3/2), a = `contact_radius` √u, and
+    /// Returns the correction in units of `length`, where the force is `force` u^(3/2), a = `contact_radius` √u, and
     /// the force relaxes as `relaxation`.
     pub(crate) fn correction(
         &self,
@@ -94,7 +94,7 @@ impl FiniteSize {
         RelaxingCorrection { equilibrium, fading }
     }
 
-    /// Σ c/(E R), 1/(Pa m), with the coefficients c at R = a and their slopes.
+    /// Returns Σ c/(E R), 1/(Pa m), with the coefficients c at R = a and their slopes.
     fn compliance(
         &self,
         contact_radius: f64,
@@ -107,7 +107,7 @@ impl FiniteSize {
         self.spheres.iter().map(of_sphere).sum()
     }
 
-    /// Whether the first order holds for a contact radius, m.
+    /// Returns whether the first order holds for a contact radius, m.
     ///
     /// # Errors
     /// A contact too large.

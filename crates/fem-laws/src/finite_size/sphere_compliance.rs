@@ -43,17 +43,17 @@ pub(crate) struct SphereCompliance {
 /// P E₀/g: c E₀/E.
 #[derive(Debug, Clone, PartialEq)]
 struct Relaxing {
-    /// g∞.
+    /// Equilibrium weight g∞.
     equilibrium: f64,
     /// b_k and g_k.
     terms: Vec<Pole>,
     /// P₁ and (P_l − P₁)/(1 − l).
     constant: Parts,
     chord: Parts,
-    /// d.
+    /// Coefficients d of the interpolation.
     bend: Parts,
     lowest_node: f64,
-    /// y.
+    /// Ordinates y of the interpolation.
     bulk: f64,
 }
 
@@ -101,17 +101,17 @@ impl SphereCompliance {
         self.radius
     }
 
-    /// 1/(E R) before relaxation, 1/(Pa m).
+    /// Returns 1/(E R) before relaxation, 1/(Pa m).
     pub fn unit(&self) -> f64 {
         self.unit
     }
 
-    /// c before relaxation.
+    /// Returns c before relaxation.
     pub fn instantaneous(&self) -> Parts {
         self.instantaneous
     }
 
-    /// g_k c E₀/E at s = −p_k of a term of the contact's relaxation.
+    /// Returns g_k c E₀/E at s = −p_k of a term of the contact's relaxation.
     pub fn fading(&self, term: &PronyTerm) -> Parts {
         let Some(relaxing) = &self.relaxing else {
             return self.instantaneous.map(|part| term.weight * part);
@@ -128,7 +128,7 @@ impl SphereCompliance {
 }
 
 impl Relaxing {
-    /// Through the elastic P at the nodes.
+    /// Interpolates the elastic P at the nodes.
     fn bend_through(&mut self, part: impl Fn(f64) -> Parts) {
         let (low, middle) = (self.lowest_node, 0.5 * (1.0 + self.lowest_node));
         let (at_low, at_middle) = (part(low), part(middle));
@@ -139,7 +139,7 @@ impl Relaxing {
         }
     }
 
-    /// P(g)/g for any real g.
+    /// Returns P(g)/g for any real g.
     fn compliance(&self, g: f64) -> Parts {
         std::array::from_fn(|i| {
             if g.is_infinite() {

@@ -32,7 +32,7 @@ pub struct HertzInstant {
 const N_PHASE_ITERATIONS: usize = 14;
 
 impl HertzImpact {
-    /// State at `time`, s, after first touch; the bodies fly freely before it and after T.
+    /// Returns the state at `time`, s, after first touch; the bodies fly freely before it and after T.
     pub fn at(&self, time: f64) -> HertzInstant {
         let (speed, contact_time) = (self.approach_speed(), self.contact_time());
         let flying = |approach, approach_rate| HertzInstant { approach, approach_rate, force: 0.0 };
@@ -58,7 +58,7 @@ impl HertzImpact {
 const N_PHASES: usize = 64;
 
 impl HertzImpact {
-    /// Summary and history in the form of the models that are integrated.
+    /// Returns summary and history in the form of the models that are integrated.
     pub fn impact(&self) -> Impact {
         let phase = |k: usize| FRAC_PI_2 * (k as f64 / N_PHASES as f64);
         let half = 0.5 * self.contact_time();
@@ -95,7 +95,7 @@ impl HertzImpact {
     }
 }
 
-/// ψ at 2t/T in 0 ..= 1.
+/// Returns ψ at 2t/T in 0 ..= 1.
 fn phase_at(half_time_fraction: f64) -> f64 {
     (0..N_PHASE_ITERATIONS).fold(FRAC_PI_2 * half_time_fraction, |phase, _| {
         let correction = FRAC_PI_2 * (half_time_fraction - half_time_fraction_at(phase));
@@ -103,7 +103,7 @@ fn phase_at(half_time_fraction: f64) -> f64 {
     })
 }
 
-/// 2t/T at ψ; from the end that is nearer, where it has no cancellation.
+/// Returns 2t/T at ψ; from the end that is nearer, where it has no cancellation.
 fn half_time_fraction_at(phase: f64) -> f64 {
     let sin = phase.sin();
     if sin < FRAC_1_SQRT_2 {
@@ -113,7 +113,7 @@ fn half_time_fraction_at(phase: f64) -> f64 {
     }
 }
 
-/// 1 − sin^(5/2) ψ, the kinetic share of the energy, accurate at both ends.
+/// Returns 1 − sin^(5/2) ψ, the kinetic share of the energy, accurate at both ends.
 fn kinetic_fraction(phase: f64) -> f64 {
     let (sin, cos) = phase.sin_cos();
     if sin < FRAC_1_SQRT_2 { 1.0 - sin.powf(2.5) } else { -(1.25 * (-cos * cos).ln_1p()).exp_m1() }

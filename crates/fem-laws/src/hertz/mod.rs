@@ -64,53 +64,53 @@ impl HertzImpact {
         &self.pair
     }
 
-    /// Approach speed v, m/s.
+    /// Returns the approach speed v, m/s.
     pub fn approach_speed(&self) -> f64 {
         self.approach_speed
     }
 
-    /// Stiffness K of Hertz' spring, N/m^(3/2).
+    /// Returns the stiffness K of Hertz' spring, N/m^(3/2).
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// Relative speed after over before: Hertz' collision loses nothing.
+    /// Returns the relative speed after over before: Hertz' collision loses nothing.
     pub fn restitution(&self) -> f64 {
         1.0
     }
 
-    /// Contact time T, s.
+    /// Returns the contact time T, s.
     pub fn contact_time(&self) -> f64 {
         contact_time_coefficient() * (self.max_approach / self.approach_speed)
     }
 
-    /// Largest force, N, at T/2.
+    /// Returns the largest force, N, at T/2.
     pub fn peak_force(&self) -> f64 {
         self.force(self.max_approach)
     }
 
-    /// Largest approach δ_max, m.
+    /// Returns the largest approach δ_max, m.
     pub fn max_approach(&self) -> f64 {
         self.max_approach
     }
 
-    /// Largest contact radius, m.
+    /// Returns the largest contact radius, m.
     pub fn max_contact_radius(&self) -> f64 {
         self.pressure(self.max_approach).contact_radius
     }
 
-    /// Largest pressure, Pa: on the axis at T/2.
+    /// Returns the largest pressure, Pa, which acts on the axis at T/2.
     pub fn peak_pressure(&self) -> f64 {
         self.pressure(self.max_approach).peak_pressure
     }
 
-    /// F, N, at an approach, m; 0 when the contact is open (δ < 0).
+    /// Returns F, N, at an approach, m; 0 when the contact is open (δ < 0).
     pub fn force(&self, approach: f64) -> f64 {
         let closed = closed(approach);
         self.stiffness * closed * closed.sqrt()
     }
 
-    /// Pressure distribution at an approach, m; zero when the contact is open (δ < 0).
+    /// Returns the pressure distribution at an approach, m; zero when the contact is open (δ < 0).
     pub fn pressure(&self, approach: f64) -> HertzPressure {
         let closed = closed(approach);
         let radius = self.pair.effective_radius();
@@ -121,7 +121,7 @@ impl HertzImpact {
     }
 }
 
-/// T v/δ_max = 2√π Γ(7/5)/Γ(9/10) = 2.94328.
+/// Returns T v/δ_max = 2√π Γ(7/5)/Γ(9/10) = 2.94328.
 pub fn contact_time_coefficient() -> f64 {
     2.0 * PI.sqrt() * gamma(1.4) / gamma(0.9)
 }

@@ -34,14 +34,14 @@ pub struct AxisStress {
 }
 
 impl AxisStress {
-    /// Largest shear stress, on planes at 45° to the axis.
+    /// Returns the largest shear stress, on planes at 45° to the axis.
     pub fn max_shear(&self) -> f64 {
         0.5 * (self.radial - self.axial).abs()
     }
 }
 
 impl HertzPressure {
-    /// p, Pa, at the distance r, m, from the axis; 0 outside the contact.
+    /// Returns p, Pa, at the distance r, m, from the axis; 0 outside the contact.
     pub fn pressure(&self, r: f64) -> f64 {
         if r.abs() < self.contact_radius {
             let ratio = r / self.contact_radius;
@@ -51,12 +51,12 @@ impl HertzPressure {
         }
     }
 
-    /// Contact force F, N.
+    /// Returns the contact force F, N.
     pub fn force(&self) -> f64 {
         2.0 / 3.0 * PI * self.contact_radius * self.contact_radius * self.peak_pressure
     }
 
-    /// Stress on the axis at a depth ≥ 0, m, accurate to rounding of p₀.
+    /// Returns the stress on the axis at a depth ≥ 0, m, accurate to rounding of p₀.
     pub fn axis_stress(&self, depth: f64, poissons_ratio: f64) -> AxisStress {
         if self.contact_radius == 0.0 {
             return AxisStress { axial: 0.0, radial: 0.0 };
@@ -70,7 +70,7 @@ impl HertzPressure {
         }
     }
 
-    /// Largest tension, Pa: σ_rr = (1−2ν)p₀/3 on the surface at r = a.
+    /// Returns the largest tension, Pa: σ_rr = (1−2ν)p₀/3 on the surface at r = a.
     pub fn rim_tension(&self, poissons_ratio: f64) -> f64 {
         (1.0 - 2.0 * poissons_ratio) / 3.0 * self.peak_pressure
     }

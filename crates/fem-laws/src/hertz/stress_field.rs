@@ -25,7 +25,7 @@ use crate::hertz::HertzPressure;
 const NEAR_AXIS: f64 = 1e-4;
 
 impl HertzPressure {
-    /// σ_rr, σ_zz, σ_θθ and σ_rz, Pa, at a distance r ≥ 0 (m) from the axis and a depth z ≥ 0, m.
+    /// Returns σ_rr, σ_zz, σ_θθ and σ_rz, Pa, at a distance r ≥ 0 (m) from the axis and a depth z ≥ 0, m.
     pub fn stress(&self, r: f64, depth: f64, poissons_ratio: f64) -> [f64; 4] {
         if self.contact_radius == 0.0 {
             return [0.0; 4];
@@ -35,7 +35,7 @@ impl HertzPressure {
     }
 }
 
-/// The stress where contact radius and peak pressure are 1.
+/// Returns the stress where contact radius and peak pressure are 1.
 fn unit_stress(r: f64, z: f64, nu: f64) -> [f64; 4] {
     let (square, excess) = (r * r, r * r + z * z - 1.0);
     // The root of u² − (r² + z² − 1) u − z² = 0, without the difference of two large numbers.

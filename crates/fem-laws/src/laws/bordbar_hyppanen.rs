@@ -14,7 +14,7 @@ use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
 use crate::pair::Pair;
 
-/// The law of a pair, a dissipation time A, s, and an exponent n.
+/// Returns the law of a pair, a dissipation time A, s, and an exponent n.
 ///
 /// # Errors
 /// A or n negative or not finite.

@@ -10,7 +10,7 @@ use super::power::{ContactLaw, power};
 use crate::error::LawError;
 use crate::pair::Pair;
 
-/// The law of a pair and a damping C, N s/m^(5/4).
+/// Returns the law of a pair and a damping C, N s/m^(5/4).
 ///
 /// # Errors
 /// C negative or not finite.

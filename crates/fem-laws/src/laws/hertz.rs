@@ -7,7 +7,7 @@ use super::power::{ContactLaw, power};
 use crate::error::LawError;
 use crate::pair::Pair;
 
-/// Hertz' law of a pair.
+/// Returns Hertz' law of a pair.
 ///
 /// # Errors
 /// A stiffness outside the range of f64.
@@ -15,7 +15,7 @@ pub fn hertz(pair: &Pair) -> Result<ContactLaw, LawError> {
     power(hertz_stiffness(pair), 1.5, 0.0, 0.0)
 }
 
-/// K = (4/3) E* √R*, N/m^(3/2), of Hertz' force.
+/// Returns K = (4/3) E* √R*, N/m^(3/2), of Hertz' force.
 pub(super) fn hertz_stiffness(pair: &Pair) -> f64 {
     4.0 / 3.0 * pair.contact_modulus() * pair.effective_radius().sqrt()
 }

@@ -15,7 +15,7 @@ use crate::error::{LawError, positive, restitution as checked};
 use crate::family::{LawContext, LawInput, LawValues};
 use crate::pair::Pair;
 
-/// The law of a pair and the restitution, in (0, 1], wanted at an approach speed, m/s.
+/// Returns the law of a pair and the restitution, in (0, 1], at an approach speed, m/s.
 ///
 /// # Errors
 /// A restitution outside (0, 1], a speed that is not positive and finite.

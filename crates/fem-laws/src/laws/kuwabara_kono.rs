@@ -30,7 +30,7 @@ use crate::error::{LawError, not_negative};
 use crate::family::{LawContext, LawInput, LawInputError, LawValues};
 use crate::pair::Pair;
 
-/// The law of a pair and its dissipation time A, s.
+/// Returns the law of a pair and its dissipation time A, s.
 ///
 /// # Errors
 /// A negative or not finite.
@@ -40,7 +40,7 @@ pub fn kuwabara_kono(pair: &Pair, dissipation_time: f64) -> Result<ContactLaw, L
     power(stiffness, 1.5, 1.5 * time * stiffness, 0.5)
 }
 
-/// A, s, of the viscosities of shear and bulk, Pa s, that both bodies have; `None` is a rigid wall.
+/// Returns A, s, of the viscosities of shear and bulk, Pa s, that both bodies have; `None` is a rigid wall.
 ///
 /// # Errors
 /// A viscosity that is negative or not finite; two walls.

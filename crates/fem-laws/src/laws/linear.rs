@@ -24,7 +24,7 @@ use crate::family::{LawContext, LawInput, LawValues};
 use crate::numerics::bisection::last_where;
 use crate::pair::Pair;
 
-/// The law of a stiffness K, N/m, and a damping C, N s/m.
+/// Returns the law of a stiffness K, N/m, and a damping C, N s/m.
 ///
 /// # Errors
 /// K not positive and finite, C negative or not finite.
@@ -32,7 +32,7 @@ pub fn linear(stiffness: f64, damping: f64) -> Result<ContactLaw, LawError> {
     power(stiffness, 1.0, damping, 0.0)
 }
 
-/// The law with a restitution in (0, 1] and a contact time, s, for the end rule under which it is to run.
+/// Returns the law with a restitution in (0, 1] and a contact time, s, for the end rule under which it is to run.
 ///
 /// # Errors
 /// A restitution outside (0, 1], a time that is not positive and finite.
@@ -55,7 +55,7 @@ pub fn linear_from_restitution(
     linear(mass * frequency * frequency, 2.0 * ratio * mass * frequency)
 }
 
-/// ζ at which −ln e is `loss`.
+/// Returns ζ at which −ln e is `loss`.
 pub(super) fn damping_ratio(loss: f64, end_rule: EndRule) -> f64 {
     match end_rule {
         EndRule::ZeroOverlap => loss / PI.hypot(loss),
@@ -66,7 +66,7 @@ pub(super) fn damping_ratio(loss: f64, end_rule: EndRule) -> f64 {
     }
 }
 
-/// ω₀ T = 2φ/√(1−ζ²) of the end at zero force.
+/// Returns ω₀ T = 2φ/√(1−ζ²) of the end at zero force.
 fn zero_force_phase(ratio: f64) -> f64 {
     let complement = (1.0 - ratio) * (1.0 + ratio);
     if complement > 1e-12 {

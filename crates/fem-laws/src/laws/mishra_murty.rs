@@ -7,7 +7,7 @@
 use super::power::{ContactLaw, power};
 use crate::error::LawError;
 
-/// The law of a stiffness K, N/m^(8/5), and a damping C, N s/m^(9/5).
+/// Returns the law of a stiffness K, N/m^(8/5), and a damping C, N s/m^(9/5).
 ///
 /// # Errors
 /// K not positive and finite, C negative or not finite.

@@ -52,7 +52,7 @@ macro_rules! contact_laws {
                 c: Damping, NotNegative, Role::DAMPING;
                 /// Restitution, > 0 and ≤ 1; with `contact_time`, in place of `k` and `c`.
                 e: Number, Restitution;
-                /// > 0.
+                /// Any positive number.
                 contact_time: Time, Positive;
             }
 

@@ -30,7 +30,7 @@ pub enum EndRule {
     ZeroOverlap,
 }
 
-/// The law of K in N/m^γ, γ, C in N s/m^(n+1), n.
+/// Returns the law of K in N/m^γ, γ, C in N s/m^(n+1), n.
 ///
 /// # Errors
 /// K or γ not positive and finite; C or n negative or not finite.
@@ -49,33 +49,33 @@ pub fn power(
 }
 
 impl ContactLaw {
-    /// Stiffness K, N/m^γ.
+    /// Returns the stiffness K, N/m^γ.
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// Exponent γ of the spring.
+    /// Returns the exponent γ of the spring.
     pub fn elastic_exponent(&self) -> f64 {
         self.elastic_exponent
     }
 
-    /// Damping C, N s/m^(n+1).
+    /// Returns the damping C, N s/m^(n+1).
     pub fn damping(&self) -> f64 {
         self.damping
     }
 
-    /// Exponent n of the dashpot.
+    /// Returns the exponent n of the dashpot.
     pub fn damping_exponent(&self) -> f64 {
         self.damping_exponent
     }
 
-    /// K ξ^(γ+1)/(γ+1), J: what the spring holds at an overlap, m.
+    /// Returns K ξ^(γ+1)/(γ+1), J: the energy of the spring at an overlap, m.
     pub fn strain_energy(&self, overlap: f64) -> f64 {
         let exponent = self.elastic_exponent + 1.0;
         self.stiffness * overlap.max(0.0).powf(exponent) / exponent
     }
 
-    /// F, N, at an overlap, m, and its rate, m/s; negative (attraction) where damping outweighs
+    /// Returns F, N, at an overlap, m, and its rate, m/s; negative (attraction) where damping outweighs
     /// the spring in separation; 0 for an open contact (ξ < 0).
     pub fn force(&self, overlap: f64, rate: f64) -> f64 {
         if overlap < 0.0 {

@@ -29,7 +29,7 @@ pub fn schwager_poeschel(pair: &Pair, normal_damping: f64) -> Result<ContactLaw,
     power(hertz_stiffness(pair), 1.5, damping, 0.5)
 }
 
-/// A, s, of moduli and the viscosities of shear and bulk, Pa s.
+/// Returns A, s, of moduli and the viscosities of shear and bulk, Pa s.
 ///
 /// # Errors
 /// A viscosity that is not positive and finite; ν = 0.

@@ -4,9 +4,9 @@
 //! F = K\xi^{3/2} + \alpha\sqrt{m^*K}\,\xi^{1/4}\dot\xi
 //! ```
 //!
-//! Tsuji, Tanaka & Ishida (1992). Zhang & Whiten (1996) end the contact at zero force instead of
-//! zero overlap, before spring and dashpot pull the bodies together. With y = ξ^(5/4) and ds = ξ^(1/4) dt the motion is y″ + α y′ + (5/4) y = 0 in
-//! suitable units, a linear oscillator of the damping ratio ζ = α/√5, so that at zero overlap
+//! Tsuji, Tanaka & Ishida (1992). Zhang & Whiten (1996) end the contact at zero force instead of zero overlap, before
+//! spring and dashpot pull the bodies together. With y = ξ^(5/4) and ds = ξ^(1/4) dt the motion is y″ + α y′ + (5/4) y
+//! = 0 in suitable units, a linear oscillator of the damping ratio ζ = α/√5, so that at zero overlap
 //!
 //! ```math
 //! e = \exp\frac{-\pi\zeta}{\sqrt{1-\zeta^2}}, \qquad
@@ -31,7 +31,7 @@ use crate::error::{LawError, not_negative, restitution as checked};
 use crate::family::{LawContext, LawInput, LawValues};
 use crate::pair::Pair;
 
-/// The law of a pair and α ≥ 0; from α = √5 on nothing comes back at zero overlap.
+/// Returns the law of a pair and α ≥ 0; from α = √5 on there is no rebound at zero overlap.
 ///
 /// # Errors
 /// α negative or not finite.
@@ -41,7 +41,7 @@ pub fn tsuji(pair: &Pair, damping_coefficient: f64) -> Result<ContactLaw, LawErr
     power(stiffness, 1.5, alpha * pair.effective_mass().sqrt() * stiffness.sqrt(), 0.25)
 }
 
-/// α of a restitution, in (0, 1], at the end of overlap.
+/// Returns α for a restitution, in (0, 1], at the end of overlap.
 ///
 /// # Errors
 /// A restitution outside (0, 1].
@@ -50,7 +50,7 @@ pub fn tsuji_coefficient(restitution: f64) -> Result<f64, LawError> {
     Ok(5f64.sqrt() * loss / PI.hypot(loss))
 }
 
-/// α of a restitution, in (0, 1], at the end of force.
+/// Returns α for a restitution, in (0, 1], at the end of force.
 ///
 /// # Errors
 /// A restitution outside (0, 1].

@@ -5,7 +5,7 @@
 //! the ends, and the result has full relative accuracy. [`falling_zero`] needs fewer evaluations. It is the
 //! Illinois method: the secant method, with the value at an end that stays halved (Dowell & Jarratt 1971).
 
-/// The largest float in `low ..= high` at which `is_below` holds, if it holds up to a point and
+/// Returns the largest float in `low ..= high` at which `is_below` holds, if it holds up to a point and
 /// not beyond; `low` if it never does. Both ends are at least 0.
 pub fn last_where(low: f64, high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (low.to_bits(), high.to_bits());
@@ -20,7 +20,7 @@ pub fn last_where(low: f64, high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
     f64::from_bits(low)
 }
 
-/// Where a function falls through 0 between `low`, where it is positive, and `high`, where it is
+/// Returns the place where a function falls through 0 between `low`, where it is positive, and `high`, where it is
 /// not, to some 1e-14 of the interval if it is smooth.
 pub fn falling_zero(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = ((low, value(low)), (high, value(high)));

@@ -1,16 +1,16 @@
 //! Elementary functions with the same bits on every machine.
 //!
-//! A system's own library may differ from another's in the last digit; a browser's does. [`crate::Ting`]
-//! chooses its steps by their error: there a last digit moves all steps that follow, and the results by as
-//! much as the steps are off, some 1e-10 and with waves 1e-6. Arithmetic and square roots are the same
+//! Libraries of different systems may differ in the last digit; that of a browser does. [`crate::Ting`]
+//! chooses its steps by their error: there a last digit moves all steps that follow, and changes the
+//! results by the error of the steps, about 1e-10, with waves 1e-6. Arithmetic and square roots are the same
 //! everywhere.
 
-/// Returns eˣ.
+/// Returns the exponential eˣ.
 pub(crate) fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// eˣ − 1, also of a small x.
+/// Returns eˣ − 1, also of a small x.
 pub(crate) fn exp_m1(x: f64) -> f64 {
     libm::expm1(x)
 }
@@ -20,7 +20,7 @@ pub(crate) fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// xʸ of x ≥ 0.
+/// Returns xʸ of x ≥ 0.
 pub(crate) fn power(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }

@@ -35,7 +35,7 @@ pub(crate) struct Zero {
 /// series has an error of 2e-12.
 const SAME_POLE: f64 = 1e-7;
 
-/// Sorted, without zero weights, coinciding poles as one.
+/// Returns sorted poles with non-zero weights, coinciding poles as one.
 pub(crate) fn merged(mut poles: Vec<Pole>) -> Vec<Pole> {
     poles.retain(|pole| pole.weight > 0.0);
     poles.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -53,7 +53,7 @@ pub(crate) fn merged(mut poles: Vec<Pole>) -> Vec<Pole> {
     distinct
 }
 
-/// All zeros, ascending, of f with merged poles.
+/// Returns all zeros, ascending, of f with merged poles.
 pub(crate) fn zeros(at_infinity: f64, poles: &[Pole]) -> Vec<Zero> {
     let between = (1..poles.len()).map(|right| zero_between(at_infinity, poles, right));
     let beyond = poles.last().filter(|_| at_infinity < 0.0).map(|last| {
@@ -63,7 +63,7 @@ pub(crate) fn zeros(at_infinity: f64, poles: &[Pole]) -> Vec<Zero> {
     between.chain(beyond).collect()
 }
 
-/// The zero between the poles `right − 1` and `right`.
+/// Returns the zero between the poles `right − 1` and `right`.
 fn zero_between(at_infinity: f64, poles: &[Pole], right: usize) -> Zero {
     let (left, right) = (poles[right - 1].at, poles[right].at);
     let half_gap = 0.5 * (right - left);
@@ -74,7 +74,7 @@ fn zero_between(at_infinity: f64, poles: &[Pole], right: usize) -> Zero {
     }
 }
 
-/// The zero at most `reach` from the pole at `origin`, on the side of the sign.
+/// Returns the zero at most `reach` from the pole at `origin`, on the side of the sign.
 fn zero_near(at_infinity: f64, poles: &[Pole], origin: f64, side: f64, reach: f64) -> Zero {
     let is_nearer = |distance: f64| side * value(at_infinity, poles, origin, side * distance) > 0.0;
     let offset = side * last_where(f64::MIN_POSITIVE, reach, is_nearer);
@@ -88,7 +88,7 @@ fn zero_near(at_infinity: f64, poles: &[Pole], origin: f64, side: f64, reach: f6
     Zero { at: origin + offset, slope }
 }
 
-/// f at `origin + offset`.
+/// Returns f at `origin + offset`.
 fn value(at_infinity: f64, poles: &[Pole], origin: f64, offset: f64) -> f64 {
     let sum: f64 = poles.iter().map(|pole| pole.weight / ((origin - pole.at) + offset)).sum();
     at_infinity + sum

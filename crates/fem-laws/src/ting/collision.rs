@@ -30,8 +30,8 @@ const OF_ROUNDING: f64 = 1e-13;
 /// below this share of what it has fallen since first touch.
 const SETTLED: f64 = 1e-3;
 
-/// Steps that a collision may take at [`Ting::DEFAULT_TOLERANCE`], the fifth root of which they follow as
-/// a step's error does its fifth power. Tens are usual; the most viscous and the most radiating contacts of the tests take more
+/// Steps that a collision may take at [`Ting::DEFAULT_TOLERANCE`], the fifth root of which they follow as a step's
+/// error does its fifth power. Tens are usual; the most viscous and the most radiating contacts of the tests take more
 /// than 2000. Each step looks back on all before.
 const MAX_STEPS: f64 = 5_000.0;
 /// Steps that a collision may take at any tolerance: the span from the fastest relaxation to the slowest
@@ -141,7 +141,7 @@ impl<'a> Collision<'a> {
         })
     }
 
-    /// Up to the largest contact; `None` if the bodies stay there.
+    /// Computes the loading up to the largest contact; `None` if the bodies stay there.
     fn load(&mut self, units: &Units) -> Result<Option<Record>, LawError> {
         let mut steps = Vec::new();
         loop {
@@ -171,12 +171,12 @@ impl<'a> Collision<'a> {
         }
     }
 
-    /// Whether nothing moves but the rounding of u̇, which is no turn.
+    /// Returns whether u̇ is rounding and the bodies are at rest, so that this is no turning point.
     fn rests(&self) -> bool {
         self.rests_at(RESTING)
     }
 
-    /// Whether what moves, and what the force could still give back, part the bodies with no more than a
+    /// Returns whether the kinetic and the recoverable energy separate the bodies with no more than a
     /// restitution, or the force is of rounding.
     fn rests_at(&self, restitution: f64) -> bool {
         let State { rate, approach, force, .. } = self.state;
@@ -185,7 +185,7 @@ impl<'a> Collision<'a> {
         rate < STUCK && is_small
     }
 
-    /// Down to the end of contact, or until the weight turns the ball back.
+    /// Computes the unloading to the end of contact, or until the weight turns the ball back.
     fn unload(&mut self, record: &Record, units: &Units) -> Result<(), LawError> {
         loop {
             let solved = self.step(Some(record), units)?;
@@ -220,7 +220,7 @@ impl<'a> Collision<'a> {
         }
     }
 
-    /// One step within the tolerance; the size of the next is chosen.
+    /// Takes one step within the tolerance and chooses the size of the next.
     fn step(&mut self, record: Option<&Record>, units: &Units) -> Result<Solved, LawError> {
         let (contact, interpolation) = (self.contact, &self.interpolation);
         let stepper = Stepper { contact, interpolation, record };
@@ -243,7 +243,7 @@ impl<'a> Collision<'a> {
         Err(LawError::NotFinished { model: "ting", n_steps: self.n_steps, time })
     }
 
-    /// The state at θ of a step becomes the present one.
+    /// Advances to the state at θ of a step.
     fn advance(&mut self, solved: &Solved, theta: f64) {
         let step = &solved.step;
         let radii = self.interpolation.coefficients(&solved.contact_approach);

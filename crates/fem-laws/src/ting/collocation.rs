@@ -52,7 +52,7 @@ impl Interpolation {
         Self { lagrange }
     }
 
-    /// Coefficients of the polynomial with these values at the points.
+    /// Returns the coefficients of the polynomial with these values at the points.
     pub fn coefficients(&self, values: &Vector) -> Vector {
         let mut coefficients = [0.0; N];
         for (value, polynomial) in values.iter().zip(&self.lagrange) {
@@ -63,13 +63,13 @@ impl Interpolation {
         coefficients
     }
 
-    /// Weights w with Σ_j w_j f(θ_j) = Σ_m `moments`_m f_m.
+    /// Returns the weights w with Σ_j w_j f(θ_j) = Σ_m `moments`_m f_m.
     pub fn weights(&self, moments: &Vector) -> Vector {
         self.lagrange.map(|polynomial| dot(&polynomial, moments))
     }
 }
 
-/// Returns f(θ).
+/// Returns the value f(θ).
 pub(crate) fn evaluate(coefficients: &Vector, theta: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * theta + coefficient)
 }
@@ -97,17 +97,17 @@ pub(crate) fn double_integral_moments(theta: f64) -> Vector {
     })
 }
 
-/// Returns f′(θ).
+/// Returns the slope f′(θ).
 pub(crate) fn derivative(coefficients: &Vector, theta: f64) -> f64 {
     (1..N).rev().fold(0.0, |sum, m| sum * theta + m as f64 * coefficients[m])
 }
 
-/// Size of the finest detail that the polynomial resolves: its last Legendre coefficient.
+/// Returns the size of the finest detail that the polynomial resolves: its last Legendre coefficient.
 pub(crate) fn finest_detail(coefficients: &Vector) -> f64 {
     (coefficients[N - 1] / LEGENDRE_LEADING).abs()
 }
 
-/// μ_m(θ, z) = ∫₀^θ e^(−z(θ−σ)) σ^m dσ for z ≥ 0.
+/// Returns μ_m(θ, z) = ∫₀^θ e^(−z(θ−σ)) σ^m dσ for z ≥ 0.
 pub(crate) fn fading_moments(theta: f64, z: f64) -> Vector {
     let mut moments = [0.0; N];
     let y = z * theta;

@@ -23,9 +23,9 @@ pub(crate) const PRESSURE: usize = 2;
 /// One Maxwell element of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Element {
-    /// Weight g_k.
+    /// Weight g_k of the element.
     pub weight: f64,
-    /// Rate b_k.
+    /// Rate b_k of the element.
     pub rate: f64,
     /// Finite size: of the memory of the force, without its weight.
     pub correction: Correction,
@@ -67,12 +67,12 @@ impl Settling {
 }
 
 impl Contact {
-    /// Hertz' approach u at δ, with what the elements remember.
+    /// Returns Hertz' approach u at δ, with the internal variables of the elements.
     pub fn hertz_approach(&self, approach: f64, memory: &[Memory]) -> f64 {
         self.inverted(approach, &self.remembered(memory)).0
     }
 
-    /// u, and ∂u/∂δ there, at δ with what the finite size remembers.
+    /// Returns u and ∂u/∂δ at δ, with the internal variables of the finite size.
     pub fn inverted(&self, approach: f64, remembered: &Correction) -> (f64, f64) {
         self.correction.hertz_approach_after(self.settling.n_newton, approach, remembered)
     }
@@ -129,7 +129,7 @@ impl Step {
         }
     }
 
-    /// u̇ where the contact has this ∂u/∂δ, but for the creep of the finite size, some per cent of a
+    /// Returns u̇ for this ∂u/∂δ of the contact, without the creep of the finite size, a few per cent of a
     /// per cent.
     pub fn hertz_rate_at(&self, contact: &Contact, compression: f64, theta: f64) -> f64 {
         match contact.radiation {
@@ -138,18 +138,18 @@ impl Step {
         }
     }
 
-    /// Whether the contact grows.
+    /// Returns whether the contact grows.
     pub fn grows_at(&self, contact: &Contact, theta: f64) -> bool {
         self.hertz_rate_at(contact, 1.0, theta) > 0.0
     }
 
-    /// f.
+    /// Returns the force f.
     pub fn slow_force_at(&self, radiation: &Radiation, theta: f64) -> f64 {
         let z = radiation.rate * self.length;
         exp(-z * theta) * self.slow_force + z * dot(&fading_moments(theta, z), &self.force)
     }
 
-    /// γ ∫ḟ² dt from the start to θ.
+    /// Returns γ ∫ḟ² dt from the start to θ.
     pub fn radiated_until(
         &self,
         radiation: &Radiation,
@@ -164,7 +164,7 @@ impl Step {
         self.length * theta * integral(&interpolation.coefficients(&power), 1.0)
     }
 
-    /// ∫F dδ from the start to θ, exactly.
+    /// Returns ∫F dδ from the start to θ, exactly.
     pub fn work_until(&self, interpolation: &Interpolation, theta: f64) -> f64 {
         let power = POINTS.map(|point| {
             let point = point * theta;
@@ -182,13 +182,13 @@ impl Step {
         })
     }
 
-    /// Of each element.
+    /// Returns the internal variable of each element.
     pub fn memories(&self, contact: &Contact, theta: f64) -> Vec<Memory> {
         let elements = contact.elements.iter().enumerate();
         elements.map(|(k, element)| self.memory_at(k, element.rate, theta)).collect()
     }
 
-    /// g∞ u + Σ g_k ∫ e^(−b_k(t−s)) du: the force on a punch that has kept its first contact.
+    /// Returns g∞ u + Σ g_k ∫ e^(−b_k(t−s)) du: the force on a punch that has kept its first contact.
     pub fn surface_at(&self, contact: &Contact, theta: f64) -> f64 {
         let memories = self.memories(contact, theta);
         let remembered = contact.elements.iter().zip(&memories);
@@ -212,14 +212,14 @@ pub(crate) struct Shrunk {
     /// t₁, when the growing contact was as large.
     pub equivalent_time: f64,
     pub force: f64,
-    /// Returns u(t₁).
+    /// Returns the approach u(t₁).
     pub hertz_approach: f64,
     /// On the axis.
     pub pressure: f64,
 }
 
 impl Record {
-    /// The contact at `time` in unloading: the t₁ at which what loading had put in until then,
+    /// Returns the contact at `time` in unloading: the t₁ at which the loading until then,
     /// faded since, equals the `surface` condition's part of now.
     pub fn shrunk(&self, contact: &Contact, time: f64, surface: f64, guess: f64) -> Shrunk {
         let (mut low, mut high) = (0.0, self.end);
@@ -247,7 +247,7 @@ impl Record {
         self.look_back(contact, time, t1).2
     }
 
-    /// Condition, its slope in t₁, and the contact.
+    /// Returns the condition, its slope in t₁, and the contact.
     fn look_back(&self, contact: &Contact, time: f64, t1: f64) -> (f64, f64, Shrunk) {
         let index = self.steps.partition_point(|step| step.start <= t1).max(1) - 1;
         let step = &self.steps[index];
@@ -275,7 +275,7 @@ impl Record {
     }
 }
 
-/// The largest value on 0 ..= `end` of a polynomial that rises, then perhaps falls.
+/// Returns the largest value on 0 ..= `end` of a polynomial that rises, then perhaps falls.
 pub(crate) fn peak(coefficients: &Vector, end: f64) -> f64 {
     let rising = |theta: f64| crate::ting::collocation::derivative(coefficients, theta) > 0.0;
     let top = crate::numerics::bisection::last_where(0.0, end, rising);

@@ -106,7 +106,7 @@ impl Ting {
         }
     }
 
-    /// With another tolerance, 1e-10 to 1e-2.
+    /// Sets the tolerance, 1e-10 to 1e-2.
     ///
     /// # Errors
     /// A tolerance outside.
@@ -114,7 +114,7 @@ impl Ting {
         Ok(Self { tolerance: checked_tolerance(tolerance)?, ..self })
     }
 
-    /// With gravity along the approach (m/s²), on a ball above a body that does not move.
+    /// Adds gravity along the approach (m/s²), on a ball above a body that does not move.
     ///
     /// # Errors
     /// An acceleration that is negative or not finite.
@@ -122,17 +122,17 @@ impl Ting {
         Ok(Self { gravity: not_negative("gravity", acceleration)?, ..self })
     }
 
-    /// With the finite size of the spheres in series; of the same materials as the relaxation.
+    /// Adds the finite size of the spheres, for the same materials as the relaxation.
     pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
         Self { finite_size: Some(finite_size), ..self }
     }
 
-    /// With surfaces that slip on each other; of the same materials as the relaxation.
+    /// Adds surface slip, for the same materials as the relaxation.
     pub fn with_surface_slip(self, surface_slip: SurfaceSlip) -> Self {
         Self { surface_slip: Some(surface_slip), ..self }
     }
 
-    /// With the loss by waves into each body so large that they do not come back, given by its
+    /// Adds the loss by waves into each body from which they do not return, given by its
     /// material; none without such a body. Its instantaneous moduli are taken: of one that relaxes within the
     /// contact give the elastic material that waves of the contact meet.
     ///
@@ -148,7 +148,7 @@ impl Ting {
         Ok(Self { radiation_damping, ..self })
     }
 
-    /// Share of the contact modulus that never relaxes, 0 to 1.
+    /// Returns the share of the contact modulus that never relaxes, 0 to 1.
     pub fn equilibrium_weight(&self) -> f64 {
         self.relaxation.equilibrium_weight()
     }
@@ -161,7 +161,7 @@ impl Ting {
         Self { has_coarse_waves: true, ..self }
     }
 
-    /// The collision at an approach speed, m/s.
+    /// Returns the collision at an approach speed, m/s.
     ///
     /// # Errors
     /// Those of [`HertzImpact::new`]; a contact too large for the finite-size correction; a
@@ -217,7 +217,7 @@ impl Ting {
 }
 
 impl Ting {
-    /// The speed (m/s) that a dimensionless 1 stands for: that of approach, or √(g δ) of the static
+    /// Returns the unit of speed (m/s): that of approach, or √(g δ) of the static
     /// approach δ of instantaneous moduli where a ball is let down more slowly than that.
     fn scale(&self, approach_speed: f64) -> Result<f64, LawError> {
         if self.gravity == 0.0 {

@@ -75,7 +75,7 @@ impl Radiation {
         self.compliance * self.rate * (force - slow_force).powi(2)
     }
 
-    /// Energy that the body near the contact holds: negative while the force is above the slow one.
+    /// Returns the energy stored in the body near the contact: negative while the force is above the slow one.
     pub fn held(&self, force: f64, slow_force: f64) -> f64 {
         0.5 * self.compliance * (slow_force - force) * (slow_force + force)
     }
@@ -118,7 +118,7 @@ impl SlowForce {
         Self { radiation, faded, weights, response }
     }
 
-    /// At forces and Hertz' approaches at the points.
+    /// Returns the waves for forces and Hertz' approaches at the points.
     pub fn waves(
         &self,
         interpolation: &Interpolation,
@@ -147,7 +147,7 @@ impl SlowForce {
 }
 
 impl Waves {
-    /// u and ∂u/∂δ at point `i`, and what of the rate is the contact's own.
+    /// Returns u and ∂u/∂δ at point `i`, and the part of the rate from the contact itself.
     pub fn hertz_approach(
         &self,
         i: usize,

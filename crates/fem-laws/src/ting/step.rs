@@ -61,7 +61,7 @@ struct Fading {
 impl Fading {
     const NONE: Self = Self { faded: [[0.0; N]; 3], weights: [[0.0; N]; N], instantaneous: 0.0 };
 
-    /// The memory of one drive at point `i`, with an elastic part.
+    /// Returns the internal variables of one drive at point `i`, with an elastic part.
     fn at(&self, kind: usize, drives: &[Vector; 3], i: usize, elastic: f64) -> f64 {
         elastic + self.faded[kind][i] + dot(&self.weights[i], &drives[kind])
     }
@@ -78,7 +78,7 @@ pub(crate) struct Stepper<'a> {
 }
 
 impl Contact {
-    /// Hertz' approach u of a state.
+    /// Returns Hertz' approach u of a state.
     pub fn hertz_approach_of(&self, state: &State) -> f64 {
         let own = match &self.radiation {
             None => state.approach,
@@ -89,7 +89,7 @@ impl Contact {
 }
 
 impl Kernel {
-    /// What the finite size remembers at point `i`, and its rate, of a drive.
+    /// Returns the internal variables of the finite size at point `i` for a drive, and their rates.
     fn creep_at(&self, drives: &[Vector; 3], i: usize) -> (Correction, Correction) {
         let value = self.creep.map(|fading| fading.at(FORCE, drives, i, 0.0));
         let rate: [f64; 2] = std::array::from_fn(|part| {
@@ -102,7 +102,7 @@ impl Kernel {
 }
 
 impl Stepper<'_> {
-    /// `None` if the iteration does not settle.
+    /// Solves a step; `None` if the iteration does not converge.
     pub fn solve(&self, state: &State, length: f64) -> Option<Solved> {
         let kernel = self.kernel(state, length);
         let singles = POINTS.map(integral_moments);
@@ -213,7 +213,7 @@ impl Stepper<'_> {
         kernel
     }
 
-    /// Elastic part and fading memory of one drive, at the points.
+    /// Returns the elastic part and the internal variables of one drive, at the points.
     fn remembered(
         &self,
         kernel: &Kernel,

@@ -45,7 +45,7 @@ fn folded(materials: [&Material; 2], tolerance: f64) -> FastSlowLimits {
     FastSlowLimits::new(materials.map(Some), time, &of_each(tolerance)).unwrap()
 }
 
-/// Foretold and found, each as restitution, relative time, relative force.
+/// Estimate and result, each as restitution, relative time, relative force.
 fn foretold_and_found(materials: [&Material; 2], tolerance: f64) -> [[f64; 3]; 2] {
     let folded = folded(materials, tolerance);
     let without = folded.materials.each_ref().map(|material| material.as_ref().unwrap());

@@ -142,7 +142,7 @@ fn a_ball_that_turns_back_or_creeps_stays() {
     }
 }
 
-/// What the path shows between the instants satisfies m δ̈ = m g − F, and flies on in a parabola.
+/// The path between the instants satisfies m δ̈ = m g − F, and flies on in a parabola.
 #[test]
 fn the_path_falls() {
     let material = rubber(&[]);

@@ -84,7 +84,7 @@ fn the_corrected_form_keeps_its_loss_where_nothing_is_compressed() {
 }
 
 /// The slower the contact next to τ, the nearer Kelvin's law is to the quasi-static impact: the
-/// loss, of first order in τ/T, is off by the second.
+/// loss, of first order in τ/T, has an error of second order.
 #[test]
 fn kelvins_law_is_the_slow_limit_of_ting() {
     let instantaneous = moduli(63e9, 0.244);

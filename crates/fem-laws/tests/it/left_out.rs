@@ -1,4 +1,4 @@
-//! What leaving effects out costs, against the collision with and without, and published spreads.
+//! Errors by neglected effects, against the collision with and without, and published spreads.
 
 use fem_laws::{HertzImpact, Pair, Partner, RelativeError, rigid_partner};
 use fem_material::{ElasticModuli, Material};

@@ -20,7 +20,7 @@ fn elastic() -> Material {
     material(&[], ActsOn::All)
 }
 
-/// √(E/ρ), m/s.
+/// Speed √(E/ρ) of the material, m/s.
 fn bar_wave_speed(material: &Material) -> f64 {
     (material.instantaneous().youngs_modulus() / material.density()).sqrt()
 }
@@ -186,7 +186,7 @@ fn energy_is_held_or_has_left() {
     }
 }
 
-/// What relaxation takes and what waves take add up while both are small.
+/// The losses by relaxation and by waves add up while both are small.
 #[test]
 fn small_losses_add() {
     let elastic = elastic();

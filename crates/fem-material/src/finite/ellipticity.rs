@@ -1,4 +1,4 @@
-//! Whether a law bears waves, and so has one answer to a load: its acoustic tensor.
+//! Ellipticity of a law, from its acoustic tensor.
 //!
 //! A small wave m sin(N·X) on top of a deformation has the stiffness m·Q m,
 //!
@@ -8,17 +8,16 @@
 //!
 //! (Truesdell & Noll 1965, section 71; Ogden 1984, section 6.2.7). Where the least eigenvalue of Q
 //! over all N is not positive, ellipticity is lost: strain localises in a band that depends on the
-//! mesh. N and m are of the meridian plane, the only ones that bodies of revolution without twist
-//! have.
+//! mesh. N and m lie in the meridian plane, because bodies of revolution without twist have no others.
 
-/// Directions over half a turn. Q is linear in the sine and cosine of twice the angle, so its least eigenvalue is
-/// met to ½ (2 · ½ π/64)² of the range of Q, 0.1 %.
+/// Number of directions over half a turn. Q is linear in the sine and cosine of twice the angle, so the error of its
+/// least eigenvalue is at most ½ (2 · ½ π/64)² of the range of Q, 0.1 %.
 const N_DIRECTIONS: usize = 64;
 /// Cosine and sine of π/64: written out, so that directions are the same on all machines.
 const NEXT: [f64; 2] = [0.998_795_456_205_172_4, 0.049_067_674_327_418_015];
 
-/// The least eigenvalue of the acoustic tensor over all directions of the meridian plane, of the stiffness A of
-/// the components rr, ry, yr, yy, and in its unit.
+/// Returns the least eigenvalue of the acoustic tensor over all directions of the meridian plane, for the stiffness A
+/// of the components rr, ry, yr, yy, in the unit of A.
 pub fn least_acoustic_stiffness(tangent: &[[f64; 4]; 4]) -> f64 {
     let (mut least, mut direction) = (f64::INFINITY, [1.0, 0.0]);
     for _ in 0..N_DIRECTIONS {

@@ -13,8 +13,8 @@
 //! y^2 = \frac{m - s}{m + s}
 //! ```
 //!
-//! since ½ ln((m + ρ)/(m − ρ)) = 2 artanh y: neither eigenvalue nor eigenvector is needed, and nothing is
-//! lost where they are equal.
+//! since ½ ln((m + ρ)/(m − ρ)) = 2 artanh y: neither eigenvalue nor eigenvector is needed, and there is no
+//! cancellation where they are equal.
 //!
 //! Limits: elliptic while all stretches lie in 0.2116 .. e^(1/3) = 1.3956 (Bruhns, Xiao & Meyers
 //! 2001, Proceedings of the Royal Society A 457:2207); in uniaxial strain the slope is zero at
@@ -57,7 +57,7 @@ impl Hencky {
         }
     }
 
-    /// τ_i and ∂τ_i/∂ln λ_j at principal stretches.
+    /// Returns τ_i and ∂τ_i/∂ln λ_j at principal stretches.
     pub fn principal(&self, stretches: [f64; 3]) -> Response {
         let ln = stretches.map(|stretch| ln_of_one_plus(stretch - 1.0));
         let lambda = self.bulk - 2.0 / 3.0 * self.shear;
@@ -70,7 +70,7 @@ impl Hencky {
     }
 }
 
-/// ½ ln b of b − 1.
+/// Returns ½ ln b for given b − 1.
 #[inline(always)]
 fn logarithmic_strain<N: Number>(left: &SymmetricTensor<N>) -> SymmetricTensor<N> {
     let SymmetricTensor { rr, yy, tt, ry } = *left;
@@ -87,8 +87,8 @@ fn logarithmic_strain<N: Number>(left: &SymmetricTensor<N>) -> SymmetricTensor<N
     }
 }
 
-/// What the deviator of ½ ln b in the meridian is of that of b, of the mean m of b's eigenvalues there
-/// and the root s of their product.
+/// Returns the ratio of the deviators of ½ ln b and of b in the meridian, for the mean m of b's eigenvalues there and
+/// the root s of their product.
 #[inline(always)]
 pub(super) fn meridian_factor<N: Number>(mean: N, root: N) -> N {
     let inverse = N::splat(1.0) / (mean + root);

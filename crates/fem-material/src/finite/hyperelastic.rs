@@ -1,4 +1,4 @@
-//! A law beyond Hooke by its name, and the stress of a point.
+//! Hyperelastic laws by name, and the stress at a point.
 
 use super::ellipticity::least_acoustic_stiffness;
 use super::hencky::Hencky;
@@ -11,7 +11,7 @@ use super::saint_venant_kirchhoff::SaintVenantKirchhoff;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 use crate::elastic::ElasticModuli;
 
-/// Which energy a solid stores at finite strain; all have the moduli K and G at small strain.
+/// The stored energy at finite strain; all laws have the moduli K and G at small strain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HyperelasticLaw {
     /// G/2 (J^(−2/3) tr b − 3) + K/2 (J − 1)².
@@ -30,7 +30,7 @@ impl HyperelasticLaw {
     pub const ALL: [Self; 4] =
         [Self::NeoHooke, Self::NeoHookeLn, Self::Hencky, Self::SaintVenantKirchhoff];
 
-    /// The name that case files give it.
+    /// Returns the name in case files.
     pub fn name(self) -> &'static str {
         match self {
             Self::NeoHooke => "neo-hooke",
@@ -40,25 +40,25 @@ impl HyperelasticLaw {
         }
     }
 
-    /// Whether it is elliptic however it is deformed, of any moduli: polyconvex with the growth of neo-Hooke's
-    /// (Hartmann & Neff 2003).
+    /// Returns whether the law is elliptic at all deformations for any moduli: polyconvex with the growth of
+    /// neo-Hooke's (Hartmann & Neff 2003).
     pub fn is_always_elliptic(self) -> bool {
         self == Self::NeoHooke
     }
 }
 
-/// A point that is deformed inside out: J = det F is not positive.
+/// Error: a point is inverted, J = det F is not positive.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("the material is turned inside out: its volume is {jacobian:?} times the undeformed one")]
 pub struct Inverted {
-    /// J = det F, or no number where the displacement is none.
+    /// J = det F; NaN if the displacement is not finite.
     pub jacobian: f64,
 }
 
 /// A hyperelastic solid: a law and its moduli.
 ///
 /// Deformation is given as the displacement gradient H, F = 1 + H: at small strain F − 1 would
-/// have lost digits. Energies are those of the undeformed volume.
+/// lose digits. Energies are those of the undeformed volume.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hyperelastic {
     law: HyperelasticLaw,
@@ -72,27 +72,27 @@ impl Hyperelastic {
         Self { law, bulk: moduli.bulk_modulus(), shear: moduli.shear_modulus() }
     }
 
-    /// The same law with these parts of K and G.
+    /// Returns the same law with the given shares of K and G.
     pub(super) fn scaled(&self, bulk: f64, shear: f64) -> Self {
         Self { law: self.law, bulk: bulk * self.bulk, shear: shear * self.shear }
     }
 
-    /// The law.
+    /// Returns the law of the stored energy.
     pub fn law(&self) -> HyperelasticLaw {
         self.law
     }
 
-    /// Bulk modulus K at small strain, Pa.
+    /// Returns the bulk modulus K at small strain, Pa.
     pub fn bulk_modulus(&self) -> f64 {
         self.bulk
     }
 
-    /// Shear modulus G at small strain, Pa.
+    /// Returns the shear modulus G at small strain, Pa.
     pub fn shear_modulus(&self) -> f64 {
         self.shear
     }
 
-    /// Energy per undeformed volume W, J/m³.
+    /// Returns the energy per undeformed volume W, J/m³.
     ///
     /// # Errors
     /// det F is not positive.
@@ -101,7 +101,7 @@ impl Hyperelastic {
         Ok(self.energy_of(&upright(h)?))
     }
 
-    /// First Piola-Kirchhoff stress P = ∂W/∂F, Pa: force by undeformed area.
+    /// Returns the first Piola-Kirchhoff stress P = ∂W/∂F, Pa: force by undeformed area.
     ///
     /// # Errors
     /// det F is not positive.
@@ -111,8 +111,8 @@ impl Hyperelastic {
         Ok(self.first_piola_of(h, &strain))
     }
 
-    /// First Piola-Kirchhoff stress, Pa, and J − 1, on one number or several side by side: it means
-    /// something where J − 1 > −1. The caller has to look: nothing here stops.
+    /// Returns the first Piola-Kirchhoff stress, Pa, and J − 1, on one number or on lanes. It is valid
+    /// where J − 1 > −1, which the caller has to check.
     #[inline(always)]
     pub fn first_piola_unchecked<N: Number>(
         &self,
@@ -122,7 +122,7 @@ impl Hyperelastic {
         (self.first_piola_of(h, &strain), strain.volume_change)
     }
 
-    /// Energy per undeformed volume, J/m³, as [`Hyperelastic::first_piola_unchecked`].
+    /// Returns the energy per undeformed volume, J/m³, like [`Hyperelastic::first_piola_unchecked`].
     #[inline(always)]
     pub fn energy_unchecked<N: Number>(&self, h: &AxisymmetricTensor<N>) -> N {
         self.energy_of(&Strain::of(h))
@@ -134,12 +134,12 @@ impl Hyperelastic {
         h: &AxisymmetricTensor<N>,
         strain: &Strain<N>,
     ) -> AxisymmetricTensor<N> {
-        // The hourglass shape of an element asks for this root of every law.
+        // The hourglass energy of an element needs this root for every law.
         let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
         first_piola(&self.kirchhoff(strain), h, y * y * y)
     }
 
-    /// Cauchy stress σ = P Fᵀ/J, Pa: force by deformed area.
+    /// Returns the Cauchy stress σ = P Fᵀ/J, Pa: force by deformed area.
     ///
     /// # Errors
     /// det F is not positive.
@@ -149,7 +149,7 @@ impl Hyperelastic {
         Ok(self.kirchhoff(&strain).times(1.0 / (1.0 + strain.volume_change)))
     }
 
-    /// A = ∂P/∂F, Pa, of the components rr, ry, yr, yy, tt; symmetric.
+    /// Returns A = ∂P/∂F, Pa, of the components rr, ry, yr, yy, tt; symmetric.
     ///
     /// # Errors
     /// det F is not positive.
@@ -159,8 +159,8 @@ impl Hyperelastic {
         Ok(self.principal_stiffness(axes.stretches).tangent(&axes))
     }
 
-    /// The least stiffness of a wave on top of a deformation, Pa: [`least_acoustic_stiffness`]. Where it is not
-    /// positive the law is not elliptic.
+    /// Returns the least stiffness of a wave superposed on a deformation, Pa: [`least_acoustic_stiffness`]. The law is
+    /// elliptic where it is positive.
     ///
     /// # Errors
     /// det F is not positive.
@@ -170,7 +170,7 @@ impl Hyperelastic {
         Ok(least_acoustic_stiffness(&plane))
     }
 
-    /// The largest eigenvalue of ∂P/∂F from above, to 1e-6, Pa.
+    /// Returns an upper bound of the largest eigenvalue of ∂P/∂F, exact to 1e-6, Pa.
     ///
     /// # Errors
     /// det F is not positive.
@@ -226,8 +226,7 @@ impl Hyperelastic {
     }
 }
 
-/// The strain of a displacement gradient that turns nothing inside out: J, the plane part and the
-/// hoop are positive, and numbers.
+/// Returns the strain of a displacement gradient, if J, its plane part and the hoop stretch are positive and finite.
 #[inline]
 pub(super) fn upright(h: &AxisymmetricTensor) -> Result<Strain, Inverted> {
     let strain = Strain::of(h);

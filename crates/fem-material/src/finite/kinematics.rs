@@ -1,5 +1,5 @@
 //! Kinematics of a deformation: the left Cauchy-Green tensor b, or that of an elastic part, as b −
-//! 1, and the way from Kirchhoff's stress to the first Piola-Kirchhoff stress.
+//! 1, and the conversion of Kirchhoff's stress to the first Piola-Kirchhoff stress.
 
 use super::number::Number;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
@@ -12,14 +12,14 @@ pub(super) struct Strain<N = f64> {
 }
 
 impl<N: Number> Strain<N> {
-    /// Of a displacement gradient.
+    /// Computes the strain of a displacement gradient.
     #[inline(always)]
     pub fn of(h: &AxisymmetricTensor<N>) -> Self {
         Self { left: h.left_strain(), volume_change: h.volume_change() }
     }
 }
 
-/// F A Fᵀ of a symmetric A, F = 1 + H.
+/// Returns F A Fᵀ for a symmetric A, F = 1 + H.
 #[inline(always)]
 pub(super) fn push_forward<N: Number>(
     a: &SymmetricTensor<N>,
@@ -38,7 +38,7 @@ pub(super) fn push_forward<N: Number>(
     }
 }
 
-/// P = τ F^{-T} of Kirchhoff's stress τ, where F = 1 + H, and 1/J.
+/// Returns P = τ F^{-T} for Kirchhoff's stress τ, where F = 1 + H, and 1/J.
 #[inline(always)]
 pub(super) fn first_piola<N: Number>(
     kirchhoff: &SymmetricTensor<N>,

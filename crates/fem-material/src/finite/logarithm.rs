@@ -1,5 +1,5 @@
 //! The logarithm from additions, multiplications and divisions: the same bits on every machine, on one
-//! number or several side by side.
+//! number or on lanes.
 //!
 //! ```math
 //! \ln(1+d) = k \ln 2 + 2\,\mathrm{artanh}\,t, \qquad 2\,\mathrm{artanh}\,t = 2t + t\,R(t^2), \qquad
@@ -24,8 +24,7 @@ const SERIES: [f64; 7] = [
     1.479_819_860_511_658_6e-1,
 ];
 
-/// ln(1 + d) for d > −1, to some units of its own last digit also where d is small. It means nothing
-/// elsewhere.
+/// Returns ln(1 + d) for d > −1, exact to a few units in the last place also for small d. It is undefined elsewhere.
 #[inline(always)]
 pub(super) fn ln_of_one_plus<N: Number>(d: N) -> N {
     let (one, two) = (N::splat(1.0), N::splat(2.0));
@@ -41,7 +40,7 @@ pub(super) fn ln_of_one_plus<N: Number>(d: N) -> N {
 /// Largest t² of the series: that of a number of 2.
 const SERIES_BOUND: f64 = 0.029_437_251_522_859_42;
 
-/// artanh(y)/y of y², 0 ≤ y² < 1, to some units of the last digit; it means nothing elsewhere.
+/// Returns artanh(y)/y for 0 ≤ y² < 1, exact to a few units in the last place; it is undefined elsewhere.
 ///
 /// The series serves while the larger of two numbers that y² = ((a − b)/(a + b))² compares is twice the
 /// other at most.
@@ -57,7 +56,7 @@ pub(super) fn artanh_over_root<N: Number>(square: N) -> N {
     square.choose_within(SERIES_BOUND, series, twice / (two * y))
 }
 
-/// R, in two halves that do not wait for each other.
+/// Returns R, as a sum of two independent halves.
 #[inline(always)]
 fn remainder<N: Number>(z: N) -> N {
     let [c_1, c_2, c_3, c_4, c_5, c_6, c_7] = SERIES;

@@ -1,6 +1,6 @@
-//! Finite strain: what a point of a hyperelastic body of revolution stores and exerts.
+//! Finite strain: stored energy and stress at a point of a hyperelastic body of revolution.
 //!
-//! All is per volume of the undeformed body, of the displacement gradient H, F = 1 + H:
+//! Quantities are per volume of the undeformed body, as functions of the displacement gradient H, F = 1 + H:
 //!
 //! ```math
 //! W = W(F), \qquad P = \frac{\partial W}{\partial F}, \qquad \tau = P F^T, \qquad \sigma = \tau/J

@@ -1,4 +1,4 @@
-//! Neo-Hooke with a volume of its own, the default beyond Hooke.
+//! Neo-Hooke with a separate volumetric energy, the default law at finite strain.
 //!
 //! ```math
 //! W = \frac G2 \left(J^{-2/3} \mathrm{tr}\, b - 3\right) + \frac K2 (J-1)^2, \qquad
@@ -6,7 +6,7 @@
 //! ```
 //!
 //! with b = F Fᵀ (Simo & Hughes 1998, Computational Inelasticity, section 9.2, with the simplest
-//! energy of the volume). Shape and volume do not meet: a pressure is a function of J alone, so
+//! energy of the volume). Shape and volume are uncoupled: the pressure is a function of J alone, so
 //! that the law serves nearly incompressible solids. Written over [`Number`], without a branch.
 //!
 //! Limits: polyconvex (Hartmann & Neff 2003, International Journal of Solids and Structures
@@ -18,7 +18,7 @@ use super::number::{Number, inverse_cube_root, inverse_cube_root_change};
 use super::principal::Response;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 
-/// The default law, on one number or several side by side.
+/// The default law, on one number or on lanes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NeoHooke<N = f64> {
     /// Bulk modulus K, Pa.
@@ -28,9 +28,9 @@ pub struct NeoHooke<N = f64> {
 }
 
 impl<N: Number> NeoHooke<N> {
-    /// First Piola-Kirchhoff stress, Pa, of the displacement gradient, and J − 1.
+    /// Returns the first Piola-Kirchhoff stress, Pa, of the displacement gradient, and J − 1.
     ///
-    /// The stress means something where J − 1 > −1. The caller has to look: nothing here stops.
+    /// The stress is valid where J − 1 > −1, which the caller has to check.
     #[inline(always)]
     pub fn first_piola(&self, h: &AxisymmetricTensor<N>) -> (AxisymmetricTensor<N>, N) {
         let strain = Strain::of(h);
@@ -39,7 +39,7 @@ impl<N: Number> NeoHooke<N> {
         (first_piola(&stress, h, y * y * y), strain.volume_change)
     }
 
-    /// Energy per undeformed volume, J/m³, of the displacement gradient, and J − 1.
+    /// Returns the energy per undeformed volume, J/m³, of the displacement gradient, and J − 1.
     #[inline(always)]
     pub fn energy(&self, h: &AxisymmetricTensor<N>) -> (N, N) {
         let strain = Strain::of(h);
@@ -52,13 +52,13 @@ impl<N: Number> NeoHooke<N> {
         self.stress(&strain.left, self.pull(strain), y * y)
     }
 
-    /// K J (J − 1), the mean of τ.
+    /// Returns K J (J − 1), the mean of τ.
     #[inline(always)]
     fn pull(&self, strain: &Strain<N>) -> N {
         self.bulk * (strain.volume_change * (N::splat(1.0) + strain.volume_change))
     }
 
-    /// τ of b − 1, or of a sum of such, the mean of τ, and J^(−2/3).
+    /// Returns τ for b − 1 (or a weighted sum over branches), the mean of τ, and J^(−2/3).
     #[inline(always)]
     pub(super) fn stress(
         &self,
@@ -88,7 +88,7 @@ impl<N: Number> NeoHooke<N> {
 }
 
 impl NeoHooke {
-    /// τ_i and ∂τ_i/∂ln λ_j at principal stretches.
+    /// Returns τ_i and ∂τ_i/∂ln λ_j at principal stretches.
     pub(super) fn principal(&self, stretches: [f64; 3]) -> Response {
         let Self { bulk, shear } = *self;
         let jacobian: f64 = stretches.iter().product();

@@ -7,7 +7,7 @@
 //!
 //! (Bonet & Wood 2008, Nonlinear Continuum Mechanics for Finite Element Analysis, section 6.4.3).
 //! Limits: polyconvex, hence elliptic, while ln J ≤ 1 + G/λ; it softens beyond, that is in
-//! tension, and resists compression without end.
+//! tension, and its resistance to compression is unlimited.
 
 use super::kinematics::Strain;
 use super::logarithm::ln_of_one_plus;
@@ -23,7 +23,7 @@ pub(super) struct NeoHookeLn {
 }
 
 impl NeoHookeLn {
-    /// Lamé's λ.
+    /// Returns Lamé's λ.
     #[inline(always)]
     fn lambda(&self) -> f64 {
         self.bulk - 2.0 / 3.0 * self.shear
@@ -49,7 +49,7 @@ impl NeoHookeLn {
         }
     }
 
-    /// τ_i and ∂τ_i/∂ln λ_j at principal stretches.
+    /// Returns τ_i and ∂τ_i/∂ln λ_j at principal stretches.
     pub fn principal(&self, stretches: [f64; 3]) -> Response {
         let b = stretches.map(|stretch| stretch * stretch);
         let ln = ln_of_one_plus(stretches.iter().product::<f64>() - 1.0);

@@ -1,39 +1,38 @@
-//! Numbers of the laws: one, or several side by side.
+//! Numbers of the laws: one number, or several on lanes.
 //!
-//! A law that is written over [`Number`] runs on plain numbers and on the lanes of vector units of any
-//! kind: additions, multiplications, both at once, divisions, square roots and what is read from the bits
-//! of a number, which IEEE 754 fixes, and no function of a mathematical library, which differ. All lanes
-//! give the same bits. They round a product and a sum once, a plain number twice, which has no
-//! instruction for it on every machine: the two agree to rounding.
+//! A law that is written over [`Number`] runs on plain numbers and on the lanes of vector units. It uses operations
+//! that IEEE 754 defines: additions, multiplications, fused products, divisions, square roots and bit operations, but
+//! no functions of a mathematical library, whose results differ. So all lanes give the same bits. Lanes round a
+//! product and a sum once, plain numbers twice; the two agree to rounding.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// A number of double precision, or several of them.
+/// One number of double precision, or several on lanes.
 pub trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// The same number in all lanes.
+    /// Returns the same number in all lanes.
     fn splat(value: f64) -> Self;
 
-    /// self + x y, of lanes rounded once.
+    /// Returns self + x y, of lanes rounded once.
     fn plus_product(self, x: Self, y: Self) -> Self;
 
-    /// self − x y, of lanes rounded once.
+    /// Returns self − x y, of lanes rounded once.
     fn minus_product(self, x: Self, y: Self) -> Self;
 
-    /// [`inverse_cube_root_estimate`] of each lane.
+    /// Returns [`inverse_cube_root_estimate`] of each lane.
     fn inverse_cube_root_estimate(self) -> Self;
 
-    /// [`power_of_two`] of each lane.
+    /// Returns [`power_of_two`] of each lane.
     fn power_of_two(self) -> (Self, Self);
 
-    /// The square root of each lane.
+    /// Returns the square root of each lane.
     fn sqrt(self) -> Self;
 
-    /// Whether every lane lies within ± a bound.
+    /// Returns whether every lane lies within ± a bound.
     fn all_within(self, bound: f64) -> bool;
 
-    /// In lanes that lie within ± a bound the one number, else the other.
+    /// Returns `inside` in lanes that lie within ± a bound, `outside` in the others.
     fn choose_within(self, bound: f64, inside: Self, outside: Self) -> Self;
 }
 
@@ -79,21 +78,21 @@ impl Number for f64 {
     }
 }
 
-/// 1/x and 1/y by one division, which costs as much as a dozen products.
+/// Returns 1/x and 1/y by one division, which costs as much as a dozen products.
 #[inline(always)]
 pub(super) fn inverses<N: Number>(x: N, y: N) -> (N, N) {
     let both = N::splat(1.0) / (x * y);
     (both * y, both * x)
 }
 
-/// What takes the bits of √½ to those of 1, so that a number's exponent changes at √½ and √2.
+/// Difference of the bits of 1 and √½. Added to the bits of a number, it makes the exponent change at √½ and √2.
 pub const POWER_OFFSET: u64 = 1f64.to_bits() - std::f64::consts::FRAC_1_SQRT_2.to_bits();
-/// The bits of 2⁵², whose last ones count units.
+/// Bits of 2⁵², whose last bits count units.
 pub const UNITS: u64 = 0x4330_0000_0000_0000;
-/// 2⁵² and the offset of exponents.
+/// 2⁵² plus the offset of exponents.
 pub const UNITS_AND_OFFSET: f64 = 4_503_599_627_370_496.0 + 1023.0;
 
-/// k and 2^(−k) of a positive normal number x, with x 2^(−k) between √½ and √2.
+/// Returns k and 2^(−k) for a positive normal number x, with x 2^(−k) between √½ and √2.
 #[inline(always)]
 pub fn power_of_two(x: f64) -> (f64, f64) {
     let exponent = x.to_bits().wrapping_add(POWER_OFFSET) >> 52;
@@ -101,7 +100,7 @@ pub fn power_of_two(x: f64) -> (f64, f64) {
     (power, f64::from_bits(2046u64.wrapping_sub(exponent) << 52))
 }
 
-/// x^(−1/3) of a positive normal number to 3.5 %, from its bits.
+/// Estimates x^(−1/3) of a positive normal number to 3.5 % from its bits.
 ///
 /// The upper half of a number's bits grows about as its logarithm, so that a third of it is taken
 /// from a constant, the one whose errors up and down are the same. On lanes the upper half is a
@@ -113,7 +112,7 @@ pub fn inverse_cube_root_estimate(x: f64) -> f64 {
     f64::from_bits(0x553E_F0FFu64.wrapping_sub(third) << 32)
 }
 
-/// x^(−1/3) of a positive normal number to two units of the last digit.
+/// Returns x^(−1/3) of a positive normal number to two units in the last place.
 ///
 /// With e = 1 − x y³ the root is y (1 − e)^(−1/3) = y (1 + e/3 + 2e²/9 + 14e³/81 + 35e⁴/243 + …).
 /// The estimate's |e| < 0.11 becomes 5e-6 by the series up to e⁴, and 1e-16 by that up to e².
@@ -130,7 +129,7 @@ pub fn inverse_cube_root<N: Number>(x: N) -> N {
     y.plus_product(y * e, c_1.plus_product(e, c_2))
 }
 
-/// J^(−1/3) − 1 of J − 1, to its own last digit also where J is near 1: one more step of Newton's,
+/// Returns J^(−1/3) − 1 for J − 1, exact to its last place also for J near 1: one more step of Newton's method,
 /// for the difference.
 #[inline(always)]
 pub(super) fn inverse_cube_root_change<N: Number>(volume_change: N) -> N {
@@ -145,7 +144,7 @@ pub(super) fn inverse_cube_root_change<N: Number>(volume_change: N) -> N {
 /// Where the series takes the place of the root: its first term left out is 8e-20 of the result.
 const SERIES_BOUND: f64 = 1e-3;
 
-/// The same where J is near 1 as a rule, at a quarter of the time: the binomial series, and the root
+/// Returns the same in a quarter of the time if J is near 1: by the binomial series, and by the root
 /// where that does not serve.
 #[inline(always)]
 pub(super) fn inverse_cube_root_change_near_one<N: Number>(d: N) -> N {

@@ -41,7 +41,7 @@ pub(super) struct PrincipalAxes {
 }
 
 impl PrincipalAxes {
-    /// Of a displacement gradient with a positive J.
+    /// Computes the principal axes of a displacement gradient with a positive J.
     ///
     /// A plane F is a rotation, of which it has the multiple `turn`, and a symmetric deviator, the
     /// reflection `shear`, both as complex numbers; λ = |turn| ± |shear|, and n_1 bisects them.
@@ -59,8 +59,8 @@ impl PrincipalAxes {
 }
 
 impl AxisymmetricTensor {
-    /// Principal stretches of a displacement gradient with a positive J: the two of the meridian plane, the larger
-    /// first, then that of the hoop.
+    /// Returns the principal stretches of a displacement gradient with a positive J: the two of the meridian plane, the
+    /// larger first, then that of the hoop.
     pub fn principal_stretches(&self) -> [f64; 3] {
         PrincipalAxes::of(self).stretches
     }
@@ -70,7 +70,7 @@ fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [a * c - b * d, a * d + b * c]
 }
 
-/// Cosine and sine of half of an angle, up to a common sign.
+/// Returns the cosine and sine of half of an angle, up to a common sign.
 fn half_angle([cosine, sine]: [f64; 2]) -> [f64; 2] {
     if cosine > 0.0 {
         let half = (0.5 * (1.0 + cosine)).sqrt();
@@ -84,11 +84,11 @@ fn half_angle([cosine, sine]: [f64; 2]) -> [f64; 2] {
 /// Stiffness in principal axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PrincipalStiffness {
-    /// W_ij.
+    /// Second derivatives W_ij.
     normal: [[f64; 3]; 3],
-    /// Of n_1 ⊗ N_2 + n_2 ⊗ N_1.
+    /// Stiffness for n_1 ⊗ N_2 + n_2 ⊗ N_1.
     shape: f64,
-    /// Of n_1 ⊗ N_2 − n_2 ⊗ N_1.
+    /// Stiffness for n_1 ⊗ N_2 − n_2 ⊗ N_1.
     turn: f64,
 }
 
@@ -114,12 +114,12 @@ impl PrincipalStiffness {
         Self { normal, shape, turn: (slope(0) + slope(1)) / (first + second) }
     }
 
-    /// The largest eigenvalue from above, to 1e-6.
+    /// Returns an upper bound of the largest eigenvalue, exact to 1e-6.
     pub fn largest_eigenvalue(&self) -> f64 {
         largest_eigenvalue(&self.normal).max(self.shape).max(self.turn)
     }
 
-    /// A of the components rr, ry, yr, yy, tt.
+    /// Returns A for the components rr, ry, yr, yy, tt.
     pub fn tangent(&self, axes: &PrincipalAxes) -> [[f64; 5]; 5] {
         let ([c, s], [big_c, big_s]) = (axes.deformed, axes.undeformed);
         // Rows: what n_1 ⊗ N_1, n_2 ⊗ N_2, hoop, n_1 ⊗ N_2, n_2 ⊗ N_1 take of the components.
@@ -146,7 +146,7 @@ impl PrincipalStiffness {
     }
 }
 
-/// The largest eigenvalue of a symmetric matrix from above, to 1e-6.
+/// Returns an upper bound of the largest eigenvalue of a symmetric matrix, exact to 1e-6.
 ///
 /// It is the largest root of the characteristic polynomial, all of whose roots are real. Newton's
 /// method comes down from the end of Gershgorin's circles and never passes it; what is left is at

@@ -27,13 +27,13 @@ pub(super) struct SaintVenantKirchhoff {
 }
 
 impl SaintVenantKirchhoff {
-    /// Lamé's λ.
+    /// Returns Lamé's λ.
     #[inline(always)]
     fn lambda(&self) -> f64 {
         self.bulk - 2.0 / 3.0 * self.shear
     }
 
-    /// Green's strain has the invariants of ½ (b − 1).
+    /// Returns the energy; Green's strain has the invariants of ½ (b − 1).
     #[inline(always)]
     pub fn energy<N: Number>(&self, strain: &Strain<N>) -> N {
         let (trace, squares) = (strain.left.trace(), strain.left.dot(&strain.left));
@@ -56,7 +56,7 @@ impl SaintVenantKirchhoff {
         }
     }
 
-    /// τ_i and ∂τ_i/∂ln λ_j at principal stretches.
+    /// Returns τ_i and ∂τ_i/∂ln λ_j at principal stretches.
     pub fn principal(&self, stretches: [f64; 3]) -> Response {
         let b = stretches.map(|stretch| stretch * stretch);
         let half = 0.5 * self.lambda() * (b.iter().sum::<f64>() - 3.0);

@@ -5,37 +5,37 @@ use super::number::Number;
 /// A tensor with four components in the meridian plane and one along the hoop: a displacement
 /// gradient, a deformation gradient, a first Piola-Kirchhoff stress.
 ///
-/// Of a gradient the first index is the displacement, the second the coordinate of the undeformed
+/// In a gradient the first index is the displacement, the second the coordinate of the undeformed
 /// body: `ry` is ∂u_r/∂Y. The hoop component of a displacement gradient is u_r/R.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisymmetricTensor<N = f64> {
-    /// Radial, radial.
+    /// Radial normal component.
     pub rr: N,
-    /// Radial, axial.
+    /// Radial component along the axial coordinate.
     pub ry: N,
-    /// Axial, radial.
+    /// Axial component along the radial coordinate.
     pub yr: N,
-    /// Axial, axial.
+    /// Axial normal component.
     pub yy: N,
-    /// Hoop, hoop.
+    /// Hoop normal component.
     pub tt: N,
 }
 
 /// A symmetric tensor of such a body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SymmetricTensor<N = f64> {
-    /// Radial, radial.
+    /// Radial normal component.
     pub rr: N,
-    /// Axial, axial.
+    /// Axial normal component.
     pub yy: N,
-    /// Hoop, hoop.
+    /// Hoop normal component.
     pub tt: N,
-    /// Radial, axial; the tensor's component, not the engineering one.
+    /// Component ry; that of the tensor, not the engineering one.
     pub ry: N,
 }
 
 impl<N: Number> AxisymmetricTensor<N> {
-    /// det(1 + H) − 1 of a displacement gradient H: the relative change of volume, without the
+    /// Returns det(1 + H) − 1 of a displacement gradient H: the relative change of volume, without the
     /// digits that det F − 1 would lose at small strain.
     #[inline(always)]
     pub fn volume_change(&self) -> N {
@@ -44,7 +44,7 @@ impl<N: Number> AxisymmetricTensor<N> {
         (area + self.tt).plus_product(area, self.tt)
     }
 
-    /// b − 1 = H + Hᵀ + H Hᵀ of a displacement gradient H, with b the left Cauchy-Green tensor.
+    /// Returns b − 1 = H + Hᵀ + H Hᵀ of a displacement gradient H, with b the left Cauchy-Green tensor.
     #[inline(always)]
     pub fn left_strain(&self) -> SymmetricTensor<N> {
         let Self { rr, ry, yr, yy, tt } = *self;
@@ -56,7 +56,7 @@ impl<N: Number> AxisymmetricTensor<N> {
         }
     }
 
-    /// C − 1 = H + Hᵀ + Hᵀ H of a displacement gradient H, with C the right Cauchy-Green tensor.
+    /// Returns C − 1 = H + Hᵀ + Hᵀ H of a displacement gradient H, with C the right Cauchy-Green tensor.
     #[inline(always)]
     pub fn right_strain(&self) -> SymmetricTensor<N> {
         let Self { rr, ry, yr, yy, tt } = *self;
@@ -70,7 +70,7 @@ impl<N: Number> AxisymmetricTensor<N> {
 }
 
 impl<N: Number> SymmetricTensor<N> {
-    /// Each component times a factor.
+    /// Returns each component times a factor.
     #[inline(always)]
     pub fn times(&self, factor: N) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl<N: Number> SymmetricTensor<N> {
         }
     }
 
-    /// (1 + A)(1 + w) − 1 of A.
+    /// Returns (1 + A)(1 + w) − 1 of A.
     #[inline(always)]
     pub(super) fn rescaled(&self, w: N) -> Self {
         Self {
@@ -92,7 +92,7 @@ impl<N: Number> SymmetricTensor<N> {
         }
     }
 
-    /// The sum with a multiple of another.
+    /// Returns the sum with a multiple of another tensor.
     #[inline(always)]
     pub(super) fn plus_multiple(&self, factor: N, other: &Self) -> Self {
         Self {
@@ -103,7 +103,7 @@ impl<N: Number> SymmetricTensor<N> {
         }
     }
 
-    /// The sum of both.
+    /// Returns the sum of both tensors.
     #[inline(always)]
     pub fn plus(&self, other: &Self) -> Self {
         Self {
@@ -114,7 +114,7 @@ impl<N: Number> SymmetricTensor<N> {
         }
     }
 
-    /// A : B.
+    /// Returns A : B.
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> N {
         let shear = self.ry * other.ry;
@@ -124,7 +124,7 @@ impl<N: Number> SymmetricTensor<N> {
             .plus_product(self.tt, other.tt)
     }
 
-    /// Sum of the normal components.
+    /// Returns the sum of the normal components.
     #[inline(always)]
     pub fn trace(&self) -> N {
         self.rr + self.yy + self.tt

@@ -1,4 +1,4 @@
-//! A hyperelastic solid that relaxes: Maxwell branches beside an equilibrium spring.
+//! A hyperelastic solid that relaxes: Maxwell branches parallel to an equilibrium spring.
 //!
 //! ```math
 //! W = g_\infty W(F) + \sum_k g_k W(F F_{v,k}^{-1}), \qquad
@@ -11,9 +11,9 @@
 //! as [`ViscousStep`] says. The stored energy W and the dissipated power D are functions of the
 //! state, and W grows by the work of P less D.
 //!
-//! [`ActsOn::All`]: shape and volume flow with the same times, so that Poisson's ratio stays.
-//! [`ActsOn::Shear`]: only the shape flows. All laws are linear in K and G: the branches have that
-//! part of the law which goes with G, and K stays elastic.
+//! With [`ActsOn::All`] shape and volume flow with the same times, so that Poisson's ratio is constant. With
+//! [`ActsOn::Shear`] only the shape flows. All laws are linear in K and G: the branches have the part of the law that
+//! is proportional to G, and K stays elastic.
 //!
 //! D ≥ 0: of the shape since of τ and b the larger belongs to the larger (Baker & Ericksen's
 //! inequalities, which hold wherever a law is elliptic); of the volume for neo-Hooke and Hencky,
@@ -32,13 +32,13 @@ use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 use super::viscous::{InverseMetric, ViscousStep, ViscousStrain};
 use crate::prony::{ActsOn, PronySeries};
 
-/// A hyperelastic solid that relaxes. Its history at a point is one [`ViscousStrain`] a term.
+/// A hyperelastic solid that relaxes. Its history at a point is one [`ViscousStrain`] per term.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Viscoelastic {
     equilibrium: Hyperelastic,
     branches: Vec<Branch>,
     volume_flows: bool,
-    /// All in one.
+    /// All branches at once, for lanes.
     together: Branches,
 }
 
@@ -78,28 +78,28 @@ impl Viscoelastic {
         }
     }
 
-    /// The law that all branches have.
+    /// Returns the law that all branches have.
     pub fn law(&self) -> HyperelasticLaw {
         self.equilibrium.law()
     }
 
-    /// The stress of all branches, for lanes.
+    /// Returns all branches at once, for the stress on lanes.
     pub fn branches(&self) -> &Branches {
         &self.together
     }
 
-    /// Number of entries in the history of a point.
+    /// Returns the number of entries in the history of a point.
     pub fn n_terms(&self) -> usize {
         self.branches.len()
     }
 
-    /// A time step (s), which takes histories on.
+    /// Creates the update of histories over a time step, s.
     pub fn step(&self, time_step: f64) -> ViscousStep {
         let times = self.branches.iter().map(|branch| branch.relaxation_time);
         ViscousStep::new(times, self.volume_flows, time_step)
     }
 
-    /// Energy that is stored per undeformed volume W, J/m³.
+    /// Returns the stored energy per undeformed volume W, J/m³.
     ///
     /// # Errors
     /// det F is not positive.
@@ -112,7 +112,7 @@ impl Viscoelastic {
         Ok(self.energy_and_dissipation_rate(h, history).0)
     }
 
-    /// First Piola-Kirchhoff stress, Pa.
+    /// Returns the first Piola-Kirchhoff stress, Pa.
     ///
     /// # Errors
     /// det F is not positive.
@@ -126,7 +126,7 @@ impl Viscoelastic {
         Ok(self.together.first_piola(h, inverse_metrics(history)).0)
     }
 
-    /// Cauchy stress, Pa.
+    /// Returns the Cauchy stress, Pa.
     ///
     /// # Errors
     /// det F is not positive.
@@ -153,8 +153,8 @@ impl Viscoelastic {
         Ok(self.energy_and_dissipation_rate(h, history).1)
     }
 
-    /// What is stored (J/m³) and dissipated (W/m³), on one number or several side by side; it means
-    /// something where J − 1 > −1.
+    /// Returns the stored energy (J/m³) and the dissipated power (W/m³), on one number or on lanes. They are valid
+    /// where J − 1 > −1.
     #[inline(always)]
     pub fn energy_and_dissipation_rate<N: Number>(
         &self,
@@ -181,8 +181,8 @@ impl Viscoelastic {
         (energy, rate)
     }
 
-    /// A = ∂P/∂F at a fixed history, Pa, of the components rr, ry, yr, yy, tt: the answer to what is
-    /// short beside the relaxation times.
+    /// Returns A = ∂P/∂F at a fixed history, Pa, for the components rr, ry, yr, yy, tt: the stiffness for changes that
+    /// are short compared with the relaxation times.
     ///
     /// # Errors
     /// det F is not positive.
@@ -200,7 +200,7 @@ impl Viscoelastic {
         Ok(sum)
     }
 
-    /// The largest eigenvalue of ∂P/∂F at a fixed history from above, to 2.6 % at worst, Pa.
+    /// Returns an upper bound of the largest eigenvalue of ∂P/∂F at a fixed history, exact to 2.6 %, Pa.
     ///
     /// # Errors
     /// det F is not positive.
@@ -212,7 +212,7 @@ impl Viscoelastic {
         Ok(largest_eigenvalue(self.tangent(h, history)?))
     }
 
-    /// b_e − 1 and J_e − 1 of the elastic part of a branch: b_e = J_v^{−2/3} F C̄_v⁻¹ Fᵀ.
+    /// Returns b_e − 1 and J_e − 1 of the elastic part of a branch: b_e = J_v^{−2/3} F C̄_v⁻¹ Fᵀ.
     #[inline(always)]
     fn elastic_strain<N: Number>(
         &self,
@@ -236,12 +236,12 @@ impl Viscoelastic {
     }
 }
 
-/// Of one entry a term.
+/// Returns the inverse metric of each term.
 fn inverse_metrics(history: &[ViscousStrain]) -> impl Iterator<Item = InverseMetric> {
     history.iter().map(ViscousStrain::inverse_metric)
 }
 
-/// dev A : dev B.
+/// Returns dev A : dev B.
 #[inline(always)]
 fn deviatoric_dot<N: Number>(a: &SymmetricTensor<N>, b: &SymmetricTensor<N>) -> N {
     let mean = b.trace() * N::splat(1.0 / 3.0);
@@ -249,7 +249,7 @@ fn deviatoric_dot<N: Number>(a: &SymmetricTensor<N>, b: &SymmetricTensor<N>) -> 
     a.dot(&deviator)
 }
 
-/// F_e − 1 of F_e = F U_v⁻¹.
+/// Returns F_e − 1 for F_e = F U_v⁻¹.
 fn elastic_gradient(h: &AxisymmetricTensor, inverse: &SymmetricTensor) -> AxisymmetricTensor {
     let (f_rr, f_yy) = (1.0 + h.rr, 1.0 + h.yy);
     AxisymmetricTensor {
@@ -283,8 +283,8 @@ fn add_elastic_tangent(
     }
 }
 
-/// The largest eigenvalue of a symmetric matrix from above: (tr A⁶⁴)^(1/64), which is at most
-/// 5^(1/64) too large.
+/// Returns an upper bound of the largest eigenvalue of a symmetric matrix, (tr A⁶⁴)^(1/64), too large by a factor of
+/// at most 5^(1/64).
 fn largest_eigenvalue(matrix: [[f64; 5]; 5]) -> f64 {
     let size = matrix.iter().flatten().fold(0.0f64, |largest, x| largest.max(x.abs()));
     if size == 0.0 {

@@ -1,6 +1,6 @@
-//! How a Maxwell branch flows at finite strain.
+//! Flow of a Maxwell branch at finite strain.
 //!
-//! F = F_e F_v, of which the metric C_v = F_vᵀ F_v is all that counts: its volume J_v² and its shape
+//! F = F_e F_v. The state of a branch is the metric C_v = F_vᵀ F_v, with the volume J_v² and the shape
 //! C̄_v, det C̄_v = 1. With the shape C̄ = J^{−2/3} C of the whole and a relaxation time τ
 //!
 //! ```math
@@ -15,9 +15,9 @@
 //! proportional to elastic strain where theirs would be to stress. See also Lubliner (1985,
 //! Mechanics Research Communications 12:93).
 //!
-//! **The step.** C̄ is taken to grow evenly and s to stay, so that C̄ − s C̄_v takes the Maxwell
-//! element's exact step ([`RelaxationStep`]) with the time τ/s. What s is in between only scales
-//! C̄_v, and its scale follows from its determinant (Shutov, Landgraf & Ihlemann 2013, Computer Methods in
+//! **The step.** C̄ is assumed to grow at a constant rate and s to be constant, so that C̄ − s C̄_v takes the Maxwell
+//! element's exact step ([`RelaxationStep`]) with the time τ/s. The variation of s within the step only scales
+//! C̄_v, whose scale follows from its determinant (Shutov, Landgraf & Ihlemann 2013, Computer Methods in
 //! Applied Mechanics and Engineering 265:213, for the implicit Euler step):
 //!
 //! ```math
@@ -35,7 +35,7 @@ use super::number::{
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 use crate::relaxation_step::RelaxationStep;
 
-/// What one term of relaxation remembers at a point: all zero in a body that was never strained.
+/// Internal variables of a relaxation term at a point; all zero in a body that was never strained.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ViscousStrain<N = f64> {
     /// Radial component of C̄_v − 1; the hoop's follows from det C̄_v = 1.
@@ -48,7 +48,7 @@ pub struct ViscousStrain<N = f64> {
     pub volume_change: N,
 }
 
-/// C̄_v and J_v the other way round, as stress asks for them.
+/// Inverses of C̄_v and J_v, from which the stress follows.
 #[derive(Debug, Clone, Copy)]
 pub struct InverseMetric<N = f64> {
     /// C̄_v⁻¹ − 1.
@@ -57,12 +57,12 @@ pub struct InverseMetric<N = f64> {
     pub(super) hoop: N,
     /// J_v − 1.
     pub(super) volume_change: N,
-    /// 1/J_v.
+    /// Inverse volume 1/J_v.
     pub(super) inverse_volume: N,
 }
 
 impl<N: Number> InverseMetric<N> {
-    /// Of a term that has never flown.
+    /// Returns the inverse metric of a term without flow.
     #[inline(always)]
     pub fn none() -> Self {
         let zero = N::splat(0.0);
@@ -72,7 +72,7 @@ impl<N: Number> InverseMetric<N> {
 }
 
 impl<N: Number> ViscousStrain<N> {
-    /// The metric and the volume the other way round.
+    /// Returns the inverse metric and volume.
     #[inline(always)]
     pub fn inverse_metric(&self) -> InverseMetric<N> {
         let (one, plane) = (N::splat(1.0), self.plane());
@@ -81,20 +81,20 @@ impl<N: Number> ViscousStrain<N> {
         InverseMetric { shape, hoop, volume_change: self.volume_change, inverse_volume }
     }
 
-    /// C̄_v⁻¹ − 1, and the hoop component of C̄_v − 1.
+    /// Returns C̄_v⁻¹ − 1, and the hoop component of C̄_v − 1.
     #[inline(always)]
     pub(super) fn inverse(&self) -> (SymmetricTensor<N>, N) {
         let plane = self.plane();
         self.inverse_over(plane, N::splat(1.0) / (N::splat(1.0) + plane))
     }
 
-    /// Determinant of C̄_v in the meridian, less 1.
+    /// Returns the determinant of C̄_v in the meridian, less 1.
     #[inline(always)]
     fn plane(&self) -> N {
         (self.rr + self.yy).plus_product(self.rr, self.yy).minus_product(self.ry, self.ry)
     }
 
-    /// The inverse by that determinant and 1 over it.
+    /// Returns the inverse from that determinant and its reciprocal.
     #[inline(always)]
     fn inverse_over(&self, plane: N, scale: N) -> (SymmetricTensor<N>, N) {
         let zero = N::splat(0.0);
@@ -109,7 +109,7 @@ impl<N: Number> ViscousStrain<N> {
 }
 
 impl ViscousStrain {
-    /// U_v⁻¹, the root of C_v⁻¹. That of a plane M is (M + √det M)/√(tr M + 2 √det M).
+    /// Returns U_v⁻¹, the root of C_v⁻¹. That of a plane M is (M + √det M)/√(tr M + 2 √det M).
     pub(super) fn inverse_stretch(&self) -> SymmetricTensor {
         let (inverse, viscous_tt) = self.inverse();
         let determinant_root = (1.0 + viscous_tt).sqrt();
@@ -133,7 +133,7 @@ pub struct Shape<N = f64> {
 }
 
 impl<N: Number> Shape<N> {
-    /// Of a displacement gradient with J > 0.
+    /// Computes the shape of a displacement gradient with J > 0.
     #[inline(always)]
     pub fn of(h: &AxisymmetricTensor<N>) -> Self {
         let volume_change = h.volume_change();
@@ -141,14 +141,14 @@ impl<N: Number> Shape<N> {
         Self { strain: h.right_strain().rescaled((z + z).plus_product(z, z)), volume_change }
     }
 
-    /// As four numbers, which a body may remember until the next step.
+    /// Returns the shape as four numbers, which a body keeps until the next step.
     #[inline(always)]
     pub fn remembered(&self) -> ViscousStrain<N> {
         let Self { strain: SymmetricTensor { rr, yy, ry, .. }, volume_change } = *self;
         ViscousStrain { rr, yy, ry, volume_change }
     }
 
-    /// From those.
+    /// Creates the shape from these four numbers.
     #[inline(always)]
     pub fn of_remembered(past: &ViscousStrain<N>) -> Self {
         let ViscousStrain { rr, yy, ry, volume_change } = *past;
@@ -157,11 +157,11 @@ impl<N: Number> Shape<N> {
     }
 }
 
-/// Factors of a step of one term, made once for its relaxation time and the time step.
+/// Factors of a step of one term.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TermStep {
     linear: RelaxationStep,
-    /// Δt/τ.
+    /// Ratio of time step and relaxation time.
     ratio: f64,
 }
 
@@ -173,7 +173,7 @@ pub struct ViscousStep {
 }
 
 impl ViscousStep {
-    /// For relaxation times and a time step, all positive, s; the volume flows too or is elastic.
+    /// Creates the update for relaxation times and a time step, all positive, s. The volume flows too or is elastic.
     pub(super) fn new(
         relaxation_times: impl Iterator<Item = f64>,
         volume_flows: bool,
@@ -186,7 +186,7 @@ impl ViscousStep {
         Self { terms: relaxation_times.map(of).collect(), volume_flows }
     }
 
-    /// [`ViscousStep::advance_between`] shapes of displacement gradients, both of J > 0.
+    /// Updates the history between two displacement gradients with J > 0; see [`ViscousStep::advance_between`].
     #[inline(always)]
     pub fn advance<N: Number>(
         &self,
@@ -197,8 +197,8 @@ impl ViscousStep {
         self.advance_between(&Shape::of(before), &Shape::of(after), history);
     }
 
-    /// Takes the history, one entry a term, from the shape at the start of the step to that at its
-    /// end. Without a branch on what is computed.
+    /// Updates the history, one entry per term, from the shape at the start of the step to that at its end. There are
+    /// no branches on computed values.
     #[inline(always)]
     pub fn advance_between<N: Number>(
         &self,
@@ -211,7 +211,7 @@ impl ViscousStep {
         }
     }
 
-    /// The same of one term; what stress asks of it then.
+    /// Updates one term and returns its inverse metric.
     #[inline(always)]
     pub fn advance_term<N: Number>(
         &self,
@@ -247,7 +247,7 @@ impl ViscousStep {
 }
 
 impl TermStep {
-    /// From the inverse of C̄_v and its hoop; its hoop then.
+    /// Updates the shape, given the inverse of C̄_v and its hoop component, and returns the new hoop component.
     #[inline(always)]
     fn advance_shape<N: Number>(
         &self,
@@ -287,7 +287,7 @@ impl TermStep {
     }
 }
 
-/// A component of what has flowed, `old` before the step, beside that of the strain.
+/// Returns a component of C̄_v after a step, from its value before the step and the components of C̄ before and after.
 // A closure would be a function of its own, compiled without the lanes' instructions.
 #[inline(always)]
 fn followed<N: Number>(old: N, before: N, after: N, (decay, gain): (N, N)) -> N {

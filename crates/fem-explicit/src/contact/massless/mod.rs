@@ -89,7 +89,7 @@ impl Massless {
         self.springs.interface()
     }
 
-    /// Whether the surfaces slip.
+    /// Returns whether the surfaces slip.
     fn slips(&self) -> bool {
         self.springs.slipping().is_some()
     }
@@ -181,7 +181,7 @@ impl Massless {
         Some(Problem { stiffness, springs })
     }
 
-    /// Whether an unknown is the radial motion of a node on the axis, which is zero.
+    /// Returns whether an unknown is the radial motion of a node on the axis, which is zero.
     fn is_fixed(&self, row: usize) -> bool {
         let (side, place) = self.unknowns[row / 2];
         let on_axis = |boundary: &Boundary| boundary.radii[place] == 0.0;

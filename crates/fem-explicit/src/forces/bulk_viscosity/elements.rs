@@ -42,7 +42,7 @@ pub(super) struct ViscousElements {
 }
 
 impl ViscousElements {
-    /// Room for so many, still without viscosity; `speeds` are b₁ c_d (m/s) and b₂².
+    /// Creates space for `n` elements, still without viscosity; `speeds` are b₁ c_d (m/s) and b₂².
     pub fn new(n_nodes: usize, n_elements: usize, speeds: [f64; 2], largest_drop: f64) -> Self {
         let empty = Block {
             corners: [[0; LANES]; 4],
@@ -182,7 +182,7 @@ pub(super) fn subtract_forces<L: Lanes>(
 }
 
 impl Block {
-    /// Dilatation rates times √V.
+    /// Returns the dilatation rates times √V.
     ///
     /// # Safety
     /// Every corner is an index of `velocity`.
@@ -198,7 +198,7 @@ impl Block {
             + (a0 * (y0 - y3) + a1 * (y1 - y3) + a2 * (y2 - y3))
     }
 
-    /// The mean of what four corners hold in quarters.
+    /// Returns the mean of the values at four corners.
     ///
     /// # Safety
     /// Every corner is an index of `means`.
@@ -209,7 +209,7 @@ impl Block {
         (m0 + m1) + (m2 + m3)
     }
 
-    /// The values of a field at the four corners. Not by a closure, which would be compiled without the
+    /// Returns the values of a field at the four corners. Not by a closure, which would be compiled without the
     /// instructions of the lanes.
     ///
     /// # Safety

@@ -18,13 +18,15 @@
 //! \frac{\sum_{e' \ni i} w_{e'}\, \dot\varepsilon_{e'}}{\sum_{e' \ni i} w_{e'}}, \qquad w = \rho\, l\, V .
 //! ```
 //!
-//! With the weights w this mean is a symmetric operator with eigenvalues 0 to 1 (each is a mean of means), so the linear term
-//! never adds energy and damps no motion more than without the mean. It acts in compression and expansion, since fronts ring
-//! in loading and in unloading; so the damping of small motion is a constant matrix. Without viscosity a front of any size
-//! overshoots in a mesh. Elastic bodies have steep fronts and no shocks, and the linear term damps them.
+//! With the weights w this mean is a symmetric operator with eigenvalues 0 to 1 (each is a mean of means), so the
+//! linear term never adds energy and damps no motion more than without the mean. It acts in compression and expansion,
+//! since fronts ring in loading and in unloading; so the damping of small motion is a constant matrix. Without
+//! viscosity a front of any size overshoots in a mesh. Elastic bodies have steep fronts and no shocks, and the linear
+//! term damps them.
 //!
-//! Viscosity is not a property of the body: its pressure is not part of the stress in results. The energy that the linear term
-//! takes from a smooth motion falls with l³ (with l if the mean were left out), that of the quadratic term with l².
+//! Viscosity is not a property of the body: its pressure is not part of the stress in results. The energy that the
+//! linear term takes from a smooth motion falls with l³ (with l if the mean were left out), that of the quadratic term
+//! with l².
 //!
 //! The force takes the velocity of half a step before, so the element's damping enters the time step
 //! ([`NodeForce::add_damping_bound`]), with j at its largest. j_max caps the viscosity there: it is less
@@ -62,8 +64,8 @@ pub struct ViscosityCoefficients {
 }
 
 impl Default for ViscosityCoefficients {
-    /// Returns 0.06 and 1.2, the usual values of impact codes (Abaqus; LS-DYNA gives the square, 1.5). After eighty elements a
-    /// front is five elements wide and overshoots by 5 %, instead of 25 % without viscosity.
+    /// Returns 0.06 and 1.2, the usual values of impact codes (Abaqus; LS-DYNA gives the square, 1.5). After eighty
+    /// elements a front is five elements wide and overshoots by 5 %, instead of 25 % without viscosity.
     fn default() -> Self {
         Self { linear: 0.06, quadratic: 1.2 }
     }
@@ -80,8 +82,8 @@ pub struct BulkViscosity {
 }
 
 impl BulkViscosity {
-    /// Takes the elements of a sphere. `largest_drop` is the drop of velocity (m/s) across an element up to which viscosity grows;
-    /// with the speed of approach no element is compressed faster before waves meet.
+    /// Takes the elements of a sphere. `largest_drop` is the drop of velocity (m/s) across an element up to which
+    /// viscosity grows; with the speed of approach no element is compressed faster before waves meet.
     ///
     /// # Errors
     /// A coefficient or the drop is negative or not finite.
@@ -134,8 +136,9 @@ impl BulkViscosity {
     }
 }
 
-/// Returns Σ b²/m (1/(m² kg)) with the dilatation b of unit displacements and the lumped masses (kg) of the corners that move.
-/// Times a bulk viscosity and the volume it is the decay rate of the one motion that is damped in an element.
+/// Returns Σ b²/m (1/(m² kg)) with the dilatation b of unit displacements and the lumped masses (kg) of the corners
+/// that move. Times a bulk viscosity and the volume it is the decay rate of the one motion that is damped in an
+/// element.
 fn inverse_mass(corners: &[[f64; 2]; 4], geometry: &QuadGeometry, masses: &[f64; 4]) -> f64 {
     let of_corner = |a: usize| {
         let radial = geometry.gradient_r[a] + geometry.hoop[a];
@@ -159,8 +162,8 @@ impl fmt::Debug for BulkViscosity {
 }
 
 impl Part for BulkViscosity {
-    /// Three: force of the next step (N), work done against it so far (J), and means of dilatation rates (1/s), which are used
-    /// within a step.
+    /// Three: force of the next step (N), work done against it so far (J), and means of dilatation rates (1/s), which
+    /// are used within a step.
     fn n_history(&self) -> usize {
         3
     }
@@ -172,7 +175,7 @@ impl Part for BulkViscosity {
 }
 
 impl NodeForce for BulkViscosity {
-    /// Internal forces of a body add up to zero.
+    /// Returns 0: internal forces of a body add up to zero.
     fn add_forces(&self, _: &Motion<'_>, history: &[NodalField], forces: &mut Field) -> f64 {
         add(&history[0], forces);
         0.0

@@ -310,38 +310,3 @@ fn numbers_that_are_none_are_refused() {
         assert!(error.contains(name) && error.contains("at least 0"), "{error}");
     }
 }
-
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn plain_and_avx2_lanes_give_the_same_bits() {
-    use super::elements::{add_rates, subtract_forces};
-    use crate::lanes::{Avx2, Lanes, Plain};
-    #[inline(always)]
-    fn both<L: Lanes>(
-        elements: &ViscousElements,
-        velocity: &Field,
-        [means, f]: &mut [Vec<[f64; 2]>; 2],
-    ) {
-        add_rates::<L>(elements, velocity, means);
-        subtract_forces::<L>(elements, velocity, means, f);
-    }
-    #[target_feature(enable = "avx2,fma")]
-    fn avx2(elements: &ViscousElements, velocity: &Field, fields: &mut [Vec<[f64; 2]>; 2]) {
-        both::<Avx2>(elements, velocity, fields);
-    }
-    if !crate::lanes::has_avx2() {
-        return;
-    }
-    let mesh = unit_sphere(4.0, Side::Below);
-    let viscosity = BulkViscosity::new(&mesh, &unit_glass(), USUAL, 0.7).unwrap();
-    let velocity = ragged(&mesh, 1);
-    let zeros = || [vec![[0.0; 2]; velocity.len()], vec![[0.0; 2]; velocity.len()]];
-    let [mut plain, mut wide] = [zeros(), zeros()];
-    both::<Plain>(&viscosity.elements, &velocity, &mut plain);
-    // SAFETY: the processor has been asked.
-    unsafe { avx2(&viscosity.elements, &velocity, &mut wide) };
-    let bits = |fields: &[Vec<[f64; 2]>; 2]| {
-        fields.iter().flatten().flatten().map(|f| f.to_bits()).collect::<Vec<_>>()
-    };
-    assert_eq!(bits(&plain), bits(&wide));
-}

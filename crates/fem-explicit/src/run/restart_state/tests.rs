@@ -81,27 +81,32 @@ fn a_damaged_memory_is_refused_or_runs() {
     let model = model();
     let n_end = memory(&model, SnapshotRequest::none(), u64::MAX).step();
     let (mut n_refused, mut n_run) = (0, 0);
-    for snapshots in requests() {
-        for n_steps in [0, n_end / 2, u64::MAX] {
-            let whole = serde_json::to_value(memory(&model, snapshots.clone(), n_steps)).unwrap();
-            let mut damaged = Vec::new();
-            visit(&whole, "", &mut |place, value| {
-                damaged.extend(damages(value).into_iter().map(|other| (place.to_string(), other)));
-            });
-            for (place, other) in damaged {
-                let mut memory = whole.clone();
-                *memory.pointer_mut(&place).unwrap() = other;
-                let Ok(memory) = serde_json::from_value(memory) else { continue };
-                match Run::resume(&model, memory) {
-                    Err(refused) => {
-                        assert_eq!(refused, ModelError::ForeignRestartState);
-                        n_refused += 1;
-                    }
-                    Ok(mut run) => {
-                        run.advance(20);
-                        run.finish();
-                        n_run += 1;
-                    }
+    let [labels, count, times] = requests();
+    for (snapshots, n_steps) in [
+        (labels.clone(), 0),
+        (labels, n_end / 2),
+        (count.clone(), n_end / 2),
+        (count, u64::MAX),
+        (times, n_end / 2),
+    ] {
+        let whole = serde_json::to_value(memory(&model, snapshots, n_steps)).unwrap();
+        let mut damaged = Vec::new();
+        visit(&whole, "", &mut |place, value| {
+            damaged.extend(damages(value).into_iter().map(|other| (place.to_string(), other)));
+        });
+        for (place, other) in damaged {
+            let mut memory = whole.clone();
+            *memory.pointer_mut(&place).unwrap() = other;
+            let Ok(memory) = serde_json::from_value(memory) else { continue };
+            match Run::resume(&model, memory) {
+                Err(refused) => {
+                    assert_eq!(refused, ModelError::ForeignRestartState);
+                    n_refused += 1;
+                }
+                Ok(mut run) => {
+                    run.advance(10);
+                    run.finish();
+                    n_run += 1;
                 }
             }
         }

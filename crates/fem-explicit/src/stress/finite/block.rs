@@ -30,7 +30,7 @@ pub(super) struct Block {
     pub hourglass: [Numbers; 3],
     /// Measures of the hourglass shape at unit amplitude: rr, yy, ry, m.
     pub measures: [Numbers; 3],
-    /// Volume, m³.
+    /// Volume of each element, m³.
     pub volume: Numbers,
 }
 
@@ -63,9 +63,9 @@ impl Block {
     }
 }
 
-/// Places of a block in the fields of elements, which have one pair per element: the first place, and the number of places. For a
-/// block without empty lanes a field holds the first numbers of all lanes, then the second ones; for other blocks it holds one
-/// pair after the other.
+/// Places of a block in the fields of elements, which have one pair per element: the first place, and the number of
+/// places. For a block without empty lanes a field holds the first numbers of all lanes, then the second ones; for
+/// other blocks it holds one pair after the other.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slots {
     pub first: usize,
@@ -111,7 +111,8 @@ impl Slots {
     }
 }
 
-/// The elements of a body at finite strain. Every corner number is below `n_nodes`, so that loops index without a check.
+/// The elements of a body at finite strain. Every corner number is below `n_nodes`, so that loops index without a
+/// check.
 #[derive(Debug, Clone)]
 pub(super) struct Blocks {
     blocks: Vec<Block>,
@@ -156,8 +157,8 @@ impl Blocks {
         self.n_elements
     }
 
-    /// Returns the range of nodes in which all corners lie: a small part of all nodes if the elements are near first touch and nodes
-    /// are numbered from there.
+    /// Returns the range of nodes in which all corners lie: a small part of all nodes if the elements are near first
+    /// touch and nodes are numbered from there.
     pub fn nodes(&self) -> Range<usize> {
         self.nodes.clone()
     }

@@ -20,8 +20,8 @@ use super::law::Law;
 use crate::lanes::{Lanes, WIDE};
 use crate::part::{Field, NodalField};
 
-/// Largest number of Prony terms of a material at finite strain. They lie on the stack in the element loops. A longer series
-/// is tabulated data, which this many terms represent as well.
+/// Largest number of Prony terms of a material at finite strain. They lie on the stack in the element loops. A longer
+/// series is tabulated data, which this many terms represent as well.
 pub const MOST_FINITE_STRAIN_TERMS: usize = 32;
 /// Fields of history per term.
 pub(super) const FIELDS_PER_TERM: usize = 3;
@@ -54,8 +54,8 @@ impl<L: Lanes<WIDE>, const MOST: usize> InternalVariables<L, MOST> {
         }
     }
 
-    /// Returns the stress of elements of a law with a displacement gradient and a hourglass amplitude (m), which has been
-    /// pulled back.
+    /// Returns the stress of elements of a law with a displacement gradient and a hourglass amplitude (m), which has
+    /// been pulled back.
     #[inline(always)]
     pub fn stress<W: Law>(
         &self,
@@ -101,7 +101,7 @@ pub(super) fn store_term<L: Lanes<WIDE>>(
     slots.store(&mut history[first + 2], r, y);
 }
 
-/// Whether a history has fields for a number of terms and elements.
+/// Returns whether a history has fields for a number of terms and elements.
 pub(super) fn is_valid(history: &[NodalField], n_terms: usize, n_elements: usize) -> bool {
     n_terms <= MOST_FINITE_STRAIN_TERMS
         && history.len() >= FIELDS_PER_TERM * n_terms

@@ -19,8 +19,8 @@ pub(super) struct BlockStress<L> {
     pub amplitudes: Amplitudes<L>,
 }
 
-/// The response of elements, block by block: from the deformation to the stress, with an update of internal variables if
-/// there are any.
+/// The response of elements, block by block: from the deformation to the stress, with an update of internal variables
+/// if there are any.
 pub(super) trait BlockResponse<L> {
     /// Returns the stress of the block at a place, from its deformation and its hourglass amplitude pulled back to the
     /// undeformed element, m.
@@ -32,8 +32,8 @@ pub(super) trait BlockResponse<L> {
     ) -> BlockStress<L>;
 }
 
-/// Subtracts the internal forces (N) of elements at a displacement (m) from `f`. This is the one loop from displacement to
-/// forces of all responses: gather, deformation, pull-back, response, scatter.
+/// Subtracts the internal forces (N) of elements at a displacement (m) from `f`. This is the one loop from displacement
+/// to forces of all responses: gather, deformation, pull-back, response, scatter.
 ///
 /// Returns whether every element has a positive volume; if not, the forces have no meaning.
 #[inline(always)]
@@ -220,7 +220,7 @@ impl<L: Lanes<WIDE>> Volumes<L> {
         self.zero = self.zero + volume_change * L::splat(0.0);
     }
 
-    /// Whether all volumes are positive.
+    /// Returns whether all volumes are positive.
     #[inline(always)]
     pub fn are_valid(&self) -> bool {
         let (least, zero): ([f64; WIDE], [f64; WIDE]) =

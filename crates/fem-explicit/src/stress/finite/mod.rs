@@ -5,15 +5,15 @@
 //! f_a = -V\, P(\bar F)\, \bar\nabla N_a - \frac{\partial E_h}{\partial u_a}, \qquad P = \frac{\partial W}{\partial F}
 //! ```
 //!
-//! with the gradients, the hoop and the hourglass shape of the undeformed element ([`QuadGeometry`]), so that a step reads
-//! and writes nodal vectors alone, as at small strain. An element has one mean volume, so nearly incompressible bodies do not
-//! lock. W is the stored energy of a law of [`fem_material::finite`], E_h that of the hourglass shape ([`hourglass`]). Both
-//! are functions of the displacement, so forces are the derivative of an energy; both are invariant under rigid rotation of
-//! the meridian plane; at small strain both agree with the small-strain element.
+//! with the gradients, the hoop and the hourglass shape of the undeformed element ([`QuadGeometry`]), so that a step
+//! reads and writes nodal vectors alone, as at small strain. An element has one mean volume, so nearly incompressible
+//! bodies do not lock. W is the stored energy of a law of [`fem_material::finite`], E_h that of the hourglass shape
+//! ([`hourglass`]). Both are functions of the displacement, so forces are the derivative of an energy; both are
+//! invariant under rigid rotation of the meridian plane; at small strain both agree with the small-strain element.
 //!
-//! A new constitutive model (for instance a return map of plastic flow) is an [`ElementResponse`]: it declares its internal
-//! variables and computes the first Piola–Kirchhoff stress of a block ([`kernel::BlockResponse`]); the loop from
-//! displacement to forces is shared.
+//! A new constitutive model (for instance a return map of plastic flow) is an [`ElementResponse`]: it declares its
+//! internal variables and computes the first Piola–Kirchhoff stress of a block ([`kernel::BlockResponse`]); the loop
+//! from displacement to forces is shared.
 //!
 //! ```text
 //! elastic             elastic response
@@ -84,8 +84,8 @@ trait ElementResponse: fmt::Debug + Send + Sync + 'static {
     /// Takes the time step of the model, s.
     fn set_time_step(&mut self, time_step: f64);
 
-    /// Takes the internal variables to a displacement at the end of a time step (s), or instantaneously, and subtracts the
-    /// internal forces there (N) from `forces`.
+    /// Takes the internal variables to a displacement at the end of a time step (s), or instantaneously, and subtracts
+    /// the internal forces there (N) from `forces`.
     ///
     /// Returns whether every element has a positive volume; if not, the forces have no meaning.
     fn update_forces(
@@ -109,8 +109,8 @@ trait ElementResponse: fmt::Debug + Send + Sync + 'static {
     fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64);
 }
 
-/// Makes the stress of a material at finite strain on some elements of a mesh, which it numbers by their places in the list.
-/// The material has at most [`MOST_FINITE_STRAIN_TERMS`] relaxation terms.
+/// Makes the stress of a material at finite strain on some elements of a mesh, which it numbers by their places in the
+/// list. The material has at most [`MOST_FINITE_STRAIN_TERMS`] relaxation terms.
 pub(super) fn finite_strain(
     mesh: &SphereMesh,
     geometries: &[QuadGeometry],
@@ -139,7 +139,8 @@ pub(super) fn finite_strain(
 }
 
 impl<R: ElementResponse> FiniteStrain<R> {
-    /// Takes a history to a displacement, with the internal forces there. Without internal variables there is no history.
+    /// Takes a history to a displacement, with the internal forces there. Without internal variables there is no
+    /// history.
     fn update_history(&self, time_step: Option<f64>, u: &Field, history: &mut [NodalField]) {
         let (internal, forces) = history.split_at_mut(self.response.n_internal_fields());
         let Some(forces) = forces.first_mut() else { return };
@@ -174,7 +175,7 @@ impl<R: fmt::Debug> fmt::Debug for FiniteStrain<R> {
 }
 
 impl<R: ElementResponse> Part for FiniteStrain<R> {
-    /// One with internal variables: the internal forces.
+    /// Returns 1 with internal variables: the field of internal forces.
     fn n_history(&self) -> usize {
         usize::from(self.response.n_internal_fields() > 0)
     }

@@ -6,13 +6,11 @@ use fem_mesh::Side;
 
 use super::super::small_strain;
 use super::block::Block;
-use super::elastic::Forces;
 use super::internal_variables::InternalVariables;
 use super::kernel::{Conjugate, Deformation};
-use super::law::ElasticLaw;
 use super::law::Law;
 use super::*;
-use crate::lanes::{LaneKernel, Lanes, Plain, WIDE};
+use crate::lanes::{Lanes, Plain, WIDE};
 use crate::test_support::{geometries, ragged, sphere, unit_glass, unit_sphere, vector};
 
 /// ν = 0.495 with the shear modulus of the unit glass.
@@ -346,48 +344,6 @@ fn the_element_that_has_lost_its_stability_is_named() {
         assert!(height(found.element) > 0.9 * top, "{found:?}");
     }
     assert!(!stress(&mesh, &material, HyperelasticLaw::NeoHooke).can_lose_stability());
-}
-
-/// Every law, on registers that the processor has.
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn lanes_of_every_kind_give_the_same_bits() {
-    use crate::lanes::{Avx2, Avx512, TwoRegisters};
-    #[target_feature(enable = "avx2,fma")]
-    fn avx2(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
-        Forces { blocks, law, u }.on::<TwoRegisters<Avx2>>(&mut (f, true));
-        kernel::sum_energy::<TwoRegisters<Avx2>, _>(blocks, law, u)
-    }
-    #[target_feature(enable = "avx512f")]
-    fn avx512(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
-        Forces { blocks, law, u }.on::<Avx512>(&mut (f, true));
-        kernel::sum_energy::<Avx512, _>(blocks, law, u)
-    }
-    let mesh = mesh();
-    let blocks = every(&mesh);
-    let u = deformed(&mesh);
-    let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
-    for law in HyperelasticLaw::ALL {
-        let law = Hyperelastic::new(law, unit_glass().instantaneous());
-        let none = vec![[0.0; 2]; u.len()];
-        let mut plain = none.clone();
-        let forces = Forces { blocks: &blocks, law: &law, u: &u };
-        forces.on::<Plain<WIDE>>(&mut (&mut plain, true));
-        let energy = kernel::sum_energy::<Plain<WIDE>, _>(&blocks, &law, &u);
-        if crate::lanes::has_avx2() {
-            let mut f = none.clone();
-            // SAFETY: the processor has been asked.
-            let other = unsafe { avx2(&blocks, &law, &u, &mut f) };
-            assert_eq!((energy.to_bits(), bits(&plain)), (other.to_bits(), bits(&f)), "{law:?}");
-        }
-        if std::arch::is_x86_feature_detected!("avx512f") {
-            let mut f = none;
-            // SAFETY: the processor has been asked.
-            let other = unsafe { avx512(&blocks, &law, &u, &mut f) };
-            assert_eq!((energy.to_bits(), bits(&plain)), (other.to_bits(), bits(&f)), "{law:?}");
-        }
-    }
-    assert!(WIDE == 8 && mesh.quads().len() > WIDE);
 }
 
 /// The strain rate of a uniformly stretched body, undeformed and deformed; where a node has a smaller allowance, the

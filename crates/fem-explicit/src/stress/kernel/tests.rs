@@ -3,7 +3,6 @@
 use fem_mesh::{Side, SphereMesh};
 
 use super::*;
-use crate::part::NodalField;
 use crate::test_support::{assembled, geometries, moduli, ragged, unit_glass, unit_sphere, vector};
 
 fn meshes() -> [SphereMesh; 3] {
@@ -77,65 +76,6 @@ fn internal_forces_balance() {
             f.iter().fold((0.0, 0.0), |(sum, size), f| (sum + f[1], size + f[1].abs()));
         // Rounding of a hundred terms.
         assert!(f64::abs(sum) < 1e-15 * size, "{sum:e} {size}");
-    }
-}
-
-/// Forces of a field, of two fields, and energy, of the lanes that are asked for.
-type Computed = (NodalField, NodalField, [f64; 2]);
-
-/// On lanes of four and on lanes of rows.
-fn on<L: Lanes, R: RowLanes>(elements: &PackedElements, u: &Field, w: &Field) -> Computed {
-    let (PackedElements { rows, others }, moduli) = (elements, moduli(&unit_glass()));
-    let (mut f, mut split) = (vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]);
-    let mut energy = [0.0; 2];
-    let one = |field| (moduli, field, field);
-    let (moduli, bulk_field, shear_field) = one(u);
-    RowKernel::on::<R>(
-        Forces::<_, false> { elements: rows, moduli, bulk_field, shear_field },
-        &mut f,
-    );
-    LaneKernel::on::<L>(
-        Forces::<_, false> { elements: others, moduli, bulk_field, shear_field },
-        &mut f,
-    );
-    let shear_field = w;
-    RowKernel::on::<R>(
-        Forces::<_, true> { elements: rows, moduli, bulk_field, shear_field },
-        &mut split,
-    );
-    LaneKernel::on::<L>(
-        Forces::<_, true> { elements: others, moduli, bulk_field, shear_field },
-        &mut split,
-    );
-    RowKernel::on::<R>(Energy { elements: rows, moduli, field: w }, &mut energy[0]);
-    LaneKernel::on::<L>(Energy { elements: others, moduli, field: w }, &mut energy[1]);
-    (f, split, energy)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn all_lanes_give_the_same_bits() {
-    use crate::lanes::{Avx2, Avx512, Plain, TwoRegisters, has_avx2, has_avx512};
-    #[target_feature(enable = "avx2,fma")]
-    fn on_avx2(elements: &PackedElements, u: &Field, w: &Field) -> Computed {
-        on::<Avx2, TwoRegisters<Avx2>>(elements, u, w)
-    }
-    #[target_feature(enable = "avx512f")]
-    fn on_avx512(elements: &PackedElements, u: &Field, w: &Field) -> Computed {
-        on::<Avx2, Avx512>(elements, u, w)
-    }
-    for mesh in meshes() {
-        let elements = pack(&mesh);
-        let (u, w) = (ragged(&mesh, 0), ragged(&mesh, 1));
-        let plain = on::<Plain, Plain<WIDE>>(&elements, &u, &w);
-        if has_avx2() {
-            // SAFETY: the processor has been asked.
-            assert_eq!(plain, unsafe { on_avx2(&elements, &u, &w) });
-        }
-        if has_avx512() {
-            // SAFETY: as above.
-            assert_eq!(plain, unsafe { on_avx512(&elements, &u, &w) });
-        }
     }
 }
 

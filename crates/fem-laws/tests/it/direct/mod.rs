@@ -2,7 +2,7 @@
 
 use fem_laws::{HertzImpact, Pair, PairRelaxation};
 
-/// What the direct method gives: restitution, contact time, peak force, pressure, approach.
+/// Results of the direct method: restitution, contact time, peak force, pressure, approach.
 pub struct Direct(pub [f64; 5]);
 
 /// m(t) of the finite size: δ = u + m∘d(u^(3/2)) with m = m[0] − m[1] ln u, in metres.

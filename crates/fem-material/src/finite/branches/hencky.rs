@@ -1,4 +1,4 @@
-//! Branches of Hencky's law. The deviator of ln b_e does not see J_v, so with b_k = F C̄_v,k⁻¹ Fᵀ
+//! Branches of Hencky's law. The deviator of ln b_e does not depend on J_v, so with b_k = F C̄_v,k⁻¹ Fᵀ
 //!
 //! ```math
 //! \tau = K \Bigl[\ln J - \sum_k g_k \ln J_{v,k}\Bigr] 1 + 2G\,\mathrm{dev}\, h, \qquad

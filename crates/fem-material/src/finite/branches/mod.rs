@@ -1,7 +1,7 @@
-//! The stress of all Maxwell branches of a law at once, on one number or several side by side.
+//! The stress of all Maxwell branches of a law at once, on one number or on lanes.
 //!
-//! [`Viscoelastic`](super::Viscoelastic) is what they are one by one. Together they cost less: what is
-//! linear in C̄_v⁻¹ is summed in the undeformed body and brought to the deformed one once.
+//! [`Viscoelastic`](super::Viscoelastic) treats the branches one by one. Together they cost less: terms that are
+//! linear in C̄_v⁻¹ are summed in the undeformed body and transformed to the deformed one once.
 
 mod hencky;
 mod neo_hooke;
@@ -18,9 +18,9 @@ use super::viscous::InverseMetric;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branches {
     pub(super) law: HyperelasticLaw,
-    /// Pa.
+    /// Bulk modulus, Pa.
     pub(super) bulk: f64,
-    /// Pa.
+    /// Shear modulus, Pa.
     pub(super) shear: f64,
     pub(super) equilibrium_weight: f64,
     pub(super) weights: Vec<f64>,
@@ -28,8 +28,8 @@ pub struct Branches {
 }
 
 impl Branches {
-    /// First Piola-Kirchhoff stress, Pa, and J − 1, of a displacement gradient and one entry a term; it
-    /// means something where J − 1 > −1. The caller has to look: nothing here stops.
+    /// Returns the first Piola-Kirchhoff stress, Pa, and J − 1, for a displacement gradient and one inverse metric per
+    /// term. It is valid where J − 1 > −1, which the caller has to check.
     #[inline(always)]
     pub fn first_piola<N: Number>(
         &self,
@@ -37,12 +37,12 @@ impl Branches {
         past: impl Iterator<Item = InverseMetric<N>>,
     ) -> (AxisymmetricTensor<N>, N) {
         let strain = Strain::of(h);
-        // The hourglass shape of an element asks for this root of every law.
+        // The hourglass energy of an element needs this root for every law.
         let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
         (first_piola(&self.kirchhoff(h, &strain, past), h, y * y * y), strain.volume_change)
     }
 
-    /// Kirchhoff's stress, Pa.
+    /// Returns Kirchhoff's stress, Pa.
     #[inline(always)]
     pub(super) fn kirchhoff<N: Number>(
         &self,

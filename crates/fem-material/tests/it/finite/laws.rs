@@ -1,4 +1,4 @@
-//! What holds for every law.
+//! Properties of every law.
 
 use fem_material::finite::{AxisymmetricTensor, HyperelasticLaw};
 

@@ -54,7 +54,7 @@ fn rotation(angle: f64) -> [f64; 5] {
     [c, -s, s, c, 1.0]
 }
 
-/// Of E = 2, so that G is about 2/3.
+/// Moduli with E = 2, so that G is about 2/3.
 fn solid(law: HyperelasticLaw, nu: f64) -> Hyperelastic {
     Hyperelastic::new(law, &moduli(nu))
 }

@@ -10,7 +10,7 @@ use super::{
 
 pub const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
 
-/// Of weights and relaxation times.
+/// Creates a series from weights and relaxation times.
 pub fn relaxing(
     law: HyperelasticLaw,
     nu: f64,

@@ -69,7 +69,7 @@ fn principal_stretches_are_those_without_rotations() {
     }
 }
 
-/// Equal stretches in the plane, and stretches on both sides of where the quotient gives way to
+/// Equal stretches in the plane, and stretches on both sides of the switch from the quotient to
 /// the derivative.
 #[test]
 fn the_tangent_is_smooth_where_two_stretches_meet() {

@@ -6,10 +6,8 @@ use fem_material::{ActsOn, RelaxationStep};
 use super::super::block::{load_three, place};
 use super::super::hourglass::Deformed;
 use super::super::internal_variables::FIELDS_PER_TERM;
-use super::super::law::{Law, RelaxingLaw};
-use super::super::relaxing::Step;
+use super::super::law::RelaxingLaw;
 use super::*;
-use crate::lanes::LaneKernel;
 use crate::test_support::relaxing_glass;
 
 const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
@@ -226,101 +224,6 @@ fn a_held_amplitude_relaxes_exactly() {
             // Rounding of amplitudes of a hundredth.
             assert!(error.abs() < 1e-15, "{error:e}");
             assert!((own.0 - flown[0]).abs() <= own.0.abs());
-        }
-    }
-}
-
-/// Every law, on registers that the processor has, blocks with empty lanes among them.
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn lanes_of_every_kind_relax_to_the_same_bits() {
-    use super::super::relaxing::{Advance, Advanced};
-    use crate::lanes::{Avx2, Avx512, TwoRegisters};
-    #[target_feature(enable = "avx2,fma")]
-    fn avx2<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
-        advance.on::<TwoRegisters<Avx2>>(output);
-    }
-    #[target_feature(enable = "avx512f")]
-    fn avx512<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
-        advance.on::<Avx512>(output);
-    }
-    let mesh = mesh();
-    let geometries = geometries(&mesh);
-    let material = relaxing_glass(&TERMS, ActsOn::All);
-    let series = material.relaxation().unwrap();
-    let u = deformed(&mesh);
-    let of_elements: Vec<Vec<_>> =
-        vec![ragged(&mesh, 5).iter().map(|x| x.map(|x| 0.2 * x)).collect(); 9];
-    let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
-    for (law, n_elements) in HyperelasticLaw::ALL.into_iter().zip([96, 95, 91, 7]) {
-        let blocks = Blocks::pack(&mesh, &geometries, &leading(n_elements));
-        let solid = Hyperelastic::new(law, material.instantaneous());
-        let viscoelastic = Viscoelastic::new(&solid, series);
-        let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
-        let law = RelaxingLaw::of(&viscoelastic, solid.shear_modulus(), series);
-        let advance = Advance { blocks: &blocks, law: &law, step: Some(&step), u: &u };
-        let start = || (of_elements.clone(), vec![[0.0; 2]; u.len()]);
-        let [mut plain, mut two, mut one] = [start(), start(), start()];
-        advance.on::<Plain<WIDE>>(&mut Advanced {
-            internal: &mut plain.0,
-            forces: &mut plain.1,
-            is_valid: true,
-        });
-        assert!(vector(&plain.1).amax() > 1e-3);
-        let all_bits = |(history, forces): &(Vec<Vec<_>>, Vec<_>)| {
-            history.iter().chain([forces]).map(|field| bits(field)).collect::<Vec<_>>()
-        };
-        if crate::lanes::has_avx2() {
-            let mut output = Advanced { internal: &mut two.0, forces: &mut two.1, is_valid: true };
-            // SAFETY: the processor has been asked.
-            unsafe { avx2(advance, &mut output) };
-            assert!(all_bits(&plain) == all_bits(&two), "{law:?}");
-        }
-        if std::arch::is_x86_feature_detected!("avx512f") {
-            let mut output = Advanced { internal: &mut one.0, forces: &mut one.1, is_valid: true };
-            // SAFETY: as above.
-            unsafe { avx512(advance, &mut output) };
-            assert!(all_bits(&plain) == all_bits(&one), "{law:?}");
-        }
-    }
-}
-
-/// A single term has a loop of its own, which is that of many.
-#[test]
-fn one_term_relaxes_to_the_bits_of_many() {
-    use super::super::internal_variables::MOST_FINITE_STRAIN_TERMS;
-    use super::super::relaxing::{Advance, Advanced};
-    let mesh = mesh();
-    let material = relaxing_glass(&TERMS[..1], ActsOn::All);
-    let series = material.relaxation().unwrap();
-    let u = deformed(&mesh);
-    let blocks = Blocks::pack(&mesh, &geometries(&mesh), &leading(91));
-    let past: Vec<Vec<_>> = vec![ragged(&mesh, 5).iter().map(|x| x.map(|x| 0.2 * x)).collect(); 6];
-    let bits = |(history, forces): &(Vec<Vec<[f64; 2]>>, Vec<[f64; 2]>)| {
-        let all = history.iter().chain([forces]).flatten().flatten();
-        all.map(|x| x.to_bits()).collect::<Vec<_>>()
-    };
-    for law in HyperelasticLaw::ALL {
-        let solid = Hyperelastic::new(law, material.instantaneous());
-        let viscoelastic = Viscoelastic::new(&solid, series);
-        let step = Step::of(&viscoelastic, &[TERMS[0].1], 0.3);
-        let law = RelaxingLaw::of(&viscoelastic, solid.shear_modulus(), series);
-        for step in [None, Some(&step)] {
-            let advance = Advance { blocks: &blocks, law: &law, step, u: &u };
-            let start = || (past.clone(), vec![[0.0; 2]; u.len()]);
-            let [mut one, mut many] = [start(), start()];
-            advance.of_terms::<Plain<WIDE>, 1>(&mut Advanced {
-                internal: &mut one.0,
-                forces: &mut one.1,
-                is_valid: true,
-            });
-            advance.of_terms::<Plain<WIDE>, MOST_FINITE_STRAIN_TERMS>(&mut Advanced {
-                internal: &mut many.0,
-                forces: &mut many.1,
-                is_valid: true,
-            });
-            assert!(vector(&one.1).amax() > 1e-3);
-            assert!(bits(&one) == bits(&many), "{law:?}");
         }
     }
 }

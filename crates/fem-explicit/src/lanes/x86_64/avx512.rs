@@ -14,7 +14,7 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use fem_material::finite::{Number, POWER_OFFSET, UNITS, UNITS_AND_OFFSET};
 
-use super::{Lanes, WIDE};
+use super::super::{Lanes, WIDE};
 
 /// Lanes as an AVX-512 register. Values must be made and used only in functions that are compiled for
 /// AVX-512F and called after the processor was asked.
@@ -106,7 +106,7 @@ impl Number for Avx512 {
     }
 }
 
-/// The lanes that lie within ± a bound, a bit a lane.
+/// Returns the lanes that lie within ± a bound, one bit per lane.
 ///
 /// # Safety
 /// The type's contract.
@@ -116,7 +116,7 @@ unsafe fn within(x: Avx512, bound: f64) -> u8 {
     unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(_mm512_abs_pd(x.0), _mm512_set1_pd(bound)) }
 }
 
-/// The pair (r, y) of each lane.
+/// Returns the pair (r, y) of each lane.
 ///
 /// # Safety
 /// The type's contract.

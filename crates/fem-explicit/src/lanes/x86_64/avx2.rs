@@ -11,7 +11,7 @@ use std::arch::x86_64::{
 };
 use std::ops::{Add, Div, Mul, Sub};
 
-use super::{LANES, Lanes, Number};
+use super::super::{LANES, Lanes, Number};
 use fem_material::finite::{POWER_OFFSET, UNITS, UNITS_AND_OFFSET};
 
 /// Lanes as an AVX register. Values must be made and used only in functions
@@ -19,7 +19,7 @@ use fem_material::finite::{POWER_OFFSET, UNITS, UNITS_AND_OFFSET};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Avx2(pub(super) __m256d);
 
-/// All bits of the lanes that lie within ± a bound.
+/// Returns all bits of the lanes that lie within ± a bound.
 ///
 /// # Safety
 /// The type's contract.
@@ -32,7 +32,7 @@ unsafe fn within(x: Avx2, bound: f64) -> __m256d {
     }
 }
 
-/// The pair (r, y) of each lane.
+/// Returns the pair (r, y) of each lane.
 ///
 /// # Safety
 /// The type's contract.

@@ -4,7 +4,7 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use fem_material::finite::Number;
 
-use super::{LANES, Lanes, WIDE};
+use super::super::{LANES, Lanes, WIDE};
 
 /// Lanes of two registers.
 #[derive(Debug, Clone, Copy)]
@@ -74,7 +74,7 @@ impl<L: Number> Number for TwoRegisters<L> {
     }
 }
 
-/// The first four and the last four.
+/// Returns the first four and the last four.
 #[inline(always)]
 fn halves<T: Copy>([a, b, c, d, e, f, g, h]: [T; WIDE]) -> ([T; LANES], [T; LANES]) {
     ([a, b, c, d], [e, f, g, h])
