@@ -15,7 +15,7 @@ pub struct Plain {
     inverse_mass: Vec<[f64; 2]>,
     bulk: f64,
     shear: f64,
-        time_step: f64,
+    time_step: f64,
     displacement: Vec<[f64; 2]>,
     velocity: Vec<[f64; 2]>,
     forces: Vec<[f64; 2]>,
