@@ -1,11 +1,11 @@
 //! Input and result of a collision, the same for every model that computes it.
 //!
 //! ```text
-//! asked for                       while it runs                  what comes out
-//! BodyInput  what a body is       Monitor  looks on, stops it    Collision  the whole
-//! Approach   how they meet        History  thins rows            HistoryRow        an instant
-//! Expectation  what to expect     DissipatedEnergies   powers to energies    Ending     how it ended
-//! OutputRequest       rows, snapshots                                     Snapshot   fields at an instant
+//! input                            during the run                       result
+//! BodyInput      a body            Monitor             progress, stop   Collision   all quantities
+//! Approach       speed and gap     History             sampled rows     HistoryRow  an instant
+//! Expectation    estimates         DissipatedEnergies  sums of powers   Ending      the end of the run
+//! OutputRequest  rows, snapshots                                        Snapshot    fields at an instant
 //! ```
 //!
 //! * [`Account`] names a form of energy and [`EnergyLedger`] holds the amount in each. Every model,

@@ -1,7 +1,7 @@
-//! Places of a body of which is told what happens there over time.
+//! Probes: points of a body whose fields are recorded over time.
 //!
-//! A place moves with the material. Displacement and velocity are those of its element's four nodes, the
-//! stress is the smooth one of the nodes ([`StressRecovery`]), all by the element's shape functions.
+//! A probe moves with the material. Displacement and velocity are interpolated from the four nodes of its element with the
+//! element's shape functions, and so is the recovered nodal stress ([`StressRecovery`]).
 
 use fem_element::QuadGeometry;
 use fem_material::Material;
@@ -10,34 +10,34 @@ use serde::{Deserialize, Serialize};
 
 use crate::fields::{BodyFields, ContactProfile, SmallStrain, Snapshot, StressRecovery};
 
-/// A place that is asked for.
+/// A requested probe.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ProbeRequest {
-    /// 0 lower body, 1 upper.
+    /// The body: 0 is the lower one, 1 the upper one.
     pub side: usize,
-    /// (r, y) in the undeformed body, whose contact pole is at the origin, m.
+    /// Position (r, y) in the undeformed body, whose contact pole is at the origin, m.
     pub place: [f64; 2],
 }
 
-/// So far beyond an element's edge, in its own coordinates from −1 to 1, a place is still of it: the arc
-/// of a surface is beyond its chord.
+/// A point this far beyond an element's edge, in its local coordinates from −1 to 1, still belongs to the element, since
+/// the arc of a surface is beyond its chord.
 const BEYOND: f64 = 0.05;
-/// Newton's steps to the own coordinates of a place; in a convex quad a handful is enough.
+/// The largest number of Newton steps to the local coordinates of a point; a convex quad needs a few.
 const NEWTON_STEPS: usize = 20;
 
-/// Where a place is in a mesh, and what its stress is made of.
+/// A point of a mesh, with the interpolation of its displacement and stress.
 #[derive(Debug, Clone)]
 pub struct Probe {
     quad: [u32; 4],
-    /// Of the element's corners, sum 1.
+    /// Shape functions of the element's corners; their sum is 1.
     shares: [f64; 4],
     elements: Vec<Element>,
-    /// For each corner the elements around, by their place in the list above, and their weights.
+    /// Per corner the elements around it, as indices of `elements`, and their weights.
     around: [Vec<(usize, f64)>; 4],
     on_axis: [bool; 4],
 }
 
-/// One that has a part in the stress.
+/// An element that contributes to the stress.
 #[derive(Debug, Clone)]
 struct Element {
     number: usize,
@@ -46,11 +46,11 @@ struct Element {
 }
 
 impl Probe {
-    /// Of a place (r, y) in a mesh, m; `None` outside of it.
+    /// Finds a point (r, y), m, in a mesh; `None` if it is outside.
     pub fn new(recovery: &StressRecovery<'_>, place: [f64; 2]) -> Option<Self> {
         let mesh = recovery.mesh();
         let within = |number: usize| {
-            let [xi, eta] = own_coordinates(&mesh.corners(number), place)?;
+            let [xi, eta] = local_coordinates(&mesh.corners(number), place)?;
             let beyond = xi.abs().max(eta.abs()) - 1.0;
             (beyond <= BEYOND).then_some((number, [xi, eta], beyond))
         };
@@ -75,7 +75,7 @@ impl Probe {
         Some(Self { quad, shares: shape(own), elements, around, on_axis })
     }
 
-    /// Displacement (r, y), m, of a nodal field, or velocity, m/s.
+    /// Interpolates a nodal field, such as the displacement (r, y), m, or the velocity, m/s.
     pub fn of_nodes(&self, field: &[[f64; 2]]) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (node, share) in self.quad.into_iter().zip(self.shares) {
@@ -86,7 +86,7 @@ impl Probe {
         sum
     }
 
-    /// Stress (σ_rr, σ_yy, σ_θθ, σ_ry) of a body's fields, tension positive, Pa.
+    /// Returns the stress (σ_rr, σ_yy, σ_θθ, σ_ry) of a body's fields, tension positive, Pa.
     pub fn stress(&self, material: &Material, fields: &BodyFields) -> [f64; 4] {
         let small_strain = SmallStrain::of(material, &fields.displacement, &fields.effective);
         let of_element = |element: &Element| match fields.stress.get(element.number) {
@@ -109,15 +109,15 @@ impl Probe {
     }
 }
 
-/// The places that are asked for, found in the meshes of a pair.
+/// The requested probes in the meshes of both bodies.
 #[derive(Debug, Clone, Default)]
 pub struct Probes {
-    /// The body of each and where it is there; `None` of a place that no mesh has.
+    /// The body and the probe of each request; `None` if the point is outside of the mesh.
     found: Vec<Option<(usize, Probe)>>,
 }
 
 impl Probes {
-    /// Of the lower and the upper mesh.
+    /// Finds the requested points in the lower and the upper mesh.
     pub fn new(meshes: [Option<&SphereMesh>; 2], requests: &[ProbeRequest]) -> Self {
         if requests.is_empty() {
             return Self::default();
@@ -130,18 +130,18 @@ impl Probes {
         Self { found: requests.iter().map(find).collect() }
     }
 
-    /// Whether nothing is asked for.
+    /// Returns whether there are no requests.
     pub fn is_empty(&self) -> bool {
         self.found.is_empty()
     }
 
-    /// The first that no mesh has.
+    /// Returns the first request outside of the meshes.
     pub fn first_outside(&self) -> Option<usize> {
         self.found.iter().position(Option::is_none)
     }
 
-    /// What is left of a snapshot of bodies of these materials: fields of one entry a place, in the order
-    /// in which they were asked for, zero in the body that does not have it.
+    /// Reduces a snapshot of bodies of these materials to the probes: fields with one entry per request, in their order, and
+    /// zero in the other body.
     pub fn reduce(&self, materials: [Option<&Material>; 2], all: &Snapshot) -> Snapshot {
         let n = self.found.len();
         let mut few = Snapshot {
@@ -171,17 +171,17 @@ impl Probes {
     }
 }
 
-/// Signs of the corners' own coordinates.
+/// Signs of the corners' local coordinates.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-/// Shape functions at (ξ, η).
+/// Returns the shape functions at (ξ, η).
 fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {
     CORNERS.map(|[x, e]| 0.25 * (1.0 + x * xi) * (1.0 + e * eta))
 }
 
-/// (ξ, η) of a place, by Newton's method on the bilinear map; `None` where it does not settle.
-fn own_coordinates(corners: &[[f64; 2]; 4], place: [f64; 2]) -> Option<[f64; 2]> {
-    // Far away nothing has to settle.
+/// Returns the local coordinates (ξ, η) of a point by Newton's method on the bilinear map; `None` if it does not converge.
+fn local_coordinates(corners: &[[f64; 2]; 4], place: [f64; 2]) -> Option<[f64; 2]> {
+    // Far points need no iteration.
     let within = (0..2).all(|axis| {
         let (low, high) =
             corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| {
@@ -234,8 +234,8 @@ mod tests {
         disc.build().unwrap().on_side(side)
     }
 
-    /// u = (a r, b y) strains all alike: displacement and stress are exact everywhere, on the axis and
-    /// on the arc of the surface too.
+    /// u = (a r, b y) has a uniform strain: displacement and stress are exact everywhere, also on the axis and on the arc of
+    /// the surface.
     #[test]
     fn linear_fields_are_exact_at_any_place() {
         let (glass, [a, b]) = (glass(), [1e-3, -2e-3]);
@@ -273,7 +273,7 @@ mod tests {
         }
     }
 
-    /// Each body's entries are its own; what is nobody's is zero.
+    /// Each body has the entries of its own probes; all others are zero.
     #[test]
     fn a_snapshot_is_reduced_to_its_places() {
         let (meshes, glass) = ([mesh(Side::Below), mesh(Side::Above)], glass());

@@ -5,24 +5,24 @@ use serde::{Deserialize, Serialize};
 /// The named instants of a collision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum SnapshotInstant {
-    /// Approach at half its maximum, going in.
+    /// The approach reaches half its maximum in compression.
     MidCompression,
-    /// Approach at its maximum.
+    /// The approach is at its maximum.
     Maximum,
-    /// Approach at half its maximum, coming out.
+    /// The approach is back at half its maximum in separation.
     MidSeparation,
     /// The last step with a contact force.
     LastContact,
-    /// Of a run that failed: the last state that is kept whose energy added up.
+    /// The last valid state of a run that failed, with a small energy residual.
     LastSound,
 }
 
 impl SnapshotInstant {
-    /// All that can be asked for, in the order of time.
+    /// The instants that can be requested, in the order of time.
     pub const ALL: [Self; 4] =
         [Self::MidCompression, Self::Maximum, Self::MidSeparation, Self::LastContact];
 
-    /// The name in case and file names.
+    /// Returns the name in cases and file names.
     pub fn name(self) -> &'static str {
         match self {
             Self::MidCompression => "mid-compression",
@@ -34,24 +34,24 @@ impl SnapshotInstant {
     }
 }
 
-/// Which snapshots a run keeps.
+/// The snapshots that a run keeps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SnapshotRequest {
-    /// At named instants.
+    /// Snapshots at named instants.
     Labels(Vec<SnapshotInstant>),
-    /// So many, evenly over the contact.
+    /// A number of snapshots, evenly over the contact.
     Count(usize),
-    /// At these times since the start of the case, s.
+    /// Snapshots at these times since the start of the case, s.
     Times(Vec<f64>),
 }
 
 impl SnapshotRequest {
-    /// No snapshot at all.
+    /// Requests no snapshot.
     pub fn none() -> Self {
         Self::Labels(Vec::new())
     }
 
-    /// How many are asked for.
+    /// Returns the number of requested snapshots.
     pub fn len(&self) -> usize {
         match self {
             Self::Labels(labels) => labels.len(),
@@ -60,7 +60,7 @@ impl SnapshotRequest {
         }
     }
 
-    /// Whether none is.
+    /// Returns whether no snapshot is requested.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -73,66 +73,65 @@ pub struct BodyFields {
     pub displacement: Vec<[f64; 2]>,
     /// Velocity (r, y), m/s.
     pub velocity: Vec<[f64; 2]>,
-    /// Effective displacement that the relaxing stress sees, m; empty for an
-    /// elastic body.
+    /// Effective displacement of the relaxing stress, m; empty for an elastic body.
     pub effective: Vec<[f64; 2]>,
     /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of each element of a body at finite strain, tension
-    /// positive, Pa; empty where it follows from the fields above.
+    /// positive, Pa; empty if it follows from the fields above.
     pub stress: Vec<[f64; 4]>,
 }
 
 /// The contact at one distance from the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactProfilePoint {
-    /// Whether a node of the surface that is read is there.
+    /// Whether the point is a node of the surface whose values these are.
     pub is_node: bool,
-    /// Distance from the axis, m; where surfaces are followed as they move, the present one.
+    /// Distance from the axis, m, in the deformed state if the contact follows the moving surfaces.
     pub radius: f64,
     /// Contact pressure, Pa; 0 from the contact radius on.
     pub pressure: f64,
-    /// y of the upper less that of the lower surface, m; negative by what springs overlap.
+    /// Gap: y of the upper surface minus that of the lower one, m; negative if penalty springs overlap.
     pub gap: f64,
-    /// Displacement along r of the lower and the upper surface, m.
+    /// Radial displacement of the lower and the upper surface, m.
     pub radial: [f64; 2],
 }
 
 /// The contact at an instant.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactProfile {
-    /// Where the pressure falls to zero, m; 0 without contact.
+    /// Contact radius, where the pressure falls to zero, m; 0 without contact.
     pub radius: f64,
-    /// From the axis outward, as far as contact is looked for: nodes, where the contact ends, and places
-    /// between, along which straight lines carry the contact force; none in flight.
+    /// Points from the axis to the edge of the candidate region: the nodes, the edge of the contact, and points between, so
+    /// that linear interpolation gives the contact force. Empty in flight.
     pub places: Vec<ContactProfilePoint>,
 }
 
 /// Both bodies at an instant.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// Which instant, for named ones.
+    /// The named instant, if it is one.
     pub label: Option<SnapshotInstant>,
     /// Time since the start of the case, s.
     pub time: f64,
     /// Approach of the mass centres, m.
     pub approach: f64,
-    /// How far each body has moved along +y beyond the displacements of its fields, m: its flight before
-    /// first touch and the way of the mass centre, of which strains would keep nothing but rounding.
+    /// Rigid displacement of each body along +y, m, in addition to the displacements of its fields. It is kept apart since
+    /// its rounding errors would exceed the strains.
     pub carried: [f64; 2],
-    /// Lower and upper body.
+    /// Fields of the lower and the upper body.
     pub bodies: [BodyFields; 2],
-    /// What they do to each other.
+    /// The contact between them.
     pub contact: ContactProfile,
 }
 
 impl Snapshot {
-    /// Displacements (r, y) of a body's nodes since the start of the case, m.
+    /// Returns the displacements (r, y) of a body's nodes since the start of the case, m.
     pub fn displacement(&self, side: usize) -> Vec<[f64; 2]> {
         let carried = self.carried[side];
         self.bodies[side].displacement.iter().map(|[r, y]| [*r, y + carried]).collect()
     }
 }
 
-/// `n` times evenly over a stretch (s), its ends among them; one alone lies in the middle.
+/// Returns `n` times, evenly spaced over an interval (s) with its ends; a single time is in the middle.
 pub fn evenly(n: usize, start: f64, length: f64) -> Vec<f64> {
     match n {
         1 => vec![start + 0.5 * length],
@@ -140,12 +139,12 @@ pub fn evenly(n: usize, start: f64, length: f64) -> Vec<f64> {
     }
 }
 
-/// What is said of a named instant that a run has not had.
+/// Returns the warning for a named instant that did not occur.
 pub fn did_not_occur(label: SnapshotInstant) -> String {
     format!("the instant \"{}\" did not occur; its snapshot is left out", label.name())
 }
 
-/// What is said of a contact with fewer instants than snapshots.
+/// Returns the warning for a contact with fewer instants than requested snapshots.
 pub fn fewer_than_asked(n_asked: usize, n_there: usize, instants: &str) -> String {
-    format!("{n_asked} snapshots were asked for; the contact has {instants} for {n_there}")
+    format!("{n_asked} snapshots were requested; the contact has {instants} for {n_there}")
 }

@@ -1,4 +1,4 @@
-//! Stress from a snapshot.
+//! Stress recovery from a snapshot.
 
 use fem_element::QuadGeometry;
 use fem_material::{ActsOn, ElasticModuli, Material};
@@ -12,8 +12,8 @@ use crate::fields::BodyFields;
 pub struct StressField {
     /// Mean stress of each element.
     pub cells: Vec<[f64; 4]>,
-    /// Smooth stress at each node: the linear field that fits the elements
-    /// around best (superconvergent patch recovery, Zienkiewicz & Zhu 1992).
+    /// Smooth stress at each node, from the best linear fit to the elements around it (superconvergent patch recovery,
+    /// Zienkiewicz & Zhu 1992).
     pub points: Vec<[f64; 4]>,
 }
 
@@ -24,7 +24,7 @@ impl StressField {
     }
 }
 
-/// What recovery needs of a mesh, for any number of fields.
+/// The stress recovery of a mesh, for any number of fields.
 #[derive(Debug, Clone)]
 pub struct StressRecovery<'a> {
     mesh: &'a SphereMesh,
@@ -40,8 +40,8 @@ impl<'a> StressRecovery<'a> {
         Self { mesh, geometries: geometries.collect(), patches: Patches::new(mesh) }
     }
 
-    /// Recovers the stress of a body: that of its elements where the fields have it, as at finite
-    /// strain, else Hooke's of its displacements. Patches are those of the undeformed mesh.
+    /// Recovers the stress of a body: from the element stresses, if the fields have them (finite strain), or else from its
+    /// displacements with Hooke's law. The patches are those of the undeformed mesh.
     pub fn stress(&self, material: &Material, fields: &BodyFields) -> StressField {
         let cells = match fields.stress.is_empty() {
             true => self.at_small_strain(material, fields),
@@ -55,28 +55,28 @@ impl<'a> StressRecovery<'a> {
         StressField { cells, points }
     }
 
-    /// A stress as symmetry has it on the axis.
+    /// Returns the stress with the symmetry of the axis.
     pub(crate) fn on_axis([rr, yy, tt, _]: [f64; 4]) -> [f64; 4] {
         let mean = 0.5 * (rr + tt);
         [mean, yy, mean, 0.0]
     }
 
-    /// The mesh.
+    /// Returns the mesh.
     pub(crate) fn mesh(&self) -> &SphereMesh {
         self.mesh
     }
 
-    /// Elements around a node and their weights in its stress.
+    /// Returns the elements around a node and their weights in its stress.
     pub(crate) fn weights(&self, node: usize) -> &[(u32, f64)] {
         self.patches.weights(node)
     }
 
-    /// Geometry of an element.
+    /// Returns the geometry of an element.
     pub(crate) fn geometry(&self, element: usize) -> &QuadGeometry {
         &self.geometries[element]
     }
 
-    /// Stress of the elements at small strain.
+    /// Returns the stress of the elements at small strain.
     fn at_small_strain(&self, material: &Material, fields: &BodyFields) -> Vec<[f64; 4]> {
         let of = SmallStrain::of(material, &fields.displacement, &fields.effective);
         let elements = self.geometries.iter().zip(self.mesh.quads());
@@ -84,18 +84,17 @@ impl<'a> StressRecovery<'a> {
     }
 }
 
-/// What stress follows from at small strain.
+/// The displacements and moduli that give the stress at small strain.
 #[derive(Debug, Clone, Copy)]
 pub struct SmallStrain<'a> {
     moduli: &'a ElasticModuli,
     shear_field: &'a [[f64; 2]],
-    /// The field of the mean part, where it is another.
+    /// The displacements of the volumetric strain, if they differ.
     bulk_field: Option<&'a [[f64; 2]]>,
 }
 
 impl<'a> SmallStrain<'a> {
-    /// Of displacements and, of a body that relaxes, effective displacements of its nodes, m; none of any
-    /// other.
+    /// Takes the displacements of the nodes and, if the body relaxes, the effective displacements, m (otherwise empty).
     pub fn of(
         material: &'a Material,
         displacement: &'a [[f64; 2]],
@@ -111,7 +110,7 @@ impl<'a> SmallStrain<'a> {
         }
     }
 
-    /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of an element with these corners, tension positive, Pa.
+    /// Returns the Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of an element with these corners, tension positive, Pa.
     pub fn stress(&self, geometry: &QuadGeometry, quad: &[u32; 4]) -> [f64; 4] {
         let trace = |e: &[f64; 4]| e[0] + e[1] + e[2];
         let at = |field: &[[f64; 2]]| geometry.mean_strain(&quad.map(|node| field[node as usize]));
@@ -124,7 +123,7 @@ impl<'a> SmallStrain<'a> {
     }
 }
 
-/// Pressure −tr σ / 3 and von Mises' equivalent stress of (σ_rr, σ_yy, σ_θθ, σ_ry).
+/// Returns the pressure −tr σ / 3 and the von Mises stress of (σ_rr, σ_yy, σ_θθ, σ_ry).
 pub fn invariants([rr, yy, tt, ry]: [f64; 4]) -> (f64, f64) {
     let pressure = -(rr + yy + tt) / 3.0;
     let square = 0.5 * ((rr - yy).powi(2) + (yy - tt).powi(2) + (tt - rr).powi(2));
@@ -134,9 +133,9 @@ pub fn invariants([rr, yy, tt, ry]: [f64; 4]) -> (f64, f64) {
 /// The weights of each node's elements.
 #[derive(Debug, Clone)]
 pub(crate) struct Patches {
-    /// First weight of each node, and the end of the last.
+    /// Index of the first weight of each node, and the end of the last one.
     starts: Vec<usize>,
-    /// Element and its weight.
+    /// Elements and their weights.
     weights: Vec<(u32, f64)>,
 }
 
@@ -165,7 +164,7 @@ impl Patches {
         for (node, &origin) in mesh.nodes().iter().enumerate() {
             patch.clone_from(&around[node]);
             if on_boundary[node] {
-                // One element deep decides no gradient: take the next ring too.
+                // One layer of elements does not determine a gradient: add the next ring.
                 let corners =
                     around[node].iter().flat_map(|&element| mesh.quads()[element as usize]);
                 patch.extend(corners.flat_map(|corner| around[corner as usize].iter().copied()));
@@ -177,7 +176,7 @@ impl Patches {
         patches
     }
 
-    /// Weights for the value at `origin` of the linear field that fits a patch.
+    /// Adds the weights for the value at `origin` of the linear field that fits a patch.
     fn add(&mut self, origin: [f64; 2], patch: &[u32], centres: &[[f64; 2]]) {
         let offset = |element: u32| {
             let [r, y] = centres[element as usize];
@@ -191,7 +190,7 @@ impl Patches {
             Vector3::new(1.0, r / size, y / size)
         };
         let matrix: Matrix3<f64> = patch.iter().map(|&e| basis(e) * basis(e).transpose()).sum();
-        // The first row of the inverse; the plain mean where no gradient is decided.
+        // The first row of the inverse; the mean if the gradient is not determined.
         let row = match matrix.cholesky() {
             Some(factor) => factor.solve(&Vector3::x()),
             None => Vector3::x() / patch.len() as f64,
@@ -200,12 +199,12 @@ impl Patches {
         self.starts.push(self.weights.len());
     }
 
-    /// Elements around a node and their weights.
+    /// Returns the elements around a node and their weights.
     pub fn weights(&self, node: usize) -> &[(u32, f64)] {
         &self.weights[self.starts[node]..self.starts[node + 1]]
     }
 
-    /// Four components at every node from those of the elements.
+    /// Returns four components at every node from those of the elements.
     pub fn smooth(&self, cells: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let patches = self.starts.windows(2).map(|ends| &self.weights[ends[0]..ends[1]]);
         let points = patches.map(|weights| {

@@ -27,11 +27,11 @@ pub enum ApproachError {
     #[error("the bodies approach each other at {0} m/s; it must be positive and finite")]
     NotApproaching(f64),
     /// The gap is negative or not finite.
-    #[error("gap is {0} m; allowed is at least 0, and finite")]
+    #[error("gap is {0} m; it must be finite and at least 0")]
     Gap(f64),
 }
 
-/// An approach as it is read.
+/// An approach before validation.
 #[derive(Deserialize)]
 struct Unchecked {
     velocities: [f64; 2],
@@ -51,7 +51,7 @@ impl Approach {
     /// the distance of their surfaces on the axis at time 0, m.
     ///
     /// # Errors
-    /// Bodies that do not approach each other; a gap that is negative or not finite.
+    /// The bodies do not approach each other, or the gap is negative or not finite.
     pub fn new(velocities: [f64; 2], gap: f64) -> Result<Self, ApproachError> {
         let approach = Self { velocities, gap };
         let speed = approach.speed();
@@ -68,27 +68,27 @@ impl Approach {
     /// touch at time 0.
     ///
     /// # Errors
-    /// A speed that is not positive and finite.
+    /// The speed is not positive and finite.
     pub fn at(speed: f64) -> Result<Self, ApproachError> {
         Self::new([speed, 0.0], 0.0)
     }
 
-    /// Velocities of the lower and the upper body along +y, m/s.
+    /// Returns the velocities of the lower and the upper body along +y, m/s.
     pub fn velocities(&self) -> [f64; 2] {
         self.velocities
     }
 
-    /// Distance of the surfaces on the axis at time 0, m, ≥ 0.
+    /// Returns the distance of the surfaces on the axis at time 0, m, ≥ 0.
     pub fn gap(&self) -> f64 {
         self.gap
     }
 
-    /// Relative speed of approach, m/s, > 0.
+    /// Returns the relative speed of approach, m/s, > 0.
     pub fn speed(&self) -> f64 {
         self.velocities[0] - self.velocities[1]
     }
 
-    /// Time of first touch, s.
+    /// Returns the time of first touch, s.
     pub fn first_touch(&self) -> f64 {
         self.gap / self.speed()
     }
@@ -98,7 +98,7 @@ impl Approach {
     /// one body may be a wall.
     ///
     /// # Errors
-    /// Speeds that leave the range of f64.
+    /// A speed is outside of the range of f64.
     pub fn in_frame_of_centre(&self, masses: [f64; 2]) -> Result<(Self, f64), ApproachError> {
         let [lower, upper] = self.centres(masses, 1.0, 0.0);
         let speed = self.speed();
@@ -114,7 +114,7 @@ impl Approach {
             if own.is_infinite() { 0.0 } else { (1.0 + own / other).recip() }
         };
         let shares = [share(masses[0], masses[1]), share(masses[1], masses[0])];
-        // The lighter body does more of the approach; the common mass centre moves on.
+        // The lighter body moves more; the common mass centre has a constant velocity.
         let common = shares[1] * self.velocities[0] + shares[0] * self.velocities[1];
         [common * time + shares[0] * approach, common * time - shares[1] * approach]
     }

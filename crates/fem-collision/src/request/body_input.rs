@@ -6,30 +6,30 @@ use std::f64::consts::PI;
 
 use crate::request::FLIGHT_AFTER;
 
-/// What a body is made of.
+/// One of the two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodyInput {
     /// A meshed sphere.
     Sphere {
-        /// Its mesh, on its side of the plane y = 0.
+        /// Mesh on its side of the plane y = 0.
         mesh: SphereMesh,
-        /// Its material.
+        /// Material of the sphere.
         material: Material,
     },
-    /// A sphere that does not deform: one degree of freedom, its motion along y.
+    /// A rigid sphere: its only degree of freedom is the motion along y.
     Rigid {
-        /// Of the sphere, m.
+        /// Radius of the sphere, m.
         radius: f64,
-        /// kg.
+        /// Mass of the sphere, kg.
         mass: f64,
     },
     /// A half-space bounded by the plane y = 0. It has infinite mass, and its far boundary keeps
     /// its velocity as a wall does.
     HalfSpace {
-        /// Its mesh, on its side of the plane, as a [`QuarterDisc`](fem_mesh::QuarterDisc) makes
-        /// it. The mesh identifies a half-space, even where it is given for a sphere.
+        /// Mesh on its side of the plane, as [`QuarterDisc`](fem_mesh::QuarterDisc) creates it. The mesh identifies a
+        /// half-space, even if it is given for a sphere.
         mesh: SphereMesh,
-        /// Its material.
+        /// Material of the half-space.
         material: Material,
     },
     /// A rigid plane of infinite mass that keeps its velocity.
@@ -37,7 +37,7 @@ pub enum BodyInput {
 }
 
 impl BodyInput {
-    /// Its mesh; a rigid body has none.
+    /// Returns the mesh; a rigid body has none.
     pub fn mesh(&self) -> Option<&SphereMesh> {
         match self {
             Self::Sphere { mesh, .. } | Self::HalfSpace { mesh, .. } => Some(mesh),
@@ -45,7 +45,7 @@ impl BodyInput {
         }
     }
 
-    /// Its material; a rigid body has none.
+    /// Returns the material; a rigid body has none.
     pub fn material(&self) -> Option<&Material> {
         match self {
             Self::Sphere { material, .. } | Self::HalfSpace { material, .. } => Some(material),
@@ -53,7 +53,7 @@ impl BodyInput {
         }
     }
 
-    /// Whether it is a half-space.
+    /// Returns whether the body is a half-space.
     pub fn is_half_space(&self) -> bool {
         self.mesh().is_some_and(SphereMesh::is_half_space)
     }
@@ -69,7 +69,7 @@ const COMPLIANCE_LEFT_OUT: f64 = 1e-6;
 /// contact.
 pub fn far_radius_of_waves(material: &Material, contact_time: f64, candidate_radius: f64) -> f64 {
     let time = (1.0 + FLIGHT_AFTER) * contact_time;
-    // A mesh around a contact of no duration still has its rings.
+    // Even for a contact of zero duration the mesh needs its rings.
     (candidate_radius + material.dilatational_wave_speed() * time).max(4.0 * candidate_radius)
 }
 

@@ -1,4 +1,4 @@
-//! From the relative motion to the two bodies: the mass centre moves on, and
+//! Velocities and energies of the two bodies from their relative motion. The common mass centre has a constant velocity:
 //!
 //! ```math
 //! v_1 = v_1(0) - \frac{m^*}{m_1}\,(v - \dot\delta), \qquad
@@ -13,28 +13,28 @@ use crate::request::Approach;
 /// The frame of the common mass centre of two bodies along +y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// How they meet.
+    /// Initial velocities and gap.
     pub approach: Approach,
     /// Masses of the lower and the upper body, kg; a wall or a half-space has none.
     pub masses: [Option<f64>; 2],
-    /// m₁m₂/(m₁+m₂), kg.
+    /// Reduced mass m* = m₁m₂/(m₁+m₂), kg.
     pub reduced_mass: f64,
-    /// Of the approach by gravity, m/s², ≥ 0; 0 without.
+    /// Acceleration of the approach by gravity, m/s², ≥ 0; 0 without gravity.
     pub gravity: f64,
 }
 
 impl Frame {
-    /// Relative speed of approach v, m/s.
+    /// Returns the relative speed of approach v, m/s.
     pub fn speed(&self) -> f64 {
         self.approach.speed()
     }
 
-    /// m*(v − δ̇), N s, that the first body has given to the second at a rate of the approach, m/s.
+    /// Returns the momentum m*(v − δ̇), N s, that the first body has transferred to the second at a rate of the approach, m/s.
     pub fn impulse(&self, rate: f64) -> f64 {
         self.reduced_mass * (self.speed() - rate)
     }
 
-    /// Velocities of both bodies (m/s) at a rate of the approach, m/s.
+    /// Returns the velocities of both bodies (m/s) at a rate of the approach, m/s.
     #[inline]
     pub fn velocities(&self, rate: f64) -> [f64; 2] {
         let before = self.approach.velocities();
@@ -42,48 +42,48 @@ impl Frame {
         [before[0] - change(0), before[1] + change(1)]
     }
 
-    /// Kinetic energy of the spheres (J) at a rate of the approach, m/s.
+    /// Returns the kinetic energy of the spheres (J) at a rate of the approach, m/s.
     #[inline]
     pub fn kinetic(&self, rate: f64) -> f64 {
         let bodies = self.masses.into_iter().zip(self.velocities(rate));
         bodies.filter_map(|(mass, velocity)| Some(0.5 * mass? * velocity * velocity)).sum()
     }
 
-    /// Kinetic energy of the relative motion at the start, J.
+    /// Returns the kinetic energy of the relative motion at the start, J.
     pub fn initial(&self) -> f64 {
         0.5 * self.reduced_mass * self.speed() * self.speed()
     }
 
-    /// ½m*(δ̇² − v²), J: the change of the kinetic energy less a wall's work, without the
-    /// cancellation that unequal masses would bring.
+    /// Returns ½m*(δ̇² − v²), J: the change of the kinetic energy without the work of a wall. It avoids the cancellation that
+    /// unequal masses would cause.
     pub fn gained(&self, rate: f64) -> f64 {
         0.5 * self.reduced_mass * (rate - self.speed()) * (rate + self.speed())
     }
 
-    /// Weight of the upper body, N; 0 without gravity.
+    /// Returns the weight of the upper body, N; 0 without gravity.
     pub fn weight(&self) -> f64 {
         self.reduced_mass * self.gravity
     }
 
-    /// Potential of that weight (J) at an approach, m: 0 at first touch; `None` without gravity.
+    /// Returns the potential of that weight (J) at an approach, m, which is 0 at first touch; `None` without gravity.
     pub fn potential(&self, approach: f64) -> Option<f64> {
         (self.gravity > 0.0).then(|| -self.weight() * approach)
     }
 
-    /// Energy (J) that an imbalance is measured by, once bodies have come this close (m): what they had, and what
-    /// weight has given them on that way. A ball that is laid down has next to nothing at first touch.
+    /// Returns the energy (J) to which residuals are relative, at the largest approach so far (m): the initial energy and the
+    /// work of the weight. A ball that is laid down has almost no initial energy.
     pub fn energy_at_stake(&self, closest: f64) -> f64 {
         self.initial() + self.weight() * closest
     }
 
-    /// Work that a moving wall has done, J.
+    /// Returns the work of a moving wall, J.
     pub fn wall_work(&self, rate: f64) -> f64 {
         let velocities = self.approach.velocities();
         let wall = |side: usize| self.masses[side].is_none().then_some(velocities[side]);
         self.impulse(rate) * (wall(0).unwrap_or(0.0) - wall(1).unwrap_or(0.0))
     }
 
-    /// Σ m|v| at the start, N s; that of the relative motion if a wall strikes a sphere at rest.
+    /// Returns Σ m|v| at the start, N s, or the momentum of the relative motion if a wall strikes a sphere at rest.
     pub fn momentum_scale(&self) -> f64 {
         let bodies = self.masses.into_iter().zip(self.approach.velocities());
         let scale: f64 = bodies.map(|(mass, v)| mass.unwrap_or(0.0) * v.abs()).sum();
@@ -95,7 +95,7 @@ impl Frame {
 mod tests {
     use super::*;
 
-    /// Two spheres that part at half the speed, by hand: momentum 2·3 + 1·0 is kept.
+    /// Two spheres that separate at half the speed, by hand: momentum 2·3 + 1·0 is conserved.
     #[test]
     fn momentum_is_kept_and_the_rate_is_the_difference() {
         let approach = Approach::at(3.0).unwrap();

@@ -1,4 +1,4 @@
-//! The input of a model: what the bodies are, how they meet, and what the run has to record.
+//! The input of a model: the bodies, their approach, and the requested output.
 
 mod approach;
 mod body_input;

@@ -1,4 +1,4 @@
-//! What a run is asked for.
+//! Output requests, and the expectation of a collision.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -9,7 +9,7 @@ use crate::fields::{ProbeRequest, SnapshotRequest};
 /// vibrations are measured in this free flight.
 pub const FLIGHT_AFTER: f64 = 0.2;
 
-/// What a run is asked for.
+/// The output that a run must produce, and its limits.
 ///
 /// ```
 /// use fem_collision::{OutputRequest, OutputRequestError};
@@ -26,42 +26,42 @@ pub struct OutputRequest {
     pub history_rows: usize,
     /// Snapshots to keep.
     pub snapshots: SnapshotRequest,
-    /// Places that are told of over time.
+    /// Points whose fields are recorded over time.
     pub probes: Vec<ProbeRequest>,
-    /// The run gives up after so many expected contact times.
+    /// Number of expected contact times after which the run stops.
     pub give_up_after: f64,
-    /// A run that computes each element at each step ends after so many elements times steps.
+    /// Largest number of elements times steps, for a model that computes each element at each step.
     pub most_element_updates: u64,
 }
 
-/// Why nothing can be asked for like this.
+/// The reason why an output request is not valid.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum OutputRequestError {
-    /// More rows than any memory holds.
-    #[error("{0} rows of a history; allowed are at most {most}", most = OutputRequest::MOST_ROWS)]
+    /// The history has too many rows for any memory.
+    #[error("{0} rows of the history; at most {most} are allowed", most = OutputRequest::MOST_ROWS)]
     HistoryRows(usize),
-    /// More snapshots than any memory holds.
-    #[error("{0} snapshots; allowed are at most {most}", most = OutputRequest::MOST_SNAPSHOTS)]
+    /// There are too many snapshots for any memory.
+    #[error("{0} snapshots; at most {most} are allowed", most = OutputRequest::MOST_SNAPSHOTS)]
     Snapshots(usize),
-    /// Before the start of the case, or no instant at all.
-    #[error("a snapshot at {0} s; allowed is at least 0, and finite")]
+    /// The time of a snapshot is negative or not finite.
+    #[error("a snapshot is at {0} s; the time must be finite and at least 0")]
     SnapshotTime(f64),
-    /// A run that gives up before it begins, or never knows.
-    #[error("to give up after {0} expected contact times; allowed is above 0")]
+    /// The number of expected contact times is not positive.
+    #[error("the run would stop after {0} expected contact times; the number must be above 0")]
     GiveUpAfter(f64),
 }
 
 impl OutputRequest {
-    /// Rows over the contact that draw every curve smoothly.
+    /// Default number of rows over the contact, enough for smooth curves.
     pub const ROWS: usize = 1000;
-    /// Expected contact times after which no body that relaxes parts from another.
+    /// Default number of expected contact times; relaxing bodies have separated by then or never do.
     pub const GIVE_UP_AFTER: f64 = 50.0;
-    /// The most rows that can be asked for.
+    /// Largest number of rows.
     pub const MOST_ROWS: usize = 1_000_000;
-    /// The most snapshots that can be asked for.
+    /// Largest number of snapshots.
     pub const MOST_SNAPSHOTS: usize = 1_000_000;
 
-    /// The quantities of the collision and its history, no snapshots.
+    /// Requests the quantities of the collision and its history, without snapshots.
     pub fn history() -> Self {
         Self {
             history_rows: Self::ROWS,
@@ -72,25 +72,21 @@ impl OutputRequest {
         }
     }
 
-    /// The quantities of the collision alone.
+    /// Requests only the quantities of the collision.
     pub fn quantities() -> Self {
         Self { history_rows: 0, ..Self::history() }
     }
 
-    /// Whether a run can be asked for this.
+    /// Validates the request.
     ///
     /// # Errors
-    /// More than [`OutputRequest::MOST_ROWS`] rows or [`OutputRequest::MOST_SNAPSHOTS`] snapshots, a snapshot at a time
-    /// that is negative or not finite, a `give_up_after` that is not positive; it may be infinite.
+    /// There are more than [`OutputRequest::MOST_ROWS`] rows or [`OutputRequest::MOST_SNAPSHOTS`] snapshots, the time of a
+    /// snapshot is negative or not finite, or `give_up_after` is not positive; it may be infinite.
     pub fn check(&self) -> Result<(), OutputRequestError> {
         if self.history_rows > Self::MOST_ROWS {
             return Err(OutputRequestError::HistoryRows(self.history_rows));
         }
-        let n_snapshots = match &self.snapshots {
-            SnapshotRequest::Labels(labels) => labels.len(),
-            SnapshotRequest::Count(n) => *n,
-            SnapshotRequest::Times(times) => times.len(),
-        };
+        let n_snapshots = self.snapshots.len();
         if n_snapshots > Self::MOST_SNAPSHOTS {
             return Err(OutputRequestError::Snapshots(n_snapshots));
         }
@@ -107,10 +103,10 @@ impl OutputRequest {
     }
 }
 
-/// What to expect of a collision, from closed forms.
+/// Estimates of a collision from closed forms.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Expectation {
-    /// First to last contact force, s.
+    /// Time from first to last contact force, s.
     pub contact_time: f64,
     /// Largest approach, m.
     pub approach: f64,
@@ -145,7 +141,6 @@ mod tests {
         }
     }
 
-    /// What is wrong is told with its value.
     #[test]
     fn times_are_times() {
         for wrong in [-1e-9, f64::INFINITY, f64::NAN] {

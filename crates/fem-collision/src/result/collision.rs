@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::fields::{Snapshot, SnapshotInstant};
 use crate::request::Approach;
-use crate::result::{Bounce, Ending, RestState, Stop};
+use crate::result::{Ending, Stop};
 use crate::run::{DeepestOverlap, EnergyLedger, HistoryRow, StepInstant};
 
 /// Warning for bodies with a restitution of 0.
-pub const STAY_TOGETHER: &str = "the bodies stay together: what drives them apart is worth less than a thousandth of the speed of approach, and the \
-     contact is not followed to an end";
+pub const STAY_TOGETHER: &str = "the bodies stay together: they would separate at less than a thousandth of the speed of approach, so the \
+     run ends before the contact does";
 
 /// Largest energy residual of a valid run, as a fraction of the initial energy.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
@@ -32,45 +32,45 @@ pub struct Collision {
     pub last_contact: Option<f64>,
     /// Number of separate contacts.
     pub contact_episodes: u64,
-    /// Largest contact force, a mean over [`PEAK_WINDOW`](crate::PEAK_WINDOW) of the pulse in models that step, N.
+    /// Largest contact force, N. Models with time steps average it over [`PEAK_WINDOW`](crate::PEAK_WINDOW) of the pulse.
     pub peak_force: Option<f64>,
     /// Largest contact force of a single step, N.
     pub peak_force_raw: Option<f64>,
     /// Largest approach, m.
     pub max_approach: Option<f64>,
-    /// Largest contact radius, a mean as is the force, m.
+    /// Largest contact radius, averaged as the force is, m.
     pub max_contact_radius: Option<f64>,
-    /// Largest contact pressure on the axis, a mean as is the force, Pa: of first touch nothing counts
+    /// Largest contact pressure on the axis, averaged as the force is, Pa. The first touch does not count
     /// ([`ForcePulse`](crate::ForcePulse)).
     pub peak_pressure: Option<f64>,
-    /// Radius of the contact at that pressure, of a model with meshes, m.
+    /// Contact radius at that pressure, m, for models with meshes.
     pub peak_pressure_radius: Option<f64>,
     /// Scatter of the contact force from sample to sample, N; close to 0 for a smooth pulse.
     pub force_scatter: Option<f64>,
-    /// When the force scatters most.
+    /// The instant at which the force scatters most.
     pub noisiest_instant: Option<StepInstant>,
     /// The deepest overlap of the surfaces; `None` for a contact without springs.
     pub deepest_overlap: Option<DeepestOverlap>,
     /// The final candidate region of the contact, for models that limit the search.
     pub candidate_region: Option<CandidateRegion>,
-    /// Kinetic energy at the start, walls and half-spaces not counted, J.
+    /// Kinetic energy at the start without walls and half-spaces, J.
     pub initial_energy: Option<f64>,
     /// Energy in each account at the end, J.
     pub energies: EnergyLedger,
     /// Energy residual at the end, J.
     pub residual: Option<f64>,
-    /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre, with gravity
-    /// over that and what the weight has given while the bodies came closer.
+    /// Largest energy residual, over the initial kinetic energy in the frame of the mass centre; with gravity over the sum of
+    /// that and the work of the weight on the approach.
     pub residual_relative: Option<f64>,
-    /// When that was first above [`LARGEST_RESIDUAL`], for models that step in time.
+    /// The instant at which that first exceeded [`LARGEST_RESIDUAL`], for models with time steps.
     pub residual_since: Option<StepInstant>,
     /// Largest spurious energy growth at any step, over the initial kinetic energy in the frame of
     /// the mass centre; for a bouncing ball that of its worst contact. `None` for models with one
     /// degree of freedom.
     pub energy_growth: Option<f64>,
-    /// Worst drift of momentum over Σ m|v| at the start, or of the momentum that the bodies have
-    /// exchanged from the impulse of the contact force. `None` of one degree of freedom, from which
-    /// both velocities follow because momentum is kept: that cannot fail.
+    /// Largest momentum residual over Σ m|v| at the start: the drift of the total momentum, or the difference between the
+    /// exchanged momentum and the impulse of the contact force. `None` for models with one degree of freedom, which
+    /// conserve momentum by definition.
     pub momentum_residual_relative: Option<f64>,
     /// Lower and upper body.
     pub bodies: [BodyResult; 2],
@@ -92,7 +92,7 @@ pub struct Collision {
     pub bounces: Vec<Bounce>,
     /// The state of a ball that has come to rest.
     pub rest: Option<RestState>,
-    /// Instants over contact and separation.
+    /// Samples over contact and separation.
     pub history: Vec<HistoryRow>,
     /// Fields of finite elements, in the order of time.
     pub snapshots: Vec<Snapshot>,
@@ -103,20 +103,57 @@ pub struct Collision {
     pub warnings: Vec<String>,
 }
 
-/// One body after a collision.
+/// One contact of a ball that bounces.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bounce {
+    /// Time of first touch since the start of the case, s.
+    pub time: f64,
+    /// Relative speed at first touch, m/s.
+    pub speed_before: f64,
+    /// Relative velocity after the contact over that before; 0 if the ball stays.
+    pub restitution: f64,
+    /// Time from first to last contact force, s; `None` if the ball stays.
+    pub contact_time: Option<f64>,
+    /// Largest contact force, N.
+    pub peak_force: Option<f64>,
+}
+
+/// The static contact of a ball at rest, after all relaxation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RestState {
+    /// Time since the start of the case from which the ball stays, s.
+    pub time: f64,
+    /// The static contact under its weight.
+    pub contact: StaticContact,
+}
+
+/// A contact under a constant force, with equilibrium moduli.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StaticContact {
+    /// Contact force, N.
+    pub force: f64,
+    /// Approach of the mass centres since first touch, m.
+    pub approach: f64,
+    /// Contact radius, where the pressure falls to zero, m; `None` if the model has none.
+    pub contact_radius: Option<f64>,
+    /// Contact pressure on the axis, Pa; `None` if the model has none.
+    pub centre_pressure: Option<f64>,
+}
+
+/// The result of one body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyResult {
-    /// Elements of its mesh.
+    /// Number of elements of the mesh.
     pub elements: Option<usize>,
-    /// Nodes of its mesh.
+    /// Number of nodes of the mesh.
     pub nodes: Option<usize>,
     /// Mass, kg; a wall or a half-space has none.
     pub mass: Option<f64>,
     /// Mass that mass scaling moved to light nodes of the body, kg.
     pub added_mass: Option<f64>,
-    /// Velocity of the mass centre along +y, m/s; of a half-space far away.
+    /// Velocity of the mass centre along +y, m/s; for a half-space that of its far boundary.
     pub velocity_after: Option<f64>,
-    /// Energy left in its vibrations, J; for a half-space that of the outgoing waves.
+    /// Energy of the vibrations that are left, J; for a half-space that of the outgoing waves.
     pub vibration_energy: Option<f64>,
 }
 
@@ -203,12 +240,12 @@ impl Collision {
     }
 }
 
-/// The part of the surfaces in which a model looks for contact.
+/// The candidate region: the part of the surfaces in which a model searches for contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CandidateRegion {
-    /// Distance from the axis out to which contact is looked for, m.
+    /// Largest distance from the axis, m.
     pub radius: f64,
-    /// Number of points that can touch.
+    /// Number of points that may be in contact.
     pub n_points: usize,
     /// Whether the points are nodes of one surface; otherwise they are integration points.
     pub at_nodes: bool,

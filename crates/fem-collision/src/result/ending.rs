@@ -1,4 +1,4 @@
-//! Why a run ends before the bodies have parted.
+//! The end of a run: separation, rest, or the reason why it stopped earlier.
 
 use fem_material::engineering::{number, show};
 use serde::{Deserialize, Serialize};
@@ -6,136 +6,136 @@ use thiserror::Error;
 
 use crate::request::OutputRequestError;
 
-/// Why a run ended early. Times are those of the case, s.
+/// The reason why a run stopped early.
 #[derive(Clone, Debug, PartialEq, Error, Serialize, Deserialize)]
 pub enum Stop {
-    /// The caller asked for it.
+    /// The caller interrupted the run.
     #[error("interrupted at {at} (step {step})", at = show(*time, "s"))]
     Interrupted {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
     },
-    /// The contact grew out of the part of the boundary in which it is looked for.
+    /// The contact reached the edge of the candidate region.
     #[error(
         "at {at} (step {step}) the contact reached the radius {wide}, \
-         the end of the region in which it is looked for", at = show(*time, "s"), wide = show(*radius, "m"))]
+         the edge of the region in which contact is searched for", at = show(*time, "s"), wide = show(*radius, "m"))]
     ContactBeyondCandidates {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
         /// Candidate radius, m.
         radius: f64,
     },
-    /// A surface folds where the bodies touch: beyond, contact is not looked for.
+    /// A surface folds in the contact, where contact is not searched for.
     #[error(
-        "at {at} (step {step}) the surface of the {} body turns over at the radius {wide}, where the other \
-         body touches it: node {node} has come as near to the axis as the one inside of it; undeformed it \
-         lies at r = {}, y = {}",
+        "at {at} (step {step}) the surface of the {} body folds at the radius {wide} in the contact: \
+         node {node} is no farther from the axis than the next node inward; its undeformed position is \
+         r = {}, y = {}",
         side_of(*body),
         show(place[0], "m"),
         show(place[1], "m"), at = show(*time, "s"), wide = show(*radius, "m"))]
     SurfaceTurnsOver {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
-        /// Distance of the place from the axis, m.
+        /// Distance of the fold from the axis, m.
         radius: f64,
-        /// 0 of the lower body, 1 of the upper.
+        /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Number of the node.
         node: usize,
-        /// Where it lies before the collision (r, y), m.
+        /// Position of the node before the collision (r, y), m.
         place: [f64; 2],
     },
-    /// Even the whole near hemisphere is too small for the contact.
+    /// The contact is larger than the hemisphere around it.
     #[error(
-        "the contact reached {ratio:.2} of the smaller radius: the bodies are not linear there; \
-         lower the speed"
+        "the contact radius reached {ratio:.2} of the smaller sphere's radius, outside of the \
+         linear range; lower the speed"
     )]
     ContactTooLarge {
-        /// Contact radius over the smaller sphere's.
+        /// Contact radius over the radius of the smaller sphere.
         ratio: f64,
     },
-    /// The energy has grown.
+    /// The total energy has grown.
     #[error(
-        "at {at} (step {step}) the energy is {ratio:.4} times the initial: the time integration \
-         is unstable; node {node} of the {} body is fastest, undeformed it lies at r = {}, \
-         y = {}",
+        "at {at} (step {step}) the energy is {ratio:.4} times the initial energy: the time integration \
+         is unstable; the fastest node is node {node} of the {} body, with the undeformed position \
+         r = {}, y = {}",
         side_of(*body),
         show(place[0], "m"),
         show(place[1], "m"), at = show(*time, "s"))]
     EnergyGrowth {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
         /// Total energy over initial energy.
         ratio: f64,
-        /// 0 of the lower body, 1 of the upper.
+        /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
-        /// Number of its node that moves fastest against it.
+        /// Number of the node that moves fastest relative to the body.
         node: usize,
-        /// Where that lies before the collision (r, y), m.
+        /// Position of the node before the collision (r, y), m.
         place: [f64; 2],
     },
-    /// The motion is no number any more.
+    /// The motion is NaN.
     #[error(
-        "at {at} (step {step}) the motion of node {node} of the {} body is no number; undeformed \
-         it lies at r = {}, y = {}",
+        "at {at} (step {step}) the motion of node {node} of the {} body is not a number; its undeformed \
+         position is r = {}, y = {}",
         side_of(*body),
         show(place[0], "m"),
         show(place[1], "m"), at = show(*time, "s"))]
     NoNumber {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
-        /// 0 of the lower body, 1 of the upper.
+        /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Number of the node.
         node: usize,
-        /// Where it lies before the collision (r, y), m.
+        /// Position of the node before the collision (r, y), m.
         place: [f64; 2],
     },
-    /// Energy came from nowhere or went there.
-    #[error("at {at} the energy does not add up by {relative:.1e} of the initial", at = show(*time, "s"))]
+    /// The energy residual is too large.
+    #[error("at {at} the energy residual is {relative:.1e} of the initial energy", at = show(*time, "s"))]
     EnergyImbalance {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
-        /// Imbalance over the initial energy.
+        /// Energy residual over the initial energy.
         relative: f64,
     },
-    /// An element of a body at finite strain has lost its volume.
+    /// An element at finite strain has lost its volume.
     #[error(
-        "at {at} (step {step}) element {element} of the {} body is {}; undeformed it lies at \
+        "at {at} (step {step}) element {element} of the {} body is {}; its undeformed position is \
          r = {}, y = {}",
         side_of(*body),
         fate(*volume_ratio),
         show(place[0], "m"),
         show(place[1], "m"), at = show(*time, "s"))]
     ElementCollapsed {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
-        /// 0 of the lower body, 1 of the upper.
+        /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Number of the element.
         element: usize,
-        /// Its centre (r, y) before the collision, m.
+        /// Centre of the element before the collision (r, y), m.
         place: [f64; 2],
-        /// Its volume over that of the undeformed element; not positive of one that is inside out.
+        /// Volume over that of the undeformed element; not positive if the element is inverted.
         volume_ratio: f64,
     },
-    /// The law of an element has lost its stability, and the energy stopped adding up.
+    /// The law of an element has lost ellipticity, and the energy residual is too large.
     #[error(
-        "at {at} (step {step}) element {element} of the {} body has lost its stability: {law}, its \
-         law, gives way at stretches of {:.3} and {:.3} in the meridian plane and {:.3} around the axis; \
-         undeformed it lies at r = {}, y = {}",
+        "at {at} (step {step}) element {element} of the {} body became unstable: the law {law} loses \
+         ellipticity at stretches of {:.3} and {:.3} in the meridian plane and {:.3} around the axis; its \
+         undeformed position is r = {}, y = {}",
         side_of(*body),
         stretches[0],
         stretches[1],
@@ -143,108 +143,106 @@ pub enum Stop {
         show(place[0], "m"),
         show(place[1], "m"), at = show(*time, "s"))]
     StabilityLost {
-        /// When it was first seen, since the start of the case, s.
+        /// Time of the first instability since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
-        /// 0 of the lower body, 1 of the upper.
+        /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Number of the element.
         element: usize,
-        /// Its centre (r, y) before the collision, m.
+        /// Centre of the element before the collision (r, y), m.
         place: [f64; 2],
-        /// Two of the meridian plane, the larger first, and that of the hoop.
+        /// Principal stretches: two in the meridian plane, the larger first, and the circumferential one.
         stretches: [f64; 3],
-        /// Its name in cases.
+        /// Name of the law in cases.
         law: String,
     },
-    /// Something has become so stiff that no time step is short enough for it.
+    /// The stiffness has become too large for any time step.
     #[error(
-        "at {at} (step {step}) {} is too stiff for any time step; undeformed it lies at \
+        "at {at} (step {step}) {} is too stiff for any time step; its undeformed position is \
          r = {}, y = {}",
         place_at_fault(*body, *of_contact),
         show(place[0], "m"),
         show(place[1], "m"), at = show(*time, "s"))]
     NoStepShortEnough {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
-        /// 0 of the lower body, 1 of the upper.
+        /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
-        /// The node that asks for the shortest step (r, y) before the collision, m.
+        /// Position (r, y) before the collision of the node with the shortest critical step, m.
         place: [f64; 2],
-        /// Whether more of its stiffness is the contact's than that of its elements.
+        /// Whether the contact contributes more stiffness than the elements.
         of_contact: bool,
     },
     /// The bodies stayed together too long.
     #[error("at {at} (step {step}) the bodies have not separated", at = show(*time, "s"))]
     NoSeparation {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
     },
-    /// The bodies have overlapped for too long, and none of their springs has closed.
+    /// The bodies have overlapped for too long without any closed spring.
     #[error(
-        "at {at} (step {step}) the bodies have come {} closer than at first touch, and no spring between \
-         their surfaces has closed", show(*approach, "m"), at = show(*time, "s"))]
+        "at {at} (step {step}) the approach since first touch is {}, but no spring between the \
+         surfaces has closed", show(*approach, "m"), at = show(*time, "s"))]
     NoContact {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
-        /// m.
+        /// Approach since first touch, m.
         approach: f64,
     },
-    /// The run has taken as much as it was allowed.
+    /// The run reached its limit of element updates.
     #[error(
-        "at {at} (step {step}) the run had taken {updates:.1e} element updates, as many as it \
-         may, and the bodies had not separated",
+        "at {at} (step {step}) the run reached its limit of {updates:.1e} element updates before the \
+         bodies separated",
         updates = *element_updates as f64, at = show(*time, "s"))]
     TooManyUpdates {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
         /// Number of the step.
         step: u64,
-        /// Elements times steps.
+        /// Number of elements times number of steps.
         element_updates: u64,
     },
-    /// The contact problem of a step has no solution within reach.
+    /// The contact problem of a step was not solved.
     #[error("at {at} no contact state without tension and overlap was found", at = show(*time, "s"))]
     NoContactState {
-        /// Since the start of the case, s.
+        /// Time since the start of the case, s.
         time: f64,
     },
-    /// What the model is made of cannot be made for this collision.
+    /// The model cannot be built for this collision.
     #[error("{0}")]
     NotMade(String),
-    /// There is no memory for what the model is made of.
+    /// The model needs more memory than there is.
     #[error("{0}")]
     OutOfMemory(String),
-    /// The motion of one degree of freedom creeps on and does not end.
+    /// The motion of a model with one degree of freedom does not end.
     #[error("{0}")]
     NotFinished(String),
-    /// The collision lies outside of what the model describes.
+    /// The collision is outside of the model's range of validity.
     #[error("{0}")]
     OutsideValidity(String),
-    /// A result leaves the range of numbers.
+    /// A result is outside of the range of numbers.
     #[error("{0}")]
     OutOfRange(String),
 }
 
-/// Which body.
 fn side_of(body: usize) -> &'static str {
     if body == 0 { "lower" } else { "upper" }
 }
 
-/// What no step is short enough for.
 fn place_at_fault(body: usize, of_contact: bool) -> String {
     let what = if of_contact { "the contact, on steep flanks, at" } else { "the material around" };
     format!("{what} a node of the {} body", side_of(body))
 }
 
-/// What has become of an element with so much of its volume.
+/// Describes an element by the ratio of its volume to the undeformed one.
 fn fate(volume_ratio: f64) -> String {
     if volume_ratio > 0.0 {
         format!("compressed to {} of its volume", number(volume_ratio, 3))
@@ -260,7 +258,7 @@ impl From<OutputRequestError> for Stop {
 }
 
 impl Stop {
-    /// This stop so much later, s: of a run that counts its time from another instant.
+    /// Returns this reason with its time shifted by `delay`, s, for a run whose time starts at another instant.
     #[must_use]
     pub fn later_by(mut self, delay: f64) -> Self {
         match &mut self {
@@ -288,15 +286,15 @@ impl Stop {
     }
 }
 
-/// How a collision ended.
+/// The end of a collision.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Ending {
-    /// The bodies have parted.
+    /// The bodies have separated.
     Parted,
-    /// They stay together: nothing is left to drive them apart.
+    /// The bodies stay together: too little energy is left to separate them.
     Together,
-    /// The upper one has come to rest on the lower one, after a bounce or more.
+    /// The upper body has come to rest on the lower one after at least one bounce.
     AtRest,
-    /// It did not; the results are those so far.
+    /// The run stopped early; the results are those until then.
     Stopped(Stop),
 }

@@ -1,13 +1,13 @@
-//! The numbers that a collision is known by.
+//! Quantities of interest of a collision.
 
 use crate::result::Collision;
 
-/// A number that a collision is known by.
+/// A quantity of interest of a collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum QuantityOfInterest {
-    /// Relative velocity after over before.
+    /// Coefficient of restitution: relative velocity after over before.
     Restitution,
-    /// First to last contact, s.
+    /// Time from first to last contact, s.
     ContactTime,
     /// Largest contact force, N.
     PeakForce,
@@ -20,7 +20,7 @@ pub enum QuantityOfInterest {
 }
 
 impl QuantityOfInterest {
-    /// All, in the order of the summary.
+    /// All quantities in the order of the summary.
     pub const ALL: [Self; 6] = [
         Self::Restitution,
         Self::ContactTime,
@@ -30,7 +30,7 @@ impl QuantityOfInterest {
         Self::PeakPressure,
     ];
 
-    /// Its key in a summary.
+    /// Returns the key in a summary.
     pub fn key(self) -> &'static str {
         match self {
             Self::Restitution => "restitution",
@@ -42,7 +42,7 @@ impl QuantityOfInterest {
         }
     }
 
-    /// Its name in words.
+    /// Returns the name for messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Restitution => "restitution",
@@ -54,7 +54,7 @@ impl QuantityOfInterest {
         }
     }
 
-    /// The unit of its SI value; none of a ratio.
+    /// Returns the SI unit; a ratio has none.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Restitution => "",
@@ -65,7 +65,7 @@ impl QuantityOfInterest {
         }
     }
 
-    /// Its value in a collision, SI.
+    /// Returns the value in a collision, SI.
     pub fn of(self, collision: &Collision) -> Option<f64> {
         match self {
             Self::Restitution => collision.restitution,
@@ -77,8 +77,7 @@ impl QuantityOfInterest {
         }
     }
 
-    /// What an error of it is told over, SI: an error of the restitution is absolute, all others are
-    /// relative.
+    /// Returns the reference of an error, SI: errors of the restitution are absolute, all others relative to the limit.
     pub fn scale(self, limit: f64) -> f64 {
         match self {
             Self::Restitution => 1.0,

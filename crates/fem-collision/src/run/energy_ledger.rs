@@ -144,20 +144,20 @@ impl EnergyLedger {
 
     /// Returns the energy in all accounts of a side, J, or `None` if none of them is filled.
     pub fn total(&self, side: BalanceSide) -> Option<f64> {
-        let own = self.entries().filter(|(account, _)| account.side() == side);
-        own.map(|(_, energy)| energy).reduce(|sum, energy| sum + energy)
+        self.on(side).reduce(|sum, energy| sum + energy)
     }
 
     /// Returns the energy residual, J: stored + dissipated − initial − external work.
     pub fn residual(&self, initial: f64) -> f64 {
-        let on = |side: BalanceSide| {
-            let own = self.entries().filter(move |(account, _)| account.side() == side);
-            own.map(|(_, energy)| energy)
-        };
-        let total = on(BalanceSide::Held)
-            .chain(on(BalanceSide::Lost))
-            .fold(0.0, |sum, energy| sum + energy);
-        on(BalanceSide::Given).fold(total - initial, |left, energy| left - energy)
+        let stored_and_dissipated = self.on(BalanceSide::Held).chain(self.on(BalanceSide::Lost));
+        let total = stored_and_dissipated.fold(0.0, |sum, energy| sum + energy);
+        self.on(BalanceSide::Given).fold(total - initial, |left, energy| left - energy)
+    }
+
+    /// Returns the energies on a side in the order of the balance.
+    fn on(&self, side: BalanceSide) -> impl Iterator<Item = f64> {
+        let own = self.entries().filter(move |(account, _)| account.side() == side);
+        own.map(|(_, energy)| energy)
     }
 }
 

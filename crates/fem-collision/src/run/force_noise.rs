@@ -1,13 +1,13 @@
-//! How far a force scatters from instant to instant: what a smooth pulse does not.
+//! Noise of a contact force: its scatter from sample to sample.
 //!
-//! The middle of three numbers with independent scatter s is off the mean of the others by
-//! s √(3/2); a smooth pulse bends by some 1e-5 of its peak over three of a thousand instants.
+//! The middle one of three numbers with independent scatter s differs from the mean of the others by s √(3/2). For a smooth
+//! pulse of a thousand samples this difference is only about 1e-5 of the peak.
 
 use serde::{Deserialize, Serialize};
 
 use crate::run::StepInstant;
 
-/// Fewer forces than this tell nothing.
+/// Number of forces that an estimate needs.
 const FEWEST: u64 = 100;
 
 /// Running scatter of a contact force.
@@ -17,16 +17,16 @@ pub struct ForceNoise {
     last: [Option<f64>; 2],
     /// Number of forces above zero.
     n: u64,
-    /// Σ of squared bends, N².
+    /// Sum of the squared differences, N².
     sum: f64,
-    /// The largest of them, and when it was.
+    /// The largest squared difference and its instant.
     worst: Option<(f64, StepInstant)>,
 }
 
 impl ForceNoise {
-    /// Takes the force (N) at an instant; those of zero do not count.
+    /// Adds the force (N) at an instant; zero forces do not count.
     pub fn observe(&mut self, force: f64, at: StepInstant) {
-        // What is no number counts, and shows.
+        // NaN counts, and shows in the result.
         if force <= 0.0 {
             return;
         }
@@ -41,12 +41,12 @@ impl ForceNoise {
         self.n = self.n.saturating_add(1);
     }
 
-    /// When the force bent most.
+    /// Returns the instant of the largest difference.
     pub fn noisiest_instant(&self) -> Option<StepInstant> {
         self.worst.map(|(_, at)| at)
     }
 
-    /// The scatter so far, N; `None` of too few forces to tell.
+    /// Returns the scatter so far, N; `None` if there are too few forces.
     pub fn force(&self) -> Option<f64> {
         (self.n > FEWEST).then(|| (self.sum / self.n as f64 / 1.5).sqrt())
     }

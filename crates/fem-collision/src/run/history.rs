@@ -1,75 +1,75 @@
-//! Rows of a history, thinned as they come.
+//! The history of a run, which drops rows as it grows.
 
 use serde::{Deserialize, Serialize};
 
 use crate::run::{Account, EnergyLedger, SamplingInterval};
 
-/// Why a row is kept.
+/// The reason why a row is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowKind {
-    /// It was due.
+    /// The row was due.
     Regular,
-    /// The beginning or end of a contact, or the end of the run.
+    /// A contact or the run begins or ends there.
     Landmark,
-    /// The last contact so far: one like others once another has come.
+    /// The last contact so far; the row becomes regular after a later contact.
     LastContact,
 }
 
-/// Rows for which there is room from the beginning, if so many are asked for.
+/// Largest number of rows for which memory is reserved at the start.
 const MOST_RESERVED: usize = 1 << 16;
 
-/// Rows at an even stride that adapts to the length of the contact.
+/// Rows at a constant stride that adapts to the length of the contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct History {
     rows: Vec<HistoryRow>,
-    /// Landmarks and the last contact so far, which thinning leaves.
+    /// Whether each row is a landmark or the last contact, which are never dropped.
     essential: Vec<bool>,
-    /// Where the row of the last contact so far is.
+    /// Index of the row of the last contact so far.
     last_contact: Option<usize>,
-    cadence: SamplingInterval,
-    /// Of a run that offers a row every step: the last one, if it was not due, and whether the
-    /// contact was closed.
+    #[serde(rename = "cadence")]
+    interval: SamplingInterval,
+    /// For a run that offers a row at every step: the last row, if it was not due, and whether the contact was closed.
     skipped: Option<HistoryRow>,
     was_closed: Option<bool>,
 }
 
 impl History {
-    /// For about `n_rows` rows over `expected_steps` steps; at most four times as many.
+    /// Creates a history of about `n_rows` rows over `expected_steps` steps; it has at most four times as many.
     pub fn new(n_rows: usize, expected_steps: f64) -> Self {
-        let cadence = SamplingInterval::nearest(n_rows, expected_steps);
-        let capacity = cadence.most().saturating_add(1).min(MOST_RESERVED);
+        let interval = SamplingInterval::nearest(n_rows, expected_steps);
+        let capacity = interval.most().saturating_add(1).min(MOST_RESERVED);
         Self {
             rows: Vec::with_capacity(capacity),
             essential: Vec::with_capacity(capacity),
             last_contact: None,
-            cadence,
+            interval,
             skipped: None,
             was_closed: None,
         }
     }
 
-    /// Whether a row is due at this step.
+    /// Returns whether a row is due at this step.
     pub fn is_due(&self, step: u64) -> bool {
-        self.cadence.is_due(step)
+        self.interval.is_due(step)
     }
 
-    /// Adds a row; beyond the capacity every second one is dropped and the stride doubled.
+    /// Adds a row. If there are too many, drops every second one and doubles the stride.
     pub fn push(&mut self, row: HistoryRow, kind: RowKind) {
         if kind == RowKind::LastContact {
-            // Another contact has come since: the earlier row is one like others.
+            // After another contact the earlier row is regular.
             if let Some(earlier) = self.last_contact.replace(self.rows.len()) {
                 self.essential[earlier] = false;
             }
         }
         self.rows.push(row);
         self.essential.push(kind != RowKind::Regular);
-        if self.cadence.count() {
+        if self.interval.count() {
             self.thin();
         }
     }
 
-    /// Takes the row of every step of a run that has one anyway: keeps those that are due, and both
-    /// sides of every change between open and closed.
+    /// Takes a row at every step. Keeps those that are due, and the rows before and after each opening and closing of the
+    /// contact.
     pub fn follow(&mut self, step: u64, is_closed: bool, row: HistoryRow) {
         let changes = self.was_closed.replace(is_closed) != Some(is_closed);
         if changes {
@@ -101,57 +101,57 @@ impl History {
         }
         self.rows.truncate(kept);
         self.essential.truncate(kept);
-        self.cadence.recount(kept);
+        self.interval.recount(kept);
     }
 
-    /// The rows so far, in the order of time.
+    /// Returns the rows so far, in the order of time.
     pub fn rows(&self) -> &[HistoryRow] {
         &self.rows
     }
 
-    /// Whether a run can have left it like this: rows in the order of time and what belongs to each.
+    /// Returns whether a restart state is consistent.
     pub fn is_sound(&self) -> bool {
         let n = self.rows.len();
-        self.cadence.is_sound()
-            && self.cadence.n() == n
+        self.interval.is_sound()
+            && self.interval.n() == n
             && self.essential.len() == n
             && self.last_contact.is_none_or(|row| row < n)
             && self.rows.is_sorted_by(|one, next| one.time < next.time)
     }
 
-    /// The rows, in the order of time; of a run that offered every step the last one among them.
+    /// Returns the rows in the order of time, with the last row of a run that offered every step.
     pub fn into_rows(mut self) -> Vec<HistoryRow> {
         self.rows.extend(self.skipped.take());
         self.rows
     }
 }
 
-/// One instant; all quantities belong to the same time. `None`: the model knows it not.
+/// One instant. All quantities belong to the same time; `None` means that the model does not compute the quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HistoryRow {
-    /// Since the start of the case, s.
+    /// Time since the start of the case, s.
     pub time: f64,
     /// Contact force, ≥ 0, N.
     pub contact_force: f64,
-    /// Where the contact pressure falls to zero, m.
+    /// Contact radius, where the pressure falls to zero, m.
     pub contact_radius: Option<f64>,
-    /// Decrease of the distance of the mass centres since first touch, m; the place of a half-space is
-    /// that of what is far away.
+    /// Approach: decrease of the distance of the mass centres since first touch, m. A half-space counts with its far
+    /// boundary.
     pub approach: f64,
     /// Contact pressure on the axis, Pa.
     pub centre_pressure: Option<f64>,
-    /// Of the mass centres along +y, m/s.
+    /// Velocities of the mass centres along +y, m/s.
     pub velocity: [f64; 2],
-    /// What is in each account of energy, J.
+    /// Energy in each account, J.
     pub energies: EnergyLedger,
-    /// What the energies do not account for, J.
+    /// Energy residual, J.
     pub residual: Option<f64>,
-    /// Kinetic energy of each body relative to its mass centre, or to what is far away, J.
+    /// Kinetic energy of each body relative to its mass centre, or to the far boundary of a half-space, J.
     pub vibration: [f64; 2],
 }
 
 impl HistoryRow {
-    /// What is in an account, J.
+    /// Returns the energy in an account, J.
     pub fn energy(&self, account: Account) -> Option<f64> {
         self.energies.get(account)
     }
@@ -177,7 +177,7 @@ mod tests {
         }
     }
 
-    /// Runs so many steps with first and last contact at these; the steps of the rows.
+    /// Runs this many steps with first and last contact at these steps; returns the steps of the rows.
     fn run(history: &mut History, n_steps: u64, landmarks: [u64; 2]) -> Vec<u64> {
         for step in 0..=n_steps {
             let kind = match step {
@@ -218,14 +218,14 @@ mod tests {
                 assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
                 assert!(essential.iter().all(|step| steps.contains(step)));
                 // Even to a factor of 2, away from the essential rows.
-                let stride = history.cadence.stride();
+                let stride = history.interval.stride();
                 assert!(steps.windows(2).all(|pair| pair[1] - pair[0] <= 2 * stride), "{steps:?}");
                 assert_eq!(history.rows.capacity(), capacity, "a row was allocated");
             }
         }
     }
 
-    /// No number of rows is too large to begin with; all steps are kept.
+    /// Any number of rows is accepted, and all steps are kept.
     #[test]
     fn any_number_of_rows_can_be_asked_for() {
         for n_rows in [1_000_000, usize::MAX / 4, usize::MAX] {

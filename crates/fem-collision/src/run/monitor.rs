@@ -1,24 +1,24 @@
-//! Who looks on while a collision is computed.
+//! Progress reports of a run, and its interruption.
 
-/// Steps that a run does between two reports to its monitor.
+/// Number of steps between two reports of a run to its monitor.
 pub const STEPS_BETWEEN_REPORTS: u64 = 64;
 
-/// How far a run is.
+/// The progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Time since the start of the case, s.
     pub time: f64,
-    /// Steps done.
+    /// Number of completed steps.
     pub step: u64,
-    /// Estimated share of the run that is done, 0 to 1.
+    /// Estimated completed fraction of the run, 0 to 1.
     pub fraction: f64,
     /// Contact force, N.
     pub contact_force: f64,
 }
 
 impl Progress {
-    /// Share of a run that is done after so long, s, of one that is expected to take `expected`, s: in
-    /// proportion up to nine tenths, and where it takes longer ever less of the last one.
+    /// Returns the completed fraction of a run after the time `elapsed` (s) of `expected` (s). It is proportional to the time
+    /// up to 0.9 and then approaches 1, in case the run takes longer.
     pub fn share(elapsed: f64, expected: f64) -> f64 {
         const IN_PROPORTION: f64 = 0.9;
         let done = elapsed / expected;
@@ -30,26 +30,25 @@ impl Progress {
     }
 }
 
-/// What a run does from now on. Nothing below the caller reads a clock; who wants to know where the
-/// time goes reads one here.
+/// A phase of a run. A monitor can time the phases; the models never read a clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// The collision itself; once more if it has to be begun again.
+    /// The collision itself; reported again if it starts again.
     Collision,
-    /// Fields at the instants that are asked for.
+    /// Fields at the requested instants.
     Fields,
 }
 
-/// Looks on while a run goes on.
+/// Receives the progress of a run.
 pub trait Monitor {
-    /// Called where a phase begins.
+    /// Receives the start of a phase.
     fn enter(&mut self, _: Phase) {}
 
-    /// Called every few steps; `false` interrupts the run.
+    /// Receives the progress every few steps; returning `false` interrupts the run.
     fn report(&mut self, progress: Progress) -> bool;
 }
 
-/// Nobody looks on.
+/// Ignores the progress.
 impl Monitor for () {
     fn report(&mut self, _: Progress) -> bool {
         true
@@ -60,7 +59,7 @@ impl Monitor for () {
 mod tests {
     use super::*;
 
-    /// It never goes back, never ends early, and half of it is half of what was expected.
+    /// The fraction never decreases and never reaches 1; after half of the expected time it is a half.
     #[test]
     fn the_share_that_is_done_grows_and_stays_below_the_whole() {
         assert_eq!(Progress::share(0.5, 1.0), 0.5);

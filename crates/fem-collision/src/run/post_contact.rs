@@ -37,14 +37,14 @@ mod tests {
 
     #[test]
     fn only_what_follows_the_last_contact_counts() {
-        let mut aftermath = PostContactVibration::default();
-        assert_eq!(aftermath.vibration_energy(), None);
+        let mut vibration = PostContactVibration::default();
+        assert_eq!(vibration.vibration_energy(), None);
         for (is_closed, energy) in [(true, 5.0), (false, 9.0), (true, 5.0)] {
-            aftermath.observe(is_closed, [energy, 0.0]);
+            vibration.observe(is_closed, [energy, 0.0]);
         }
-        assert_eq!(aftermath.vibration_energy(), None);
-        aftermath.observe(false, [1.0, 0.5]);
-        aftermath.observe(false, [2.0, 0.5]);
-        assert_eq!(aftermath.vibration_energy(), Some([3.0, 1.0]));
+        assert_eq!(vibration.vibration_energy(), None);
+        vibration.observe(false, [1.0, 0.5]);
+        vibration.observe(false, [2.0, 0.5]);
+        assert_eq!(vibration.vibration_energy(), Some([3.0, 1.0]));
     }
 }

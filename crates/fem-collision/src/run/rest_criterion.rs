@@ -1,79 +1,76 @@
-//! Whether bodies in contact stay together.
+//! Rest criterion: decides whether bodies in contact stay together.
 //!
-//! Restitution e of bodies that have lost nearly all of their energy of approach ½ m* v² is bounded
-//! from above by two numbers, each seen at one instant.
+//! The restitution e of bodies that have lost almost all of their energy of approach ½ m* v² has two upper bounds, each
+//! from one instant.
 //!
-//! **By energy.** Nothing drives the bodies apart but what they still have: the kinetic energy of the
-//! relative motion, their vibrations T, and what bodies and springs store, U:
+//! **By energy.** Only the remaining energy can separate the bodies: the kinetic energy of the relative motion, the
+//! vibrations T, and the stored energy U of bodies and springs:
 //!
 //! ```math
 //! e^2 \le \frac{\tfrac12 m^*\dot\delta^2 + T + U}{\tfrac12 m^*v^2} .
 //! ```
 //!
-//! This holds while no one outside does work on the bodies. A wall that moves is at rest in the frame
-//! of the relative motion and does none there. Gravity brings its potential −m g δ into U: what is left
-//! then must lift the ball to where it first touched, and e is the speed at which it would pass there.
+//! This holds without external work. A moving wall is at rest in the frame of the relative motion and does no work there.
+//! Gravity adds its potential −m g δ to U: the remaining energy must lift the ball to the position of first touch, and e
+//! belongs to its speed there.
 //!
-//! It can be far too large where energy stays stored that no longer presses on the contact. A shear
-//! modulus that relaxes to nothing beside an elastic bulk modulus leaves none in nature: the body flows
-//! until its pressure is gone, and explicit elements end with 1e-9 of the energy of approach. A
-//! condensed body keeps 1e-7, and up to 2e-2 where Poisson's ratio is small or negative: the reduced
+//! The bound can be far too large if stored energy no longer acts on the contact. If the shear modulus relaxes to zero and
+//! the bulk modulus is elastic, a real body flows until its pressure is zero. Explicit elements end with 1e-9 of the energy
+//! of approach. A condensed body keeps 1e-7, and up to 2e-2 if Poisson's ratio is small or negative, since the reduced
 //! basis of its relaxing shear cannot flow to zero pressure.
 //!
-//! **By momentum.** What parts them is ∫F dt. A force that stays what it is, for as long as they have
-//! touched already, t, makes at most
+//! **By momentum.** The impulse ∫F dt separates the bodies. If the present force acts for another t, the time since first
+//! touch, the bound is
 //!
 //! ```math
 //! \frac{|\dot\delta| + F t/m^*}{v} .
 //! ```
 //!
-//! A force may last longer, but only of a spring that is slow against what has stopped the bodies. That
-//! is a dashpot, F = m* λ δ̇, which has taken λ t ≈ ln 10³ to bring the rate to rest and now slows their
-//! parting: the spring k moves them at k δ/(m* λ), which is the estimate over λ t. Bodies that do
-//! part are at rest at the largest approach only, where F t/m* is what will part them. A force that
-//! vibrations modulate may be small for a moment; so the estimate has to stay small for a twentieth
-//! of t.
+//! A force can only last longer if its spring is slow compared with the mechanism that stopped the bodies. That is a
+//! dashpot, F = m* λ δ̇, which took λ t ≈ ln 10³ to stop them and now slows their separation: the spring k moves them at
+//! k δ/(m* λ), which is the bound over λ t. Bodies that separate are at rest only at the largest approach, where F t/m* is
+//! their later velocity. Vibrations may make the force small for a moment, so the bound must stay small for t/20.
 //!
-//! Of a ball with a weight F − m g takes the place of F.
+//! For a ball with a weight, F − m g replaces F.
 //!
-//! Together are bodies in contact whose energy bounds e by 1e-4, or whose momentum bounds it by
-//! 1e-3 while their energy bounds it by 0.03, whatever is stored where.
+//! Bodies in contact stay together if the energy bounds e by 1e-4, or if the momentum bounds it by 1e-3 and the energy by
+//! 0.03.
 
 use serde::{Deserialize, Serialize};
 
 use crate::request::Frame;
 
-/// A restitution that energy bounds by this is none.
+/// Restitution that counts as zero if the energy bounds it.
 const NOTHING_LEFT: f64 = 1e-4;
-/// So is one that momentum bounds by this. The springs that discrete elements put in place of a liquid
-/// part bodies with 1e-4.
+/// Restitution that counts as zero if the momentum bounds it. Liquid bridges of discrete elements separate bodies with
+/// 1e-4.
 const AT_REST: f64 = 1e-3;
-/// Bodies that might part with more than this are never said to stay together.
+/// Largest bound by energy for bodies that are at rest by their momentum.
 const CERTAIN: f64 = 0.03;
-/// A ball that sinks in at less than this share of its largest rate has sunk in.
+/// A ball is at its static approach if its rate is below this fraction of the largest one.
 const CREEPING: f64 = 0.01;
-/// One that still sinks after so many times what it took to be sure that it stays flows under its weight.
+/// A ball flows under its weight if it still sinks after this many times the time at which its energy bounded e.
 const SINKING: f64 = 20.0;
-/// Rest has to last for this share of the time since first touch.
+/// Duration of rest, as a fraction of the time since first touch.
 const LASTING: f64 = 0.05;
 
-/// Two bodies at an instant, as their relative motion sees them.
+/// The relative motion of two bodies at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RelativeMotion {
-    /// Since first touch, s.
+    /// Time since first touch, s.
     pub time: f64,
-    /// Whether they touch.
+    /// Whether the bodies are in contact.
     pub is_closed: bool,
     /// Contact force, N.
     pub force: f64,
-    /// Of the approach, m/s; positive while the mass centres come closer.
+    /// Rate of the approach, m/s; positive in compression.
     pub rate: f64,
-    /// Kinetic energy of both bodies relative to their mass centres, and what they and the springs
-    /// between them store, J; with gravity the potential of the weight, 0 at first touch.
+    /// Kinetic energy of both bodies relative to their mass centres plus the energy stored in bodies and springs, J; with
+    /// gravity also the potential of the weight, which is 0 at first touch.
     pub inner_energy: f64,
 }
 
-/// Looks for bodies that stay together.
+/// Decides whether bodies stay together.
 ///
 /// ```
 /// use fem_collision::{Approach, Frame, RelativeMotion, RestCriterion};
@@ -84,39 +81,39 @@ pub struct RelativeMotion {
 ///     reduced_mass: 1.0,
 ///     gravity: 0.0,
 /// };
-/// let mut standstill = RestCriterion::new(&frame);
+/// let mut rest = RestCriterion::new(&frame);
 /// let mut now = RelativeMotion { time: 1e-3, is_closed: true, force: 1e-2, rate: 1.0, inner_energy: 0.0 };
-/// assert!(!standstill.observe(&now));
-/// // The energy that is left parts them at a ten-thousandth of the speed at most.
+/// assert!(!rest.observe(&now));
+/// // The remaining energy can separate them with at most 1e-4 of the speed.
 /// now.rate = 1e-4;
-/// assert!(standstill.observe(&now));
+/// assert!(rest.observe(&now));
 /// # Ok::<(), fem_collision::ApproachError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RestCriterion {
-    /// m/s.
+    /// Speed of approach, m/s.
     speed: f64,
-    /// kg.
+    /// Reduced mass, kg.
     reduced_mass: f64,
-    /// Weight that the contact bears, N; 0 without gravity.
+    /// Weight on the contact, N; 0 without gravity.
     weight: f64,
-    /// Since when the bodies are at rest, s after first touch.
+    /// Time from which the bodies are at rest, s after first touch.
     since: Option<f64>,
-    /// The largest rate of the approach so far, m/s.
+    /// Largest rate of the approach so far, m/s.
     fastest: f64,
-    /// When the energy had first proved that they stay, s after first touch.
+    /// Time from which the energy bounds e by 1e-4, s after first touch.
     proved: Option<f64>,
 }
 
 impl RestCriterion {
-    /// Of bodies that are about to touch.
+    /// Creates the criterion of bodies that are about to touch.
     pub fn new(frame: &Frame) -> Self {
         let weight = frame.weight();
         let (speed, reduced_mass) = (frame.speed(), frame.reduced_mass);
         Self { speed, reduced_mass, weight, since: None, fastest: 0.0, proved: None }
     }
 
-    /// Whether it can be of bodies that meet like this.
+    /// Returns whether a restart state belongs to bodies with this relative motion.
     pub fn is_of(&self, frame: &Frame) -> bool {
         let known = [self.since, self.proved];
         Self { since: None, fastest: 0.0, proved: None, ..*self } == Self::new(frame)
@@ -124,7 +121,7 @@ impl RestCriterion {
             && self.fastest >= 0.0
     }
 
-    /// Takes the next instant; whether the bodies stay together. What is no number never says so.
+    /// Takes the next instant and returns whether the bodies stay together; never true if a value is NaN.
     pub fn observe(&mut self, now: &RelativeMotion) -> bool {
         let initial = self.reduced_mass * self.speed * self.speed;
         let left = self.reduced_mass * now.rate * now.rate + 2.0 * now.inner_energy;
@@ -137,7 +134,7 @@ impl RestCriterion {
         let is_proved = by_energy(NOTHING_LEFT);
         self.proved = is_proved.then(|| self.proved.unwrap_or(now.time));
         self.fastest = self.fastest.max(now.rate);
-        // What a ball has fallen proves early that it stays; it has still to sink in, or does for ever.
+        // The energy of a falling ball is lost early, but the ball still has to sink to its static approach.
         let has_sunk_in = self.weight == 0.0
             || now.rate < CREEPING * self.fastest
             || self.proved.is_some_and(|proved| now.time > SINKING * proved);
@@ -157,9 +154,8 @@ mod tests {
         Frame { approach, masses: [Some(1.0), None], reduced_mass: 1.0, gravity: 0.0 }
     }
 
-    /// That mass on a spring (N/m) beside one of 1 N/m with a dashpot of a relaxation time (s) in
-    /// series: its restitution when the force falls to zero or someone says that it stays, `None` if
-    /// neither has come after so many steps.
+    /// That mass on a spring (N/m) in parallel with a Maxwell element of 1 N/m and a relaxation time (s). Returns the
+    /// restitution when the force falls to zero or `stays` is true; `None` if neither happens within `n_steps`.
     fn collide(
         spring: f64,
         relaxation_time: f64,
@@ -199,8 +195,8 @@ mod tests {
     #[test]
     fn a_maxwell_body_parts_or_stays_as_its_damping_says() {
         let found = |relaxation_time: f64| {
-            let mut standstill = RestCriterion::new(&frame());
-            collide(0.0, relaxation_time, |now| standstill.observe(now), 10_000_000)
+            let mut rest = RestCriterion::new(&frame());
+            collide(0.0, relaxation_time, |now| rest.observe(now), 10_000_000)
         };
         for relaxation_time in [0.02, 0.1, 0.3, 0.45] {
             assert_eq!(found(relaxation_time), Some(0.0), "{relaxation_time}");
@@ -214,14 +210,13 @@ mod tests {
         }
     }
 
-    /// A spring of any weakness holds on after the dashpot has given way: what parts the bodies faster
-    /// than is promised is seen.
+    /// A weak spring still acts after the dashpot has relaxed: a larger restitution than the bound is detected.
     #[test]
     fn a_weak_spring_that_parts_them_is_not_overlooked() {
         for spring in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             for time in [0.03, 0.1, 0.3, 1.0, 3.0] {
-                let mut standstill = RestCriterion::new(&frame());
-                let found = collide(spring, time, |now| standstill.observe(now), 5_000_000);
+                let mut rest = RestCriterion::new(&frame());
+                let found = collide(spring, time, |now| rest.observe(now), 5_000_000);
                 let exact = collide(spring, time, |_| false, 5_000_000).unwrap_or_default();
                 let found = found.expect("it parts or stays");
                 assert!((found - exact).abs() < AT_REST, "{spring} {time}: {found} for {exact}");
@@ -229,27 +224,27 @@ mod tests {
         }
     }
 
-    /// Whatever it has seen, it knows whose it is.
+    /// A restart state of other bodies is recognised.
     #[test]
     fn another_speed_or_mass_is_of_other_bodies() {
         let frame = frame();
-        let mut standstill = RestCriterion::new(&frame);
+        let mut rest = RestCriterion::new(&frame);
         let held =
             RelativeMotion { time: 1.0, is_closed: true, force: 0.0, rate: 0.0, inner_energy: 0.0 };
-        assert!(standstill.is_of(&frame) && standstill.observe(&held) && standstill.is_of(&frame));
+        assert!(rest.is_of(&frame) && rest.observe(&held) && rest.is_of(&frame));
         for other in [
-            RestCriterion { speed: 2.0, ..standstill },
-            RestCriterion { reduced_mass: 2.0, ..standstill },
-            RestCriterion { speed: f64::NAN, ..standstill },
-            RestCriterion { since: Some(-1.0), ..standstill },
+            RestCriterion { speed: 2.0, ..rest },
+            RestCriterion { reduced_mass: 2.0, ..rest },
+            RestCriterion { speed: f64::NAN, ..rest },
+            RestCriterion { since: Some(-1.0), ..rest },
         ] {
             assert!(!other.is_of(&frame), "{other:?}");
         }
     }
 
-    /// A force that only bears the weight drives nothing; one that is as far above it does.
+    /// A force equal to the weight does not separate the bodies; one that is far above it does.
     #[test]
-    fn a_weight_that_is_borne_is_no_force() {
+    fn a_force_equal_to_the_weight_does_not_separate() {
         let frame = Frame { gravity: 2.0, ..frame() };
         let now = |time: f64, force: f64| RelativeMotion {
             time,
@@ -259,18 +254,18 @@ mod tests {
             inner_energy: 1e-4 * frame.initial(),
         };
         for (force, stays) in [(2.0, true), (2.0 - 1e-4, true), (4.0, false), (0.0, false)] {
-            let mut standstill = RestCriterion::new(&frame);
-            assert!(!standstill.observe(&now(1.0, force)));
-            assert_eq!(standstill.observe(&now(1.1, force)), stays, "{force}");
+            let mut rest = RestCriterion::new(&frame);
+            assert!(!rest.observe(&now(1.0, force)));
+            assert_eq!(rest.observe(&now(1.1, force)), stays, "{force}");
         }
     }
 
-    /// Energy that is stored and presses on nothing.
+    /// Stored energy without a force on the contact does not separate the bodies.
     #[test]
-    fn bodies_at_rest_stay_whatever_they_store() {
+    fn bodies_at_rest_stay_with_any_stored_energy() {
         let frame = frame();
-        let mut standstill = RestCriterion::new(&frame);
-        // A restitution of 0.01, were it to press.
+        let mut rest = RestCriterion::new(&frame);
+        // The energy alone would allow a restitution of 0.01.
         let now = |time: f64| RelativeMotion {
             time,
             is_closed: true,
@@ -278,13 +273,13 @@ mod tests {
             rate: -1e-6,
             inner_energy: 1e-4 * frame.initial(),
         };
-        assert!(!standstill.observe(&now(1e-3)));
-        assert!(!standstill.observe(&RelativeMotion { rate: f64::NAN, ..now(1.04e-3) }));
-        assert!(!standstill.observe(&now(1.05e-3)));
-        assert!(!standstill.observe(&now(1.1e-3)));
-        assert!(!standstill.observe(&RelativeMotion { is_closed: false, ..now(1.2e-3) }));
-        assert!(standstill.observe(&now(1.2e-3)));
+        assert!(!rest.observe(&now(1e-3)));
+        assert!(!rest.observe(&RelativeMotion { rate: f64::NAN, ..now(1.04e-3) }));
+        assert!(!rest.observe(&now(1.05e-3)));
+        assert!(!rest.observe(&now(1.1e-3)));
+        assert!(!rest.observe(&RelativeMotion { is_closed: false, ..now(1.2e-3) }));
+        assert!(rest.observe(&now(1.2e-3)));
         let too_much = RelativeMotion { inner_energy: 1e-3 * frame.initial(), ..now(1.3e-3) };
-        assert!(!standstill.observe(&too_much));
+        assert!(!rest.observe(&too_much));
     }
 }

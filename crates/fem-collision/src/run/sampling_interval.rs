@@ -11,7 +11,7 @@ const FEWEST: usize = 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SamplingInterval {
     stride: u64,
-    /// Instants so far; after the stride has doubled, those that are left of them.
+    /// Number of samples that are kept so far.
     n: usize,
     most: usize,
 }
@@ -83,40 +83,40 @@ mod tests {
         for (n_instants, expected_steps, stride) in
             [(1000, 7600.0, 7), (1000, 50.0, 1), (0, 5.0, 5), (10, f64::NAN, 1)]
         {
-            let cadence = SamplingInterval::new(n_instants, expected_steps);
-            assert!(cadence.is_sound());
-            let due: Vec<u64> = (0..30).filter(|&step| cadence.is_due(step)).collect();
+            let interval = SamplingInterval::new(n_instants, expected_steps);
+            assert!(interval.is_sound());
+            let due: Vec<u64> = (0..30).filter(|&step| interval.is_due(step)).collect();
             let expected: Vec<u64> = (0..30).step_by(stride).collect();
             assert_eq!(due, expected);
         }
     }
 
-    /// About as many instants as asked for, however many steps there are of them.
+    /// The number of samples is close to the requested one for any number of steps.
     #[test]
     fn the_nearest_stride_keeps_about_as_many() {
         for n_steps in [700_u64, 1000, 1400, 1499, 1500, 1999, 2999, 7600, 123_456] {
-            let cadence = SamplingInterval::nearest(1000, n_steps as f64);
-            assert!(cadence.is_sound());
-            let n = (0..n_steps).filter(|&step| cadence.is_due(step)).count();
+            let interval = SamplingInterval::nearest(1000, n_steps as f64);
+            assert!(interval.is_sound());
+            let n = (0..n_steps).filter(|&step| interval.is_due(step)).count();
             assert!((667..1500).contains(&n), "{n} of {n_steps}");
         }
         assert_eq!(SamplingInterval::nearest(10, f64::NAN).stride(), 1);
     }
 
-    /// Whatever the length of the run: between two and four times as many as asked for.
+    /// A long run keeps two to four times as many samples as requested.
     #[test]
     fn a_long_run_has_as_many_instants() {
         for n_steps in [10_000_u64, 300_000, 1 << 20] {
-            let mut cadence = SamplingInterval::new(100, 300.0);
+            let mut interval = SamplingInterval::new(100, 300.0);
             for step in 0..n_steps {
-                if cadence.is_due(step) {
-                    cadence.count();
+                if interval.is_due(step) {
+                    interval.count();
                 }
             }
-            assert!((200..=400).contains(&cadence.n), "{}", cadence.n);
-            let even = n_steps.div_ceil(cadence.stride) as usize;
+            assert!((200..=400).contains(&interval.n), "{}", interval.n);
+            let even = n_steps.div_ceil(interval.stride) as usize;
             // All that is left lies at the present stride.
-            assert_eq!(cadence.n, even);
+            assert_eq!(interval.n, even);
         }
     }
 }

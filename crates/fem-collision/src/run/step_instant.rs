@@ -1,21 +1,21 @@
-//! An instant of a run, for who wants to look there.
+//! Instants of a run that results and warnings refer to.
 
 use fem_material::engineering::Unit;
 use fem_material::engineering::show;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// When something was seen.
+/// An instant of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepInstant {
-    /// Since the start of the case, s.
+    /// Time since the start of the case, s.
     pub time: f64,
     /// Number of the step.
     pub step: u64,
 }
 
 impl StepInstant {
-    /// So much later, s: of a run that counts its time from another instant.
+    /// Returns the instant shifted by `delay`, s, for a run whose time starts at another instant.
     #[must_use]
     pub fn later_by(self, delay: f64) -> Self {
         Self { time: self.time + delay, ..self }
@@ -28,26 +28,26 @@ impl fmt::Display for StepInstant {
     }
 }
 
-/// The deepest overlap of a run, and where and when it was.
+/// The deepest overlap of a run with its position and instant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DeepestOverlap {
-    /// m.
+    /// Overlap, m.
     pub overlap: f64,
     /// Distance from the axis, m.
     pub radius: f64,
-    /// When.
+    /// Instant of the overlap.
     pub at: StepInstant,
 }
 
 impl DeepestOverlap {
-    /// The deeper of what was seen so far and a contact with this overlap; none of one without.
+    /// Returns the deeper one of the overlap so far and the present one; `None` without any overlap.
     pub fn of(so_far: Option<Self>, now: Self) -> Option<Self> {
-        // What is no number is no overlap: the balance tells of it.
-        let is_deeper = now.overlap > so_far.map_or(0.0, |deepest_overlap| deepest_overlap.overlap);
+        // NaN is no overlap; the energy residual shows it.
+        let is_deeper = now.overlap > so_far.map_or(0.0, |deepest| deepest.overlap);
         if is_deeper { Some(now) } else { so_far }
     }
 
-    /// So much later, s: of a run that counts its time from another instant.
+    /// Returns the overlap with its instant shifted by `delay`, s.
     #[must_use]
     pub fn later_by(self, delay: f64) -> Self {
         Self { at: self.at.later_by(delay), ..self }

@@ -108,14 +108,14 @@ fn a_motion_that_is_not_its_own_stops_a_run_at_once() {
         assert_eq!(summary["complete"], true, "{name}: {stderr}");
         let whole = summary["steps"].as_u64().unwrap();
         let faults: [(&str, Change); 3] = [
-            ("times the initial: the time integration is unstable", |_, v| 1.5 * v),
-            ("is no number", |k, v| if k == 41 { f64::NAN } else { v }),
-            ("is no number", |k, v| if k == 40 { f64::INFINITY } else { v }),
+            ("times the initial energy: the time integration is unstable", |_, v| 1.5 * v),
+            ("is not a number", |k, v| if k == 41 { f64::NAN } else { v }),
+            ("is not a number", |k, v| if k == 40 { f64::INFINITY } else { v }),
         ];
         for (cause, change) in faults {
             let (stderr, summary) = gone_on(&place, set, &with(&memory, change), &identity);
             let stopped = summary["stopped_because"].as_str().unwrap_or_else(|| panic!("{name}"));
-            for word in [cause, "at ", "node ", "of the lower body", " it lies at r = "] {
+            for word in [cause, "at ", "node ", "of the lower body", " position is r = "] {
                 assert!(stopped.contains(word), "{name}: no “{word}” in {stopped}");
             }
             assert!(stderr.contains("at ") && stderr.contains("lower body"), "{name}: {stderr}");

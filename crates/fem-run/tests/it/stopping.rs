@@ -15,7 +15,7 @@ fn a_run_that_fails_says_why_and_keeps_what_it_has() {
     assert!(ran.stdout.contains("INCOMPLETE"), "{}", ran.stdout);
     let summary = place.json("runs/case/summary.json");
     assert_eq!(summary["complete"], false);
-    assert!(summary["stopped_because"].as_str().unwrap().contains("turns over"));
+    assert!(summary["stopped_because"].as_str().unwrap().contains("folds at the radius"));
     for key in ["restitution", "contact_time_s"] {
         assert!(summary[key].is_null(), "{key}");
     }

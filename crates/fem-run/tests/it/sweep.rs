@@ -318,7 +318,7 @@ fn a_failing_member_is_named_and_the_others_go_on() {
         let complete = column("complete");
         assert_eq!((rows[1][complete].as_str(), rows[2][complete].as_str()), ("false", "true"));
         assert!(
-            rows[1][column("stopped_because")].contains("turns over at the radius"),
+            rows[1][column("stopped_because")].contains("folds at the radius"),
             "{:?}",
             rows[1]
         );
