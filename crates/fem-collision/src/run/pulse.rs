@@ -100,7 +100,9 @@ impl ForcePulse {
     /// Returns the peaks of a pulse with this largest force of a step (N) and this largest element size at the contact (m).
     pub fn peaks(&self, largest_force: f64, element: f64) -> PulsePeaks {
         let highest = |value: fn(&Sample) -> f64| {
-            self.samples.iter().fold(0.0, |so_far: f64, sample| nan_aware_max_abs(so_far, value(sample)))
+            self.samples
+                .iter()
+                .fold(0.0, |so_far: f64, sample| nan_aware_max_abs(so_far, value(sample)))
         };
         let largest_radius = highest(|sample| sample.radius);
         let impulse = self.samples.last().map_or(0.0, |sample| sample.impulse);
