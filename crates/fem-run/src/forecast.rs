@@ -79,17 +79,18 @@ impl Forecast {
 }
 
 impl FinerMeshes {
-    /// "at most 2, 1.7e8 element updates more, 229 s more".
+    /// Describes the bound: "at most 2 finer meshes, 1.7e8 element updates more, 229 s".
     pub fn in_words(&self) -> String {
         let (updates, seconds) = self.first;
         let RefinementBound { meshes, over_first } = self.bound;
+        let plural = if meshes == 1 { "" } else { "es" };
         let time = show(over_first * seconds, "s");
         match updates > 0.0 {
             true => format!(
-                "at most {meshes}, {:.1e} element updates more, {time}",
+                "at most {meshes} finer mesh{plural}, {:.1e} element updates more, {time}",
                 over_first * updates
             ),
-            false => format!("at most {meshes}, {time} more"),
+            false => format!("at most {meshes} finer mesh{plural}, {time} more"),
         }
     }
 }

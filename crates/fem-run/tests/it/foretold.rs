@@ -48,7 +48,7 @@ fn check_tells_what_may_follow() {
     place.write("auxetic.toml", AUXETIC);
     let open = place.succeed(&["check", "rubber.toml"]).stdout;
     let finer = open.lines().find(|line| line.starts_with("# mesh refinement  ")).unwrap();
-    for words in ["misses accuracy.tolerance: at most ", " element updates more, "] {
+    for words in ["misses accuracy.tolerance: at most ", " finer meshes, ", " element updates more, "] {
         assert!(finer.contains(words), "{finer}");
     }
     let told = place.succeed(&["check", "auxetic.toml"]).stdout;
@@ -66,7 +66,7 @@ fn check_tells_what_may_follow() {
     // The case gives its element size.
     assert!(!condensed.contains("mesh refinement"), "{condensed}");
     let open = place.succeed(&["check", "auxetic.toml", "--set", "model.condensed={}"]).stdout;
-    let most = "misses accuracy.tolerance: at most 4, ";
+    let most = "misses accuracy.tolerance: at most 4 finer meshes, ";
     assert!(open.contains(most) && open.contains("s more\n"), "{open}");
 }
 

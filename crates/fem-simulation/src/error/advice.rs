@@ -1,40 +1,22 @@
-//! Warnings about tolerances that are missed, and about meshes that do not resolve the contact.
+//! Warnings about missed tolerances and unresolved contacts, with the setting to change.
 
 use fem_case::engineering::show;
 use fem_collision::{Collision, QuantityOfInterest};
 use fem_material::engineering::Unit;
 
-use super::estimator::{ErrorEstimate, early_pressure_radius};
-use super::refinement::{FALL, NotRefined, ROOM, STEPS, is_of_chatter, length};
+use super::estimator::ErrorEstimate;
+use super::noise_floor::early_pressure_radius;
+use super::refinement::{NotRefined, STEPS, is_of_chatter, length, refinement_ratio};
 use super::tolerance_check::{ToleranceMiss, missed};
 use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
 
-/// Elements across the contact with which errors fall as usual; with fewer they fall with [`FALL_OF_FEW`].
-const FEW: f64 = 4.5;
-const FALL_OF_FEW: f64 = 3.0;
-/// A larger ratio of element sizes is not advised: the error there is not known.
-const MOST_ADVISED: f64 = 100.0;
-/// Elements across the contact below which a mesh is named as too coarse before the run.
+/// Larger ratios of element sizes are not advised: the error there is not known.
+const LARGEST_RATIO: f64 = 100.0;
+/// Elements across the contact below which a mesh is reported as too coarse before the run.
 const FEWEST: f64 = 3.0;
 /// Elements across the contact that are advised: most estimates are then below 1 %.
 const ADVISED: f64 = 5.5;
-
-/// Returns the widest contact radius of a finished collision (m). A contact of the poles alone or of less than an element
-/// has no radius of its own: the expected one counts.
-pub(crate) fn widest_contact(simulation: &Simulation, collision: &Collision) -> Option<f64> {
-    let radius = collision.max_contact_radius.filter(|_| collision.is_complete())?;
-    let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
-    let expected = simulation.estimate(collision)?.contact_radius;
-    Some(if radius > 0.0 && expected >= size { radius } else { expected })
-}
-
-/// Returns whether the contact of a finished collision is narrower than an element.
-pub(crate) fn is_unresolved(simulation: &Simulation, collision: &Collision) -> bool {
-    let radius = widest_contact(simulation, collision);
-    let edge = radius.and_then(|radius| longest_contact_edge(simulation.model().meshes(), radius));
-    radius.zip(edge).is_some_and(|(radius, edge)| radius < edge)
-}
 
 /// Returns a warning that the mesh resolves a contact of this radius (m) by too few elements.
 pub(crate) fn unresolved_warning(simulation: &Simulation, contact_radius: f64) -> Option<String> {
@@ -79,85 +61,82 @@ pub(crate) fn tolerance_warning(
     let Some(miss) = missed.first() else {
         return not_estimated(simulation, collision, errors);
     };
-    // Contact chatter has a warning of its own.
-    if is_of_chatter(miss, collision) {
+    // Contact chatter has a warning of its own, and the plan warns before the run if no mesh is fine enough.
+    let is_scatter = matches!(errors.not_refined, Some(NotRefined::Scatter(_)));
+    if is_of_chatter(miss, collision) || (is_scatter && plan.is_out_of_reach) {
         return None;
     }
-    let finer = refinement_needed(simulation, &missed, collision);
-    let others: Vec<String> = missed[1..].iter().map(|other| other.after(miss)).collect();
-    let others = match others.is_empty() {
-        true => String::new(),
-        false => format!("; also missed: {}", others.join(", ")),
-    };
-    let what = miss.in_words();
+    let finer = advised_ratio(&missed, collision, plan.contact_element_size);
+    let write = format!(
+        "write mesh.contact_element_size = \"{}\"",
+        length(plan.contact_element_size / finer)
+    );
     let mut cause = "the mesh";
-    let size = length(plan.contact_element_size / finer);
-    let write = format!("write mesh.contact_element_size = \"{size}\"");
     let remedy = match &errors.not_refined {
-        // The plan says so before the run.
-        Some(NotRefined::Scatter(_)) if plan.is_out_of_reach => return None,
         Some(NotRefined::Scatter(scatter)) => {
+            let of_any_mesh = format!(", {} of it on any mesh", miss.printed(*scatter));
             return Some(format!(
-                "{what}, and by {} on any mesh: allow more in accuracy.tolerance{others}",
-                miss.number(*scatter)
+                "{}{of_any_mesh}: allow more in accuracy.tolerance{}",
+                miss.described(),
+                others(&missed)
             ));
         }
         Some(NotRefined::Setting(setting)) => {
-            cause = setting.in_words();
-            format!("leave {} out", setting.key())
+            cause = setting.described();
+            format!("leave {} out, or ", setting.key())
         }
-        _ if finer > MOST_ADVISED => {
-            return Some(format!(
-                "{what} because of {cause}, and no mesh is known to be enough: allow more in \
-                 accuracy.tolerance{others}"
-            ));
+        _ if finer > LARGEST_RATIO => {
+            cause = "the mesh, and no mesh is known to be fine enough";
+            String::new()
         }
-        Some(NotRefined::FromFile) => "use meshes that are finer at the contact".to_string(),
+        Some(NotRefined::FromFile) => "use meshes that are finer at the contact, or ".to_string(),
         Some(NotRefined::Gravity) => {
-            format!("elements of contacts under gravity are not made finer; {write}")
+            format!("elements of contacts under gravity are not refined; {write}, or ")
         }
         Some(NotRefined::TooExpensive { updates: Some(updates) }) => format!(
-            "a finer mesh would take {:.1e} element updates; write limits.element_updates = {:.0e}, or {write}",
+            "a finer mesh would take {:.1e} element updates; write limits.element_updates = {:.0e}, or {write}, or ",
             *updates as f64,
             rounded_up(*updates)
         ),
-        Some(NotRefined::Stopped(why)) => format!("on a finer mesh {why}"),
+        Some(NotRefined::Stopped(why)) => format!("on a finer mesh {why}, or "),
         Some(NotRefined::Rejected(fault)) => match fault.key() {
             Some(key) if key.starts_with("limits.") => {
-                format!("on a finer mesh {}; raise {key}", fault.message())
+                format!("on a finer mesh {}; raise {key}, or ", fault.message())
             }
-            _ => format!("on a finer mesh {}; {write}", fault.message()),
+            _ => format!("on a finer mesh {}; {write}, or ", fault.message()),
         },
-        None | Some(NotRefined::Given | NotRefined::TooExpensive { updates: None }) => write,
+        None | Some(NotRefined::Given | NotRefined::TooExpensive { updates: None }) => {
+            format!("{write}, or ")
+        }
     };
     Some(format!(
-        "{what} because of {cause}: {remedy}, or allow more in accuracy.tolerance{others}"
+        "{} because of {cause}: {remedy}allow more in accuracy.tolerance{}",
+        miss.described(),
+        others(&missed)
     ))
 }
 
-/// Returns the ratio by which elements would have to be smaller, as far as a mesh can help.
-fn refinement_needed(
-    simulation: &Simulation,
-    missed: &[ToleranceMiss],
-    collision: &Collision,
-) -> f64 {
-    let of_mesh = missed.iter().filter(|miss| miss.is_of_mesh());
-    let excess = of_mesh.map(ToleranceMiss::excess_of_mesh).fold(1.0, f64::max);
-    let elements = simulation.setup().elements.as_ref();
-    let size = elements.map(|elements| elements.plan.contact_element_size);
-    let radius = collision.max_contact_radius.filter(|radius| *radius > 0.0);
-    let across = radius.zip(size).map_or(FEW, |(radius, size)| radius / size);
-    let to_usual = (FEW / across).max(1.0);
-    let (excess, of_few) = (ROOM * excess, to_usual.powf(FALL_OF_FEW));
-    let ratio = match excess < of_few {
-        true => excess.powf(1.0 / FALL_OF_FEW),
-        false => to_usual * (excess / of_few).powf(1.0 / FALL),
-    };
-    // With few elements the errors swing with the place of the contact's edge between two nodes.
-    ratio.max(STEPS[0]).max(ADVISED / across)
+/// Lists the misses after the first one.
+fn others(missed: &[ToleranceMiss]) -> String {
+    let others: Vec<String> =
+        missed[1..].iter().map(|other| other.described_after(&missed[0])).collect();
+    match others.is_empty() {
+        true => String::new(),
+        false => format!("; also missed: {}", others.join(", ")),
+    }
 }
 
-/// Returns a warning that the discretisation error is not estimated, where it should be.
+/// Returns the ratio by which elements of this size (m) must become smaller, as far as a mesh can help.
+fn advised_ratio(missed: &[ToleranceMiss], collision: &Collision, size: f64) -> f64 {
+    let of_mesh = missed.iter().filter(|miss| miss.is_of_mesh());
+    let excess = of_mesh.map(ToleranceMiss::excess_of_mesh).fold(1.0, f64::max);
+    // With few elements the errors oscillate with the place of the contact's edge between two nodes.
+    let radius = collision.max_contact_radius.filter(|radius| *radius > 0.0);
+    let of_few = radius.map_or(1.0, |radius| ADVISED * size / radius);
+    refinement_ratio(excess).max(STEPS[0]).max(of_few)
+}
+
+/// Returns a warning that the discretisation error is not estimated, if it should be.
 fn not_estimated(
     simulation: &Simulation,
     collision: &Collision,
@@ -168,8 +147,8 @@ fn not_estimated(
         && simulation.setup().elements.as_ref()?.plan.makes_meshes;
     let is_estimated = errors.discretisation(QuantityOfInterest::PeakForce).is_some();
     (should_be && !is_estimated).then(|| {
-        "the discretisation error is not estimated: on coarser meshes the bodies did not come through the \
-         collision; lower body.N.approach_speed, or compare results of several mesh.contact_element_size"
+        "the discretisation error is not estimated: on coarser meshes the collision does not come to its end; lower \
+         body.N.approach_speed, or compare results of several mesh.contact_element_size"
             .to_string()
     })
 }

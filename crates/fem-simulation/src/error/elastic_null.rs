@@ -1,17 +1,16 @@
-//! The restitution that a relaxing run would lose without relaxation, by its mesh and settings.
+//! Elastic null: the restitution that a relaxing run would lose by its mesh and settings without relaxation.
 //!
-//! It is estimated from the run itself, from the energy that neither relaxation nor the motion of the bodies as a whole
-//! has taken: vibrations, waves, numerical effects and the residual. An elastic run keeps vibrations that have relaxed
-//! here since they were excited, mostly while nodes joined the contact. The energy of oscillations much faster than
-//! relaxation falls as
+//! It is estimated from the run's own energy balance: vibrations, radiated waves, numerical dissipation and the residual.
+//! An elastic run keeps vibrations that have relaxed here since they were excited, mostly while nodes entered the contact.
+//! The energy of oscillations much faster than relaxation falls as
 //!
 //! ```math
 //! \exp\Bigl(-t \sum_k \frac{g_k}{\tau_k}\Bigr), \qquad t = 0.8\,T.
 //! ```
 //!
-//! This is right to a third for the glass pair: 8.3e-6, 6.7e-6 and 7.9e-6 with βT = 0.17, 0.5 and 1.9, against 9.9e-6 of
-//! a run with relaxation off on the same mesh. If next to nothing is left of the vibrations, a run with relaxation off
-//! and elements 1.5 times as long is made instead, which gives 0.6 to 2.8 times the value of the same mesh.
+//! For the glass pair the estimate is right to a third: 8.3e-6, 6.7e-6 and 7.9e-6 with βT = 0.17, 0.5 and 1.9, against
+//! 9.9e-6 from a run with relaxation off on the same mesh. If the vibrations have relaxed almost completely, a run with
+//! relaxation off and elements 1.5 times as long is made instead, which gives 0.6 to 2.8 times the value of the same mesh.
 
 use fem_case::Case;
 use fem_case::schema::{OutputTable, Switch};
@@ -25,24 +24,24 @@ use crate::simulation::Simulation;
 
 /// Time for which vibrations relax, over the contact time.
 const SINCE: f64 = 0.8;
-/// Vibrations that have fallen by more are gone, ...
+/// Decay of the vibrations above which the run does not show them, ...
 const MOST_RELAXED: f64 = 8.0;
-/// ... unless they were no more than this share of the energy even so.
+/// ... unless even the undecayed ones were at most this share of the energy.
 const LITTLE: f64 = 1e-5;
 /// Element size of that elastic run over that of the collision.
 const COARSER: f64 = 1.5;
 
-/// The loss of elastic bodies on the same mesh with the same settings.
+/// The loss of restitution of elastic bodies on the same mesh with the same settings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ElasticNull {
     /// 1 − restitution.
     pub one_minus_restitution: f64,
-    /// Whether it is estimated from the relaxing run; otherwise it is that of an elastic run on a coarser mesh.
+    /// Whether the relaxing run itself gives the estimate; otherwise an elastic run on a coarser mesh does.
     pub estimated: bool,
 }
 
-/// Returns the elastic null of a finished run of relaxing bodies with elements; `None` under gravity, where there are
-/// several contacts.
+/// Returns the elastic null of a finished run of relaxing bodies with elements; `None` under gravity, with its several
+/// contacts.
 pub(super) fn elastic_null(
     simulation: &Simulation,
     collision: &Collision,
@@ -102,7 +101,7 @@ fn elastic_run(
     Some((1.0 - restitution).max(0.0))
 }
 
-/// −Ġ/G of a sudden strain, 1/s.
+/// Returns −Ġ/G just after a sudden strain, 1/s.
 fn fast_rate(series: &PronySeries) -> f64 {
     series.terms().iter().map(|term| term.weight / term.relaxation_time).sum()
 }

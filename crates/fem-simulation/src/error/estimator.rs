@@ -1,32 +1,23 @@
-//! The estimator of a collision's error.
+//! The estimator of the discretisation error: safety factor × distance from the Richardson limit + noise floor.
 
-use fem_collision::{Collision, QuantityOfInterest, longest_at_pole};
+use fem_collision::{Collision, QuantityOfInterest};
 
-use super::advice::is_unresolved;
 use super::calibration::{
-    ADDED_MASS, CLOSED_FORM, CLOSED_FORM_PRESSURE, CONDENSED, Calibration, EXPLICIT,
-    SAMPLED_PER_TOLERANCE, SCATTER, STRAINED,
+    CLOSED_FORM, CONDENSED, Calibration, EXPLICIT, SAMPLED_PER_TOLERANCE, STRAINED,
 };
 use super::elastic_null::{ElasticNull, elastic_null};
-use super::noise_floor::{noise, noise_floor};
+use super::noise_floor::{
+    added_share, contact_element_size, floor_of_mesh, floor_of_run, is_unresolved,
+};
 use super::reference_runs::{ReferenceRuns, Subject, Values};
 use super::refinement::NotRefined;
-use crate::effects::{EffectDecision, FiniteStrain, MassScaling, ModelFormError};
+use crate::effects::{FiniteStrain, ModelFormError};
 use crate::models::explicit::cost::needs_own_reference;
 use crate::models::method::Cost;
-use crate::results::overlap_of_approach;
 use crate::simulation::Simulation;
 
-/// Least relative error of a contact that is narrower than an element.
-const UNRESOLVED_ERROR: f64 = 0.5;
-/// Elements across the contact at the largest pressure, below which an early one is not resolved.
-const FEW_AT_PRESSURE: f64 = 4.0;
-/// Contact radius at the largest pressure over the largest one, below which the contact is still small. Bodies that keep
-/// half of their moduli have the largest pressure at more than 0.8.
-const EARLY: f64 = 0.5;
-
-/// Estimates the errors of the collisions of a case, on the chosen mesh and on finer ones; keeps the reference runs that
-/// it has computed.
+/// Estimates the errors of the collisions of a case on the planned mesh and on refined ones, and keeps the reference runs
+/// that it has computed.
 ///
 /// ```
 /// use fem_case::schema::{BodyTable, MaterialTable};
@@ -57,26 +48,28 @@ pub struct ErrorEstimator {
 pub struct ErrorEstimate {
     pub(crate) bars: ModelFormError,
     parts: [Option<BarParts>; 6],
-    /// The loss without relaxation, for relaxing bodies.
+    /// Loss of a relaxing run without relaxation.
     pub elastic_null: Option<ElasticNull>,
     /// Element updates of all reference runs so far, those of coarser meshes included.
     pub element_updates: u64,
-    /// Why the mesh stays, if the tolerance is missed.
+    /// The reason why the mesh stays, if the tolerance is missed.
     pub(super) not_refined: Option<NotRefined>,
 }
 
-/// The parts of an error bar: of the restitution absolute, of others relative.
+/// The parts of an error bar before the noise of the run: the restitution's absolute, others relative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BarParts {
+    /// Name of the row of calibrated constants.
+    pub constants: &'static str,
     /// Distance from the Richardson limit of the reference runs.
     pub reference_error: f64,
-    /// Safety factor on it.
+    /// Safety factor on this distance.
     pub safety_factor: f64,
     /// Elements across the contact.
     pub across: f64,
-    /// Error by the place of the contact's edge.
+    /// Floor by the place of the contact's edge.
     pub edge: f64,
-    /// Scatter of any mesh, and the error by added mass.
+    /// Floor by scatter and added mass.
     pub floor: f64,
 }
 
@@ -89,13 +82,13 @@ impl BarParts {
 
 impl ErrorEstimate {
     /// Returns the discretisation error of a quantity, SI; `None` if it is not estimated.
-    pub fn discretisation(&self, headline: QuantityOfInterest) -> Option<f64> {
-        self.bars.size(headline)
+    pub fn discretisation(&self, quantity: QuantityOfInterest) -> Option<f64> {
+        self.bars.size(quantity)
     }
 
-    /// Returns the parts of the error bar of a model with elements, but for noise that the run itself shows.
-    pub fn parts(&self, headline: QuantityOfInterest) -> Option<BarParts> {
-        self.parts[headline as usize]
+    /// Returns the parts of the error bar of a model with elements, without the noise of the run.
+    pub fn parts(&self, quantity: QuantityOfInterest) -> Option<BarParts> {
+        self.parts[quantity as usize]
     }
 }
 
@@ -138,35 +131,40 @@ impl ErrorEstimator {
         ErrorEstimate { bars, parts, element_updates, ..ErrorEstimate::default() }
     }
 
-    /// Estimates the errors of a model with elements; none of a collision that did not end by itself.
+    /// Estimates the errors of a model with elements; all `None` if the collision did not end by itself.
     fn of_elements(
         &mut self,
         simulation: &Simulation,
         collision: &Collision,
     ) -> [Option<BarParts>; 6] {
-        let Some(subject) = subject(simulation, collision) else { return [None; 6] };
-        let values = QuantityOfInterest::ALL.map(|headline| headline.of(collision));
-        let across = across(collision, subject.size);
-        let estimated = self.estimated(&subject, collision, values, across[0]);
+        let Some(size) = contact_element_size(simulation, collision) else { return [None; 6] };
+        let values = QuantityOfInterest::ALL.map(|quantity| quantity.of(collision));
+        let widest = collision.max_contact_radius.unwrap_or(0.0) / size;
+        let at_pressure = collision.peak_pressure_radius.map_or(widest, |radius| radius / size);
+        let estimated = self.reference_error(simulation, collision, size, values, widest);
         let Some((errors, calibration)) = estimated else { return [None; 6] };
-        bar_parts(errors, &calibration, across, added_share(simulation, collision))
+        let added_share = added_share(simulation, collision);
+        bar_parts(errors, &calibration, [widest, at_pressure], added_share)
     }
 
     /// Returns the distances from the Richardson limits of the reference runs, the restitution's absolute, all others
-    /// relative, and the constants of this kind of reference run.
-    fn estimated(
+    /// relative, and the constants for this kind of reference run.
+    fn reference_error(
         &mut self,
-        subject: &Subject<'_>,
+        simulation: &Simulation,
         collision: &Collision,
+        size: f64,
         values: Values,
         across: f64,
     ) -> Option<(Values, Calibration)> {
-        let Subject { simulation, plan, .. } = *subject;
+        let plan = &simulation.setup().elements.as_ref()?.plan;
+        let subject = &Subject { simulation, approach: collision.approach, plan, size };
         let is_explicit = collision.element_updates.is_some();
+        let is_finite = || simulation.decisions(collision).is_active(FiniteStrain::NAME);
         let needs_own = is_explicit
-            && simulation.estimate(collision).is_none_or(|estimate| {
-                needs_own_reference(&estimate, is_at_finite_strain(simulation, collision))
-            });
+            && simulation
+                .estimate(collision)
+                .is_none_or(|estimate| needs_own_reference(&estimate, is_finite()));
         match (is_explicit, plan.makes_meshes, needs_own) {
             (true, false, true) => None,
             (true, false, false) => Some((self.runs.mesh_file(subject, None, across)?, EXPLICIT)),
@@ -186,7 +184,7 @@ impl ErrorEstimator {
     }
 
     /// Estimates the errors of explicit elements before the collision, the restitution's absolute, all others relative;
-    /// `None` where only the collision itself shows them.
+    /// `None` if only the collision itself shows them.
     pub(super) fn before_run(&mut self, simulation: &Simulation) -> Option<Values> {
         let setup = simulation.setup();
         let Cost::Steps { .. } = setup.cost else { return None };
@@ -202,8 +200,8 @@ impl ErrorEstimator {
         Some(parts.map(|parts| Some(parts?.sum())))
     }
 
-    /// Returns the element updates of a collision over those that closed forms announce, from a coarser run; 1 where
-    /// closed forms serve.
+    /// Returns the element updates of a collision over those that closed forms expect, from a coarser run; 1 if closed
+    /// forms are sufficient.
     pub fn updates_over_announced(&mut self, simulation: &Simulation) -> f64 {
         /// Element updates of the coarser run, a tenth of a second.
         const MOST: u64 = 4_000_000;
@@ -229,44 +227,6 @@ impl ErrorEstimator {
     }
 }
 
-/// Returns the collision as reference runs see it; `None` if it did not end by itself or has no elements.
-fn subject<'a>(simulation: &'a Simulation, collision: &Collision) -> Option<Subject<'a>> {
-    let elements = simulation.setup().elements.as_ref().filter(|_| collision.is_complete())?;
-    let plan = &elements.plan;
-    let size = match plan.makes_meshes {
-        true => plan.contact_element_size,
-        false => longest_at_pole(simulation.model().meshes()),
-    };
-    let approach = collision.approach;
-    (size > 0.0).then_some(Subject { simulation, approach, plan, size })
-}
-
-/// Returns the elements across the contact at its widest and at the instant of the largest pressure.
-fn across(collision: &Collision, size: f64) -> [f64; 2] {
-    let widest = collision.max_contact_radius.unwrap_or(0.0) / size;
-    let at_pressure = collision.peak_pressure_radius.map_or(widest, |radius| radius / size);
-    [widest, at_pressure]
-}
-
-/// Returns the contact radius (m) at which closed forms expect the largest pressure, if that is while the contact is small
-/// and spans few elements. Meshes of similar size then agree on a wrong pressure, and no finer one is tried for it.
-pub(super) fn early_pressure_radius(simulation: &Simulation, collision: &Collision) -> Option<f64> {
-    let size = subject(simulation, collision)?.size;
-    let effective = simulation.estimate(collision)?.effective;
-    let radius = effective.pressure_radius;
-    let is_early = radius < EARLY * effective.sizes.max_contact_radius;
-    (is_early && radius < FEW_AT_PRESSURE * size).then_some(radius)
-}
-
-/// Returns the relative distance of a peak pressure from that of closed forms, with their own error: the estimate for a
-/// pressure that elements do not resolve.
-fn beside_closed_form(simulation: &Simulation, collision: &Collision) -> f64 {
-    let estimate = simulation.estimate(collision);
-    let expected = estimate.map(|estimate| estimate.effective.sizes.peak_pressure);
-    let both = collision.peak_pressure.zip(expected);
-    both.map_or(0.0, |(value, expected)| CLOSED_FORM_PRESSURE * (1.0 - expected / value).abs())
-}
-
 /// Returns the parts of all bars.
 fn bar_parts(
     errors: Values,
@@ -274,84 +234,59 @@ fn bar_parts(
     [widest, at_pressure]: [f64; 2],
     added_share: f64,
 ) -> [Option<BarParts>; 6] {
-    QuantityOfInterest::ALL.map(|headline| {
-        let k = headline as usize;
-        let across =
-            if headline == QuantityOfInterest::PeakPressure { at_pressure } else { widest };
+    QuantityOfInterest::ALL.map(|quantity| {
+        let is_pressure = quantity == QuantityOfInterest::PeakPressure;
+        let across = if is_pressure { at_pressure } else { widest };
+        let [edge, floor] = floor_of_mesh(quantity, calibration, across, added_share);
         Some(BarParts {
-            reference_error: errors[k]?,
+            constants: calibration.name,
+            reference_error: errors[quantity as usize]?,
             safety_factor: calibration.safety_factor,
             across,
-            edge: calibration.edge[k] / across.max(1.0).powi(2),
-            floor: SCATTER[k] + ADDED_MASS[k] * added_share,
+            edge,
+            floor,
         })
     })
 }
 
-/// Returns error bars, SI: the sum of their parts, and no less than the noise that the run itself shows.
+/// Returns error bars, SI: the sum of their parts, and no less than the floor that the run itself shows.
 fn summed(
     simulation: &Simulation,
     collision: &Collision,
     parts: &[Option<BarParts>; 6],
 ) -> ModelFormError {
+    // Coarser runs of unresolved contacts may not come to an end.
     let is_unresolved = is_unresolved(simulation, collision);
-    let overlap = overlap_of_approach(simulation, collision).unwrap_or(0.0);
-    let is_early = early_pressure_radius(simulation, collision).is_some();
-    ModelFormError::by(|headline| {
-        let mut floor = noise_floor(collision, headline);
-        if headline == QuantityOfInterest::MaxApproach {
-            floor = floor.max(overlap);
-        }
-        if headline != QuantityOfInterest::Restitution && is_unresolved {
-            floor = floor.max(UNRESOLVED_ERROR);
-        }
-        let is_pressure = headline == QuantityOfInterest::PeakPressure;
-        if is_pressure && (is_early || noise(collision).is_some()) {
-            floor = floor.max(beside_closed_form(simulation, collision));
-        }
-        let estimated = parts[headline as usize].map(|parts| parts.sum());
-        // Coarser runs of such meshes may not come to an end.
-        let bar = estimated.or(is_unresolved.then_some(0.0))?.max(floor);
-        headline.of(collision).map(|value| bar * headline.scale(value))
+    let floor = floor_of_run(simulation, collision);
+    ModelFormError::by(|quantity| {
+        let estimated = parts[quantity as usize].map(|parts| parts.sum());
+        let bar = estimated.or(is_unresolved.then_some(0.0))?.max(floor(quantity));
+        quantity.of(collision).map(|value| bar * quantity.scale(value))
     })
 }
 
 /// Returns the errors of a model without elements, from its tolerance.
 fn of_tolerance(collision: &Collision, tolerance: f64) -> ModelFormError {
-    ModelFormError::by(|headline| {
-        let share = match headline {
+    ModelFormError::by(|quantity| {
+        let share = match quantity {
             QuantityOfInterest::Restitution
             | QuantityOfInterest::ContactTime
             | QuantityOfInterest::PeakForce => tolerance,
             _ => SAMPLED_PER_TOLERANCE * tolerance,
         };
-        headline.of(collision).map(|value| share * headline.scale(value))
+        quantity.of(collision).map(|value| share * quantity.scale(value))
     })
-}
-
-fn is_at_finite_strain(simulation: &Simulation, collision: &Collision) -> bool {
-    let verdicts = simulation.decisions(collision).verdicts;
-    verdicts
-        .iter()
-        .any(|verdict: &EffectDecision| verdict.name == FiniteStrain::NAME && verdict.active)
-}
-
-/// Returns the most mass that is added to a body over that of the lighter one; for a stiffer body that share over its
-/// larger allowance.
-fn added_share(simulation: &Simulation, collision: &Collision) -> f64 {
-    let allowed = MassScaling::times(simulation.case().scene());
-    let shares = collision.added_shares().into_iter().zip(allowed);
-    shares.filter_map(|(share, times)| Some(share? / times)).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::calibration::{ADDED_MASS, SCATTER};
     use super::*;
 
-    /// By hand: F_s |Δ| + c (h/a)² + scatter + added mass; the pressure's floor goes by its own radius.
+    /// The bar is F_s |Δ| + c (h/a)² + scatter + added mass, and the pressure's floor depends on its own radius.
     #[test]
     fn a_bar_is_the_formula() {
-        let calibration = Calibration { safety_factor: 2.0, edge: [0.16; 6] };
+        let calibration = Calibration { name: "", safety_factor: 2.0, edge: [0.16; 6] };
         let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
         for (k, parts) in parts.into_iter().enumerate() {
             let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.04 } else { 0.01 };

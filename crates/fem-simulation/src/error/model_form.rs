@@ -1,10 +1,10 @@
 //! Model-form error: the change of each result by neglected effects.
 //!
-//! The discretisation error bounds the distance from the solution of the continuum problem that the model poses; the
-//! model-form error bounds what that problem leaves out. It is the change by effects that the model lacks
-//! ([`crate::effects::ModelFormError`]) and the distance of the laws that a material may follow beyond Hooke's where the case
-//! names none: closed forms, right within a factor of three. The restitution of a library material whose loss in an
-//! impact is not published is unknown. Contact laws' own numbers are the user's.
+//! The discretisation error bounds the distance from the solution of the model's continuum problem; the model-form error
+//! bounds the distance of that problem from the physical one. It is the change by effects that the model lacks
+//! ([`crate::effects::ModelFormError`]), and the spread of the hyperelastic laws if the case names none. Closed forms
+//! estimate it within a factor of three. The restitution of a library material whose loss in an impact is not published
+//! is unknown. The parameters of contact laws are the user's.
 
 use fem_collision::Collision;
 
@@ -27,8 +27,8 @@ pub(crate) fn uncertainty(
     };
     let model = sum(&mut all.iter().copied());
     let known = sum(&mut all.iter().copied().map(ModelFormError::told));
-    UncertaintySummary::by(|headline| {
-        let of = |error: &ModelFormError| numbers.number(headline).and(error.size(headline));
+    UncertaintySummary::by(|quantity| {
+        let of = |error: &ModelFormError| numbers.number(quantity).and(error.size(quantity));
         let model = of(&model);
         let known = of(&known).filter(|known| model.is_none() && *known > 0.0);
         Parts { discretisation: of(&errors.bars), model, model_at_least: known }

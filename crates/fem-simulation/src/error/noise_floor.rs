@@ -1,32 +1,71 @@
-//! Noise that a finished run shows: no error bar is smaller than what its warnings state.
+//! The noise floor of the error bars: errors that no pair of reference runs shows.
+//!
+//! It has two parts. The part of the mesh is known from the settings: the place of the contact's edge between two nodes,
+//! the scatter on any mesh, and added mass. The other part shows in the finished run: contact chatter, energy that is not
+//! conserved, overlapping surfaces, a contact narrower than an element, and an early pressure peak. No error bar is
+//! smaller than what the run's warnings report.
 
-use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest};
+use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
-use super::calibration::{RADIUS_PER_SCATTER, RESTITUTION_PER_ROOT_SCATTER, TIME_PER_ROOT_SCATTER};
+use super::calibration::{
+    ADDED_MASS, CLOSED_FORM_PRESSURE, Calibration, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER,
+    RESTITUTION_PER_ROOT_SCATTER, SCATTER, TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
+};
+use crate::effects::MassScaling;
+use crate::plan::mesh_source::longest_contact_edge;
+use crate::results::overlap_of_approach;
+use crate::simulation::Simulation;
 
 /// Scatter of the force over its peak above which a warning is given.
 pub(crate) const LARGEST_NOISE: f64 = 0.005;
-/// Restitution above 1 that is more than rounding.
+/// Excess of the restitution over 1 that is more than rounding.
 const LARGEST_EXCESS: f64 = 1e-5;
 
-/// Returns the error that a run itself shows: of the restitution absolute, of others relative; zero if none shows.
-pub(super) fn noise_floor(collision: &Collision, headline: QuantityOfInterest) -> f64 {
-    let of_energy = match headline {
-        QuantityOfInterest::Restitution => {
-            // The energy goes by the square of a restitution near 1.
-            let energy = 0.5 * unbalanced_energy(collision).unwrap_or(0.0);
-            energy.max(excess_of_restitution(collision).unwrap_or(0.0))
-        }
-        _ => 0.0,
+/// Returns the floor by the place of the contact's edge, and the floor by scatter and added mass.
+pub(super) fn floor_of_mesh(
+    quantity: QuantityOfInterest,
+    calibration: &Calibration,
+    across: f64,
+    added_share: f64,
+) -> [f64; 2] {
+    let k = quantity as usize;
+    let edge = calibration.edge[k] / across.max(1.0).powi(2);
+    [edge, SCATTER[k] + ADDED_MASS[k] * added_share]
+}
+
+/// Returns the floor that the finished run shows, for each quantity.
+pub(super) fn floor_of_run(
+    simulation: &Simulation,
+    collision: &Collision,
+) -> impl Fn(QuantityOfInterest) -> f64 {
+    let is_unresolved = is_unresolved(simulation, collision);
+    let overlap = overlap_of_approach(simulation, collision).unwrap_or(0.0);
+    let is_early = early_pressure_radius(simulation, collision).is_some();
+    let pressure = match is_early || noise(collision).is_some() {
+        true => distance_from_closed_form(simulation, collision),
+        false => 0.0,
     };
-    let error = of_energy.max(of_chatter(collision, headline));
-    if error.is_finite() { error } else { 0.0 }
+    // The energy goes with the square of a restitution near 1.
+    let energy = 0.5 * unbalanced_energy(collision).unwrap_or(0.0);
+    let restitution = energy.max(excess_of_restitution(collision).unwrap_or(0.0));
+    let chatter = QuantityOfInterest::ALL.map(|quantity| of_chatter(collision, quantity));
+    move |quantity| {
+        let chatter = chatter[quantity as usize];
+        let unresolved = if is_unresolved { UNRESOLVED_ERROR } else { 0.0 };
+        let finite = |error: f64| if error.is_finite() { error } else { 0.0 };
+        match quantity {
+            QuantityOfInterest::Restitution => finite(chatter.max(restitution)),
+            QuantityOfInterest::MaxApproach => finite(chatter).max(overlap).max(unresolved),
+            QuantityOfInterest::PeakPressure => finite(chatter).max(unresolved).max(pressure),
+            _ => finite(chatter).max(unresolved),
+        }
+    }
 }
 
 /// Returns the error due to contact chatter.
-pub(super) fn of_chatter(collision: &Collision, headline: QuantityOfInterest) -> f64 {
+pub(super) fn of_chatter(collision: &Collision, quantity: QuantityOfInterest) -> f64 {
     let noise = noise(collision).unwrap_or(0.0);
-    match headline {
+    match quantity {
         QuantityOfInterest::Restitution => RESTITUTION_PER_ROOT_SCATTER * noise.sqrt(),
         QuantityOfInterest::ContactTime => TIME_PER_ROOT_SCATTER * noise.sqrt(),
         QuantityOfInterest::PeakForce | QuantityOfInterest::PeakPressure => noise,
@@ -35,24 +74,75 @@ pub(super) fn of_chatter(collision: &Collision, headline: QuantityOfInterest) ->
     }
 }
 
-/// Returns the unbalanced energy over the initial one, if it is too large.
-pub(crate) fn unbalanced_energy(collision: &Collision) -> Option<f64> {
-    let residual = collision.residual_relative?;
-    // A residual that is no number is above every limit.
-    let is_sound = residual <= LARGEST_RESIDUAL;
-    (!is_sound).then_some(residual)
-}
-
-/// Returns the restitution minus 1, if that is positive by more than rounding.
-pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
-    let restitution = collision.restitution?;
-    // So is one that is no number.
-    let is_sound = restitution <= 1.0 + LARGEST_EXCESS;
-    (!is_sound).then_some(restitution - 1.0)
-}
-
 /// Returns the scatter of the contact force from step to step over its peak, if it is too large.
 pub(crate) fn noise(collision: &Collision) -> Option<f64> {
     let scatter = collision.force_scatter? / collision.peak_force?;
     (scatter > LARGEST_NOISE).then_some(scatter)
+}
+
+/// Returns the unbalanced energy over the initial one, if it is too large or not a number.
+pub(crate) fn unbalanced_energy(collision: &Collision) -> Option<f64> {
+    let residual = collision.residual_relative?;
+    let is_balanced = residual <= LARGEST_RESIDUAL;
+    (!is_balanced).then_some(residual)
+}
+
+/// Returns the restitution minus 1, if that is positive by more than rounding or not a number.
+pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
+    let restitution = collision.restitution?;
+    let is_possible = restitution <= 1.0 + LARGEST_EXCESS;
+    (!is_possible).then_some(restitution - 1.0)
+}
+
+/// Returns the largest share of mass that is added to a body, over the mass of the lighter body; for a stiffer body over
+/// its larger allowance.
+pub(super) fn added_share(simulation: &Simulation, collision: &Collision) -> f64 {
+    let allowed = MassScaling::times(simulation.case().scene());
+    let shares = collision.added_shares().into_iter().zip(allowed);
+    shares.filter_map(|(share, times)| Some(share? / times)).fold(0.0, f64::max)
+}
+
+/// Returns the element size at the contact that errors are measured with, m; `None` if the collision did not end by itself
+/// or has no elements.
+pub(super) fn contact_element_size(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let elements = simulation.setup().elements.as_ref().filter(|_| collision.is_complete())?;
+    let size = match elements.plan.makes_meshes {
+        true => elements.plan.contact_element_size,
+        false => longest_at_pole(simulation.model().meshes()),
+    };
+    (size > 0.0).then_some(size)
+}
+
+/// Returns the widest contact radius of a finished collision (m). If only the poles touched, or the contact is narrower
+/// than an element, the expected radius counts.
+pub(crate) fn widest_contact(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let radius = collision.max_contact_radius.filter(|_| collision.is_complete())?;
+    let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
+    let expected = simulation.estimate(collision)?.contact_radius;
+    Some(if radius > 0.0 && expected >= size { radius } else { expected })
+}
+
+/// Returns whether the contact of a finished collision is narrower than an element.
+pub(crate) fn is_unresolved(simulation: &Simulation, collision: &Collision) -> bool {
+    let radius = widest_contact(simulation, collision);
+    let edge = radius.and_then(|radius| longest_contact_edge(simulation.model().meshes(), radius));
+    radius.zip(edge).is_some_and(|(radius, edge)| radius < edge)
+}
+
+/// Returns the contact radius (m) at which closed forms expect the largest pressure, if the contact is still small then
+/// and spans few elements. Meshes of similar size agree on a wrong pressure there, and the mesh is not refined for it.
+pub(super) fn early_pressure_radius(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let size = contact_element_size(simulation, collision)?;
+    let softened = simulation.estimate(collision)?.softened;
+    let radius = softened.pressure_radius;
+    let is_early = radius < EARLY * softened.sizes.max_contact_radius;
+    (is_early && radius < FEW_AT_PRESSURE * size).then_some(radius)
+}
+
+/// Returns the relative distance of the peak pressure from that of closed forms, with their own error.
+fn distance_from_closed_form(simulation: &Simulation, collision: &Collision) -> f64 {
+    let estimate = simulation.estimate(collision);
+    let expected = estimate.map(|estimate| estimate.softened.sizes.peak_pressure);
+    let both = collision.peak_pressure.zip(expected);
+    both.map_or(0.0, |(value, expected)| CLOSED_FORM_PRESSURE * (1.0 - expected / value).abs())
 }

@@ -1,4 +1,4 @@
-//! Reference runs: cheaper collisions of the same bodies, whose differences estimate the discretisation error.
+//! Reference runs: cheaper collisions of the same bodies, whose Richardson limit estimates the discretisation error.
 
 use fem_case::schema::{ContactMethod, StopTable};
 use fem_case::{CaseFile, CondensedOptions, Quantity};
@@ -14,22 +14,22 @@ use crate::simulation::Simulation;
 /// The quantities of interest, in the order of [`QuantityOfInterest::ALL`].
 pub(super) type Values = [Option<f64>; 6];
 
-/// Element sizes of the coarser run of a model itself over those of the collision; the second is tried where the bodies
-/// do not come through the collision on the first.
+/// Element sizes of the coarser run of the model itself over those of the collision. The second is tried if the collision
+/// fails with the first.
 const COARSER: [f64; 2] = [2.0, 1.5];
-/// Time of the coarser run of condensed bodies over that of the collision with its factors.
+/// Time of the coarser run of condensed bodies over that of the collision with its factorisation.
 pub const CONDENSED_REFERENCE_TIME: f64 = 0.25;
 /// Time steps of condensed reference runs of explicit elements over the elastic contact time, which give the
 /// restitution to 4e-5.
 const STEPS: f64 = 120.0;
-/// The same of condensed bodies, which give it to 2e-5.
+/// Time steps of reference runs of condensed bodies, which give the restitution to 2e-5.
 const OWN_STEPS: f64 = 160.0;
 /// Elements across the contact of a mesh file below which its limit is taken from finer elements than its own.
 const FEW_ACROSS: f64 = 9.0;
-/// A reference run may take this multiple of the element updates that are expected of it.
+/// A reference run stops after this multiple of its expected element updates.
 const PATIENCE: f64 = 4.0;
 
-/// Limits a bouncing ball to its first contact.
+/// Returns the stop table that limits a bouncing ball to its first contact.
 pub fn first_contact(file: &CaseFile) -> Option<StopTable> {
     let bounces = |_| StopTable { bounces: Some(Quantity::from_si(1.0)) };
     file.gravity.as_ref().map(bounces)
@@ -50,11 +50,11 @@ struct ReferenceRun {
     far_mesh: FarMesh,
     /// `None` if the model rejects the settings or the run does not end by itself.
     values: Option<Values>,
-    /// Element updates over those that closed forms announce.
+    /// Element updates over those that closed forms expect.
     updates_over_announced: f64,
 }
 
-/// The reference runs of a case so far: each is computed once.
+/// The reference runs of a case so far, each computed once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ReferenceRuns {
     known: Vec<ReferenceRun>,
@@ -125,8 +125,8 @@ impl ReferenceRuns {
         self.error_of(subject, values, size)
     }
 
-    /// Returns the errors from a run of the model itself with longer elements, and of the mesh away from the contact if
-    /// the case gives it.
+    /// Returns the errors from a run of the model itself with longer elements, plus those of the mesh away from the
+    /// contact if the case gives it.
     pub fn coarser(&mut self, subject: &Subject<'_>, values: Values) -> Option<Values> {
         COARSER.into_iter().find_map(|ratio| {
             let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
@@ -150,8 +150,8 @@ impl ReferenceRuns {
         Some(errors(given, chosen))
     }
 
-    /// Returns the element updates of the collision over those that closed forms announce, from a coarser run of at most
-    /// about `most` element updates.
+    /// Returns the element updates of the collision over those that closed forms expect, from a coarser run of about
+    /// `most` element updates.
     pub fn updates_over_announced(&mut self, subject: &Subject<'_>, most: u64) -> Option<f64> {
         let Cost::Steps { element_updates, .. } = subject.simulation.setup().cost else {
             return None;
@@ -217,7 +217,7 @@ impl ReferenceRuns {
         if let Some((reference, collision)) = collided {
             self.count(&collision);
             if collision.is_complete() {
-                values = Some(QuantityOfInterest::ALL.map(|headline| headline.of(&collision)));
+                values = Some(QuantityOfInterest::ALL.map(|quantity| quantity.of(&collision)));
                 updates_over_announced = over_announced(&reference, &collision).unwrap_or(1.0);
             } else if most_element_updates < u64::MAX {
                 return None;
@@ -249,7 +249,7 @@ fn collide(
     let is_condensed = settings.iter().any(|it| matches!(it, Setting::Condensed { .. }));
     let case = simulation.case().edited(|file| {
         file.stop = first_contact(file);
-        // Where the case leaves the model open, the one that was chosen.
+        // If the case leaves the model open, the selected one is used.
         file.model = simulation.resolved().model.clone();
         if is_condensed {
             // Condensed bodies lack these effects and springs.
@@ -266,7 +266,7 @@ fn collide(
         }
         if let (FarMesh::SelectedModel, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
             (mesh.growth, mesh.refined_radius) = (None, None);
-            // What is chosen goes by the speed.
+            // The selected mesh depends on the speed.
             *file = simulation.meeting(file.clone(), approach);
         }
         if settings.iter().any(|it| matches!(it, Setting::ElementSize(_))) {
@@ -292,8 +292,8 @@ fn collide(
     Some((reference, collision))
 }
 
-/// Returns the element updates of a collision over those that closed forms announce. Elements that are pressed flat have
-/// shorter steps, and a body that stiffens as it is strained separates sooner.
+/// Returns the element updates of a collision over those that closed forms expect. Flattened elements have shorter steps,
+/// and a body that stiffens separates sooner.
 fn over_announced(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let Cost::Steps { element_updates, .. } = simulation.setup().cost else { return None };
     Some(collision.element_updates? as f64 / element_updates as f64)
@@ -305,11 +305,11 @@ fn extrapolated(coarse: Values, fine: Values, ratio: f64) -> Values {
     std::array::from_fn(|k| Some(fine[k]? + rest * (fine[k]? - coarse[k]?)))
 }
 
-/// Returns the distance of values from a limit, without sign: of the restitution absolute, of others relative.
+/// Returns the distance of values from a limit: the restitution's absolute, others relative.
 fn errors(values: Values, limit: Values) -> Values {
-    QuantityOfInterest::ALL.map(|headline| {
-        let (value, limit) = (values[headline as usize]?, limit[headline as usize]?);
-        Some((value - limit).abs() / headline.scale(limit))
+    QuantityOfInterest::ALL.map(|quantity| {
+        let (value, limit) = (values[quantity as usize]?, limit[quantity as usize]?);
+        Some((value - limit).abs() / quantity.scale(limit))
     })
 }
 
@@ -317,7 +317,7 @@ fn errors(values: Values, limit: Values) -> Values {
 mod tests {
     use super::*;
 
-    /// Values that fall with the assumed order have no error left after extrapolation, for any ratio.
+    /// Values that converge with the assumed order are exact after extrapolation, for any ratio.
     #[test]
     fn the_limit_of_a_power_law_is_exact() {
         for ratio in [1.5, 2.0] {
@@ -326,8 +326,8 @@ mod tests {
             let limit = extrapolated(on(ratio), on(1.0), ratio);
             assert!(limit.iter().all(|limit| (limit.unwrap() - 3.0).abs() < 1e-12), "{limit:?}");
             let errors = errors(on(1.0), limit);
-            assert!((errors[0].unwrap() - 0.1).abs() < 1e-12, "absolute for the restitution");
-            assert!((errors[1].unwrap() - 0.1 / 3.0).abs() < 1e-12, "relative for the others");
+            assert!((errors[0].unwrap() - 0.1).abs() < 1e-12, "the restitution is absolute");
+            assert!((errors[1].unwrap() - 0.1 / 3.0).abs() < 1e-12, "others are relative");
         }
         assert_eq!(extrapolated([None; 6], [Some(1.0); 6], 2.0), [None; 6]);
     }

@@ -1,4 +1,4 @@
-//! Adaptive refinement: meshes are made finer until the estimated errors are within the tolerance of the case.
+//! Adaptive refinement: the mesh is refined until the estimated errors are within the tolerance of the case.
 //!
 //! The a-priori mesh rule chooses elements from closed forms ([`crate::Plan`]). If an estimated error exceeds the
 //! tolerance and the case leaves the element size open, the elements are made smaller by
@@ -7,12 +7,12 @@
 //! \frac{h}{h'} = \Bigl(1.1\,\max_q \frac{|\Delta q|}{\tau_q}\Bigr)^{2/3}, \qquad 1.25 \le \frac h{h'} \le 2,
 //! ```
 //!
-//! between the first order of bulk viscosity and the second of elements, and the collision is computed again; by 2 at
-//! once if condensed reference runs, which know the error before the collision, say that less is not enough. There are at
-//! most [`MOST_LEVELS`] finer meshes, each of at most [`MOST_UPDATES`] element updates or `limits.element_updates`. No
+//! between the first order of bulk viscosity and the second order of elements, and the collision is computed again. The
+//! ratio is 2 at once if condensed reference runs, which show the error before the collision, find a smaller one
+//! insufficient. There are at most [`MOST_LEVELS`] finer meshes, each of at most [`MOST_UPDATES`] element updates or `limits.element_updates`. No
 //! mesh is refined for errors of other settings of the case (added mass, soft springs, a coarse mesh away from the
-//! contact). Otherwise a warning says why the mesh stays. Every decision follows from numbers of the case and of its
-//! runs: it is the same on all machines.
+//! contact). A warning gives the reason why a mesh stays. Every decision follows from numbers of the case and of its
+//! runs, so it is the same on all machines.
 
 use fem_case::{Body, CaseError, Shape};
 use fem_collision::{Collision, QuantityOfInterest, Stop};
@@ -27,17 +27,17 @@ use super::tolerance_check::{ToleranceMiss, missed, misses};
 use crate::models::method::Cost;
 use crate::simulation::{ComputedCollision, Simulation};
 
-/// Room beyond the estimated error.
-pub(super) const ROOM: f64 = 1.1;
+/// Safety factor on the estimated error.
+const ROOM: f64 = 1.1;
 /// Power of the element size with which errors are expected to fall.
-pub(super) const FALL: f64 = 1.5;
+const FALL: f64 = 1.5;
 /// Least and largest ratio of element sizes of one refinement.
 pub(super) const STEPS: [f64; 2] = [1.25, 2.0];
-/// Finer meshes after the first.
+/// Largest number of finer meshes.
 pub(super) const MOST_LEVELS: usize = 4;
-/// Element updates of a finer mesh if the case gives no limit: some seconds.
+/// Most element updates of a finer mesh if the case gives no limit, which take some seconds.
 pub(super) const MOST_UPDATES: u64 = 150_000_000;
-/// Elements of a finer mesh of condensed bodies: a second.
+/// Most elements of a finer mesh of condensed bodies, which take a second.
 pub(super) const MOST_ELEMENTS: u64 = 60_000;
 /// Refinements that differ by a smaller share make the same mesh.
 const SAME_REFINEMENT: f64 = 0.01;
@@ -49,7 +49,7 @@ pub struct RefinementLevel {
     pub contact_element_size_m: f64,
     /// Element updates of its collision; `None` if the collision was not computed on it or takes none.
     pub element_updates: Option<u64>,
-    /// Key of the quantity that exceeded its tolerance by most.
+    /// Key of the quantity that exceeds its tolerance by the largest factor.
     pub quantity: String,
     /// Its estimated error: the restitution's absolute, others relative.
     pub error: f64,
@@ -62,18 +62,18 @@ pub struct RefinementLevel {
 pub struct RefinedBeforeRun {
     /// The case on that mesh.
     pub simulation: Simulation,
-    /// Whether the run itself may show that a finer mesh is needed.
+    /// Whether the run itself may still show that a finer mesh is needed.
     pub is_open: bool,
 }
 
-/// Why a mesh stays although the tolerance is missed.
+/// The reason why a mesh stays although the tolerance is missed.
 #[derive(Debug)]
 pub(super) enum NotRefined {
     /// The case gives the element size.
     Given,
     FromFile,
     Gravity,
-    /// Another setting of the case is at fault.
+    /// Another setting of the case is the cause.
     Setting(FaultySetting),
     /// The scatter of any mesh exceeds the tolerance.
     Scatter(f64),
@@ -96,9 +96,9 @@ pub(super) enum FaultySetting {
 }
 
 impl FaultySetting {
-    pub fn in_words(self) -> &'static str {
+    pub fn described(self) -> &'static str {
         match self {
-            Self::AddedMass => "the mass that is added",
+            Self::AddedMass => "added mass",
             Self::SoftSprings => "soft penalty springs",
             Self::ChatteringSprings => "contact chatter",
             Self::FarMesh(_) => "the mesh away from the contact",
@@ -116,7 +116,7 @@ impl FaultySetting {
 }
 
 impl ErrorEstimator {
-    /// Refines the mesh before the run, as far as condensed reference runs show its error, while `goes_on` allows.
+    /// Refines the mesh before the run as far as condensed reference runs show its error, while `goes_on` returns true.
     pub fn refine_before_run(
         &mut self,
         simulation: Simulation,
@@ -138,8 +138,8 @@ impl ErrorEstimator {
         }
     }
 
-    /// Computes the collision, again on finer meshes while the tolerance is missed, and estimates its errors. If the
-    /// collision fails on a finer mesh, the one before counts.
+    /// Computes the collision on finer meshes until the tolerance is met, and estimates its errors. If the collision fails
+    /// on a finer mesh, the result on the mesh before counts.
     ///
     /// # Errors
     /// Those of `compute`.
@@ -172,13 +172,13 @@ impl ErrorEstimator {
         Ok(ComputedCollision { simulation, collision, errors })
     }
 
-    /// Returns the case on a finer mesh if its collision misses a tolerance and a finer mesh may be had.
+    /// Returns the case on a finer mesh if its collision misses a tolerance and the mesh may be refined.
     pub fn refine(&mut self, simulation: &Simulation, collision: &Collision) -> Option<Simulation> {
         let errors = self.bars(simulation, collision);
         self.refined(simulation, collision, &errors).ok().flatten()
     }
 
-    /// Returns the case on a finer mesh if a tolerance is missed, or why there is none.
+    /// Returns the case on a finer mesh if a tolerance is missed, or the reason why there is none.
     pub(super) fn refined(
         &mut self,
         simulation: &Simulation,
@@ -191,14 +191,14 @@ impl ErrorEstimator {
         }
     }
 
-    /// Returns the largest miss that condensed reference runs expect; `None` if only the collision
-    /// shows the error, `Some(None)` if the tolerance is met.
+    /// Returns the largest miss that condensed reference runs expect: `None` if only the collision shows the error,
+    /// `Some(None)` if the tolerance is met.
     fn expected_miss(&mut self, simulation: &Simulation) -> Option<Option<ToleranceMiss>> {
         let errors = self.before_run(simulation)?;
-        Some(misses(simulation, |headline| errors[headline as usize]).into_iter().next())
+        Some(misses(simulation, |quantity| errors[quantity as usize]).into_iter().next())
     }
 
-    /// Returns the case on a finer mesh, after a collision or before one, or why there is none.
+    /// Returns the case on a finer mesh, after a collision or before it, or the reason why there is none.
     fn finer(
         &mut self,
         simulation: &Simulation,
@@ -211,7 +211,7 @@ impl ErrorEstimator {
             return Err(NotRefined::Setting(setting));
         }
         if !miss.is_of_mesh() {
-            return Err(NotRefined::Scatter(miss.scatter));
+            return Err(NotRefined::Scatter(miss.scatter()));
         }
         if has_mesh_file(simulation) {
             return Err(NotRefined::FromFile);
@@ -226,7 +226,7 @@ impl ErrorEstimator {
         if simulation.levels().len() >= MOST_LEVELS {
             return Err(NotRefined::TooExpensive { updates: None });
         }
-        let by = (ROOM * miss.excess_of_mesh()).powf(1.0 / FALL).clamp(STEPS[0], STEPS[1]);
+        let by = refinement_ratio(miss.excess_of_mesh()).clamp(STEPS[0], STEPS[1]);
         let refinement = by * simulation.refinement;
         if let Some((known, updates)) = self.too_expensive
             && (refinement / known - 1.0).abs() < SAME_REFINEMENT
@@ -236,7 +236,7 @@ impl ErrorEstimator {
         let level = RefinementLevel {
             contact_element_size_m: elements.plan.contact_element_size,
             element_updates: met.and_then(|collision| collision.element_updates),
-            quantity: miss.headline.key().to_string(),
+            quantity: miss.quantity.key().to_string(),
             error: miss.error,
             tolerance: miss.tolerance,
         };
@@ -266,7 +266,7 @@ impl ErrorEstimator {
         }
     }
 
-    /// Returns the setting of the case whose error exceeds the tolerance on any mesh; after a collision or before one.
+    /// Returns the setting of the case whose error exceeds the tolerance on any mesh, after a collision or before it.
     fn faulty_setting(
         &mut self,
         simulation: &Simulation,
@@ -278,13 +278,13 @@ impl ErrorEstimator {
         if miss.is_of_springs(elements) {
             return Some(FaultySetting::SoftSprings);
         }
-        let of_mass = elements.added_share * ADDED_MASS[miss.headline as usize];
+        let of_mass = elements.added_share * ADDED_MASS[miss.quantity as usize];
         if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
             return Some(FaultySetting::AddedMass);
         }
         let subject = Subject::planned(simulation)?;
         if let Some(key) = subject.far_mesh_key() {
-            let error = self.runs.far_mesh(&subject).and_then(|of| of[miss.headline as usize]);
+            let error = self.runs.far_mesh(&subject).and_then(|of| of[miss.quantity as usize]);
             if error.is_some_and(|error| error > miss.tolerance) {
                 return Some(FaultySetting::FarMesh(key));
             }
@@ -293,21 +293,25 @@ impl ErrorEstimator {
         if is_of_chatter(miss, collision) {
             return Some(FaultySetting::ChatteringSprings);
         }
-        // On average springs overlap by half as much, and the contact lasts longer as the approach grows.
-        let overlap =
-            collision.deepest_overlap.map_or(0.0, |deepest_overlap| deepest_overlap.overlap);
+        // Springs overlap by half of this on average, and the contact time grows like the approach.
+        let overlap = collision.deepest.map_or(0.0, |deepest| deepest.overlap);
         let of_springs = 0.5 * overlap / collision.max_approach?;
         let is_soft = scene.penalty_factor().is_some_and(|factor| factor < 1.0);
         (is_soft && of_springs > miss.tolerance).then_some(FaultySetting::SoftSprings)
     }
 }
 
-/// Returns whether contact chatter alone exceeds the tolerance.
-pub(super) fn is_of_chatter(miss: &ToleranceMiss, collision: &Collision) -> bool {
-    of_chatter(collision, miss.headline) > miss.tolerance
+/// Returns the ratio of element sizes at which an error that exceeds the tolerance by this factor falls below it.
+pub(super) fn refinement_ratio(excess: f64) -> f64 {
+    (ROOM * excess).powf(1.0 / FALL)
 }
 
-/// Returns whether meshes of the case may be made finer for its tolerance.
+/// Returns whether contact chatter alone exceeds the tolerance.
+pub(super) fn is_of_chatter(miss: &ToleranceMiss, collision: &Collision) -> bool {
+    of_chatter(collision, miss.quantity) > miss.tolerance
+}
+
+/// Returns whether the meshes of the case may be refined for its tolerance.
 pub(super) fn may_be_refined(simulation: &Simulation) -> bool {
     let scene = simulation.case().scene();
     let is_given = scene.mesh().contact_element_size.is_some();
@@ -323,16 +327,16 @@ fn has_mesh_file(simulation: &Simulation) -> bool {
 /// Returns the reason of the last refinement, for the terminal.
 pub(crate) fn refined_because(simulation: &Simulation) -> Option<String> {
     let level = simulation.levels().last()?;
-    let headline = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == level.quantity)?;
+    let quantity = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == level.quantity)?;
     let (error, tolerance) = (level.error, level.tolerance);
-    let miss = ToleranceMiss { headline, error, tolerance, scatter: 0.0 };
+    let miss = ToleranceMiss { quantity, error, tolerance };
     let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
     // The collision was not computed on the coarser mesh.
     let is_before_run =
         level.element_updates.is_none() && matches!(simulation.setup().cost, Cost::Steps { .. });
     Some(format!(
         "{}: {}elements of {} in place of {}",
-        miss.in_words(),
+        miss.described(),
         if is_before_run { "" } else { "again with " },
         length(size),
         length(level.contact_element_size_m)

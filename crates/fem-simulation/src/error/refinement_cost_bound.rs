@@ -1,4 +1,4 @@
-//! An upper bound of the cost of the finer meshes that may follow a collision.
+//! Upper bound of the cost of the finer meshes that may follow a collision.
 
 use std::iter::successors;
 
@@ -6,25 +6,25 @@ use super::refinement::{MOST_ELEMENTS, MOST_LEVELS, MOST_UPDATES, may_be_refined
 use crate::models::method::Cost;
 use crate::simulation::Simulation;
 
-/// Element updates of a finer mesh over those of the one before: least with the smallest refinement, most with the
-/// largest. They are of third order, but rows of elements are whole, and a small refinement may add none in places.
+/// Smallest and largest growth of the element updates from one mesh to the next. The growth is of third order, but rows of
+/// elements are whole, and a small refinement may add no row in places.
 const UPDATES: [f64; 2] = [1.35, 9.0];
-/// The same of elements, which are of second order.
+/// Smallest and largest growth of the number of elements, which is of second order.
 const ELEMENTS: [f64; 2] = [1.2, 4.5];
-/// Power of the number of elements with which the time of condensed bodies grows: 0.85 to 1.2 for four pairs with 700 to
-/// 150,000 elements.
+/// Power of the number of elements with which the time of condensed bodies grows: 0.85 to 1.2 was measured for four pairs
+/// with 700 to 150,000 elements.
 const OF_ELEMENTS: f64 = 1.2;
 
-/// An upper bound of the finer meshes that may follow a collision.
+/// Upper bound of the finer meshes that may follow a collision, in number and cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefinementBound {
     /// The largest number of finer meshes.
     pub meshes: usize,
-    /// Element updates of all together over those of the collision; of condensed bodies time.
+    /// Element updates of all finer meshes over those of the collision; for condensed bodies their time.
     pub over_first: f64,
 }
 
-/// Returns the bound; `None` where the mesh stays.
+/// Returns the bound; `None` if the mesh stays.
 pub(crate) fn refinement_bound(simulation: &Simulation) -> Option<RefinementBound> {
     let (one, most, growth, power) = match simulation.setup().cost {
         Cost::Steps { element_updates, .. } => {
@@ -41,8 +41,8 @@ pub(crate) fn refinement_bound(simulation: &Simulation) -> Option<RefinementBoun
     may_be_refined(simulation).then_some(RefinementBound { meshes, over_first })
 }
 
-/// Returns the cost of `n` finer meshes over that of the first: the last takes no more than `most`, and each takes more
-/// than the one before by a factor within `growth`; 0 if there are not so many.
+/// Returns the cost of `n` finer meshes over that of the first mesh. The last one takes at most `most`, and the cost grows
+/// from mesh to mesh by a factor within `growth`. The result is 0 if `n` meshes exceed `most`.
 fn of_levels(n: usize, most: f64, growth: [f64; 2], power: f64) -> f64 {
     if most < growth[0].powi(n as i32) {
         return 0.0;
@@ -64,7 +64,7 @@ mod tests {
     use super::super::refinement::STEPS;
     use super::*;
 
-    /// By hand: eight times each time, until the most is in sight.
+    /// Each mesh takes eight times the one before, until the last ones approach the limit.
     #[test]
     fn the_last_mesh_takes_the_most() {
         assert_eq!(of_levels(0, 100.0, [2.0, 8.0], 1.0), 0.0);
@@ -75,9 +75,9 @@ mod tests {
         assert_eq!(of_levels(2, 16.0, [2.0, 8.0], 2.0), 64.0 + 256.0);
     }
 
-    /// Of a pair, on a wall, of unlike bodies, of soft ones.
+    /// The cost of a pair, of a ball on a wall, of unlike and of soft bodies grows within the assumed factors.
     #[test]
-    fn meshes_grow_within_what_is_counted_with() {
+    fn cost_grows_within_the_bounds() {
         const BALL: &str = "material.a = { density = 2500, youngs_modulus = 'E', poissons_ratio = 0.3 }
             material.b = { density = 7800, youngs_modulus = '210 GPa', poissons_ratio = 0.28 }
             body = [{ name = 'lower', OTHER },

@@ -1,43 +1,24 @@
-//! A change of one setting of a case, by which a reference run or a run of the accuracy study differs from it.
+//! A change of one setting of a case, as reference runs and the accuracy study make it.
 
 use fem_case::schema::{CondensedTable, ContactMethod, HertzTable, ModelTable, Switch, TingTable};
 use fem_case::{CaseFile, Quantity};
 
-/// A change of one setting of a case, SI.
+/// A change of one setting of a case, in SI units. Each variant sets the key of its name.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the variants and their fields have the names of the keys")]
 pub enum Setting {
-    /// Sets `model.hertz`, with the spheres' finite size or without.
-    Hertz {
-        /// Whether the spheres' finite size adds to the approach.
-        finite_size: bool,
-    },
-    /// Sets `model.ting`, with the spheres' finite size or without.
-    Ting {
-        /// Whether the spheres' finite size adds to the approach.
-        finite_size: bool,
-    },
-    /// Sets `model.condensed`.
-    Condensed {
-        /// Modes of free vibration of each body.
-        vibration_modes: u8,
-        /// Whether the springs of explicit elements resist overlap.
-        penalty_springs: bool,
-    },
-    /// Sets `model.fem`.
+    Hertz { finite_size: bool },
+    Ting { finite_size: bool },
+    Condensed { vibration_modes: u8, penalty_springs: bool },
+    /// Sets `model.fem`, explicit elements.
     Explicit,
-    /// Sets `mesh.contact_element_size`, m.
+    /// Sets `mesh.contact_element_size`, in metres.
     ElementSize(f64),
-    /// Sets `mesh.staggered`.
     Staggered(bool),
-    /// Sets `mesh.growth`.
     Growth(f64),
-    /// Sets `contact.method`.
     ContactMethod(ContactMethod),
-    /// Sets `contact.penalty_factor`.
     PenaltyFactor(f64),
-    /// Sets `time.mass_scaling`.
     MassScaling(f64),
-    /// Sets `time.step_factor`.
     StepFactor(f64),
     /// Sets `effects.finite_strain = "on"`.
     FiniteStrain,
@@ -92,7 +73,7 @@ impl Setting {
         }
     }
 
-    /// As an override of a case on the command line: `mesh.contact_element_size=2.8e-5`.
+    /// Returns the override of the command line that makes the change: `mesh.contact_element_size=2.8e-5`.
     pub fn as_override(self) -> String {
         match self {
             Self::Hertz { finite_size: false } => "model.hertz={}".to_string(),
@@ -134,7 +115,7 @@ mod tests {
         [model.law]
         hertz = {}";
 
-    /// The change and the override that it prints are the same.
+    /// The change and its printed override give the same scene.
     #[test]
     fn the_override_is_what_is_applied() {
         let settings = [

@@ -180,9 +180,9 @@ fn no_bar_is_below_what_a_warning_states() {
     let stated = [
         ("contact force scatters by", QuantityOfInterest::PeakForce),
         ("surfaces overlap by about", QuantityOfInterest::MaxApproach),
-        ("contact time may be off by", QuantityOfInterest::ContactTime),
-        ("peak force may be off by", QuantityOfInterest::PeakForce),
-        ("peak pressure may be off by", QuantityOfInterest::PeakPressure),
+        ("contact time has an estimated error of", QuantityOfInterest::ContactTime),
+        ("peak force has an estimated error of", QuantityOfInterest::PeakForce),
+        ("peak pressure has an estimated error of", QuantityOfInterest::PeakPressure),
     ];
     let [few, some] = [across(BALL, 2.0), across(BALL, 4.0)];
     let scenes: [&[&str]; 9] = [
