@@ -32,10 +32,9 @@ pub use models::{
     AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, HertzMethod,
     LawMethod, METHODS, ModelCandidate, Reduced, TingMethod, chosen, method_of, model_of,
 };
-pub use plan::contact_method::{contact_method, unread};
-pub use plan::contact_noise_advice::ContactNoiseAdvice;
+pub use plan::body_source::build_meshes;
+pub use plan::contact_method::{ContactNoiseAdvice, contact_method, unread};
 pub use plan::element_size::MeshRule;
-pub use plan::meshes::build_meshes;
 pub use plan::pair_cache::PairCache;
 pub use plan::{Plan, divided_radius};
 pub use rejection::Rejection;

@@ -25,11 +25,8 @@ pub(super) const EXPLICIT: Calibration = Calibration {
 };
 
 /// Constants for explicit elements at large strain or with waves, which have a coarser run of their own.
-pub(super) const STRAINED: Calibration = Calibration {
-    name: "STRAINED",
-    safety_factor: 2.0,
-    edge: [0.01, 0.03, 0.01, 0.01, 0.04, 0.1],
-};
+pub(super) const STRAINED: Calibration =
+    Calibration { name: "STRAINED", safety_factor: 2.0, edge: [0.01, 0.03, 0.01, 0.01, 0.04, 0.1] };
 
 /// Constants for condensed bodies with one coarser run.
 pub(super) const CONDENSED: Calibration = Calibration {

@@ -1,15 +1,22 @@
 //! A change of one setting of a case, as reference runs and the accuracy study make it.
 
+use fem_case::CaseFile;
 use fem_case::schema::{CondensedTable, ContactMethod, HertzTable, ModelTable, Switch, TingTable};
-use fem_case::{CaseFile, Quantity};
 
 /// A change of one setting of a case, in SI units. Each variant sets the key of its name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the variants and their fields have the names of the keys")]
 pub enum Setting {
-    Hertz { finite_size: bool },
-    Ting { finite_size: bool },
-    Condensed { vibration_modes: u8, penalty_springs: bool },
+    Hertz {
+        finite_size: bool,
+    },
+    Ting {
+        finite_size: bool,
+    },
+    Condensed {
+        vibration_modes: u8,
+        penalty_springs: bool,
+    },
     /// Sets `model.fem`, explicit elements.
     Explicit,
     /// Sets `mesh.contact_element_size`, in metres.
@@ -37,7 +44,7 @@ impl Setting {
             }
             Self::Condensed { vibration_modes, penalty_springs } => {
                 let table = CondensedTable {
-                    vibration_modes: Some(Quantity::from_si(f64::from(vibration_modes))),
+                    vibration_modes: Some(f64::from(vibration_modes).into()),
                     penalty_springs: Some(penalty_springs),
                     ..CondensedTable::default()
                 };
@@ -45,27 +52,25 @@ impl Setting {
             }
             Self::Explicit => file.model = Some(ModelTable::fem()),
             Self::ElementSize(size) => {
-                file.mesh.get_or_insert_default().contact_element_size =
-                    Some(Quantity::from_si(size));
+                file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
             }
             Self::Staggered(is) => {
                 file.mesh.get_or_insert_default().staggered = Some(is);
             }
             Self::Growth(growth) => {
-                file.mesh.get_or_insert_default().growth = Some(Quantity::from_si(growth));
+                file.mesh.get_or_insert_default().growth = Some(growth.into());
             }
             Self::ContactMethod(method) => {
                 file.contact.get_or_insert_default().method = Some(method);
             }
             Self::PenaltyFactor(factor) => {
-                file.contact.get_or_insert_default().penalty_factor =
-                    Some(Quantity::from_si(factor));
+                file.contact.get_or_insert_default().penalty_factor = Some(factor.into());
             }
             Self::MassScaling(share) => {
-                file.time.get_or_insert_default().mass_scaling = Some(Quantity::from_si(share));
+                file.time.get_or_insert_default().mass_scaling = Some(share.into());
             }
             Self::StepFactor(factor) => {
-                file.time.get_or_insert_default().step_factor = Some(Quantity::from_si(factor));
+                file.time.get_or_insert_default().step_factor = Some(factor.into());
             }
             Self::FiniteStrain => {
                 file.effects.get_or_insert_default().finite_strain = Some(Switch::On);

@@ -56,9 +56,13 @@ impl ToleranceMiss {
         let (name, error) = (self.quantity.name(), self.printed_error());
         let tolerance = self.printed(self.tolerance);
         match error == tolerance {
-            true => format!("{name} has an estimated error a little above the tolerance of {tolerance}"),
+            true => {
+                format!("{name} has an estimated error a little above the tolerance of {tolerance}")
+            }
             false => {
-                format!("{name} has an estimated error of {error}, above the tolerance of {tolerance}")
+                format!(
+                    "{name} has an estimated error of {error}, above the tolerance of {tolerance}"
+                )
             }
         }
     }

@@ -15,7 +15,7 @@ use crate::estimate::Estimate;
 use crate::models::restart_state::RestartState;
 use crate::models::stepper::Stepper;
 use crate::plan::Plan;
-use crate::plan::contact_noise_advice::ContactNoiseAdvice;
+use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::pair_cache::PairCache;
 use crate::rejection::Rejection;
 
@@ -150,7 +150,7 @@ pub struct ElementSetup {
     /// Mass that is moved for a longer step, over that of the lighter body: the larger one of both bodies'.
     pub added_share: f64,
     /// Advice against contact noise.
-    pub quieter: ContactNoiseAdvice,
+    pub noise_advice: ContactNoiseAdvice,
 }
 
 /// Cost of a run.

@@ -1,31 +1,23 @@
-//! The source of a body with a mesh: mesh source, material and placement, before the mesh is built.
+//! The sources of the bodies (mesh source and material) before their meshes are built, the built meshes, and the probes in
+//! them.
 
 use fem_case::{Body, Scene, Shape};
-use fem_collision::BodyInput;
+use fem_collision::{BodyInput, ProbeRequest, Probes};
 use fem_material::Material;
+use fem_mesh::SphereMesh;
 
 use crate::plan::Plan;
 use crate::plan::limits::check_size;
 use crate::plan::mesh_source::{MeshSource, half_disc, import, mesh_refusal, quarter_disc};
 use crate::rejection::Rejection;
 
-/// The source of a body; equal sources give equal bodies.
+/// The source of a body. Equal sources give equal bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum BodySource {
     /// A meshed body.
-    Meshed {
-        /// Source of the mesh.
-        mesh: MeshSource,
-        /// Material of the body.
-        material: Material,
-    },
-    /// A rigid sphere.
-    Rigid {
-        /// m.
-        radius: f64,
-        /// kg.
-        mass: f64,
-    },
+    Meshed { mesh: MeshSource, material: Material },
+    /// A rigid sphere; radius in metres, mass in kilograms.
+    Rigid { radius: f64, mass: f64 },
     /// A rigid plane of infinite mass.
     Wall,
 }
@@ -59,7 +51,7 @@ impl BodySource {
         })
     }
 
-    /// The same body of a material that does not relax.
+    /// Returns the same body without relaxation.
     pub fn without_relaxation(self) -> Self {
         match self {
             Self::Meshed { mesh, material } => {
@@ -80,7 +72,7 @@ impl BodySource {
         }
     }
 
-    /// The lower body, 0, or the upper one, 1.
+    /// Builds the body as the lower one (0) or the upper one (1).
     ///
     /// # Errors
     /// A mesh that cannot be made.
@@ -98,4 +90,45 @@ impl BodySource {
             Self::Wall => BodyInput::Wall,
         })
     }
+}
+
+/// Builds the meshes of both bodies in their places; a rigid body has none.
+///
+/// # Errors
+/// Meshes that cannot be made or read, or are too large.
+pub fn build_meshes(scene: &Scene, plan: &Plan) -> Result<[Option<SphereMesh>; 2], Rejection> {
+    let mut meshes = [None, None];
+    for (k, source) in BodySource::of_scene(scene, plan)?.iter().enumerate() {
+        if let BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } =
+            source.build(k)?
+        {
+            meshes[k] = Some(mesh);
+        }
+    }
+    Ok(meshes)
+}
+
+/// Returns the probe requests of a run; a model without meshes has none.
+///
+/// # Errors
+/// A place outside the mesh of its body, or a body without a mesh.
+pub(crate) fn probes_of(
+    scene: &Scene,
+    meshes: [Option<&SphereMesh>; 2],
+) -> Result<Vec<ProbeRequest>, Rejection> {
+    if meshes.iter().all(Option::is_none) {
+        return Ok(Vec::new());
+    }
+    let places = scene.probes().iter();
+    let requests: Vec<_> =
+        places.map(|probe| ProbeRequest { side: probe.body, place: [probe.r, probe.y] }).collect();
+    let Some(k) = Probes::new(meshes, &requests).first_outside() else { return Ok(requests) };
+    let (side, key) = (requests[k].side, format!("output.probe.{k}"));
+    let name = scene.bodies()[side].name();
+    Err(match meshes[side] {
+        Some(_) => Rejection::new(key, format!("the mesh of \"{name}\" does not reach this place"))
+            .with_help("a half-space is meshed out to mesh.far_radius"),
+        None => Rejection::new(key, format!("\"{name}\" is computed as a rigid body"))
+            .with_help("set effects.rigid_partner = \"off\""),
+    })
 }

@@ -1,29 +1,26 @@
 //! The a-priori mesh rule: element size and mass scaling for the tolerance of a case.
 //!
-//! With k elements across the contact radius the error of the peak force is
+//! With k elements across the contact radius and the share μ of added mass, the peak force has an error of at most
 //!
 //! ```math
-//! \Bigl|\frac{\Delta F}{F}\Bigr| \le \frac{C}{k^2} + c\,\mu, \qquad
-//! C = C_0 + C_1 s, \qquad c = \tfrac12,
+//! \Bigl|\frac{\Delta F}{F}\Bigr| \le \frac{C}{k^2} + \tfrac12 \mu .
 //! ```
 //!
-//! with μ the share of mass that is added for a longer step. C₁ is the swing with the place of the contact's
-//! edge between two nodes, at most 3/16 by theory ([`stagger`](crate::plan::mesh_offset)); s is what of it is left: all
-//! where the meshes are not staggered, else how much the bodies' shares in the compliance of the
-//! contact differ. All other numbers are off by less: contact time 0.06/k², restitution 0.04/k²,
-//! peak pressure 0.45/k².
+//! - **Springs between the surfaces**: C = 0.05 + 0.10 s. The second term is the oscillation of the force with the place of
+//!   the contact's edge between two nodes ([`mesh_offset`](crate::plan::mesh_offset)); theory bounds it by 3/16. Its
+//!   share s is 1 on meshes that are not offset, and otherwise the difference of the bodies' shares in the contact
+//!   compliance. The errors of the other quantities are smaller: 0.06/k² for the contact time, 0.04/k² for the restitution
+//!   and 0.45/k² for the peak pressure.
+//! - **Nodes that touch exactly**: C = 0.05. The oscillation is known and subtracted from the peak force
+//!   (`fem-condensed/src/contact/elastic_impact.rs`). The errors are 0.05/k² for the contact time, 0.01/k² for the
+//!   restitution and 0.12/k² for the peak pressure.
 //!
-//! C and c are measured: errors of 11 cases of this repository and 17 random scenes (walls, half-spaces,
-//! strong relaxation, size ratios to 30, moduli to 1:30) against limits of fine meshes, k = 3 to 11, μ = 2e-4 to 2e-2
-//! (docs/accuracy.md). The claim `error_bars` tries the rule on random scenes.
+//! The constants for springs are measured in 11 cases of this repository and 17 random scenes (walls, half-spaces, strong
+//! relaxation, size ratios to 30, moduli to 1:30) against limits of fine meshes, with k = 3 to 11 and μ = 2e-4 to 2e-2
+//! (docs/accuracy.md); those for nodes in the elastic and the relaxing glass pair with 90 element sizes, k = 4 to 17. The
+//! claim `error_bars` tests the rule on random scenes.
 //!
-//! Of nodes that touch exactly the swing is known and taken off the peak force
-//! (`fem-condensed/src/contact/elastic_impact.rs`). What is left of it, C = 0.05, is no more than what contact time (0.05/k²) and
-//! restitution (0.01/k²) are off by; peak pressure by 0.12/k². Of the glass pair, elastic and relaxing, at 90 sizes of elements,
-//! k = 4 to 17: force 0.03/k², time 0.047, restitution 0.005, pressure 0.11.
-//!
-//! Where the swing is not taken away, the place of the edge of elastic bodies is chosen where it passes
-//! through zero: k = n + 0.35 with springs at points between nodes.
+//! If the oscillation remains, the element size is chosen so that it passes through zero: k = n + 0.35.
 
 use fem_case::{Accuracy, CondensedOptions, ModelChoice, Scene};
 use fem_collision::QuantityOfInterest;
@@ -31,40 +28,39 @@ use fem_collision::QuantityOfInterest;
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
 
-/// Error of the peak force times k² without a swing.
+/// Error of the peak force times k² without the oscillation.
 const SMOOTH: f64 = 0.05;
-/// The part of the swing, with springs between the surfaces.
-const SWING: f64 = 0.10;
-/// Both for nodes that touch exactly, whose swing is subtracted.
+/// Error of the peak force times k² by the oscillation.
+const OSCILLATION: f64 = 0.10;
+/// Error of the peak force times k² for nodes that touch exactly.
 const AT_NODES: f64 = 0.05;
-/// Share of the tolerance for the mesh. Added mass has the rest, and relaxation, which shifts the edge, where no mass is
-/// added.
+/// Share of the tolerance for the mesh. The rest is for added mass, and without it for relaxation, which moves the
+/// contact's edge.
 const OF_MESH: f64 = 0.75;
 /// Added mass over the tolerance: the force changes by half of its share.
 const MASS_OVER_TOLERANCE: f64 = 0.5;
-/// Most mass that is added by default: bodies with relaxation times near the time step show more.
+/// Most mass that is added by default: bodies with relaxation times near the time step are more sensitive.
 const MOST_MASS: f64 = 1e-2;
-/// Most elements across the contact radius: 0.01 % of the force with springs and the whole swing.
+/// Most elements across the contact radius: 0.01 % of the force with springs and the whole oscillation.
 const MOST: f64 = 45.0;
 /// Share of the tolerance at finite strain on one mesh: contact time and pressure of soft balls on walls have twice the
 /// error above.
 const AT_FINITE_STRAIN: f64 = 0.5;
-/// Over the shear wave speed the speed of an impact below which waves have come and gone often enough. Faster,
-/// first and last touch are waves of few elements' length, and bulk viscosity takes its share of them: soft
-/// balls on walls at 0.06, 0.17 and 0.56 of it, ν 0.2 to 0.49, are within the tolerance with 7, 11 and 17
-/// elements across the contact.
-const QUIET: f64 = 0.03;
+/// Approach speed over the shear wave speed below which waves cross the body many times during the contact. In faster
+/// impacts the first and last touch are waves of a few elements' length, which bulk viscosity damps. Soft balls on walls
+/// at 0.06, 0.17 and 0.56, ν = 0.2 to 0.49, are within the tolerance with 7, 11 and 17 elements across the contact.
+const SLOW: f64 = 0.03;
 /// Fewest elements across the contact radius: with 3.5 the radius of relaxing bodies has an error of 8 %.
 const FEWEST: f64 = 4.0;
-/// The same for nodes that touch exactly: with 4.5 the error of the radius is up to 1.2 %, with 5.5 0.7 %.
+/// Fewest elements for nodes that touch exactly: with 4.5 the error of the radius is up to 1.2 %, with 5.5 0.7 %.
 const FEWEST_AT_NODES: f64 = 5.45;
 /// Least share of the elements that later contacts under gravity have, for nodes that touch exactly: the mesh stays.
-const LATE: f64 = 0.75;
-/// Where between two nodes the swing of springs passes through zero.
-const LUCKY: f64 = 0.35;
+const LATER_CONTACTS: f64 = 0.75;
+/// Place of the edge between two nodes at which the oscillation passes through zero.
+const ZERO_OF_OSCILLATION: f64 = 0.35;
 /// Bounds of the errors of force, contact time, restitution and peak pressure over that of the force.
 const BOUNDS: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
-/// The same of nodes that touch exactly.
+/// The same bounds for nodes that touch exactly.
 const BOUNDS_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 
 /// The result of the a-priori mesh rule.
@@ -72,16 +68,16 @@ const BOUNDS_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 pub struct MeshRule {
     /// Elements across the contact radius.
     pub across: f64,
-    /// Largest moved mass over the lighter body's mass.
+    /// Largest added mass over the lighter body's mass.
     pub mass_scaling: f64,
-    /// The tolerance that is reached, if that of the case is out of reach.
+    /// The error of the force on the finest mesh, if the tolerance of the case is out of reach.
     pub reached: Option<f64>,
-    /// The quantity that asks for most, and its tolerance.
+    /// The quantity that needs the smallest elements, and its tolerance.
     pub asked_by: (QuantityOfInterest, f64),
 }
 
 impl MeshRule {
-    /// Applies the rule to a scene with its model, on one mesh or on staggered meshes.
+    /// Applies the rule to a scene, on one mesh or on staggered meshes.
     pub fn of(scene: &Scene, estimate: &Estimate, is_staggered: bool) -> Self {
         // Condensed bodies have no finite strain.
         let is_finite =
@@ -92,22 +88,24 @@ impl MeshRule {
             true => (&BOUNDS_AT_NODES, FEWEST_AT_NODES),
             false => (&BOUNDS, FEWEST),
         };
-        let late = if at_nodes && scene.gravity().is_some() { LATE } else { 1.0 };
+        let later = if at_nodes && scene.gravity().is_some() { LATER_CONTACTS } else { 1.0 };
         let (least, asked_by) = tolerance(&scene.accuracy(), bounds);
         let tolerance = share * least;
         let error = match at_nodes {
             true => AT_NODES,
             false => {
                 let [lower, upper] = scene.compliance_shares();
-                let swing = if is_staggered { (lower - upper).abs() } else { 1.0 };
-                SMOOTH + SWING * swing
+                let share = if is_staggered { (lower - upper).abs() } else { 1.0 };
+                SMOOTH + OSCILLATION * share
             }
         };
-        let asked_for = (error / (OF_MESH * tolerance)).sqrt() / late;
-        let asked_for = scene.refinement() * of_waves(estimate.mach) * asked_for.max(fewest);
+        let asked_for = (error / (OF_MESH * tolerance)).sqrt() / later;
+        let asked_for = scene.refinement() * for_waves(estimate.mach) * asked_for.max(fewest);
         let across = asked_for.min(MOST);
-        let has_luck = !is_staggered && !at_nodes;
-        let across = if has_luck { (across - LUCKY).ceil() + LUCKY } else { across };
+        let across = match is_staggered || at_nodes {
+            true => across,
+            false => (across - ZERO_OF_OSCILLATION).ceil() + ZERO_OF_OSCILLATION,
+        };
         let reached = error / (OF_MESH * MOST * MOST);
         Self {
             across,
@@ -119,7 +117,7 @@ impl MeshRule {
 
     /// Returns the share of added mass that suits `across` elements across the contact on one mesh.
     pub fn mass_scaling_beside(across: f64) -> f64 {
-        let tolerance = (SMOOTH + SWING) / (OF_MESH * across * across);
+        let tolerance = (SMOOTH + OSCILLATION) / (OF_MESH * across * across);
         (MASS_OVER_TOLERANCE * tolerance).min(MOST_MASS)
     }
 }
@@ -129,9 +127,9 @@ pub(crate) fn touches_at_nodes(model: &ModelChoice) -> bool {
     matches!(model, ModelChoice::Condensed(CondensedOptions { penalty_springs: false, .. }))
 }
 
-/// Returns the ratio by which elements are smaller for an impact of this speed over the shear wave speed.
-fn of_waves(mach: f64) -> f64 {
-    (mach / QUIET).cbrt().max(1.0)
+/// Returns the factor on the number of elements for an impact at this speed over the shear wave speed.
+fn for_waves(mach: f64) -> f64 {
+    (mach / SLOW).cbrt().max(1.0)
 }
 
 /// Returns the tolerance of the peak force at which all tolerances are met.
@@ -170,8 +168,8 @@ mod tests {
         MeshRule::of(scene, &estimate, finer_body(scene).is_some())
     }
 
-    /// From a tolerance to k and µ by hand: √(0.05/0.75τ) staggered, the next place without swing above
-    /// √(0.15/0.75τ) on a wall and √(0.05/0.75τ) at nodes, 5.45 at least; half of τ of mass.
+    /// k is √(0.05/0.75τ) on staggered meshes, the next n + 0.35 above √(0.15/0.75τ) on a wall, and √(0.05/0.75τ), at least
+    /// 5.45, at nodes; µ is half of τ.
     #[test]
     fn a_tolerance_becomes_elements_and_mass() {
         for (set, tolerance, across, mass) in [
@@ -197,9 +195,9 @@ mod tests {
         }
     }
 
-    /// A smaller tolerance never has fewer elements, and the tightest of several tolerances counts.
+    /// A smaller tolerance never needs fewer elements, and the tightest of several tolerances counts.
     #[test]
-    fn less_error_is_no_less_work() {
+    fn a_smaller_tolerance_needs_no_fewer_elements() {
         for set in [&[][..], &[WALL, "body.1.approach_speed=0.5"], &["model.condensed={}"]] {
             let mut before: Option<MeshRule> = None;
             for k in 0..60 {
@@ -222,9 +220,9 @@ mod tests {
         assert!((one("restitution", 3e-4) - of_force).abs() < 1e-9);
     }
 
-    /// If one body alone is compliant, staggering has no effect: the swing is that of a wall.
+    /// If only one body is compliant, staggering has no effect: the oscillation is that of a ball on a wall.
     #[test]
-    fn a_stiff_partner_leaves_the_swing() {
+    fn a_stiff_partner_leaves_the_oscillation() {
         let stiff = "material.stiff={ density=7800, youngs_modulus='63 TPa', poissons_ratio=0.3 }";
         let set = ["accuracy.tolerance='0.1 %'", stiff, "body.1.material='stiff'"];
         let across = mesh_rule(&[&set[..], &["effects.rigid_partner='off'"]].concat()).across;

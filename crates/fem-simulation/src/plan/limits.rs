@@ -1,4 +1,6 @@
-//! `[limits]`: a run that needs more is refused before it starts.
+//! `[limits]`: a run that exceeds a limit is refused before it starts.
+
+use std::ops::RangeInclusive;
 
 use fem_case::{ModelChoice, Scene, Shape};
 use fem_explicit::n_states;
@@ -11,33 +13,27 @@ use crate::plan::Plan;
 use crate::plan::mesh_source::{half_disc, mesh_refusal, quarter_disc};
 use crate::rejection::Rejection;
 
-/// Growth from element to element below which it is what makes elements many.
+/// Growth of the elements below which it is the reason of their number.
 const SLOW_GROWTH: f64 = 1.01;
-/// Step factors of which none makes a run ten times as long as the default.
-const USUAL_STEPS: std::ops::RangeInclusive<f64> = 0.1..=1.0;
-/// Springs over the default ones of which none makes steps or contact ten times as short or long.
-const USUAL_SPRINGS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
+/// Step factors that do not make a run ten times as long as the default.
+const USUAL_STEPS: RangeInclusive<f64> = 0.1..=1.0;
+/// Penalty factors that change neither the steps nor the contact time tenfold.
+const USUAL_SPRINGS: RangeInclusive<f64> = 0.01..=100.0;
 
-/// Bytes an element of the built-in mesh takes: element blocks, some one node's
-/// worth of vectors, and the ladder of states kept for snapshots.
+/// Bytes per element of the generated mesh: element blocks, vectors of about one node, and the states kept for snapshots.
 const BYTES_PER_ELEMENT: u64 = 1_600;
-/// Bytes a Prony term takes an element.
+/// Bytes per element and Prony term.
 const BYTES_PER_BRANCH: u64 = 40;
-/// Bytes a state kept for a snapshot takes an element: displacement, velocity,
-/// effective displacement.
+/// Bytes per element of a state kept for a snapshot: displacement, velocity, effective displacement.
 const BYTES_PER_STATE: u64 = 48;
-
-/// Bytes a Prony term takes an element at finite strain: three pairs of what flows in place of one.
+/// Bytes per element and Prony term at finite strain, with three pairs of flow variables in place of one.
 const BYTES_PER_FINITE_BRANCH: u64 = BYTES_PER_BRANCH + 32;
-/// Bytes that finite strain takes an element: force and work of the moved contact's dashpots, and of what
-/// relaxes the deformation at the end of a step and its forces.
+/// Bytes per element of finite strain: force and work of the contact's dashpots, and of relaxation at the end of a step.
 const BYTES_PER_FINITE_ELEMENT: u64 = 120;
-
-/// Bytes that bulk viscosity takes an element: its blocks, force, work and means.
+/// Bytes per element of bulk viscosity: its blocks, force, work and means.
 const BYTES_PER_VISCOUS_ELEMENT: u64 = 190;
 
-/// Bytes of a run of explicit finite elements; `branches` is the sum over the elements of the Prony
-/// terms that each has.
+/// Returns the bytes of a run of explicit elements; `branches` is the sum of all elements' Prony terms.
 pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branches: u64) -> u64 {
     let whole = mach(scene, scene.approach_speed() / plan.speed_share);
     let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
@@ -51,10 +47,10 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
     state_memory(plan, elements).saturating_add(fields)
 }
 
-/// Refuses meshes that are too large before they are made.
+/// Refuses meshes that are too large before they are generated.
 ///
 /// # Errors
-/// More elements or memory than the limits allow; a mesh that cannot be made.
+/// More elements or memory than the limits allow; a mesh that cannot be generated.
 pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
     let (mut elements, mut branches) = (0, 0);
     for (side, body) in scene.bodies().iter().enumerate() {
@@ -69,7 +65,7 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
         };
         if let Some((n, material)) = made {
             let n = n.map_err(|error| match error {
-                MeshError::TooLarge(_) => of_elements(scene, mesh_refusal(&error)),
+                MeshError::TooLarge(_) => blame_growth(scene, mesh_refusal(&error)),
                 _ => mesh_refusal(&error),
             })? as u64;
             elements += n;
@@ -78,7 +74,7 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
     }
     check_elements(scene, plan, elements)?;
     let memory = match scene.model() {
-        // They have a bound of their own beside the states.
+        // The factors have a bound of their own.
         ModelChoice::Condensed(_) => state_memory(plan, elements),
         _ => explicit_memory(scene, plan, elements, branches),
     };
@@ -92,7 +88,7 @@ fn state_memory(plan: &Plan, elements: u64) -> u64 {
 /// Refuses more elements than the limit.
 ///
 /// # Errors
-/// Blames the element size, or the limit.
+/// Names the element size, or the limit.
 pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Result<(), Rejection> {
     if elements <= plan.max_elements {
         return Ok(());
@@ -106,13 +102,13 @@ pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Resul
         "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",
         plan.max_elements
     ));
-    Err(of_elements(scene, refusal))
+    Err(blame_growth(scene, refusal))
 }
 
 /// Refuses more memory (bytes) than the limit.
 ///
 /// # Errors
-/// Blames the snapshots, the element size, or the limit.
+/// Names the snapshots, the element size, or the limit.
 pub(crate) fn check_memory(
     scene: &Scene,
     plan: &Plan,
@@ -144,7 +140,7 @@ pub(crate) fn check_memory(
 /// Refuses more element updates than the limit.
 ///
 /// # Errors
-/// Blames the element size, or the limit.
+/// Names the element size, or the limit.
 pub(crate) fn check_updates(
     scene: &Scene,
     plan: &Plan,
@@ -152,7 +148,7 @@ pub(crate) fn check_updates(
     elements: u64,
 ) -> Result<(), Rejection> {
     let element_updates = steps * elements as f64;
-    // What is no number is above every limit.
+    // A value that is not a number exceeds every limit.
     if element_updates <= plan.max_element_updates as f64 {
         return Ok(());
     }
@@ -161,7 +157,7 @@ pub(crate) fn check_updates(
          updates"
     );
     let allowed = format!("at most {:.1e} are allowed", plan.max_element_updates as f64);
-    Err(match odd_step(scene) {
+    Err(match unusual_step(scene) {
         Some((key, help)) => Rejection::new(key, found)
             .with_help(format!("{allowed}; {help}, or raise limits.element_updates")),
         None => {
@@ -174,8 +170,8 @@ pub(crate) fn check_updates(
     })
 }
 
-/// A growth of elements so small that it is what makes them many.
-fn of_elements(scene: &Scene, refusal: Rejection) -> Rejection {
+/// Names `mesh.growth` as the cause of many elements if it is very small.
+fn blame_growth(scene: &Scene, refusal: Rejection) -> Rejection {
     match scene.mesh().growth {
         Some(growth) if growth < SLOW_GROWTH => {
             Rejection::new("mesh.growth", refusal.message).with_help(format!(
@@ -186,22 +182,22 @@ fn of_elements(scene: &Scene, refusal: Rejection) -> Rejection {
     }
 }
 
-/// The key that makes a run's steps many, where its value is far from the default, and what helps.
-fn odd_step(scene: &Scene) -> Option<(&'static str, &'static str)> {
-    let is_odd = |value: Option<f64>, usual: std::ops::RangeInclusive<f64>| {
+/// Returns the key whose value is far from the default and makes the steps many, with advice.
+fn unusual_step(scene: &Scene) -> Option<(&'static str, &'static str)> {
+    let is_unusual = |value: Option<f64>, usual: RangeInclusive<f64>| {
         value.is_some_and(|value| !usual.contains(&value))
     };
-    if is_odd(scene.step_factor(), USUAL_STEPS) {
+    if is_unusual(scene.step_factor(), USUAL_STEPS) {
         let help = "steps are far shorter than they need to be; leave out time.step_factor";
         return Some(("time.step_factor", help));
     }
-    is_odd(scene.penalty_factor(), USUAL_SPRINGS).then_some((
+    is_unusual(scene.penalty_factor(), USUAL_SPRINGS).then_some((
         "contact.penalty_factor",
         "springs are far from those that elements need; leave out contact.penalty_factor",
     ))
 }
 
-/// The element size if the case gives it, else the limit if that is given.
+/// Returns the key to name: the limit if the case gives it and not the element size, else the element size.
 fn blamed(scene: &Scene, limit: &'static str, given: Option<u64>) -> &'static str {
     let has_size = scene.mesh().contact_element_size.is_some();
     if !has_size && given.is_some() { limit } else { "mesh.contact_element_size" }
@@ -218,7 +214,7 @@ mod tests {
     const BALL: &str = include_str!("../../../../cases/soft_sphere.toml");
 
     /// Compares the planned memory of a run with the bytes of its state late in the contact.
-    fn counted_and_kept(switch: &str, terms: usize) -> [f64; 2] {
+    fn planned_and_used(switch: &str, terms: usize) -> [f64; 2] {
         let term = "{ weight = 0.01, relaxation_time = '3 ms' }";
         let set = [
             format!("effects.finite_strain='{switch}'"),
@@ -239,16 +235,16 @@ mod tests {
         [counted as f64, kept as f64]
     }
 
-    /// Fields are written as they are kept, eight bytes a number.
+    /// The restart state has eight bytes per number, as the run itself.
     #[test]
-    fn what_finite_strain_keeps_is_counted() {
+    fn the_memory_of_finite_strain_is_planned() {
         for terms in [1, 6] {
-            let (off, on) = (counted_and_kept("off", terms), counted_and_kept("on", terms));
-            let [counted, kept] = [0, 1].map(|k| on[k] - off[k]);
-            assert!(kept > 0.0, "{terms}: {kept}");
-            assert!(kept <= counted, "{terms}: counts {counted} of {kept} bytes");
-            // Not by more than half too much.
-            assert!(counted <= 1.5 * kept, "{terms}: counts {counted} of {kept} bytes");
+            let (off, on) = (planned_and_used("off", terms), planned_and_used("on", terms));
+            let [planned, used] = [0, 1].map(|k| on[k] - off[k]);
+            assert!(
+                used > 0.0 && (1.0..1.5).contains(&(planned / used)),
+                "{terms}: {planned} {used}"
+            );
         }
     }
 }

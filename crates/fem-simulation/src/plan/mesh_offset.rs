@@ -1,39 +1,38 @@
 //! Meshes offset by half an element: at the edge of the contact the nodes of one body lie between those of the other.
 //!
-//! The force that linear elements carry swings with the place of the contact's edge between two nodes, with
-//! the period of one element and by some (3/8)(h/a)² of it: a body is too stiff where the edge is at
-//! a node, and too compliant between. Two meshes that are half an element apart there,
+//! The contact force of linear elements oscillates with the place of the contact's edge between two nodes, with the period
+//! of one element and an amplitude of about (3/8)(h/a)²: a body is too stiff with the edge at a node, and too compliant
+//! with the edge between nodes. Two meshes that are half an element apart at the edge,
 //!
 //! ```math
 //! h_\pm = \frac{a}{a/h \pm \tfrac14},
 //! ```
 //!
-//! swing against each other: measured over all phases at a/h = 4 to 5, the swing falls from 1.0 to 0.14 % of
-//! the force (docs/contact.md). Springs at points of both surfaces see that. Nodes that touch exactly follow
-//! one of the meshes, and bodies of one size and stuff are computed as one: neither is staggered.
+//! oscillate against each other: over all phases at a/h = 4 to 5, the amplitude falls from 1.0 to 0.14 % of the force
+//! (docs/contact.md). This needs springs at points of both surfaces. Bodies whose nodes touch exactly follow one of the
+//! meshes, and identical bodies are computed as one: their meshes are not staggered.
 
 use fem_case::{Body, CondensedOptions, ModelChoice, Scene, Shape};
 
 /// Elements across the contact by which each mesh differs from the mean.
 const QUARTER: f64 = 0.25;
 
-/// Returns the body with the smaller elements, if the meshes of the scene are staggered.
+/// Returns the body with the smaller elements if the meshes of the scene are staggered.
 pub(crate) fn finer_body(scene: &Scene) -> Option<usize> {
-    // Elements that a case names stay as they are.
+    // An element size of the case is kept.
     let is_open = scene.mesh().contact_element_size.is_none();
-    let is_asked_for = scene.mesh().staggered.unwrap_or(is_open);
-    if is_asked_for { smaller(scene) } else { None }
+    if scene.mesh().staggered.unwrap_or(is_open) { smaller(scene) } else { None }
 }
 
-/// Returns the smaller body, whose mesh has fewer rings, or the softer one of two of one size; `None` if the meshes cannot
-/// be staggered.
+/// Returns the smaller body, whose mesh has fewer rings, or the softer one of two of equal size; `None` if the meshes
+/// cannot be staggered.
 fn smaller(scene: &Scene) -> Option<usize> {
     let between_points = match scene.model() {
         ModelChoice::Fem => true,
         ModelChoice::Condensed(CondensedOptions { penalty_springs, .. }) => *penalty_springs,
         _ => false,
     };
-    if !between_points || !scene.bodies().iter().all(is_made_here) {
+    if !between_points || !scene.bodies().iter().all(is_generated) {
         return None;
     }
     let radii = scene.bodies().each_ref().map(|body| body.diameter().unwrap_or(f64::INFINITY));
@@ -46,13 +45,13 @@ fn smaller(scene: &Scene) -> Option<usize> {
     }
 }
 
-/// Returns whether the mesh of a body is made here.
-fn is_made_here(body: &Body) -> bool {
+/// Returns whether the mesh of a body is generated, and not read from a file.
+pub(super) fn is_generated(body: &Body) -> bool {
     matches!(body.shape(), Shape::Sphere { mesh: None, .. } | Shape::HalfSpace { .. })
 }
 
-/// Returns the element sizes of both bodies (m) about a mean size in a contact of this radius (m); those of `finer` are
-/// smaller.
+/// Returns the element sizes of both bodies (m) for a mean size in a contact of this radius (m); the body `finer` has the
+/// smaller ones.
 pub(crate) fn staggered(length: f64, contact_radius: f64, finer: usize) -> [f64; 2] {
     let across = contact_radius / length;
     [0, 1].map(|side| {
@@ -90,8 +89,8 @@ mod tests {
         }
     }
 
-    /// The smaller body, or the softer one of two of one size, in any order; none with one mesh, with nodes that touch
-    /// exactly, or with a given element size.
+    /// The smaller body has the smaller elements, or the softer one of two of equal size, in any order. Meshes are not
+    /// staggered with one mesh, with nodes that touch exactly, or with a given element size.
     #[test]
     fn the_smaller_body_has_the_smaller_elements() {
         let swapped = ["body.0.sphere.diameter='1 cm'", "body.1.sphere.diameter='2 cm'"];

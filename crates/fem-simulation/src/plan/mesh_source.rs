@@ -7,12 +7,12 @@ use fem_mesh::{HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
 use crate::plan::Plan;
 use crate::rejection::Rejection;
 
-/// The source of a mesh; equal sources give equal meshes.
+/// The source of a mesh. Equal sources give equal meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum MeshSource {
-    /// A sphere's, made here.
+    /// Generated for a sphere.
     HalfDisc(HalfDisc),
-    /// A half-space's, made here.
+    /// Generated for a half-space.
     QuarterDisc(QuarterDisc),
     /// Read from a file.
     File(SphereMesh),
@@ -22,7 +22,7 @@ impl MeshSource {
     /// Returns the number of elements without building the mesh.
     ///
     /// # Errors
-    /// As [`HalfDisc::n_elements`].
+    /// See [`HalfDisc::n_elements`].
     pub fn n_elements(&self) -> Result<usize, MeshError> {
         match self {
             Self::HalfDisc(half_disc) => half_disc.n_elements(),
@@ -31,10 +31,10 @@ impl MeshSource {
         }
     }
 
-    /// The mesh of the lower body, 0, or the upper one.
+    /// Builds the mesh of the lower body (0) or the upper one (1).
     ///
     /// # Errors
-    /// As [`HalfDisc::build`].
+    /// See [`HalfDisc::build`].
     pub fn build(&self, body: usize) -> Result<SphereMesh, MeshError> {
         let mesh = match self {
             Self::HalfDisc(half_disc) => half_disc.build()?,
@@ -65,7 +65,7 @@ pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
     }
 }
 
-/// The key that is to blame for a mesh that cannot be made.
+/// Returns the rejection of a mesh that cannot be generated, with the key that causes it.
 pub(crate) fn mesh_refusal(error: &MeshError) -> Rejection {
     let key = match error {
         MeshError::RefinedRadius { .. } => "mesh.refined_radius",
@@ -80,10 +80,10 @@ pub(crate) fn mesh_refusal(error: &MeshError) -> Rejection {
     }
 }
 
-/// The mesh of a sphere of this diameter (m) in a file, of the lower body, 0, or the upper one.
+/// Reads the mesh of a sphere of this diameter (m) from a file, for the lower body (0) or the upper one (1).
 ///
 /// # Errors
-/// A file that holds none.
+/// A file without such a mesh.
 pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Rejection> {
     read_sphere(diameter, path).map_err(|found| {
         let refusal = Rejection::new(format!("body.{k}.sphere.mesh"), format!("mesh {found}"));
@@ -95,16 +95,16 @@ pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh,
     })
 }
 
-/// The mesh, or what is wrong with the file, by its path.
+/// Reads the mesh, or describes the fault of the file.
 #[cfg(feature = "files")]
 fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
     let mesh = fem_vtk::read_quad_mesh(path).map_err(|error| error.to_string())?;
-    let told = |fault: String| format!("{}: {fault}", path.display());
+    let fault = |fault: String| format!("{}: {fault}", path.display());
     if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
-        return Err(told(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
+        return Err(fault(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
     }
     let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
-    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| told(error.to_string()))
+    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| fault(error.to_string()))
 }
 
 #[cfg(not(feature = "files"))]
@@ -112,7 +112,7 @@ fn read_sphere(_: f64, path: &Path) -> Result<SphereMesh, String> {
     Err(format!("{}: no files are read here", path.display()))
 }
 
-/// Returns the length of the longest surface edge of both bodies that begins in a contact of this radius; in m.
+/// Returns the length of the longest surface edge of both bodies that begins inside a contact of this radius, m.
 pub(crate) fn longest_contact_edge(
     meshes: [Option<&SphereMesh>; 2],
     contact_radius: f64,
@@ -120,7 +120,7 @@ pub(crate) fn longest_contact_edge(
     let edges = meshes.into_iter().flatten().flat_map(|mesh| {
         let ends = mesh.surface().windows(2).map(|ends| [ends[0], ends[1]]);
         let ends = ends.map(|ends| ends.map(|node| mesh.nodes()[node as usize]));
-        // The first one of each mesh is always in it.
+        // The first edge of each mesh is always inside.
         let is_in = move |(k, [p, _]): &(usize, [[f64; 2]; 2])| *k == 0 || p[0] < contact_radius;
         ends.enumerate().take_while(is_in).map(|(_, [p, q])| (q[0] - p[0]).hypot(q[1] - p[1]))
     });

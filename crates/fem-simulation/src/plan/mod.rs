@@ -1,20 +1,17 @@
-//! The plan of finite elements: every number that the case leaves open.
+//! The plan of a run with elements: every number that the case leaves open.
 
 pub(crate) mod body_source;
 pub(crate) mod contact_method;
-pub(crate) mod contact_noise_advice;
 pub(crate) mod element_size;
 pub(crate) mod limits;
 pub(crate) mod mesh_offset;
 pub(crate) mod mesh_source;
-pub(crate) mod meshes;
 pub(crate) mod pair_cache;
 pub(crate) mod penalty_compliance;
-pub(crate) mod probes;
 
 use fem_case::schema::{
-    ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable, SnapshotsValue,
-    StartTable, TimeTable,
+    ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, SnapshotsValue, StartTable,
+    TimeTable,
 };
 use fem_case::{
     Body, Case, CaseError, CaseFile, ContactMethod, ModelChoice, Quantity, Scene, Shape, Snapshots,
@@ -29,58 +26,57 @@ use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::plan::contact_method::contact_method;
 use crate::plan::element_size::{MeshRule, touches_at_nodes};
-use crate::plan::mesh_offset::{finer_body, staggered};
+use crate::plan::mesh_offset::{finer_body, is_generated, staggered};
 use crate::rejection::Rejection;
 
-/// Half-width of the fine block over the contact radius.
+/// Half-width of the block of equal elements over the contact radius.
 const REFINED_OVER_CONTACT: f64 = 1.2;
-/// Half-width of the searched region over the contact radius.
+/// Half-width of the candidate region over the contact radius.
 const CANDIDATES_OVER_CONTACT: f64 = 1.5;
-/// Default penalty stiffness per area times element size, over E*. Measured on
-/// the glass pair with eight elements across the contact: 10 costs 0.14 % of the
-/// contact time, 20 costs 0.02 %, 40 adds noise to the force.
+/// Default penalty stiffness per area times element size, over E*. In the glass pair with eight elements across the
+/// contact, 10 changes the contact time by 0.14 %, 20 by 0.02 %, and 40 adds noise to the force.
 const PENALTY_OVER_MODULUS: f64 = 20.0;
 const STEP_FACTOR: f64 = 0.9;
-/// Lengths of elements of condensed bodies in an octave: a ninth more elements across the contact at most.
+/// Element sizes of condensed bodies per octave; sizes are rounded down by at most a ninth.
 const LENGTHS: f64 = 8.0;
-/// Of a length that was written and read.
+/// Relative rounding of a length that was written and read.
 const ROUNDING: f64 = 1e-9;
 /// Default limits of `[limits]`.
 const MAX_ELEMENTS: u64 = 2_000_000;
 const MAX_ELEMENT_UPDATES: u64 = 1_000_000_000_000;
 const MAX_MEMORY: u64 = 8_000_000_000;
 
-/// Everything that is decided before meshes are made. SI.
+/// The decisions before the meshes are generated, SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Closed-form estimate.
+    /// The closed-form estimate of the collision.
     pub estimate: Estimate,
-    /// Share of the scene's approach speed with which the computed bodies meet: ½ where half of a scene
-    /// is computed.
+    /// Share of the scene's approach speed with which the computed bodies meet: ½ if half of a mirrored scene is
+    /// computed.
     pub speed_share: f64,
     /// Distance of the surfaces at time 0, m.
     pub gap: f64,
     /// Edge length of the elements at the contact, m.
     pub contact_element_size: f64,
-    /// The body with the smaller elements, where the meshes are staggered about that length.
+    /// The body with the smaller elements, if the meshes are staggered.
     pub finer_body: Option<usize>,
-    /// The quantity whose tolerance asks for most of the mesh and the mass that is moved, and that tolerance.
+    /// The quantity that needs the smallest elements and the least added mass, and its tolerance.
     pub asked_by: (QuantityOfInterest, f64),
-    /// Half-width of the fine block, m.
+    /// Half-width of the block of equal elements, m.
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
     pub growth: Option<f64>,
-    /// Distance of the far boundary of a half-space, m; none without one.
+    /// Distance of the far boundary of a half-space, m.
     pub far_radius: Option<f64>,
-    /// Whether any mesh is made here, and not read from a file.
+    /// Whether any mesh is generated, and not read from a file.
     pub makes_meshes: bool,
-    /// Whether no mesh that is chosen serves the tolerance, which a warning says.
+    /// Whether no mesh meets the tolerance, which a warning reports.
     pub(crate) is_out_of_reach: bool,
-    /// Radius out to which contact is looked for, m.
+    /// Radius of the candidate region of the contact, m.
     pub candidate_radius: f64,
-    /// How springs keep the surfaces apart.
+    /// The contact method at small strain.
     pub contact_method: ContactMethod,
-    /// Times the default penalty stiffness.
+    /// Factor on the default penalty stiffness.
     pub penalty_factor: f64,
     /// Penalty stiffness per area times element size, Pa.
     pub contact_stiffness: f64,
@@ -88,22 +84,22 @@ pub struct Plan {
     pub step_factor: f64,
     /// Largest added mass as a fraction of the lighter body's mass.
     pub mass_scaling: f64,
-    /// Snapshots to keep.
+    /// The requested snapshots.
     pub snapshots: SnapshotRequest,
     /// Elements above which a run is refused.
     pub max_elements: u64,
     /// Elements times steps above which a run is refused.
     pub max_element_updates: u64,
-    /// Elastic contact times after which a run gives up.
+    /// Elastic contact times after which a run stops.
     pub give_up_after: f64,
     /// Memory above which a run is refused, bytes.
     pub max_memory: u64,
-    /// Keys of the case that the plan does not read.
+    /// Warnings about unread keys and a tolerance out of reach.
     pub warnings: Vec<String>,
 }
 
 impl Plan {
-    /// Decides on a scene.
+    /// Returns the plan of a scene.
     ///
     /// # Errors
     /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
@@ -138,29 +134,15 @@ impl Plan {
             return Err(Rejection::new("contact.penalty_factor", found)
                 .with_help("it must be positive and finite; 1 is the default, leave it out"));
         }
-        let made_here = |body: &Body| {
-            matches!(body.shape(), Shape::Sphere { mesh: None, .. } | Shape::HalfSpace { .. })
-        };
-        let makes_meshes = scene.bodies().iter().any(made_here);
-        let given = [
-            ("contact_element_size", scene.mesh().contact_element_size),
-            ("refined_radius", scene.mesh().refined_radius),
-            ("growth", scene.mesh().growth),
-        ];
-        let unread = given.into_iter().find(|(_, value)| !makes_meshes && value.is_some());
+        let makes_meshes = scene.bodies().iter().any(is_generated);
         let far_radius = far_radius(scene, &estimate, refined_radius, candidate_radius);
-        let warning =
-            |key: &str| format!("mesh.{key} has no effect: the meshes are read from files");
-        let mut warnings: Vec<String> = unread.map(|(key, _)| warning(key)).into_iter().collect();
-        if far_radius.is_none() && scene.mesh().far_radius.is_some() {
-            warnings.push("mesh.far_radius has no effect: no body is a half-space".to_string());
-        }
+        let mut warnings = unread_keys(scene, makes_meshes, far_radius.is_some());
         let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
         let out_of_reach = rule.reached.filter(|_| is_chosen);
         if let Some(reached) = out_of_reach {
             warnings.push(format!(
-                "accuracy.tolerance is out of reach: {:.0} elements across the contact are taken, for about \
-                 {} of the peak force: allow more of it",
+                "accuracy.tolerance is out of reach: {:.0} elements across the contact give an error of about {} of the \
+                 peak force: allow more of it",
                 rule.across,
                 percent(reached)
             ));
@@ -193,15 +175,15 @@ impl Plan {
         })
     }
 
-    /// Decides on the scene of a case, faults with their place.
+    /// Returns the plan of a case.
     ///
     /// # Errors
-    /// As [`Plan::of`].
+    /// Those of [`Plan::of`], with their place in the case.
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
         Self::of(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
-    /// Edge lengths of the elements of both bodies at the contact, m.
+    /// Returns the element sizes of both bodies at the contact, m.
     pub fn element_sizes(&self) -> [f64; 2] {
         let length = self.contact_element_size;
         match self.finer_body {
@@ -210,8 +192,7 @@ impl Plan {
         }
     }
 
-    /// The key by which a case makes the mesh away from a contact of this radius, m, another one than is chosen, if it
-    /// does.
+    /// Returns the key by which the case replaces the planned mesh away from a contact of this radius (m), if it does.
     pub(crate) fn far_mesh_key(&self, scene: &Scene, contact_radius: f64) -> Option<&'static str> {
         let chosen = REFINED_OVER_CONTACT * contact_radius;
         let chosen = (1.0 - ROUNDING) * chosen.min(self.estimate.smallest_radius);
@@ -233,74 +214,82 @@ impl Plan {
         }
     }
 
-    /// The case as written with every default filled in; it runs again to the same bits.
+    /// Returns the case with every default filled in, which runs to the same bits.
     pub fn resolve(&self, mut file: CaseFile) -> CaseFile {
-        file.start = Some(StartTable { gap: Some(Quantity::from_si(self.gap)) });
+        file.start = Some(StartTable { gap: Some(self.gap.into()) });
         file.mesh = self.makes_meshes.then(|| MeshTable {
-            contact_element_size: Some(Quantity::from_si(self.contact_element_size)),
-            refined_radius: Some(Quantity::from_si(self.refined_radius)),
+            contact_element_size: Some(self.contact_element_size.into()),
+            refined_radius: Some(self.refined_radius.into()),
             growth: self.growth.map(Quantity::from_si),
             far_radius: self.far_radius.map(Quantity::from_si),
             staggered: Some(self.finer_body.is_some()),
         });
         file.contact = Some(ContactTable {
             method: Some(self.contact_method),
-            penalty_factor: Some(Quantity::from_si(self.penalty_factor)),
+            penalty_factor: Some(self.penalty_factor.into()),
         });
         file.time = Some(TimeTable {
-            step_factor: Some(Quantity::from_si(self.step_factor)),
-            mass_scaling: Some(Quantity::from_si(self.mass_scaling)),
+            step_factor: Some(self.step_factor.into()),
+            mass_scaling: Some(self.mass_scaling.into()),
         });
-        let OutputTable { snapshots: given, fields, probe, report } =
-            file.output.take().unwrap_or_default();
-        let labels = || {
+        file.output.get_or_insert_default().snapshots.get_or_insert_with(|| {
             let text = |label: SnapshotInstant| Quantity::from_text(label.name());
             SnapshotsValue::List(SnapshotInstant::ALL.into_iter().map(text).collect())
-        };
-        let snapshots = Some(given.unwrap_or_else(labels));
-        file.output = Some(OutputTable { snapshots, fields, probe, report });
+        });
         file.effects = Some(file.effects.unwrap_or_default().filled());
         file.model = Some(ModelTable { fem: Some(EmptyTable {}), ..ModelTable::default() });
         file.limits = Some(LimitsTable {
-            elements: Some(Quantity::from_si(self.max_elements as f64)),
-            element_updates: Some(Quantity::from_si(self.max_element_updates as f64)),
-            memory: Some(Quantity::from_si(self.max_memory as f64)),
+            elements: Some((self.max_elements as f64).into()),
+            element_updates: Some((self.max_element_updates as f64).into()),
+            memory: Some((self.max_memory as f64).into()),
         });
         file
     }
 }
 
-/// The largest length (m) that is none larger than this and a whole power of [`LENGTHS`] of the smallest radius: scenes
-/// that differ in speed, relaxation or modulus have the same meshes, and condensed bodies are eliminated once.
+/// Returns warnings about keys of `[mesh]` that have no effect.
+fn unread_keys(scene: &Scene, makes_meshes: bool, has_half_space: bool) -> Vec<String> {
+    let mesh = scene.mesh();
+    let of_files = "the meshes are read from files";
+    let keys = [
+        ("contact_element_size", mesh.contact_element_size, makes_meshes, of_files),
+        ("refined_radius", mesh.refined_radius, makes_meshes, of_files),
+        ("growth", mesh.growth, makes_meshes, of_files),
+        ("far_radius", mesh.far_radius, has_half_space, "no body is a half-space"),
+    ];
+    let unread = keys.into_iter().filter(|(_, value, is_read, _)| value.is_some() && !is_read);
+    unread.map(|(key, .., why)| format!("mesh.{key} has no effect: {why}")).collect()
+}
+
+/// Rounds a length (m) down to one of [`LENGTHS`] sizes per octave of the smallest radius. Scenes that differ in speed,
+/// relaxation or modulus then share meshes, and condensed bodies are factored once.
 fn shared_length(length: f64, smallest_radius: f64) -> f64 {
     let n = (LENGTHS * (smallest_radius / length).log2() * (1.0 - 1e-12)).ceil();
     smallest_radius * (-n / LENGTHS).exp2()
 }
 
-/// The contact radius (m) that elements divide: they are made no larger for a contact that is wider than half
-/// of a body.
+/// Returns the contact radius (m) that the elements divide: at most half of the smallest body radius.
 pub fn divided_radius(estimate: &Estimate) -> f64 {
     radius_of_elements(estimate).min(0.5 * estimate.smallest_radius)
 }
 
-/// The same of any contact. Bodies that relax have the mesh of elastic ones up to
-/// twice the radius with fully relaxed moduli, an upper limit that the contact does not reach; from four times
-/// on, where it goes on growing, that radius counts.
+/// Returns that radius without the limit by the body. Relaxing bodies have the mesh of elastic ones up to twice the contact
+/// radius with fully relaxed moduli, an upper bound that the contact does not reach; from four times on that radius
+/// counts.
 fn radius_of_elements(estimate: &Estimate) -> f64 {
     let elastic = estimate.hertz.max_contact_radius();
     let wider = 0.5 * estimate.contact_radius / elastic;
     if wider <= 1.0 { elastic } else { (elastic * wider * wider).min(estimate.contact_radius) }
 }
 
-/// Radius out to which explicit elements of this size (m) look for the contact of an estimate at
-/// first, m.
+/// Returns the initial radius (m) of the candidate region for explicit elements of this size (m).
 pub(crate) fn candidate_radius(estimate: &Estimate, contact_element_size: f64) -> f64 {
     let contact_radius = estimate.contact_radius.min(0.5 * estimate.smallest_radius);
     (CANDIDATES_OVER_CONTACT * contact_radius).max(3.0 * contact_element_size)
 }
 
-/// Where the mesh of a half-space ends: where no wave comes back from within the run, or, of bodies that
-/// are always in balance, where it takes nothing away from the compliance.
+/// Returns the far boundary of a half-space: no wave returns from it during the run, or, for condensed bodies, it does not
+/// change the compliance.
 fn far_radius(
     scene: &Scene,
     estimate: &Estimate,

@@ -1,7 +1,7 @@
-//! Condensed pairs that several cases share: a sweep over speeds or relaxations factors once.
+//! Cache of condensed pairs that several cases share, so that a sweep over speeds or relaxations factors once.
 //!
-//! A pair is known by what it is made from, so that no mesh is made to find it. What a case gives
-//! does not depend on the cases before it: a pair that had to be enlarged is not put back.
+//! The key of a pair is its source, so no mesh is built to find it. The result of a case does not depend on the cases before
+//! it: a pair that had to be enlarged is not put back.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,30 +10,30 @@ use fem_condensed::{CondensedPair, PairSettings};
 
 use crate::plan::body_source::BodySource;
 
-/// Bytes that all pairs of a cache may take.
+/// Most bytes of all pairs of a cache.
 const MAX_BYTES: usize = 1_000_000_000;
-/// Numbers an equation that are neither factor nor field: mesh, places and values of the stiffness.
+/// Numbers per equation that are neither factor nor field: mesh, indices and values of the stiffness.
 const NUMBERS_PER_EQUATION: usize = 32;
 
-/// The source of a pair; equal sources give equal pairs.
+/// The source of a pair. Equal sources give equal pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PairKey {
     /// Lower and upper body, without relaxation.
     pub bodies: [BodySource; 2],
-    /// How it is condensed.
+    /// Settings of the condensation.
     pub settings: PairSettings,
 }
 
-/// The pairs used last, as many as fit; always the last one.
+/// The pairs that were used last, as many as fit into the memory, and always the last one.
 #[derive(Debug)]
 pub struct PairCache {
     max_bytes: usize,
-    /// The one used last at the end.
+    /// The entry that was used last is at the end.
     entries: Mutex<Vec<Arc<Entry>>>,
     n_made: AtomicUsize,
 }
 
-/// A pair, or the place of one that a thread is making while others wait for it.
+/// A pair, or the place of a pair that one thread makes while others wait for it.
 #[derive(Debug)]
 struct Entry {
     key: PairKey,
@@ -49,7 +49,7 @@ impl Default for PairCache {
 }
 
 impl PairCache {
-    /// An empty cache of pairs that take so many bytes together.
+    /// Returns an empty cache with this limit of memory in bytes.
     pub fn with_max_bytes(max_bytes: usize) -> Self {
         Self { max_bytes, entries: Mutex::default(), n_made: AtomicUsize::new(0) }
     }
@@ -64,10 +64,10 @@ impl PairCache {
         lock(&self.entries).len()
     }
 
-    /// The pair that is made from `key`: a kept one, or the one that `make` makes.
+    /// Returns the kept pair of this key, or makes it by `make`.
     ///
     /// # Errors
-    /// Those of `make`.
+    /// Errors of `make`.
     pub(crate) fn pair<E>(
         &self,
         key: PairKey,
@@ -93,7 +93,7 @@ impl PairCache {
         Ok(pair)
     }
 
-    /// The entry of this key, now the one used last.
+    /// Returns the entry of this key, and moves it to the end.
     fn entry(&self, key: PairKey) -> Arc<Entry> {
         let mut entries = lock(&self.entries);
         let entry = match entries.iter().position(|entry| entry.key == key) {
@@ -107,7 +107,7 @@ impl PairCache {
         entry
     }
 
-    /// Drops what was not used for longest; who has such a pair keeps it.
+    /// Drops the pairs that were not used for longest. Their users keep them.
     fn trim(&self) {
         let mut entries = lock(&self.entries);
         let bytes = |entry: &Arc<Entry>| entry.bytes.load(Ordering::Relaxed);
@@ -120,12 +120,12 @@ impl PairCache {
     }
 }
 
-/// A thread that panicked left what it was changing whole.
+/// Locks a mutex; a thread that panicked left the data valid.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// About what a pair takes, the springs of a relaxing shear included, which are made later.
+/// Estimates the bytes of a pair, with the blocks of a relaxing shear modulus that are made later.
 fn bytes(pair: &CondensedPair) -> usize {
     let settings = pair.settings();
     let n_fields = settings.shear_blocks * pair.n_points() + settings.vibration_modes;

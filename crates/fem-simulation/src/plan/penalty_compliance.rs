@@ -2,33 +2,32 @@
 
 use crate::plan::Plan;
 
-/// What is less is left out: the forecast is no better.
+/// Ratios below this are neglected: the estimate is not more accurate.
 const LEAST: f64 = 1.05;
-/// Of Hertz' approach.
+/// Integration steps over Hertz' approach.
 const STEPS: f64 = 400.0;
 
-/// Contact time over that without springs, as the largest approach is, within a tenth; 1 of springs that
-/// hardly give way.
+/// Returns the contact time over that without springs, within a tenth; 1 for stiff springs. The contact time grows like the
+/// largest approach.
 ///
-/// Springs of stiffness k per area overlap by o where bodies approach by δ of their own,
+/// Springs of stiffness k per area overlap by o when the bodies themselves approach by δ,
 /// ```math
 /// o = \frac{F}{\pi k (R \delta + R o)},
 /// ```
-/// which is the mean pressure of Hertz' contact over k if they are stiff, and Winkler's foundation under
-/// a sphere, F = π k R o² (Johnson 1985, § 4.3), if they are soft. The energy of both is that of
-/// the approach.
+/// which is the mean pressure of Hertz' contact over k for stiff springs, and Winkler's foundation under a sphere,
+/// F = π k R o² (Johnson 1985, § 4.3), for soft ones. Bodies and springs together store the kinetic energy.
 pub(crate) fn lengthening(plan: &Plan) -> f64 {
     let ratio = ratio(plan);
     if ratio > LEAST { ratio } else { 1.0 }
 }
 
-/// Returns the relative lengthening by springs softer than the default, `None` for the default ones, whose
-/// compliance is part of the discretisation error.
+/// Returns the relative lengthening by springs softer than the default; `None` for default springs, whose compliance is
+/// part of the discretisation error.
 pub(crate) fn softness(plan: &Plan) -> Option<f64> {
     (plan.penalty_factor < 1.0).then(|| ratio(plan) - 1.0)
 }
 
-/// What is less than [`LEAST`] included; 1 of what is no number.
+/// Returns the ratio without the bound [`LEAST`]; 1 if it is not a number.
 fn ratio(plan: &Plan) -> f64 {
     let hertz = &plan.estimate.hertz;
     let (stiff, radius) = (hertz.max_approach(), hertz.pair().effective_radius());
@@ -61,8 +60,7 @@ mod tests {
 
     use super::*;
 
-    /// Explicit elements of the glass pair with elements of 40 µm: contact time over Hertz', as the claim on
-    /// hard scenes has it.
+    /// The contact time over Hertz' agrees with explicit elements of 40 µm in the glass pair (claim `hard`).
     #[test]
     fn soft_springs_lengthen_the_contact() {
         let text = include_str!("../../../../cases/glass_0.5ms_elastic.toml");

@@ -13,7 +13,7 @@ use crate::error::{
 };
 use crate::models::method::ElementSetup;
 use crate::plan::Plan;
-use crate::plan::contact_noise_advice::ContactNoiseAdvice;
+use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
 
@@ -77,7 +77,7 @@ fn of_elements(
 /// Returns the warnings that apply to every model.
 fn of_numbers(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let remedy = match &simulation.setup().elements {
-        Some(elements) => elements.quieter.advice_on_energy(),
+        Some(elements) => elements.noise_advice.advice_on_energy(),
         None => {
             format!("use model {}", Vibration::models_that_serve(&simulation.setup().estimate))
         }
@@ -138,16 +138,16 @@ struct Run<'a> {
     meshes: [Option<&'a SphereMesh>; 2],
     /// Whether springs keep the surfaces apart.
     has_springs: bool,
-    quieter: ContactNoiseAdvice,
+    noise_advice: ContactNoiseAdvice,
 }
 
 impl<'a> Run<'a> {
     fn of(simulation: &'a Simulation, collision: &'a Collision) -> Option<Self> {
-        let ElementSetup { plan, has_springs, quieter, .. } =
+        let ElementSetup { plan, has_springs, noise_advice, .. } =
             simulation.setup().elements.as_ref()?;
         let meshes = simulation.model().meshes();
-        let (has_springs, quieter) = (*has_springs, *quieter);
-        Some(Self { collision, plan, meshes, has_springs, quieter })
+        let (has_springs, noise_advice) = (*has_springs, *noise_advice);
+        Some(Self { collision, plan, meshes, has_springs, noise_advice })
     }
 
     /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty
@@ -203,7 +203,7 @@ impl<'a> Run<'a> {
                 .noisiest_instant
                 .map_or(String::new(), |at| format!(", most about {at}")),
             100.0 * LARGEST_NOISE,
-            self.quieter.advice()
+            self.noise_advice.advice()
         ))
     }
 }

@@ -29,7 +29,7 @@ use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
 use crate::effects::material::finite_strain::FiniteStrain;
 use crate::estimate::Estimate;
-use crate::plan::contact_method::asked_for;
+use crate::plan::contact_method::requested;
 
 /// What it takes of the peak force, over v/c_s to the 3/5: ringing is not in it, which is a mean; of the
 /// largest force of a single step it takes 0.6.
@@ -65,7 +65,7 @@ fn is_called_for(scene: &Scene, mach: f64, is_finite: bool) -> bool {
 
 /// Returns whether the contact rings without it. At finite strain springs act on nodes with mass.
 fn rings(scene: &Scene, is_finite: bool) -> bool {
-    is_finite || asked_for(scene) != ContactMethod::Massless
+    is_finite || requested(scene) != ContactMethod::Massless
 }
 
 impl Effect for BulkViscosity {

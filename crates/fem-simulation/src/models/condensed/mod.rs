@@ -33,7 +33,7 @@ use crate::estimate::viscous_flow::slower;
 use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
 use crate::plan::Plan;
 use crate::plan::body_source::BodySource;
-use crate::plan::contact_noise_advice::ContactNoiseAdvice;
+use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::pair_cache::PairKey;
 use crate::rejection::Rejection;
 
@@ -151,7 +151,7 @@ impl Condensed {
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
                 added_share: 0.0,
-                quieter: ContactNoiseAdvice::MoreSteps,
+                noise_advice: ContactNoiseAdvice::MoreSteps,
                 plan,
             }),
         };

@@ -31,8 +31,8 @@ use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, Share
 use crate::models::restart_state::RestartState;
 use crate::models::stepper::{Stepper, stopped, to_the_end};
 use crate::plan::body_source::BodySource;
+use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::contact_method::unread;
-use crate::plan::contact_noise_advice::ContactNoiseAdvice;
 use crate::plan::{Plan, candidate_radius};
 use crate::rejection::Rejection;
 
@@ -148,7 +148,7 @@ impl Explicit {
             },
             cost,
             elements: Some(ElementSetup {
-                quieter: ContactNoiseAdvice::of_elements(scene, &plan),
+                noise_advice: ContactNoiseAdvice::of_elements(scene, &plan),
                 plan,
                 has_springs: true,
                 added_share: added_share(scene, &bodies),
