@@ -1,4 +1,4 @@
-//! One collision: from a case to results with their error.
+//! Computes one collision, from a case to results with their error.
 //!
 //! ```text
 //! estimate ─ effects ─ plan ─ models ─ simulation ─ results ─ error
@@ -6,9 +6,8 @@
 //! forms      compute   step            its model    history   model-form error
 //! ```
 //!
-//! [`Simulation`] joins a case and its model. A method refuses a scene with a [`Rejection`] that names
-//! a key; the case knows where that stands. [`effects`] says which effects a scene calls for and what
-//! follows from what a model has of them.
+//! [`Simulation`] joins a case and its model. A method rejects a scene with a [`Rejection`] that names a key of the case.
+//! [`effects`] decides which effects a scene calls for, and compares them with those that a model has.
 
 pub mod effects;
 pub mod error;
@@ -46,6 +45,5 @@ pub use results::warning_kinds::{WarningKind, WarningKinds};
 pub use simulation::checkpoint::{
     CheckpointError, CheckpointHead, checkpoint, checkpoint_head, restart_state_of,
 };
-pub use simulation::identity::{Identity, case_identity, digest_of, identified, name_of};
-pub use simulation::numerics::NUMERICS;
+pub use simulation::identity::{Identity, NUMERICS, case_identity, digest_of, identified, name_of};
 pub use simulation::{ComputedCollision, Simulation, collide};

@@ -44,7 +44,7 @@ fn model_form_errors(
     let Some(estimate) = simulation.estimate(collision) else {
         return vec![ModelFormError::default()];
     };
-    let estimate = estimate.as_came(collision);
+    let estimate = estimate.with_computed(collision);
     let scene = simulation.scene_of_model();
     let error = |EffectSummary { verdict, error_if_left_out }: &EffectSummary| {
         let standing =

@@ -1,74 +1,72 @@
-//! The moduli that a contact of relaxing bodies meets, by which it is judged how fast, how stiff and how wide it is.
+//! Effective moduli of relaxing bodies during the contact. Effects are judged by them.
 //!
-//! A body that relaxes is stopped by less than its first response. What inertia, waves and the spheres' own
-//! compliance take of such a contact is what they take of one of elastic bodies that are as soft. They are those of
-//! which Hertz' force at the largest approach is the largest force of the collision as Ting's model foretells it on
-//! half-spaces,
+//! A relaxing body is stopped by less than its instantaneous stiffness. Inertia, waves and the spheres' own compliance
+//! change its contact as they change that of equally soft elastic bodies. The effective moduli are those with which Hertz'
+//! force at the largest approach equals the peak force of Ting's model between half-spaces,
 //!
 //! ```math
 //! E_s^* = \frac{3\,\max F}{4\,\sqrt R\;(\max\delta)^{3/2}}, \qquad E^*(t_s) = E_s^*,
 //! ```
 //!
-//! the modulus of each body that at the time t_s after a sudden load. Of elastic bodies it is theirs; of bodies that
-//! relax to a lasting modulus it comes down to that; of a fluid, of which nothing lasts, it is that of the time in
-//! which it flows. Bodies that keep more than half of their moduli over the contact are taken in its middle, t_s =
-//! T/2, which is within some per cent.
+//! and the modulus of each body is its relaxation modulus at the time t_s after a sudden load. For elastic bodies this is the
+//! elastic modulus; with fast relaxation it tends to the equilibrium modulus; for a fluid it is the modulus at the time
+//! in which it flows. For bodies that keep more than half of their moduli during the contact t_s = T/2, which is right
+//! within some per cent.
 
 use fem_case::{Body, Scene, Shape};
 use fem_collision::Collision;
 use fem_laws::{HertzImpact, Impact, LawError};
 use fem_material::{ElasticModuli, Material};
 
-use crate::estimate::quasi_static::foretold_on_half_spaces;
+use crate::estimate::quasi_static::predicted_on_half_spaces;
 use crate::estimate::{Estimate, pair_at};
 
-/// Halvings of the logarithm of t_s.
+/// Bisections of the logarithm of t_s.
 const HALVINGS: usize = 50;
-/// Decades about the contact time in which t_s is looked for.
+/// Decades on both sides of the contact time in which t_s is searched.
 const DECADES: f64 = 12.0;
 
-/// The size of a collision.
+/// The quantities of a collision that scale its effects, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
     /// Contact time, in seconds.
     pub contact_time: f64,
     /// Peak force, in newtons.
     pub peak_force: f64,
-    /// m.
+    /// Largest approach, in metres.
     pub max_approach: f64,
-    /// m.
+    /// Largest contact radius, in metres.
     pub max_contact_radius: f64,
     /// Peak pressure, in pascals.
     pub peak_pressure: f64,
 }
 
-/// A contact as relaxation makes it.
+/// The contact with the effective moduli of its bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectiveModuli {
-    /// Time t_s after a sudden load when the moduli are those that the contact meets, s; 0 of elastic bodies.
+    /// Time t_s after a sudden load at which the moduli are the effective ones, s; 0 for elastic bodies.
     pub after: f64,
-    /// Hertz with these moduli.
+    /// Hertz' impact with these moduli.
     pub hertz: HertzImpact,
-    /// The collision as it is expected.
+    /// The expected quantities of the collision.
     pub sizes: Sizes,
-    /// Radius of the contact when its pressure is largest, m.
+    /// Contact radius at the largest pressure, m.
     pub pressure_radius: f64,
 }
 
 impl EffectiveModuli {
-    /// Returns the moduli of bodies that hardly relax, at a time (s).
+    /// Returns the effective moduli of weakly relaxing bodies, those at a time (s).
     pub(crate) fn little(hertz: &HertzImpact, after: f64) -> Self {
         let pressure_radius = hertz.max_contact_radius();
         Self { after, hertz: *hertz, sizes: Sizes::from(hertz), pressure_radius }
     }
 
-    /// Returns the moduli of bodies that relax strongly, for an impact that is elastic with the
-    /// instantaneous moduli.
+    /// Returns the effective moduli of strongly relaxing bodies; `elastic` is the impact with instantaneous moduli.
     ///
     /// # Errors
-    /// A motion that Ting's model has no answer to.
+    /// A motion that Ting's model cannot compute.
     pub(crate) fn much(scene: &Scene, elastic: &HertzImpact) -> Result<Self, LawError> {
-        let impact = foretold_on_half_spaces(scene, elastic.pair(), elastic.approach_speed())?;
+        let impact = predicted_on_half_spaces(scene, elastic.pair(), elastic.approach_speed())?;
         let met = impact.peak_force / elastic.force(impact.max_approach);
         let share = |after: f64| {
             let pair = pair_at(scene, after, 0.0);
@@ -89,8 +87,8 @@ impl EffectiveModuli {
         Ok(Self { after, hertz, sizes: Sizes::of(&impact, &hertz), pressure_radius })
     }
 
-    /// A scene of the elastic bodies that are as soft; the scene itself where nothing relaxes.
-    pub(crate) fn twin(&self, scene: &Scene) -> Scene {
+    /// Returns the scene with equally soft elastic bodies; the scene itself if nothing relaxes.
+    pub(crate) fn elastic_equivalent(&self, scene: &Scene) -> Scene {
         if self.after == 0.0 {
             return scene.clone();
         }
@@ -106,15 +104,14 @@ impl EffectiveModuli {
 }
 
 impl Sizes {
-    /// Returns the sizes for an impact. Bodies that stay together have the contact time of equally soft
-    /// elastic ones.
-    fn of(impact: &Impact, effective: &HertzImpact) -> Self {
+    /// Returns the quantities of an impact. Bodies that stay together get the contact time of equally soft elastic ones.
+    fn of(impact: &Impact, softened: &HertzImpact) -> Self {
         Self {
-            contact_time: impact.contact_time.unwrap_or_else(|| effective.contact_time()),
+            contact_time: impact.contact_time.unwrap_or_else(|| softened.contact_time()),
             peak_force: impact.peak_force,
             max_approach: impact.max_approach,
             max_contact_radius: impact.max_contact_radius,
-            peak_pressure: impact.peak_pressure.unwrap_or_else(|| effective.peak_pressure()),
+            peak_pressure: impact.peak_pressure.unwrap_or_else(|| softened.peak_pressure()),
         }
     }
 }
@@ -132,13 +129,13 @@ impl From<&HertzImpact> for Sizes {
 }
 
 impl Estimate {
-    /// With the size of a collision as it came in place of the one that was expected, of bodies that relax.
-    pub(crate) fn as_came(&self, collision: &Collision) -> Self {
-        let mut came = *self;
+    /// Replaces the expected quantities of relaxing bodies by those of the finished collision.
+    pub(crate) fn with_computed(&self, collision: &Collision) -> Self {
+        let mut computed = *self;
         if self.relaxed == 0.0 {
-            return came;
+            return computed;
         }
-        let sizes = &mut came.effective.sizes;
+        let sizes = &mut computed.softened.sizes;
         for (size, of_collision) in [
             (&mut sizes.contact_time, collision.contact_time),
             (&mut sizes.peak_force, collision.peak_force),
@@ -148,11 +145,11 @@ impl Estimate {
         ] {
             *size = of_collision.filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(*size);
         }
-        came
+        computed
     }
 }
 
-/// An elastic material of what is left of the moduli at a time, s.
+/// Returns the elastic material with the moduli at a time (s) after a sudden load.
 pub(crate) fn left_at(material: &Material, time: f64) -> Material {
     if material.relaxation().is_none() {
         return material.clone();

@@ -1,7 +1,6 @@
 //! Closed-form estimates of a collision before the run.
 
 pub(crate) mod approach;
-pub(crate) mod duration;
 pub(crate) mod effective_modulus;
 pub(crate) mod quasi_static;
 pub(crate) mod semi_infinite_partner;
@@ -16,16 +15,15 @@ use fem_material::{ElasticModuli, Material};
 use crate::estimate::effective_modulus::EffectiveModuli;
 use crate::rejection::Rejection;
 
-/// Least share of a modulus that the estimate counts with: a body that relaxes
-/// within the contact is stopped by its first, stiff response.
+/// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
 const LEAST_MODULUS: f64 = 0.05;
-/// Bodies that lose more of their moduli over the contact are met by what Ting's impact tells.
+/// Loss of the moduli during the contact above which Ting's impact gives the effective moduli.
 const MUCH: f64 = 0.5;
 
 /// Closed-form estimates of a collision, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Hertz with instantaneous moduli.
+    /// Hertz' impact with instantaneous moduli.
     pub hertz: HertzImpact,
     /// Contact time with the moduli relaxed to the middle of the contact, s.
     pub contact_time: f64,
@@ -35,40 +33,39 @@ pub struct Estimate {
     pub contact_radius: f64,
     /// Smallest radius of a sphere of the scene, m.
     pub smallest_radius: f64,
-    /// Largest contact radius over effective radius: the size of the strain.
+    /// Largest contact radius over effective radius, a measure of the strain.
     pub strain: f64,
     /// Approach speed over the slowest shear wave speed.
     pub mach: f64,
-    /// What bulk waves that are slower than those of shear are worth as such a share: 0 of bodies without, of
-    /// which Poisson's ratio is not negative.
+    /// Equivalent speed ratio of bulk waves that are slower than shear waves ([`ringing`]); 0 unless Poisson's ratio is
+    /// negative.
     pub ringing: f64,
-    /// Σ g (1 − exp(−T/τ)) of the body that relaxes most: the share of its
-    /// modulus that is lost over the contact.
+    /// Share of its modulus that the more relaxing body loses during the contact, Σ g (1 − exp(−T/τ)).
     pub relaxed: f64,
-    /// The contact as relaxation makes it, by which effects are judged: Hertz' of elastic bodies.
-    pub effective: EffectiveModuli,
-    /// As [`Estimate::mach`], of the moduli that the contact meets.
-    pub effective_mach: f64,
-    /// As [`Estimate::ringing`], of the moduli that the contact meets.
-    pub effective_ringing: f64,
+    /// The contact with effective moduli, by which effects are judged; Hertz' contact for elastic bodies.
+    pub softened: EffectiveModuli,
+    /// Speed ratio [`Estimate::mach`] with the effective moduli.
+    pub softened_mach: f64,
+    /// Speed ratio [`Estimate::ringing`] with the effective moduli.
+    pub softened_ringing: f64,
 }
 
 impl Estimate {
     /// Returns the estimate of a scene for which a model is built.
     ///
     /// # Errors
-    /// As [`Estimate::of`], as a fault of the scene; masses that no f64 holds.
+    /// Those of [`Estimate::of`], as a fault of the scene; masses out of the range of f64.
     pub fn checked(scene: &Scene) -> Result<Self, Rejection> {
         let refused = |why: String| {
             Rejection::new("body", format!("the collision cannot be estimated: {why}"))
                 .with_help("check sizes, densities, moduli and speeds, and their units")
         };
-        // What overflows would count as a wall, and products of masses have to be numbers too.
+        // An infinite mass would count as a wall, and products of masses must be finite too.
         let bodies = scene.bodies().iter().enumerate();
         let mut masses = bodies.filter_map(|(k, body)| Some((k, body, body.mass()?)));
         if let Some((k, body, mass)) = masses.find(|(_, _, mass)| !(mass * mass).is_normal()) {
             let (density, diameter) = (body.material().map(Material::density), body.diameter());
-            // Whichever is farther from 1 in SI, by the power it has in the mass.
+            // The factor that is farther from 1 in SI, by its power in the mass, is the likely cause.
             let far = |value: Option<f64>| value.map_or(0.0, |value| value.log10().abs());
             let is_density = far(density) > 3.0 * far(diameter);
             let (part, of) = match is_density {
@@ -91,7 +88,7 @@ impl Estimate {
         Self::of(scene).map_err(|error| refused(error.to_string()))
     }
 
-    /// What a run is told to expect.
+    /// Returns the expected contact time and approach for the run.
     pub fn expectation(&self) -> Expectation {
         Expectation { contact_time: self.contact_time, approach: self.approach }
     }
@@ -107,11 +104,11 @@ impl Estimate {
     /// Returns the closed-form estimate at another approach speed (m/s).
     ///
     /// # Errors
-    /// As [`Estimate::of`].
+    /// Those of [`Estimate::of`].
     pub fn at(scene: &Scene, speed: f64) -> Result<Self, LawError> {
         let hertz = HertzImpact::new(&pair_at(scene, 0.0, LEAST_MODULUS)?, speed)?;
         let mut relaxed_impact = hertz;
-        // The contact time hardly depends on the moduli; a few passes settle it.
+        // The contact time depends weakly on the moduli: a few passes converge.
         for _ in 0..8 {
             let half = 0.5 * relaxed_impact.contact_time();
             let pair = pair_at(scene, half, LEAST_MODULUS);
@@ -129,14 +126,13 @@ impl Estimate {
             .filter_map(|material| material.relaxation())
             .map(|series| 1.0 - series.relaxation(contact_time))
             .fold(0.0, f64::max);
-        let effective = match relaxed > MUCH {
+        let softened = match relaxed > MUCH {
             true => EffectiveModuli::much(scene, &hertz).ok(),
             false => None,
         };
         let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
-        let effective =
-            effective.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
-        let twin = effective.twin(scene);
+        let softened = softened.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
+        let twin = softened.elastic_equivalent(scene);
         Ok(Self {
             hertz,
             contact_time,
@@ -147,30 +143,29 @@ impl Estimate {
             mach: mach(scene, speed),
             ringing: ringing(scene, hertz.contact_time()),
             relaxed,
-            effective,
-            effective_mach: mach(&twin, speed),
-            effective_ringing: ringing(&twin, effective.hertz.contact_time()),
+            softened,
+            softened_mach: mach(&twin, speed),
+            softened_ringing: ringing(&twin, softened.hertz.contact_time()),
         })
     }
 }
 
-/// A speed (m/s) over the slowest shear wave speed of a scene's bodies.
+/// Returns a speed (m/s) over the slowest shear wave speed of a scene's bodies.
 pub(crate) fn mach(scene: &Scene, speed: f64) -> f64 {
     let materials = scene.bodies().iter().filter_map(Body::material);
     speed / materials.map(|m| m.shear_wave_speed()).fold(f64::INFINITY, f64::min)
 }
 
-/// Diameters that bulk waves go in a contact of which the inertia takes as much as of one at the shear wave
-/// speed.
+/// Diameters that bulk waves travel in a contact whose vibrations are those of an impact at the shear wave speed.
 const RINGING: f64 = 1.05;
 
-/// Approach speed over that of shear waves at which bodies whose bulk waves are the faster ones would ring as much as
-/// those of a scene, in a contact of so long (s).
+/// Returns the equivalent speed ratio of a scene in a contact of this duration (s): the approach speed over the shear wave
+/// speed at which bodies with faster bulk waves would vibrate as much.
 ///
-/// A body that is far stiffer against shear than against pressure touches by a small spot and for a short time, in
-/// which it does not follow as a whole. What stays in it goes with the fifth power of its size over the way of
-/// its waves, √(3K/2ρ) T, as it does of other bodies, whose T goes with v^(−1/5); the factor is that of the glass
-/// pair with ν = −0.99, of which elements keep 0.7 % of the restitution, and gives 1.3e-4 of 1.5e-4 with −0.9.
+/// A body that is far stiffer in shear than in compression has a small and short contact, during which it does not follow
+/// as a whole. The vibration energy grows with the fifth power of its diameter over the path of the bulk waves,
+/// √(3K/2ρ) T, as for other bodies, whose T goes with v^(−1/5). The factor is fitted to elements of the glass pair with
+/// ν = −0.99, which lose 0.7 % of the restitution; with ν = −0.9 it gives 1.3e-4 where elements lose 1.5e-4.
 fn ringing(scene: &Scene, contact_time: f64) -> f64 {
     let of_body = |body: &Body| {
         let (material, diameter) = (body.material()?, body.diameter()?);
@@ -181,10 +176,10 @@ fn ringing(scene: &Scene, contact_time: f64) -> f64 {
     scene.bodies().iter().filter_map(of_body).fold(0.0, f64::max)
 }
 
-/// The pair with moduli as they are `time` (s) after a sudden load, and no less than a share of what they are at once.
+/// Returns the pair with the moduli at a time (s) after a sudden load, at least a share `least` of the instantaneous ones.
 ///
 /// # Errors
-/// Numbers that make no pair.
+/// Parameters out of range.
 pub(crate) fn pair_at(scene: &Scene, time: f64, least: f64) -> Result<Pair, LawError> {
     let [first, second] = scene.bodies().each_ref().map(|body| match body.shape() {
         Shape::Sphere { diameter, material, .. } => {
@@ -201,7 +196,7 @@ pub(crate) fn pair_at(scene: &Scene, time: f64, least: f64) -> Result<Pair, LawE
     Pair::new(first, second)
 }
 
-/// E/(1 − ν²), Pa, of a material `time` (s) after a sudden load, of moduli that keep at least a share.
+/// Returns the plane strain modulus E/(1 − ν²), Pa, at a time (s) after a sudden load, with this least share.
 fn modulus_at(material: &Material, time: f64, least: f64) -> f64 {
     let now = material.instantaneous();
     let bulk = material.bulk_modulus_at(time).max(least * now.bulk_modulus());

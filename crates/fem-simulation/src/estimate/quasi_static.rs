@@ -1,4 +1,4 @@
-//! Ting's quasi-static impact of a scene.
+//! Ting's quasi-static impact of a scene, which predicts approach and contact time of relaxing bodies.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -10,11 +10,11 @@ use fem_material::Material;
 use crate::effects::SurfaceSlip;
 use crate::estimate::Estimate;
 
-/// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
-/// however large the contact.
+/// Returns Ting's impact of a scene between half-spaces, or with the compliance of finite spheres in series, however large
+/// the contact.
 ///
 /// # Errors
-/// Numbers that the law refuses.
+/// Parameters that the law rejects.
 pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impact, LawError> {
     let size = finite_size.then(|| scene.finite_size()).transpose()?;
     ting_of(scene, pair, true, size)?.impact(scene.approach_speed())
@@ -23,24 +23,23 @@ pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impa
 /// Relative accuracy of an impact used for prediction only.
 const FORECAST: f64 = 1e-3;
 
-/// Returns Ting's impact of the scene between half-spaces at a speed (m/s), to predict approach and contact
-/// time.
+/// Predicts Ting's impact of an estimated scene between half-spaces at a speed (m/s).
 ///
 /// # Errors
-/// Numbers that the law refuses.
-pub(crate) fn foretold_impact(
+/// Parameters that the law rejects.
+pub(crate) fn predicted_impact(
     scene: &Scene,
     estimate: &Estimate,
     speed: f64,
 ) -> Result<Rc<Impact>, LawError> {
-    foretold_on_half_spaces(scene, estimate.hertz.pair(), speed)
+    predicted_on_half_spaces(scene, estimate.hertz.pair(), speed)
 }
 
-/// The same of the scene's pair with instantaneous moduli.
+/// Predicts Ting's impact of a pair with instantaneous moduli between half-spaces at a speed (m/s).
 ///
 /// # Errors
-/// Numbers that the law refuses.
-pub(crate) fn foretold_on_half_spaces(
+/// Parameters that the law rejects.
+pub(crate) fn predicted_on_half_spaces(
     scene: &Scene,
     pair: &Pair,
     speed: f64,
@@ -49,26 +48,25 @@ pub(crate) fn foretold_on_half_spaces(
     known_impact(ting.with_tolerance(FORECAST)?, speed)
 }
 
-/// Impacts that are remembered: a choice of the model asks for two dozen, most of them once for each candidate.
+/// Impacts that are cached. The choice of a model needs two dozen, most of them once per candidate.
 const REMEMBERED: usize = 32;
 
-/// A viscoelastic pair, the speed of its impact (m/s), and what came of it.
+/// A viscoelastic pair, the speed of its impact (m/s), and the result.
 type Known = (Ting, f64, Result<Rc<Impact>, LawError>);
 
 thread_local! {
-    /// The impacts of this thread that were computed last.
+    /// The last impacts that this thread has computed.
     static LAST: RefCell<Vec<Known>> = const { RefCell::new(Vec::new()) };
     /// Number of computed impacts.
     #[cfg(test)]
     static COMPUTED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
-/// [`Ting::impact`], computed once where it was among the last ones: what effects change is told between
-/// impacts most of which are the same for all effects. One that does not come to its end takes longest of all, and is
-/// remembered, too.
+/// Returns [`Ting::impact`] from the cache of the last ones, or computes it. The effects compare impacts that are mostly
+/// the same. A failed impact, which takes longest, is cached too.
 ///
 /// # Errors
-/// Those of [`Ting::impact`].
+/// Errors of [`Ting::impact`].
 pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawError> {
     let known = LAST.with_borrow(|last| {
         let same = last.iter().find(|(other, at, _)| *at == speed && *other == ting);
@@ -87,11 +85,11 @@ pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawErro
     impact
 }
 
-/// Ting's model of a scene and its pair, of surfaces that slip on each other where the scene has that on;
-/// of elastic materials with the same instantaneous moduli where nothing relaxes.
+/// Returns Ting's model of a scene and its pair, with surface slip if the scene has it, and without relaxation if `relaxes`
+/// is false.
 ///
 /// # Errors
-/// Numbers that the law refuses.
+/// Parameters that the law rejects.
 pub(crate) fn ting_of(
     scene: &Scene,
     pair: &Pair,
@@ -124,7 +122,7 @@ mod tests {
     use super::*;
     use crate::models::SelectedModel;
 
-    /// Far outside of Ting's range: ten terms over ten decades, between bodies of which one is 1e15 times as stiff.
+    /// A scene far outside Ting's range: ten terms over ten decades, and bodies whose stiffness differs by 1e15.
     const EXTREME: &str = "
         [material.hard]
         density = 2e3
@@ -155,9 +153,9 @@ mod tests {
         auto = {}
     ";
 
-    /// A choice of the model computes each impact once, those that do not come to an end, too.
+    /// The choice of a model computes each impact once, also those that fail.
     #[test]
-    fn no_impact_is_foretold_twice() {
+    fn no_impact_is_computed_twice() {
         let case = Case::parse("extreme.toml", EXTREME, Path::new("."), &[]).unwrap();
         let before = COMPUTED.get();
         let _ = SelectedModel::of(case.scene());
@@ -166,6 +164,6 @@ mod tests {
         let _ = SelectedModel::of(case.scene());
         assert_eq!(COMPUTED.get() - before, once);
         let known = LAST.with_borrow(|last| last.iter().filter(|(.., came)| came.is_err()).count());
-        assert!(known > 0, "a scene beyond what Ting's model has an answer to");
+        assert!(known > 0, "the scene has an impact that Ting's model cannot compute");
     }
 }

@@ -1,15 +1,14 @@
-//! A body beside a partner so large that waves do not come back within the contact.
+//! A body on a partner so large that waves do not return during the contact.
 //!
-//! Until they do, the partner is a half-space to the contact and moves nowhere as a whole: the body's
-//! collision is that with an infinite mass, at the rate δ̇′ of its own centre. The partner's mass centre has
-//! the impulse all the same, so that of both mass centres
+//! The partner then acts as a half-space that does not move as a whole: the body collides with an infinite mass, at the
+//! rate δ̇′ of its own centre. The partner's mass centre receives the impulse nevertheless, so that for both mass centres
 //!
 //! ```math
 //! \dot\delta = \dot\delta' - \frac mM\,(v-\dot\delta'), \qquad
 //! \delta = \delta' - \frac mM\,(vt-\delta'), \qquad e = e' + \frac mM\,(1+e'),
 //! ```
 //!
-//! and ½MV² of what has left as waves, V = (m/M)(v − δ̇′), is the motion of the partner.
+//! and the part ½MV² of the radiated energy, V = (m/M)(v − δ̇′), is the kinetic energy of the partner.
 
 use std::rc::Rc;
 
@@ -19,11 +18,11 @@ use fem_material::Material;
 
 use crate::estimate::quasi_static::{known_impact, ting_of};
 
-/// Ting's impact at a speed (m/s) of a scene with bodies that radiate, given by their materials; of the
-/// spheres' own compliance and the accuracy that `finish` gives.
+/// Returns Ting's impact at a speed (m/s) of a scene with radiating bodies, given by their materials; `finish` sets the
+/// accuracy.
 ///
 /// # Errors
-/// Numbers that the law refuses; waves that take more than a correction.
+/// Parameters that the law rejects; radiation that is more than a correction.
 pub(crate) fn radiating_impact(
     scene: &Scene,
     radiating: &[Option<Material>; 2],
@@ -32,15 +31,16 @@ pub(crate) fn radiating_impact(
     finish: impl FnOnce(Ting) -> Result<Ting, LawError>,
 ) -> Result<Impact, LawError> {
     let partner = Partner::of(scene, radiating);
-    // Curved as it is; but it moves nowhere, and its own compliance is that of a half-space.
+    // The large partner keeps its curvature, is held, and has the compliance of a half-space.
     let [first, second] = [0, 1].map(|side: usize| {
         let body = scene.bodies()[side].partner();
         let is_large = partner.as_ref().is_some_and(|partner| partner.side == side);
         if is_large { body.held() } else { body }
     });
     let pair = Pair::new(first, second)?;
-    let endless = partner.as_ref().map(|partner| scene.with_half_space(partner.side));
-    let size = finite_size.then(|| endless.as_ref().unwrap_or(scene).finite_size()).transpose()?;
+    let half_space = partner.as_ref().map(|partner| scene.with_half_space(partner.side));
+    let size =
+        finite_size.then(|| half_space.as_ref().unwrap_or(scene).finite_size()).transpose()?;
     let ting = finish(ting_of(scene, &pair, true, size)?)?;
     let ting = ting.with_radiation(radiating.iter().flatten())?;
     let impact = Rc::unwrap_or_clone(known_impact(ting, speed)?);
@@ -50,13 +50,13 @@ pub(crate) fn radiating_impact(
     })
 }
 
-/// The one sphere that radiates, beside which the other moves alone.
+/// The only radiating sphere, on which the other body moves alone.
 struct Partner {
-    /// 0 the lower one.
+    /// The lower body (0) or the upper one (1).
     side: usize,
-    /// Mass of the other body, in kilograms.
+    /// Mass of the other body, kg.
     mass: f64,
-    /// The body's mass over its own.
+    /// Mass of the other body over its own.
     mass_ratio: f64,
 }
 
@@ -72,8 +72,8 @@ impl Partner {
     }
 }
 
-/// A collision of a body of the mass m (kg) alone, at a speed v (m/s), as one of both mass centres;
-/// `mass_ratio` is m/M.
+/// Converts the collision of a body of mass m (kg) at a speed v (m/s) to the motion of both mass centres; `mass_ratio` is
+/// m/M.
 fn of_mass_centres(alone: Impact, mass: f64, mass_ratio: f64, speed: f64) -> Impact {
     let instant = |alone: &ImpactInstant| {
         let lost = speed - alone.approach_rate;

@@ -1,10 +1,9 @@
-//! Approach of bodies that relax to a small modulus or none, estimated before the run.
+//! Contact radius and duration for bodies that relax to a small modulus or flow, estimated before the run.
 //!
-//! A body that flows is stopped by its viscosity alone, in a time and by a contact that elastic closed forms
-//! know nothing of: with βT = 10⁴ the contact grows to fourteen times that of the elastic bodies, in a
-//! thousand of their contact times. Ting's impact on half-spaces tells both within some per cent.
-//! Where the contact would be as wide as a sphere nearly, no model of small strain says anything, and none
-//! is asked: all models refuse alike.
+//! A flowing body is stopped by its viscosity alone, and elastic closed forms predict neither the time nor the contact
+//! radius: with βT = 10⁴ the contact becomes fourteen times as wide as that of the elastic bodies, in a thousand of their
+//! contact times. Ting's impact between half-spaces predicts both within some per cent. If the contact would become nearly
+//! as wide as a sphere, no model of small strain is valid, and every model rejects the scene.
 
 use std::rc::Rc;
 
@@ -13,27 +12,26 @@ use fem_collision::{Approach, FLIGHT_AFTER, OutputRequest};
 use fem_laws::{Impact, LawError, StaticHertz};
 
 use crate::estimate::Estimate;
-use crate::estimate::approach::approach_of;
-use crate::estimate::duration::{duration_of, expected_duration};
-use crate::estimate::quasi_static::{foretold_impact, ting_of};
+use crate::estimate::approach::{approach_of, duration_of, expected_duration};
+use crate::estimate::quasi_static::{predicted_impact, ting_of};
 use crate::rejection::Rejection;
 
-/// Bodies that keep more than the rest of their moduli over the contact are stopped by them.
+/// Loss of the moduli during the contact above which viscosity stops the bodies.
 const RELAXED: f64 = 0.5;
-/// Contact radius over that of the smallest sphere beyond which spheres that flow are no spheres.
+/// Contact radius over the smallest sphere's radius above which flowing spheres are rejected.
 const WIDEST: f64 = 0.3;
-/// Contacts that relaxation has widened by less are as wide by the speed.
+/// Widening of the contact by relaxation below which the speed is the cause of a wide contact.
 const WIDENED: f64 = 3.0;
-/// Runs stop after this multiple of the predicted duration.
+/// Multiple of the predicted duration after which runs stop.
 const PATIENCE: f64 = 3.0;
-/// Bodies that come less further than this together than elastic ones are stopped by the clock of those.
+/// Approach over that of the elastic bodies below which relaxation does not slow the contact.
 const SLOWED: f64 = 3.0;
 
-/// The largest contact radius, m: Hertz' of the instantaneous moduli, with the weight where there is one, or what
-/// relaxation makes of it.
+/// Returns the largest contact radius, m: Hertz' radius with instantaneous moduli, plus that by the weight, or the radius
+/// after relaxation.
 ///
-/// A ball that is laid down goes on until its spring holds what its weight has given, 2/5 K δ^{5/2} = m g δ, which is
-/// (5/2)^{2/3} of the static approach; that of the impact adds to it at most.
+/// A ball that is released on a plane moves until the contact stores the work of its weight, 2/5 K δ^{5/2} = m g δ, which is
+/// (5/2)^{2/3} of the static approach. The impact adds at most its own radius.
 pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
     let pair = estimate.hertz.pair();
     let pressed = scene.gravity().and_then(|gravity| {
@@ -48,10 +46,10 @@ pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
     impact.map_or(elastic, |impact| impact.max_contact_radius.max(elastic))
 }
 
-/// Refuses bodies that flow into each other: nothing parts them again.
+/// Rejects bodies that flow into each other.
 ///
 /// # Errors
-/// Blames the materials.
+/// Names the materials.
 pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
     let impact = match impact(scene, estimate) {
         Some(Ok(impact)) => impact,
@@ -81,13 +79,13 @@ fn refused(how: String) -> Rejection {
     ))
 }
 
-/// Whether nothing of the bodies' stiffness lasts.
+/// Returns whether the bodies have no equilibrium stiffness.
 fn flows(scene: &Scene, estimate: &Estimate) -> bool {
     let ting = ting_of(scene, estimate.hertz.pair(), true, None);
     ting.is_ok_and(|ting| ting.equilibrium_weight() <= 0.0)
 }
 
-/// Multiple of the elastic contact time after which a finite-element run stops.
+/// Returns the multiple of the elastic contact time after which a finite-element run stops.
 pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
     if !relaxes(scene, estimate) {
         return OutputRequest::GIVE_UP_AFTER;
@@ -97,16 +95,16 @@ pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
     OutputRequest::GIVE_UP_AFTER.max(PATIENCE * contact_times)
 }
 
-/// Times of a contact over those of the elastic bodies.
+/// Times of a contact over those of elastic bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slower {
-    /// In which the bodies are stopped. They come to rest at the largest approach δ, in a time of some δ/v.
+    /// Ratio of the times until the largest approach δ, about δ/v.
     pub stop: f64,
-    /// From first touch to the end of the run.
+    /// Ratio of the times from first touch to the end of the run.
     pub end: f64,
 }
 
-/// Returns the factor by which relaxation slows the contact, 1 if it does not.
+/// Returns the factors by which relaxation slows the contact, at least 1.
 pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slower {
     let Some(Ok(impact)) = impact(scene, estimate) else { return Slower { stop: 1.0, end: 1.0 } };
     let hertz = &estimate.hertz;
@@ -117,13 +115,13 @@ pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slow
     Slower { stop, end: end.max(1.0) }
 }
 
-/// Whether relaxation decides how far the bodies come; beside gravity, that does.
+/// Returns whether relaxation determines the approach. Under gravity the weight does.
 fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
     estimate.relaxed > RELAXED && scene.gravity().is_none()
 }
 
-/// Ting's impact of bodies that relax; none of others.
+/// Returns Ting's impact of strongly relaxing bodies; `None` for others.
 fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Rc<Impact>, LawError>> {
     let speed = estimate.hertz.approach_speed();
-    relaxes(scene, estimate).then(|| foretold_impact(scene, estimate, speed))
+    relaxes(scene, estimate).then(|| predicted_impact(scene, estimate, speed))
 }

@@ -12,15 +12,15 @@ use crate::simulation::Simulation;
 /// The file name of the history.
 pub const HISTORY_FILE: &str = "history.csv";
 
-/// Writes the history, one row per instant. Accounts of effects that are on come last. Numbers are the
-/// shortest that read back to the same bits; unknown values are blank.
+/// Writes the history, one row per instant. Accounts of effects come last. Numbers are the shortest that read back to the
+/// same bits; unknown values are blank.
 ///
 /// # Errors
 /// `to` cannot be written to.
 pub fn history_csv(mut to: impl Write, scene: &Scene, rows: &[HistoryRow]) -> io::Result<()> {
     let velocities = scene.bodies().each_ref().map(|body| format!("velocity_{}_m_s", body.name()));
-    let books = rows.iter().map(|row| &row.energies);
-    let [energies, of_effects] = in_history(books, Account::shown);
+    let ledgers = rows.iter().map(|row| &row.energies);
+    let [energies, of_effects] = in_history(ledgers, Account::shown);
     let [keys, of_effects_keys] = [&energies, &of_effects]
         .map(|those| those.iter().map(|account| energy_key(*account)).collect::<Vec<_>>());
     let first =
@@ -47,10 +47,10 @@ pub fn history_csv(mut to: impl Write, scene: &Scene, rows: &[HistoryRow]) -> io
     to.flush()
 }
 
-/// A line of numbers, which need no quotes: what writes any text takes as long for it as for the digits.
+/// A line of numbers, which need no quotes. A general CSV writer would take twice as long.
 #[derive(Default)]
 struct Line {
-    /// A comma after each.
+    /// The numbers, each with a comma after it.
     text: Vec<u8>,
 }
 
@@ -82,7 +82,7 @@ pub const CONTACT_FILE: &str = "contact.csv";
 const REACH: f64 = 1.2;
 const NODES_BEYOND: usize = 3;
 
-/// Whether there is a contact to be written: only of models with snapshots.
+/// Returns whether the snapshots have a contact to be written.
 pub fn has_contact(collision: &Collision) -> bool {
     collision.snapshots.iter().any(|snapshot| !snapshot.contact.places.is_empty())
 }
@@ -150,21 +150,25 @@ const QUANTITIES: [&str; 8] = [
 ///
 /// # Errors
 /// `to` cannot be written to.
-pub fn probes_csv(to: impl Write, probes: &[ProbeRequest], seen: &[Snapshot]) -> csv::Result<()> {
+pub fn probes_csv(
+    to: impl Write,
+    probes: &[ProbeRequest],
+    samples: &[Snapshot],
+) -> csv::Result<()> {
     let mut file = csv::Writer::from_writer(to);
     let columns =
         (0..probes.len()).flat_map(|k| QUANTITIES.map(|quantity| format!("probe_{k}_{quantity}")));
     file.write_record(["time_s".to_string()].into_iter().chain(columns))?;
-    for one in seen {
-        let displacements = [0, 1].map(|side| one.displacement(side));
+    for sample in samples {
+        let displacements = [0, 1].map(|side| sample.displacement(side));
         let of_probe = |(k, probe): (usize, &ProbeRequest)| {
-            let fields = &one.bodies[probe.side];
+            let fields = &sample.bodies[probe.side];
             let ([u_r, u_y], [v_r, v_y]) = (displacements[probe.side][k], fields.velocity[k]);
             let [rr, yy, tt, ry] = fields.stress[k];
             [u_r, u_y, v_r, v_y, rr, yy, tt, ry]
         };
         let numbers: Vec<f64> = probes.iter().enumerate().flat_map(of_probe).collect();
-        file.serialize((one.time, numbers))?;
+        file.serialize((sample.time, numbers))?;
     }
     Ok(file.flush()?)
 }

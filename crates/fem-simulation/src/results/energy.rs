@@ -1,6 +1,4 @@
-//! The accounts of energy as files show them: their keys, columns and order.
-//!
-//! All of it follows from the table of [`Account`].
+//! Keys, columns and order of the energy accounts in files. They follow from the table of [`Account`].
 
 use fem_collision::{Account, EnergyLedger, ShownIn};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -8,26 +6,26 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 /// The ledger at the end of a run, J; `None` is written as `null`.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Energy {
-    /// At the start, walls not counted.
+    /// Energy at the start, without that of walls.
     pub initial_j: Option<f64>,
     /// Energy of each account, under [`energy_key`].
     #[serde(flatten)]
     pub accounts: Accounts,
     /// Energy residual: stored + dissipated − initial − external work.
     pub residual_j: Option<f64>,
-    /// Worst imbalance over the run / initial kinetic energy in the centre-of-mass frame.
+    /// Largest residual of the run over the initial kinetic energy in the centre-of-mass frame.
     pub residual_relative: Option<f64>,
 }
 
 impl Energy {
-    /// Energy of an account at the end, in joules.
+    /// Returns the energy of an account at the end, J.
     pub fn get(&self, account: Account) -> Option<f64> {
         self.accounts.0.get(account)
     }
 }
 
-/// What is in each account at the end, J: a key an account, `null` where nobody fills it, and no key
-/// where an account that is shown where it is filled is not.
+/// Energy of each account at the end, J. Each account has a key; an account that is not computed is `null`, or left out if
+/// it is shown only if filled.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Accounts(pub EnergyLedger);
 
@@ -41,25 +39,28 @@ impl Serialize for Accounts {
     }
 }
 
-/// The name of an account in files, with its unit.
+/// Returns the key of an account in files, with its unit.
 pub fn energy_key(account: Account) -> String {
     format!("{}_j", account.name())
 }
 
-/// The accounts that the summary of this book shows.
-fn in_summary(book: &EnergyLedger, shown: fn(Account) -> ShownIn) -> impl Iterator<Item = Account> {
+/// Returns the accounts that the summary of this ledger shows.
+fn in_summary(
+    ledger: &EnergyLedger,
+    shown: fn(Account) -> ShownIn,
+) -> impl Iterator<Item = Account> {
     Account::all()
-        .filter(move |account| shown(*account) != ShownIn::WhereFilled || book.has(*account))
+        .filter(move |account| shown(*account) != ShownIn::WhereFilled || ledger.has(*account))
 }
 
-/// The accounts that a history of these books has a column of: those that every history has, and
-/// those that only this one has.
+/// Returns the accounts with a column in a history of these ledgers: those of every history, and those that only this one
+/// has.
 #[cfg(feature = "files")]
-pub(super) fn in_history<'b>(
-    books: impl Iterator<Item = &'b EnergyLedger> + Clone,
+pub(super) fn in_history<'l>(
+    ledgers: impl Iterator<Item = &'l EnergyLedger> + Clone,
     shown: fn(Account) -> ShownIn,
 ) -> [Vec<Account>; 2] {
-    let is_filled = |account: &Account| books.clone().any(|book| book.has(*account));
+    let is_filled = |account: &Account| ledgers.clone().any(|ledger| ledger.has(*account));
     let those = |kind| Account::all().filter(move |account| shown(*account) == kind);
     [those(ShownIn::Always).collect(), those(ShownIn::WhereFilled).filter(is_filled).collect()]
 }
@@ -68,18 +69,18 @@ pub(super) fn in_history<'b>(
 mod tests {
     use super::*;
 
-    /// An effect that stores what the springs of a contact do.
+    /// Shows the contact's account only if it is filled, as an effect's account.
     fn made_up(account: Account) -> ShownIn {
         if account == Account::Contact { ShownIn::WhereFilled } else { account.shown() }
     }
 
     #[test]
-    fn an_effect_that_is_off_leaves_no_word() {
+    fn an_effect_that_is_off_has_no_key() {
         let off = EnergyLedger::EMPTY.with(Account::Kinetic, 1.0);
         let on = off.with(Account::Contact, 0.0);
         let has = |book| in_summary(book, made_up).any(|account| account == Account::Contact);
         assert!(!has(&off) && has(&on));
-        // What every summary shows is there, filled or not.
+        // Accounts that every summary shows are there, filled or not.
         let n_always = |shown: fn(Account) -> ShownIn| {
             Account::all().filter(|account| shown(*account) != ShownIn::WhereFilled).count()
         };

@@ -1,5 +1,4 @@
-//! The stored results of a collision: keys and units of the summary, columns of the history, arrays of the
-//! snapshots.
+//! The stored results of a collision: the summary, the CSV files, the snapshots, and the warnings.
 
 pub(crate) mod diagnostics;
 pub(crate) mod stop_advice;

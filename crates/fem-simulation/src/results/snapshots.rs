@@ -1,7 +1,7 @@
-//! The snapshots as VTK files: one grid with both bodies an instant, and a collection of them.
+//! Writes the snapshots as VTK files: one grid with both bodies per instant, and a collection of them.
 //!
-//! Places and displacements are doubles, for strains are small differences of them; stresses, pressures and
-//! velocities have the seven digits of single precision, which is more than any mesh gives them.
+//! Positions and displacements are doubles, since strains are small differences of them. Stresses, pressures and velocities
+//! have single precision.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use fem_vtk::{VtuGrid, VtuWriter, pad_vectors, write_collection};
 
 use crate::simulation::Simulation;
 
-/// The stress arrays, in the order of [`GridStress`]; readers show the first at first.
+/// The stress arrays, in the order of [`GridStress`]. Viewers show the first one by default.
 const STRESSES: [Field; 6] = [
     Field::SigmaYy,
     Field::SigmaRr,
@@ -25,11 +25,11 @@ const STRESSES: [Field; 6] = [
     Field::VonMises,
 ];
 
-/// The bodies as they are written.
+/// The bodies to be drawn.
 struct Drawing<'a> {
     meshes: [Option<&'a SphereMesh>; 2],
     materials: [Option<&'a Material>; 2],
-    /// Gap, in metres.
+    /// Gap at the start, m.
     gap: f64,
 }
 
@@ -42,14 +42,14 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Bodies with a mesh, and which side they are on.
+    /// Returns the bodies with a mesh: side, mesh and material.
     fn meshed(&self) -> impl Iterator<Item = (usize, &'a SphereMesh, &'a Material)> {
         let both = self.meshes.into_iter().zip(self.materials).enumerate();
         both.filter_map(|(side, (mesh, material))| Some((side, mesh?, material?)))
     }
 }
 
-/// Of the surfaces at time 0, m; the approach of a ball that falls is that of its first touch.
+/// Returns the gap of the surfaces at time 0, m; for a falling ball, that of its first touch.
 fn start_gap(simulation: &Simulation, collision: &Collision) -> f64 {
     if collision.approach == simulation.setup().approach {
         return simulation.case().scene().gap().unwrap_or_default();
@@ -61,8 +61,9 @@ fn start_gap(simulation: &Simulation, collision: &Collision) -> f64 {
 struct GridArrays {
     points: Vec<[f64; 3]>,
     quads: Vec<[u32; 4]>,
-    /// 0 or 1 for each cell, and for each point.
+    /// Side (0 or 1) of each cell.
     body: Vec<i32>,
+    /// Side (0 or 1) of each point.
     body_of_points: Vec<i32>,
 }
 
@@ -75,7 +76,7 @@ struct Scene<'a> {
     recoveries: Vec<StressRecovery<'a>>,
 }
 
-/// Six arrays of one value a cell or point.
+/// Six arrays with one value per cell or point.
 type GridStress = [Vec<f32>; 6];
 
 /// Writes all snapshots of a collision and their collection into `folder`.
@@ -103,7 +104,7 @@ pub fn write_snapshots(
         recoveries: drawing.meshed().map(|(_, mesh, _)| StressRecovery::new(mesh)).collect(),
     };
     let mut series: Vec<(f64, String)> = Vec::new();
-    // Files of a film are in order by their names too.
+    // Leading zeros keep many files in order by name.
     let digits = (snapshots.len() - 1).to_string().len();
     for (snapshot, label) in snapshots {
         let name = format!("{stem}_{:0digits$}_{label}.vtu", series.len());
@@ -165,12 +166,11 @@ fn write_snapshot(
         .write(path)
 }
 
-/// Contact pressure (Pa) at the nodes of a body: that of the profile where a node of the surface is, 0 at
-/// all others.
+/// Returns the contact pressure (Pa) at the nodes of a body: the profile's at surface nodes, 0 at all others.
 fn contact_pressure(snapshot: &Snapshot, side: usize, mesh: &SphereMesh) -> Vec<f32> {
     let mut pressures = vec![0.0; mesh.nodes().len()];
     let places = &snapshot.contact.places;
-    // Bodies at finite strain have their stress with them, and a profile over where their nodes are now.
+    // Bodies at finite strain store their stress, and their profile is over the deformed positions.
     let is_moved = !snapshot.bodies[side].stress.is_empty();
     for &node in mesh.surface() {
         let node = node as usize;
@@ -201,7 +201,7 @@ fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
 }
 
 impl GridArrays {
-    /// Reference positions (r, y, 0), half of the start gap between each body and y = 0.
+    /// Returns the arrays with reference positions (r, y, 0), half of the start gap between each body and y = 0.
     fn of(drawing: &Drawing<'_>) -> Self {
         let (points, quads) = (Vec::new(), Vec::new());
         let mut arrays = Self { points, quads, body: Vec::new(), body_of_points: Vec::new() };
@@ -220,12 +220,12 @@ impl GridArrays {
 /// Snapshots in the order of time, each with the label of its files.
 pub(super) struct Shown<'a> {
     pub snapshots: Vec<(&'a Snapshot, &'static str)>,
-    /// Left-out snapshots, with the reason.
+    /// Warnings about snapshots that are left out.
     pub warnings: Vec<String>,
 }
 
-/// All but a last contact that was not the last, and a second one of the same instant: viewers draw two
-/// files of one time on top of each other.
+/// Returns the snapshots to be written: without a last contact of an incomplete run, and without a second one of the same
+/// instant, which viewers would draw on top of the first.
 pub(super) fn shown<'a>(simulation: &Simulation, collision: &'a Collision) -> Shown<'a> {
     let request = &simulation.request().snapshots;
     let mut shown = Shown { snapshots: Vec::new(), warnings: Vec::new() };

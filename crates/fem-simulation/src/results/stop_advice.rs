@@ -1,17 +1,17 @@
-//! Why a run stops early, and what helps.
+//! Likely causes of an early stop, and the changes that prevent it.
 
 use fem_collision::Stop;
 
-/// Likely cause and remedy of a stop.
+/// The likely cause of a stop, and the change that prevents it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StopAdvice {
-    /// Most frequent cause.
+    /// Most frequent cause of such a stop.
     pub cause: &'static str,
-    /// Suggested change.
+    /// Suggested change of the case.
     pub remedy: &'static str,
 }
 
-/// Likely cause and remedy; none for a run that the user stopped.
+/// Returns the likely cause and the remedy; `None` for a run that the user stopped.
 pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
     let (cause, remedy) = match stop {
         Stop::Interrupted { .. } => return None,
@@ -68,9 +68,9 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
              (body.N.sphere.mesh)",
         ),
         Stop::TooManyUpdates { .. } => (
-            "the limit is near what was announced, or the bodies take longer to part, or to come to rest, than \
-             closed forms expect, as those do that relax nearly all",
-            "raise limits.element_updates, use a larger mesh.contact_element_size, or model condensed",
+            "the limit is close to the estimated cost, or the bodies separate or come to rest later than closed forms \
+             predict, as strongly relaxing ones do",
+            "raise limits.element_updates, use a larger mesh.contact_element_size, or use model.condensed",
         ),
         Stop::EnergyImbalance { .. } => (
             "modes of vibration that the mesh does not resolve, or steps that are too long for them",

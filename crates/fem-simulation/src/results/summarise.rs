@@ -12,7 +12,7 @@ use crate::effects::{EffectDecision, FiniteStrain};
 use crate::error::{ErrorEstimate, uncertainty};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
-use crate::simulation::numerics::NUMERICS;
+use crate::simulation::identity::NUMERICS;
 
 /// The cost of a run, measured by the caller.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,21 +1,21 @@
-//! Warnings of many runs, each kind once.
+//! Collects the warnings of many runs, each kind once.
 
-/// Kinds that are kept.
+/// Most kinds that are kept.
 const MOST: usize = 100;
 
-/// Warnings that differ in their numbers alone.
+/// Warnings that differ only in their numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WarningKind {
     kind: String,
-    /// The first of them.
+    /// The first warning of this kind.
     pub first: String,
-    /// Owner of the warnings.
+    /// Index of the run that gave the first warning.
     pub place: usize,
-    /// Number of warnings.
+    /// Number of warnings of this kind.
     pub count: usize,
 }
 
-/// All kinds that were seen, in the order of their first ones.
+/// All kinds of warnings, in the order of their first ones.
 ///
 /// ```
 /// let mut kinds = fem_simulation::WarningKinds::default();
@@ -30,14 +30,14 @@ pub struct WarningKinds {
 }
 
 impl WarningKind {
-    /// Whether a warning differs from these in its numbers alone.
+    /// Returns whether a warning differs from these only in its numbers.
     pub fn is_of(&self, warning: &str) -> bool {
         self.kind == without_numbers(warning)
     }
 }
 
 impl WarningKinds {
-    /// Takes a warning of one of many.
+    /// Adds a warning of the run with this index.
     pub fn see(&mut self, place: usize, warning: &str) {
         let kind = without_numbers(warning);
         if let Some(known) = self.kinds.iter_mut().find(|known| known.kind == kind) {
@@ -55,13 +55,13 @@ impl WarningKinds {
         self.n_others
     }
 
-    /// The kinds that are kept.
+    /// Returns the kinds that are kept.
     pub fn all(&self) -> &[WarningKind] {
         &self.kinds
     }
 }
 
-/// A text without its numbers and the units behind them.
+/// Removes the numbers of a text and the units after them.
 fn without_numbers(text: &str) -> String {
     const LONGEST_UNIT: usize = 4;
     let (mut words, mut is_behind_number) = (Vec::new(), false);
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn warnings_that_differ_in_their_numbers_alone_are_one() {
+    fn warnings_that_differ_only_in_their_numbers_are_one_kind() {
         let [a, b] = ["a step of 12.3 µm is 4 % too long", "a step of 1.1 mm is 12 % too long"];
         assert_eq!(without_numbers(a), without_numbers(b));
         assert_ne!(without_numbers(a), without_numbers("a step of 12.3 µm is 4 % too short"));
@@ -91,9 +91,9 @@ mod tests {
         let mut kinds = WarningKinds::default();
         for k in 0..MOST + 5 {
             let letters: String = format!("{k}").chars().map(|c| (c as u8 + 49) as char).collect();
-            kinds.see(k, &format!("of a kind {letters}"));
+            kinds.see(k, &format!("a kind {letters}"));
         }
         assert_eq!((kinds.all().len(), kinds.n_others()), (MOST, 5));
-        assert!(kinds.all()[0].is_of("of a kind a 7") && !kinds.all()[1].is_of("of a kind a"));
+        assert!(kinds.all()[0].is_of("a kind a 7") && !kinds.all()[1].is_of("a kind a"));
     }
 }

@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::models::restart_state::RestartState;
 use crate::results::PROGRAM;
 use crate::simulation::identity::Identity;
-use crate::simulation::numerics::NUMERICS;
+use crate::simulation::identity::NUMERICS;
 
 /// Of the bytes; another one is not read.
 const FORMAT: u32 = 1;

@@ -1,4 +1,4 @@
-//! What a case and its result are known by: digests that are equal for equal ones.
+//! Identities of a build, a case and its result: digests that are equal for equal contents.
 
 use std::path::Path;
 
@@ -6,66 +6,72 @@ use fem_case::{Case, CaseError, CaseFile, Shape};
 use sha2::{Digest, Sha256};
 
 use crate::simulation::Simulation;
-use crate::simulation::numerics::NUMERICS;
+
+/// Identity of the build's numerics: sixteen digits that two builds share only if they give the same bits on the same
+/// machine. It is a digest of the sources of this crate and of the workspace crates below it (comments included), of the
+/// versions of other crates, and of the kind of machine.
+///
+/// In a build from a registry, without the workspace, the versions of those crates stand for their sources.
+pub const NUMERICS: &str = env!("FEM_NUMERICS");
 
 /// Bytes of a digest that go into a name: two of a million cases share one by a chance of 1e-7.
 const BYTES: usize = 8;
 
-/// What is known of a run before it begins.
+/// The identity of a run, known before it begins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// See [`case_identity`].
+    /// Identity of the case ([`case_identity`]).
     pub case: String,
-    /// Digest of the build's numerics, resolved case and mesh files: equal for equal results.
+    /// Digest of the build's numerics, the resolved case and the mesh files, which is equal for equal results.
     pub result: String,
 }
 
 impl Identity {
-    /// Of a case, by this build.
+    /// Returns the identity of a case with this build.
     ///
     /// # Errors
-    /// What the case's method refuses before it makes anything; a mesh file that cannot be read.
+    /// A case that its method rejects; a mesh file that cannot be read.
     pub fn of(case: &Case) -> Result<Self, CaseError> {
         let (result, _) = identified(case)?;
         Ok(Self { case: case_identity(case), result: name_of(result) })
     }
 }
 
-/// Digest of the result of a case by this build, with the resolved case, which takes a while.
+/// Returns the digest of a case's result with this build, and the resolved case.
 ///
 /// # Errors
-/// As [`Identity::of`].
+/// Those of [`Identity::of`].
 pub fn identified(case: &Case) -> Result<(u64, CaseFile), CaseError> {
     let meshes = mesh_files(case)?;
     let resolved = Simulation::resolve(case)?;
     Ok((of_result(NUMERICS, &resolved, &meshes), resolved))
 }
 
-/// Digest of what a case asks to be computed: its keys and values, overrides in them, in SI, without
-/// title and output. Defaults do not count: a build that plans otherwise does not make it another case.
+/// Returns the digest of a case: its keys and values with overrides, in SI, without title and output. Defaults do not
+/// count, so that a build with another plan keeps the identity.
 pub fn case_identity(case: &Case) -> String {
     identity_of(case.file())
 }
 
-/// As [`case_identity`], of a case as it is written.
+/// Returns the identity of a case file ([`case_identity`]).
 pub(crate) fn identity_of(file: &CaseFile) -> String {
     let file = CaseFile { title: None, output: None, ..file.clone() };
     digest_of([json(&file).as_slice()])
 }
 
-/// Digest of a result: by which numerics, of which resolved case with which mesh files.
+/// Returns the digest of a result from the numerics, the resolved case and the mesh files.
 fn of_result(numerics: &str, case: &CaseFile, meshes: &[Vec<u8>]) -> u64 {
     let case = json(case);
     let meshes = meshes.iter().map(Vec::as_slice);
     digest([numerics.as_bytes(), &case].into_iter().chain(meshes))
 }
 
-/// Sixteen digits of a list of texts.
+/// Returns the digest of a list of texts as sixteen digits.
 pub fn digest_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
     name_of(digest(parts))
 }
 
-/// A digest as it is in names.
+/// Prints a digest as in names.
 pub fn name_of(digest: u64) -> String {
     format!("{digest:0digits$x}", digits = 2 * BYTES)
 }
@@ -79,12 +85,12 @@ fn digest<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> u64 {
     digest.finalize().iter().take(BYTES).fold(0, |number, byte| number << 8 | u64::from(*byte))
 }
 
-/// A valid case has only finite numbers and text: it always serializes.
+/// Serializes a case. It always succeeds, since a valid case has only finite numbers and text.
 fn json(case: &CaseFile) -> Vec<u8> {
     serde_json::to_vec(case).unwrap_or_default()
 }
 
-/// The bytes of the mesh files of a case.
+/// Reads the mesh files of a case.
 fn mesh_files(case: &Case) -> Result<Vec<Vec<u8>>, CaseError> {
     let mut files = Vec::new();
     for (k, body) in case.scene().bodies().iter().enumerate() {
@@ -112,7 +118,7 @@ fn read(_: &Path) -> Result<Vec<u8>, &'static str> {
 mod tests {
     use super::*;
 
-    /// Numbers of an older build are no result of this one.
+    /// A result of another build, another case or another mesh has another digest.
     #[test]
     fn a_result_is_of_one_build_one_case_and_its_meshes() {
         let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }

@@ -2,7 +2,6 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod identity;
-pub(crate) mod numerics;
 
 use std::borrow::Cow;
 use std::convert::Infallible;

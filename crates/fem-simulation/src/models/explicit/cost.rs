@@ -5,7 +5,7 @@ use fem_explicit::Model as Bodies;
 use fem_material::{Material, PronySeries};
 
 use crate::effects::{BulkViscosity, FiniteStrain};
-use crate::estimate::duration::expected_duration;
+use crate::estimate::approach::expected_duration;
 use crate::estimate::{Estimate, mach};
 use crate::models::condensed::bytes;
 use crate::models::method::Cost;

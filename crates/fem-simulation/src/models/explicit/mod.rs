@@ -24,8 +24,7 @@ use crate::effects::{
     MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, Support, SurfaceSlip,
     Viscoelasticity, decide,
 };
-use crate::estimate::approach::{approach_of, frame_of};
-use crate::estimate::duration::expected_duration;
+use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::{Estimate, mach};
 use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
 use crate::models::restart_state::RestartState;
