@@ -133,16 +133,16 @@ pub(crate) fn is_unresolved(simulation: &Simulation, collision: &Collision) -> b
 /// and spans few elements. Meshes of similar size agree on a wrong pressure there, and the mesh is not refined for it.
 pub(super) fn early_pressure_radius(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let size = contact_element_size(simulation, collision)?;
-    let softened = simulation.estimate(collision)?.softened;
-    let radius = softened.pressure_radius;
-    let is_early = radius < EARLY * softened.sizes.max_contact_radius;
+    let effective = simulation.estimate(collision)?.effective;
+    let radius = effective.pressure_radius;
+    let is_early = radius < EARLY * effective.sizes.max_contact_radius;
     (is_early && radius < FEW_AT_PRESSURE * size).then_some(radius)
 }
 
 /// Returns the relative distance of the peak pressure from that of closed forms, with their own error.
 fn distance_from_closed_form(simulation: &Simulation, collision: &Collision) -> f64 {
     let estimate = simulation.estimate(collision);
-    let expected = estimate.map(|estimate| estimate.softened.sizes.peak_pressure);
+    let expected = estimate.map(|estimate| estimate.effective.sizes.peak_pressure);
     let both = collision.peak_pressure.zip(expected);
     both.map_or(0.0, |(value, expected)| CLOSED_FORM_PRESSURE * (1.0 - expected / value).abs())
 }

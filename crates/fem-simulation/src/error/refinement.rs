@@ -294,7 +294,7 @@ impl ErrorEstimator {
             return Some(FaultySetting::ChatteringSprings);
         }
         // Springs overlap by half of this on average, and the contact time grows like the approach.
-        let overlap = collision.deepest.map_or(0.0, |deepest| deepest.overlap);
+        let overlap = collision.deepest_overlap.map_or(0.0, |deepest| deepest.overlap);
         let of_springs = 0.5 * overlap / collision.max_approach?;
         let is_soft = scene.penalty_factor().is_some_and(|factor| factor < 1.0);
         (is_soft && of_springs > miss.tolerance).then_some(FaultySetting::SoftSprings)

@@ -105,13 +105,13 @@ impl EffectiveModuli {
 
 impl Sizes {
     /// Returns the quantities of an impact. Bodies that stay together get the contact time of equally soft elastic ones.
-    fn of(impact: &Impact, softened: &HertzImpact) -> Self {
+    fn of(impact: &Impact, effective: &HertzImpact) -> Self {
         Self {
-            contact_time: impact.contact_time.unwrap_or_else(|| softened.contact_time()),
+            contact_time: impact.contact_time.unwrap_or_else(|| effective.contact_time()),
             peak_force: impact.peak_force,
             max_approach: impact.max_approach,
             max_contact_radius: impact.max_contact_radius,
-            peak_pressure: impact.peak_pressure.unwrap_or_else(|| softened.peak_pressure()),
+            peak_pressure: impact.peak_pressure.unwrap_or_else(|| effective.peak_pressure()),
         }
     }
 }
@@ -135,7 +135,7 @@ impl Estimate {
         if self.relaxed == 0.0 {
             return computed;
         }
-        let sizes = &mut computed.softened.sizes;
+        let sizes = &mut computed.effective.sizes;
         for (size, of_collision) in [
             (&mut sizes.contact_time, collision.contact_time),
             (&mut sizes.peak_force, collision.peak_force),

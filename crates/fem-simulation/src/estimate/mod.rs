@@ -43,11 +43,11 @@ pub struct Estimate {
     /// Share of its modulus that the more relaxing body loses during the contact, Σ g (1 − exp(−T/τ)).
     pub relaxed: f64,
     /// The contact with effective moduli, by which effects are judged; Hertz' contact for elastic bodies.
-    pub softened: EffectiveModuli,
+    pub effective: EffectiveModuli,
     /// Speed ratio [`Estimate::mach`] with the effective moduli.
-    pub softened_mach: f64,
+    pub effective_mach: f64,
     /// Speed ratio [`Estimate::ringing`] with the effective moduli.
-    pub softened_ringing: f64,
+    pub effective_ringing: f64,
 }
 
 impl Estimate {
@@ -126,13 +126,14 @@ impl Estimate {
             .filter_map(|material| material.relaxation())
             .map(|series| 1.0 - series.relaxation(contact_time))
             .fold(0.0, f64::max);
-        let softened = match relaxed > MUCH {
+        let effective = match relaxed > MUCH {
             true => EffectiveModuli::much(scene, &hertz).ok(),
             false => None,
         };
         let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
-        let softened = softened.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
-        let twin = softened.elastic_equivalent(scene);
+        let effective =
+            effective.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
+        let twin = effective.elastic_equivalent(scene);
         Ok(Self {
             hertz,
             contact_time,
@@ -143,9 +144,9 @@ impl Estimate {
             mach: mach(scene, speed),
             ringing: ringing(scene, hertz.contact_time()),
             relaxed,
-            softened,
-            softened_mach: mach(&twin, speed),
-            softened_ringing: ringing(&twin, softened.hertz.contact_time()),
+            effective,
+            effective_mach: mach(&twin, speed),
+            effective_ringing: ringing(&twin, effective.hertz.contact_time()),
         })
     }
 }

@@ -45,12 +45,12 @@ impl FiniteSizeEffect {
     ) -> Support {
         let share = Self::share(scene, estimate).unwrap_or_default();
         let warning = (share > LARGEST_SHARE).then(|| {
-            let doubt = match is_there {
+            let model_form_error = match is_there {
                 true => "its first order, which is all that this model has, is in doubt",
                 false => "half-spaces, which this model takes the spheres for, are in doubt",
             };
             format!(
-                "the spheres' own compliance adds {} to Hertz' approach; above {} {doubt}: use model {}",
+                "the spheres' own compliance adds {} to Hertz' approach; above {} {model_form_error}: use model {}",
                 percent(share),
                 percent(LARGEST_SHARE),
                 Vibration::models_that_serve(estimate)
@@ -80,8 +80,8 @@ impl FiniteSizeEffect {
 
     /// Returns the share of the spheres' own compliance in Hertz' approach, with the effective moduli.
     fn share(scene: &Scene, estimate: &Estimate) -> Option<f64> {
-        let hertz = &estimate.softened.hertz;
-        let size = estimate.softened.elastic_equivalent(scene).finite_size().ok()?;
+        let hertz = &estimate.effective.hertz;
+        let size = estimate.effective.elastic_equivalent(scene).finite_size().ok()?;
         let added = size.added_approach(hertz.peak_force(), hertz.max_contact_radius());
         Some((added / hertz.max_approach()).abs())
     }
@@ -92,7 +92,7 @@ impl Effect for FiniteSizeEffect {
         Self::NAME
     }
 
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let scene = ComputedScene::quiet(scene)?;
         let speed = estimate.hertz.approach_speed();
         let [with, without] =
@@ -104,16 +104,21 @@ impl Effect for FiniteSizeEffect {
     }
 
     /// Where it is a term it is its first order; of the pressure no model of half-spaces has it.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &EffectStatus) -> ModelFormError {
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        standing: &EffectStatus,
+    ) -> ModelFormError {
         let second_order = SECOND_ORDER * estimate.strain.powi(2);
         let of_size = match standing.is_lacking {
-            true => ModelFormError::of(&standing.left_out.unwrap_or_default(), estimate),
+            true => ModelFormError::of(&standing.neglect_error.unwrap_or_default(), estimate),
             false => ModelFormError::of(
                 &NeglectError::shares(estimate, second_order, second_order),
                 estimate,
             ),
         };
-        let pressure = Self::of_pressure(scene, estimate) * estimate.softened.sizes.peak_pressure;
+        let pressure = Self::of_pressure(scene, estimate) * estimate.effective.sizes.peak_pressure;
         match of_size.size(QuantityOfInterest::PeakPressure) {
             Some(size) => of_size.with(QuantityOfInterest::PeakPressure, size + pressure),
             None => of_size,
