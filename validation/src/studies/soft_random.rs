@@ -201,7 +201,8 @@ fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyErro
         Some((headline, error / scale, bar / scale))
     });
     let numbers: Vec<_> = numbers.collect();
-    let has_warned = computed.warnings().iter().any(|warning| warning.contains("above the tolerance"));
+    let has_warned =
+        computed.warnings().iter().any(|warning| warning.contains("above the tolerance"));
     let is_foretold = is_foretold(simulation, collision, &small).unwrap_or(true);
     // A contact without an end has neither time nor bars.
     let is_whole = numbers.len() == QuantityOfInterest::ALL.len();

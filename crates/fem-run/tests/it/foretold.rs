@@ -48,7 +48,9 @@ fn check_tells_what_may_follow() {
     place.write("auxetic.toml", AUXETIC);
     let open = place.succeed(&["check", "rubber.toml"]).stdout;
     let finer = open.lines().find(|line| line.starts_with("# mesh refinement  ")).unwrap();
-    for words in ["misses accuracy.tolerance: at most ", " finer meshes, ", " element updates more, "] {
+    for words in
+        ["misses accuracy.tolerance: at most ", " finer meshes, ", " element updates more, "]
+    {
         assert!(finer.contains(words), "{finer}");
     }
     let told = place.succeed(&["check", "auxetic.toml"]).stdout;
