@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fem::results::RunCost;
+use fem::results::CostSummary;
 use fem::schema::ModelTable;
 use fem::{
     Case, CaseError, Collision, HistoryRow, OutputRequest, OutputRequestError, PairCache,
@@ -104,7 +104,8 @@ impl Session {
     pub fn finish(&mut self, seconds: f64) -> Option<RunOutcome> {
         let simulation = self.simulation.as_ref()?;
         let collision = self.course.take()?.finish();
-        let spent = RunCost { wall: seconds, solve: seconds, threads: 1, ..RunCost::default() };
+        let spent =
+            CostSummary { wall_s: seconds, solve_s: seconds, threads: 1, ..CostSummary::default() };
         let errors = simulation.estimate_errors(&collision);
         let warnings = simulation.warnings_with(&collision, &errors);
         let hertz = self.hertz(simulation, &collision).unwrap_or_default();

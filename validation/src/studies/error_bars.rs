@@ -1,13 +1,12 @@
-//! Whether the limit of a model is within the error bars that its results print, and within the tolerance that
-//! their case asks for.
+//! Tests whether the limit of a model is within the error bars of its results and within the tolerance of the case, and
+//! tabulates the constants of the error estimate.
 //!
-//! Scenes are those of [`scenes`](super::hard::scenes), half of them the same each time, half drawn anew
-//! when the claim is tried. The limit is that of condensed bodies over the size of their elements, and of
-//! explicit elements beside it what they add to condensed bodies on a finer mesh than the one that is
-//! tried ([`Limit`]): its own uncertainty is allowed. What is tried has the mesh and the moved mass of the default
-//! tolerance. A scene is `covered` if all six numbers are within their bars, and `met` if restitution, contact
-//! time, peak force and pressure are within the tolerance;
-//! `MODEL.bar` is the median of a bar over the error, or over what is known of the limit where that is more.
+//! The scenes are those of [`scenes`](super::hard::scenes): half of them are the same each time, half are drawn anew. The
+//! limit is the Richardson limit of condensed bodies; for explicit elements it includes their difference from condensed
+//! bodies on a mesh finer than the tested one ([`Limit`]). Its own uncertainty is allowed. The tested runs have the mesh
+//! and the added mass of the default tolerance. A scene is `covered` if all six quantities are within their bars, and
+//! `met` if restitution, contact time, peak force and pressure are within the tolerance. `MODEL.bar` is the median of a
+//! bar over the error, or over the uncertainty of the limit if that is larger.
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
@@ -24,35 +23,35 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Elements across the contact of what a limit is made of, and the mass that is moved there.
+/// Added mass of the runs that make a limit, and their elements across the contact.
 const LITTLE_MASS: f64 = 2e-4;
 const EXPLICIT: [f64; 2] = [8.0, 11.0];
 const CONDENSED: [f64; 5] = [8.0, 11.0, 16.0, 23.0, 32.0];
-/// Scenes that are shown, the worst first.
+/// Number of listed scenes, the worst first.
 const N_SHOWN: usize = 8;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Of the scenes that are the same each time.
+    /// Seed of the scenes that are the same each time.
     seed: u64,
-    /// Scenes of each half.
+    /// Number of scenes of each half.
     scenes: usize,
-    /// Scenes that need more element updates on the finest mesh are passed over.
+    /// Most element updates on the finest mesh; scenes above are skipped.
     element_updates: f64,
 }
 
-/// One model in one scene.
+/// The errors and bars of one model in one scene.
 struct Trial {
     scene: String,
     measured: Vec<Measured>,
 }
 
-/// One quantity of a trial: of the restitution absolute, of others relative.
+/// One quantity of a trial: the restitution's errors absolute, others relative.
 #[derive(Clone, Copy)]
 struct Measured {
     headline: QuantityOfInterest,
-    /// With its sign.
+    /// Signed error.
     error: f64,
     bar: f64,
     /// Uncertainty of the limit that the error is measured from.
@@ -81,7 +80,7 @@ impl Measured {
 
 type Numbers = [Option<f64>; 6];
 
-/// Tries the bars of explicit elements and of condensed bodies.
+/// Tests the bars of explicit elements and of condensed bodies.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     // The only source of chance without a clock: what hash tables are seeded with.
@@ -93,6 +92,14 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
             all.extend(trials);
         }
     }
+    let measured: Vec<Measured> =
+        trials.iter().flatten().flat_map(|trial| trial.measured.clone()).collect();
+    findings.tabulate(
+        "Constants of the error estimate (crates/fem-simulation/src/error/calibration.rs). The edge constant needed is that \
+         with which the bars of 98 % of these scenes hold.",
+        ["constants", "quantity", "covered", "median bar", "bar over error", "edge constant", "edge constant needed"],
+        calibration_rows(&measured),
+    );
     for (name, mut trials) in ["explicit", "condensed"].into_iter().zip(trials) {
         findings.measure(format!("{name}.scenes"), trials.len() as f64);
         let covered = trials.iter().filter(|trial| trial.share() <= 1.0).count();
@@ -105,14 +112,6 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         findings.measure(
             format!("{name}.bar"),
             ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN),
-        );
-        findings.tabulate(
-            format!(
-                "{name}: constants of the error estimate (crates/fem-simulation/src/error/calibration.rs). The edge \
-                 constant needed is that with which the bars of 98 % of these scenes hold."
-            ),
-            ["quantity", "covered", "median bar", "bar over error", "edge constant", "edge constant needed"],
-            QuantityOfInterest::ALL.into_iter().map(|headline| calibration_row(&trials, headline)),
         );
         trials.sort_by(|a, b| b.share().total_cmp(&a.share()));
         let rows = trials.iter().take(N_SHOWN).map(|trial| {
@@ -134,35 +133,44 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Returns the calibration of one quantity: how often its bars hold, how wide they are, and its edge constant.
-fn calibration_row(trials: &[Trial], headline: QuantityOfInterest) -> [String; 6] {
-    let all =
-        || trials.iter().flat_map(|trial| &trial.measured).filter(|it| it.headline == headline);
-    let quantile = |of: &dyn Fn(&Measured) -> f64, share: f64| {
-        let mut values: Vec<f64> = all().map(of).collect();
-        values.sort_by(f64::total_cmp);
-        let k = (share * values.len() as f64) as usize;
-        values.get(k.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
+/// Returns, for each row of constants and each quantity, how often the bars hold, how wide they are, the edge constant and
+/// the one that is needed.
+fn calibration_rows(measured: &[Measured]) -> Vec<[String; 7]> {
+    let mut names: Vec<&str> = measured.iter().map(|it| it.parts.constants).collect();
+    names.sort_unstable();
+    names.dedup();
+    let keys = names.into_iter().flat_map(|name| QuantityOfInterest::ALL.map(|key| (name, key)));
+    let row = |(name, quantity): (&str, QuantityOfInterest)| {
+        let is_it = |it: &&Measured| it.parts.constants == name && it.headline == quantity;
+        let all: Vec<&Measured> = measured.iter().filter(is_it).collect();
+        let quantile = |of: &dyn Fn(&Measured) -> f64, share: f64| {
+            let mut values: Vec<f64> = all.iter().map(|it| of(it)).collect();
+            values.sort_by(f64::total_cmp);
+            let k = (share * values.len() as f64) as usize;
+            values.get(k.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
+        };
+        let covered = all.iter().filter(|it| it.share() <= 1.0).count();
+        let edge = |it: &Measured| it.parts.edge * it.parts.across.max(1.0).powi(2);
+        [
+            name.to_string(),
+            quantity.key().to_string(),
+            format!("{covered} of {}", all.len()),
+            format!("{:.1e}", quantile(&|it| it.bar, 0.5)),
+            format!("{:.1}", quantile(&Measured::width, 0.5)),
+            format!("{:.3}", quantile(&edge, 0.5)),
+            format!("{:.3}", quantile(&Measured::edge_needed, 0.98)),
+        ]
     };
-    let covered = all().filter(|it| it.share() <= 1.0).count();
-    let edge = all().map(|it| it.parts.edge * it.parts.across.max(1.0).powi(2)).next();
-    [
-        headline.key().to_string(),
-        format!("{covered} of {}", all().count()),
-        format!("{:.1e}", quantile(&|it| it.bar, 0.5)),
-        format!("{:.1}", quantile(&Measured::width, 0.5)),
-        format!("{:.3}", edge.unwrap_or(f64::NAN)),
-        format!("{:.3}", quantile(&Measured::edge_needed, 0.98)),
-    ]
+    keys.map(row).collect()
 }
 
-/// Trials of both models in the scenes of a seed.
+/// Returns the trials of both models in the scenes of a seed.
 fn half(
     laboratory: &Laboratory,
     parameters: &Parameters,
     seed: u64,
 ) -> Result<[Vec<Trial>; 2], StudyError> {
-    /// Scenes that are drawn for one that is tried, at most.
+    /// Most scenes that are drawn for each one that is tested.
     const MOST_DRAWN: usize = 8;
     let mut random = Random::new(seed);
     let mut both: [Vec<Trial>; 2] = Default::default();
@@ -184,7 +192,7 @@ fn half(
     Ok(both)
 }
 
-/// Both models in a scene; none of one that is too dear, or that a model refuses.
+/// Tests both models in a scene; `None` for a scene that is too expensive or that a model rejects.
 fn try_scene(
     laboratory: &Laboratory,
     parameters: &Parameters,
@@ -201,7 +209,7 @@ fn try_scene(
     })
 }
 
-/// Errors, bars and what is known of the limits, of explicit elements and of condensed bodies.
+/// Computes errors, bars and the limits' uncertainties, for explicit elements and for condensed bodies.
 fn compute(case: &Case, parameters: &Parameters) -> Result<Option<[Vec<Measured>; 2]>, CaseError> {
     let radius = match fem::Estimate::of(case.scene()) {
         Ok(estimate) => estimate.contact_radius,
@@ -269,7 +277,7 @@ fn compute(case: &Case, parameters: &Parameters) -> Result<Option<[Vec<Measured>
         Ok::<_, CaseError>(measured.collect::<Vec<_>>())
     };
     let judged = [judge(&[Setting::Explicit], true)?, judge(&[condensed(false)], false)?];
-    // A contact without an end has neither time nor bars.
+    // Bodies that stay together have neither a contact time nor bars.
     Ok(judged
         .iter()
         .all(|measured| measured.len() == QuantityOfInterest::ALL.len())
@@ -277,7 +285,7 @@ fn compute(case: &Case, parameters: &Parameters) -> Result<Option<[Vec<Measured>
 }
 
 impl Trial {
-    /// Whether the numbers are within the default tolerance, by what is known of their limits.
+    /// Returns whether the quantities are within the default tolerance, with the uncertainty of their limits.
     fn is_met(&self) -> bool {
         let accuracy = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
         let Accuracy { restitution, contact_time, peak_force, peak_pressure } = accuracy;
@@ -287,7 +295,7 @@ impl Trial {
                 QuantityOfInterest::ContactTime => contact_time,
                 QuantityOfInterest::PeakForce => peak_force,
                 QuantityOfInterest::PeakPressure => peak_pressure,
-                // Nothing is asked for of approach and contact radius.
+                // Approach and contact radius have no tolerance.
                 QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => {
                     return true;
                 }
@@ -296,7 +304,7 @@ impl Trial {
         })
     }
 
-    /// The worst error over its bar and what is known of the limit.
+    /// Returns the largest error over its bar and the uncertainty of the limit.
     fn share(&self) -> f64 {
         let shares = self.measured.iter().map(Measured::share);
         shares.fold(0.0, fem_collision::nan_aware_max_abs)

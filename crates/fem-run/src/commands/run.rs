@@ -77,7 +77,9 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let folder = ResultFolder::claim(&place.out, &longest_name(&stem), replaces)?;
     let mut estimator = ErrorEstimator::default();
     let RefinedBeforeRun { simulation, is_open } = match &memory {
-        Some(memory) => RefinedBeforeRun { simulation: simulation.as_in(memory)?, is_open: false },
+        Some(memory) => {
+            RefinedBeforeRun { simulation: simulation.on_mesh_of(memory)?, is_open: false }
+        }
         None => estimator.refine_before_run(simulation, || true),
     };
     if !options.quiet {

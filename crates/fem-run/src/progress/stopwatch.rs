@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use fem::results::RunCost;
+use fem::results::CostSummary;
 use fem::{ErrorEstimator, Simulation};
 use fem_collision::{Monitor, Phase, Progress};
 
@@ -63,14 +63,15 @@ impl<M: Monitor> Monitor for Timed<M> {
 
 impl Stopwatch {
     /// Returns what has been spent until now.
-    pub fn spent(&self) -> RunCost {
-        RunCost {
-            wall: self.started.elapsed().as_secs_f64(),
-            setup: self.setup.as_secs_f64(),
-            trials: self.trials.as_secs_f64(),
-            solve: self.solve.as_secs_f64(),
+    pub fn spent(&self) -> CostSummary {
+        CostSummary {
+            wall_s: self.started.elapsed().as_secs_f64(),
+            setup_s: self.setup.as_secs_f64(),
+            trials_s: self.trials.as_secs_f64(),
+            solve_s: self.solve.as_secs_f64(),
             threads: THREADS,
-            peak_memory: peak_memory(),
+            peak_memory_bytes: peak_memory(),
+            ..CostSummary::default()
         }
     }
 }

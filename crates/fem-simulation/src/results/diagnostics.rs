@@ -1,7 +1,8 @@
-//! Diagnostics of a finished run: warnings about what the run itself shows.
+//! All warnings about a run: before it, and the diagnostics of the finished run.
 
 use std::f64::consts::PI;
 
+use fem_case::ModelChoice;
 use fem_case::engineering::show;
 use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, Stop};
 use fem_mesh::SphereMesh;
@@ -11,23 +12,116 @@ use crate::error::{
     ErrorEstimate, LARGEST_NOISE, early_pressure_warning, excess_of_restitution, is_unresolved,
     noise, tolerance_warning, unbalanced_energy, unresolved_warning, widest_contact,
 };
-use crate::models::method::ElementSetup;
+use crate::estimate::mach;
+use crate::models::method::{Cost, ElementSetup};
+use crate::models::{ModelCandidate, SelectedModel};
 use crate::plan::Plan;
 use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::mesh_source::longest_contact_edge;
+use crate::plan::penalty_compliance::softness;
 use crate::simulation::Simulation;
 
-/// Overlap of the surfaces over the approach.
+/// Largest overlap of the surfaces over the approach without a warning.
 const LARGEST_PENETRATION: f64 = 0.01;
-/// Springs as stiff as usual overlap by less on the meshes that are chosen, and are advised wherever softer ones might do.
+/// Default penalty factor, the least that is advised: its springs overlap by less on planned meshes.
 const USUAL: f64 = 1.0;
 /// Safety factor on the advised stiffness of springs.
 const ROOM_OF_ADVICE: f64 = 1.2;
-/// Power by which elements become shorter for an overlap that is so many times smaller: it falls with their 0.85th.
+/// Power of the overlap with which elements are shortened: the overlap falls with the power 0.85 of the element size.
 const SHORTER: f64 = 1.2;
 
-/// Returns warnings about a finished collision: numbers that no collision can have, errors of the elements that exceed
-/// the tolerance, and effects that show in it.
+/// Seconds of a run from which a cheaper model is suggested.
+const LONG: f64 = 3.0;
+
+impl Simulation {
+    /// Returns the warnings before the run.
+    pub fn warnings_before(&self) -> Vec<String> {
+        let scene = self.case().scene();
+        let of_scene = scene.implausible_numbers().into_iter().chain(scene.unpublished_loss());
+        of_scene
+            .chain(self.shear_waves_warning())
+            .chain(self.choice_warning())
+            .chain(self.setup().warnings())
+            .chain(self.mesh_warning())
+            .chain(self.springs_warning())
+            .chain(self.cheaper())
+            .collect()
+    }
+
+    /// Returns all warnings about a collision: those before it, those of its result, and those of its model.
+    pub fn warnings_with(&self, collision: &Collision, errors: &ErrorEstimate) -> Vec<String> {
+        let scene = self.case().scene();
+        let mut warnings = scene.implausible_numbers();
+        warnings.extend(scene.unpublished_loss());
+        warnings.extend(self.choice_warning());
+        warnings.extend(self.decisions(collision).warnings);
+        warnings.extend(self.setup().unread.iter().cloned());
+        warnings.extend(diagnose(self, collision, errors));
+        warnings.extend(collision.warnings.iter().cloned());
+        warnings
+    }
+
+    /// Estimates the errors of a collision by reference runs, and returns all warnings about it.
+    pub fn warnings(&self, collision: &Collision) -> Vec<String> {
+        self.warnings_with(collision, &self.estimate_errors(collision))
+    }
+
+    /// Returns a warning that the mesh resolves the expected contact by too few elements.
+    pub fn mesh_warning(&self) -> Option<String> {
+        unresolved_warning(self, self.setup().estimate.contact_radius)
+    }
+
+    /// Returns a warning that explicit elements fold if the bodies meet faster than shear waves leave the contact.
+    fn shear_waves_warning(&self) -> Option<String> {
+        let scene = self.scene_of_model();
+        let mach = mach(&scene, scene.approach_speed());
+        (mach > 1.0 && *scene.model() == ModelChoice::Fem).then(|| {
+            format!(
+                "the approach speed is {mach:.1} times that of the shear waves, √(G/ρ): above 1 the flank of a body \
+                 may fold onto the other one, which stops the run; lower body.N.approach_speed, or check the moduli \
+                 and their units"
+            )
+        })
+    }
+
+    /// Returns a warning that soft penalty springs lengthen the contact.
+    fn springs_warning(&self) -> Option<String> {
+        let elements = self.setup().elements.as_ref().filter(|elements| elements.has_springs)?;
+        let longer = softness(&elements.plan)?;
+        (longer > self.case().scene().accuracy().contact_time).then(|| {
+            format!(
+                "springs of contact.penalty_factor = {} are compliant: the contact lasts about {:.0} % longer; write \
+                 contact.penalty_factor = 1",
+                elements.plan.penalty_factor,
+                100.0 * longer
+            )
+        })
+    }
+
+    /// Suggests the condensed model for a long run, if it is expected to meet the tolerance too.
+    pub fn cheaper(&self) -> Option<String> {
+        let Cost::Steps { seconds, .. } = self.setup().cost else { return None };
+        let scene = self.case().scene();
+        if seconds < LONG || *scene.model() != ModelChoice::Fem {
+            return None;
+        }
+        let open = SelectedModel::of(&scene.clone().with_model(ModelChoice::Auto)).ok()?;
+        // Condensed bodies have fields to draw, as explicit elements do.
+        let serves = |it: &&ModelCandidate| {
+            it.model.starts_with("condensed") && (it.chosen || it.reason.starts_with("serves"))
+        };
+        let other = open.considered.iter().find(serves).filter(|_| open.warning.is_none())?;
+        Some(format!(
+            "the run takes about {}; model.{} is also expected to be within the tolerance of the case and takes \
+             hundredths of a second",
+            show(seconds, "s"),
+            other.model
+        ))
+    }
+}
+
+/// Returns warnings about a finished collision: impossible numbers, errors of the elements above the tolerance, and effects
+/// that show in it.
 pub fn diagnose(
     simulation: &Simulation,
     collision: &Collision,
@@ -43,7 +137,7 @@ pub fn diagnose(
     warnings
 }
 
-/// Overlap of the surfaces as a share of the approach, if it is too large.
+/// Returns the overlap of the surfaces over the approach, if it is too large.
 pub(crate) fn overlap_of_approach(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let overlap = Run::of(simulation, collision)?.overlap()?;
     (overlap.of_approach > LARGEST_PENETRATION).then_some(overlap.of_approach)
@@ -59,7 +153,7 @@ fn of_elements(
     let coarse = widest_contact(simulation, collision)
         .and_then(|radius| unresolved_warning(simulation, radius));
     let is_unresolved = is_unresolved(simulation, collision);
-    // On a coarse mesh the surfaces overlap because of the mesh, unless the springs are soft.
+    // On a coarse mesh the mesh is the cause of overlap, unless the springs are soft.
     let is_of_mesh = is_unresolved || (coarse.is_some() && run.plan.penalty_factor >= USUAL);
     let penetration = run.penetration().filter(|_| !is_of_mesh);
     let is_estimated = errors.discretisation(QuantityOfInterest::PeakForce).is_some();
@@ -93,7 +187,7 @@ fn incomplete(collision: &Collision) -> Option<String> {
     Some(format!("the run is not complete: {stop}; maxima are those so far"))
 }
 
-/// Nothing of a run that ended for what its energy or its motion was: the stop has cause and remedy.
+/// Returns a warning about the energy residual, unless it has stopped the run: the stop has its own remedy.
 fn energy_residual(collision: &Collision, remedy: &str) -> Option<String> {
     use Stop::{EnergyGrowth, EnergyImbalance, NoNumber, StabilityLost};
     if let Some(
@@ -116,18 +210,18 @@ fn restitution(collision: &Collision) -> Option<String> {
     Some(format!("the restitution {restitution:.6} is above 1: the numerical error is visible"))
 }
 
-/// A positive number as it is advised: rounded up to two digits.
+/// Rounds a positive number up to two digits.
 fn two_digits(value: f64) -> f64 {
     let step = 10.0_f64.powf(value.log10().floor() - 1.0);
-    // Printed and read, a decimal number is the nearest there is.
+    // Printing and parsing gives the nearest decimal number.
     format!("{:.1e}", (value / step).ceil() * step).parse().unwrap_or(value)
 }
 
-/// Overlap of the surfaces at most.
+/// Largest overlap of the surfaces.
 struct Overlap {
-    /// Over an element's length.
+    /// Overlap over the element length.
     of_element: f64,
-    /// Over the largest approach.
+    /// Overlap over the largest approach.
     of_approach: f64,
 }
 
@@ -150,13 +244,12 @@ impl<'a> Run<'a> {
         Some(Self { collision, plan, meshes, has_springs, noise_advice })
     }
 
-    /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty
-    /// stiffness per area.
+    /// Returns the overlap by the mean pressure F/πa² over the penalty stiffness per area.
     fn overlap(&self) -> Option<Overlap> {
-        // Why a run stopped early is said, and what it came to is no contact of usual springs.
-        let is_sound = self.has_springs && self.collision.is_complete();
-        let radius = self.collision.max_contact_radius.filter(|_| is_sound)?;
-        // A contact of the poles alone has no pressure; that meshes cannot carry it is said.
+        // An incomplete run has a warning of its own.
+        let is_known = self.has_springs && self.collision.is_complete();
+        let radius = self.collision.max_contact_radius.filter(|_| is_known)?;
+        // A contact of the poles alone has no pressure, and a warning about the mesh.
         let radius = Some(radius).filter(|radius| *radius > 0.0)?;
         let mean_pressure = self.collision.peak_force? / (PI * radius * radius);
         let of_element = mean_pressure / self.plan.contact_stiffness;
@@ -165,7 +258,7 @@ impl<'a> Run<'a> {
         Some(Overlap { of_element, of_approach })
     }
 
-    /// That the surfaces overlap by too much.
+    /// Returns a warning that the surfaces overlap too much.
     fn penetration(&self) -> Option<String> {
         let Overlap { of_element, of_approach } = self.overlap()?;
         let excess = of_approach / LARGEST_PENETRATION;
@@ -183,8 +276,8 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Returns further advice against an overlap of this multiple of the limit. If springs are softer than
-    /// the default, they are the cause and not the mesh.
+    /// Returns further advice against an overlap of this multiple of the limit. Springs softer than the default are the
+    /// cause, and not the mesh.
     fn shorter_elements(&self, excess: f64) -> String {
         let size = self.plan.contact_element_size / (ROOM_OF_ADVICE * excess.powf(SHORTER));
         match self.plan.makes_meshes {
@@ -194,7 +287,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// That the contact force scatters by too much.
+    /// Returns a warning that the contact force scatters too much.
     fn noise(&self) -> Option<String> {
         Some(format!(
             "the contact force scatters by {:.1} % of its peak{}; above {} %, peaks are too high: {}",

@@ -22,7 +22,6 @@ pub(crate) use diagnostics::overlap_of_approach;
 pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
-pub use summarise::RunCost;
 pub use summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Parts, Quantities,
     RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,

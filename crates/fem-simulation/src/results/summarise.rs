@@ -1,4 +1,4 @@
-//! From a collision to its summary.
+//! Builds the summary of a collision.
 
 use fem_collision::{Collision, EnergyLedger, QuantityOfInterest, RestState};
 use fem_laws::HertzImpact;
@@ -14,31 +14,14 @@ use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 use crate::simulation::identity::NUMERICS;
 
-/// The cost of a run, measured by the caller.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RunCost {
-    /// All of it, s.
-    pub wall: f64,
-    /// Until the collision could begin, s.
-    pub setup: f64,
-    /// Collisions before it whose mesh or region of contact did not do, with what told that, s.
-    pub trials: f64,
-    /// The collision alone, s.
-    pub solve: f64,
-    /// Threads that the run used.
-    pub threads: usize,
-    /// Largest memory of the process, bytes.
-    pub peak_memory: Option<u64>,
-}
-
 impl Summary {
-    /// Sums up a collision and its estimated errors. `warnings` and `files` are those so far; numbers that are not finite
-    /// become `None`, and are told in one more warning.
+    /// Returns the summary of a collision with its estimated errors. `cost` has the times that the caller measured, `warnings`
+    /// and `files` are those so far. Numbers that are not finite become `None`, and one more warning lists them.
     pub fn of(
         simulation: &Simulation,
         collision: &Collision,
         errors: &ErrorEstimate,
-        spent: RunCost,
+        cost: CostSummary,
         warnings: Vec<String>,
         files: Vec<String>,
     ) -> Self {
@@ -64,15 +47,10 @@ impl Summary {
             steps: collision.steps,
             element_updates: collision.element_updates,
             cost: CostSummary {
-                wall_s: spent.wall,
-                setup_s: spent.setup,
-                trials_s: spent.trials,
-                solve_s: spent.solve,
-                ns_per_element_update: updates.map(|updates| 1e9 * spent.solve / updates as f64),
+                ns_per_element_update: updates.map(|updates| 1e9 * cost.solve_s / updates as f64),
                 all_element_updates: all_element_updates(simulation, collision, errors),
-                threads: spent.threads,
-                peak_memory_bytes: spent.peak_memory,
                 factor_bytes: collision.factor_bytes,
+                ..cost
             },
             effects,
             coarser_meshes: Some(simulation.levels().to_vec()).filter(|levels| !levels.is_empty()),
@@ -91,8 +69,8 @@ impl Summary {
     }
 }
 
-/// Returns the element updates of a collision, of coarser meshes before it, and of the reference runs of all; `None` for
-/// a model that takes none.
+/// Returns the element updates of a collision, of coarser meshes before it, and of all reference runs; `None` for a model
+/// without element updates.
 fn all_element_updates(
     simulation: &Simulation,
     collision: &Collision,
@@ -104,15 +82,15 @@ fn all_element_updates(
 
 fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary> {
     let estimate = simulation.estimate(collision);
-    let worth = |verdict: EffectDecision| {
+    let summary = |verdict: EffectDecision| {
         let neglect_error =
             estimate.as_ref().and_then(|estimate| simulation.neglect_error(&verdict, estimate));
         EffectSummary { verdict, error_if_left_out: neglect_error }
     };
-    simulation.decisions(collision).verdicts.into_iter().map(worth).collect()
+    simulation.decisions(collision).verdicts.into_iter().map(summary).collect()
 }
 
-/// Which radius and pressure a run has that decided so.
+/// Returns whether radius and pressure are those of the deformed bodies.
 fn radius_and_pressure(effects: &[EffectSummary]) -> &'static str {
     let is_finite =
         |effect: &EffectSummary| effect.verdict.name == FiniteStrain::NAME && effect.verdict.active;
@@ -121,12 +99,12 @@ fn radius_and_pressure(effects: &[EffectSummary]) -> &'static str {
 
 /// Keeps numbers that are not finite out of the summary.
 struct Numbers {
-    /// Returns the keys.
+    /// Keys of the numbers that are not finite.
     not_finite: Vec<String>,
 }
 
 impl Numbers {
-    /// All of them have one cause, and are told together.
+    /// Lists the numbers that are not finite, which have one cause.
     fn warning(self) -> Option<String> {
         let keys = self.not_finite.join(", ");
         (!keys.is_empty()).then(|| format!("not finite, and left out: {keys}"))
@@ -145,19 +123,19 @@ impl Numbers {
 }
 
 fn quantities(collision: &Collision, numbers: &mut Numbers) -> Quantities {
-    Quantities::by(|headline| numbers.finite_if_any(headline.key(), headline.of(collision)))
+    Quantities::by(|quantity| numbers.finite_if_any(quantity.key(), quantity.of(collision)))
 }
 
-/// Hertz with instantaneous moduli; nothing where closed forms have no finite numbers.
+/// Returns Hertz' quantities with instantaneous moduli; `None` if closed forms are not finite.
 fn hertz(estimate: Option<Estimate>, numbers: &mut Numbers) -> Quantities {
-    Quantities::by(|headline| {
-        let number = estimate.as_ref().map(|estimate| of_hertz(headline, &estimate.hertz));
-        numbers.finite_if_any(&format!("hertz.{}", headline.key()), number)
+    Quantities::by(|quantity| {
+        let number = estimate.as_ref().map(|estimate| of_hertz(quantity, &estimate.hertz));
+        numbers.finite_if_any(&format!("hertz.{}", quantity.key()), number)
     })
 }
 
-fn of_hertz(headline: QuantityOfInterest, hertz: &HertzImpact) -> f64 {
-    match headline {
+fn of_hertz(quantity: QuantityOfInterest, hertz: &HertzImpact) -> f64 {
+    match quantity {
         QuantityOfInterest::Restitution => hertz.restitution(),
         QuantityOfInterest::ContactTime => hertz.contact_time(),
         QuantityOfInterest::PeakForce => hertz.peak_force(),
@@ -172,9 +150,9 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
         |key: &str, value: Option<f64>| numbers.finite_if_any(&format!("energy.{key}"), value);
     let initial_j = at_end("initial_j", collision.initial_energy);
     let accounts =
-        collision.energies.entries().fold(EnergyLedger::EMPTY, |book, (account, energy)| {
+        collision.energies.entries().fold(EnergyLedger::EMPTY, |ledger, (account, energy)| {
             let finite = at_end(&energy_key(account), Some(energy));
-            finite.map_or(book, |energy| book.with(account, energy))
+            finite.map_or(ledger, |energy| ledger.with(account, energy))
         });
     Energy {
         initial_j,
@@ -184,7 +162,7 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
     }
 }
 
-/// Each contact of a case with gravity.
+/// Returns the contacts of a case with gravity.
 fn bounces(
     simulation: &Simulation,
     collision: &Collision,

@@ -9,51 +9,50 @@ use crate::effects::{EffectDecision, NeglectError};
 use crate::error::{ElasticNull, RefinementLevel};
 use crate::models::ModelCandidate;
 
-/// The name of the file.
+/// The file name of the summary.
 pub const SUMMARY_FILE: &str = "summary.json";
-/// The value of `program`, by which a result folder is known.
+/// The value of the key `program`, which identifies a result folder.
 pub const PROGRAM: &str = "fem-run";
 
 /// The summary of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// Identity of the collision.
+    /// Quantities of the collision.
     #[serde(flatten)]
     pub collision: Quantities,
-    /// Largest contact force of a single step, in models that step.
+    /// Largest contact force of a single step; `None` for closed forms.
     pub peak_force_raw_n: Option<f64>,
-    /// `"true"`, of the deformed bodies, at finite strain; else `"nominal"`, of undeformed area.
+    /// `"true"` (of the deformed bodies) at finite strain, else `"nominal"` (of the undeformed area).
     pub radius_and_pressure: &'static str,
-    /// Loss of a relaxing run's mesh and settings with relaxation off.
+    /// Loss of a relaxing run by mesh and settings, with relaxation off.
     pub elastic_null: Option<ElasticNull>,
-    /// Closed contacts, openings in between not counted.
+    /// Number of contact episodes, separated by openings.
     pub contact_episodes: u64,
-    /// Hertz' values of these quantities, with instantaneous moduli.
+    /// Hertz' values of these quantities with instantaneous moduli.
     pub hertz: Quantities,
-    /// The ledger at the end of the run.
+    /// Energies at the end of the run.
     pub energy: Energy,
-    /// Worst drift over Σ m|v| at the start.
+    /// Largest drift of the momentum over Σ m|v| at the start.
     pub momentum_residual_relative: Option<f64>,
-    /// With gravity each contact, of which all keys above and the bodies are the first one's.
+    /// Contacts under gravity; all keys above and the bodies belong to the first one.
     pub bounces: Option<Vec<BounceSummary>>,
-    /// Static equilibrium of a ball at rest, once all has relaxed.
+    /// Static equilibrium of a ball at rest, fully relaxed.
     pub rest: Option<RestSummary>,
-    /// Lower and upper body.
+    /// The lower and the upper body.
     pub bodies: Vec<BodySummary>,
     /// Step of a model with a fixed step.
     pub time_step_s: Option<f64>,
-    /// Steps done by such a model.
+    /// Number of steps of such a model.
     pub steps: Option<u64>,
-    /// Elements times steps.
+    /// Number of elements times steps.
     pub element_updates: Option<u64>,
     /// Cost of the run.
     pub cost: CostSummary,
-    /// Which effects were on, why, and what they are worth.
+    /// The effects: whether they were on, why, and the error of neglecting them.
     pub effects: Vec<EffectSummary>,
     /// Uncertainty of the quantities.
     pub uncertainty: UncertaintySummary,
-    /// Meshes that were too coarse for the tolerance of the case, the first one first; none where the first
-    /// one does.
+    /// Meshes that were too coarse for the tolerance of the case, in order; `None` if the first one was sufficient.
     pub coarser_meshes: Option<Vec<RefinementLevel>>,
     /// The candidate models if the case leaves the choice open, from the cheapest to the most expensive.
     pub models_considered: Option<Vec<ModelCandidate>>,
@@ -63,49 +62,49 @@ pub struct Summary {
     pub complete: bool,
     /// Why the run did not end by itself.
     pub stopped_because: Option<String>,
-    /// By which a result folder is known.
+    /// Name of the program ([`PROGRAM`]).
     pub program: &'static str,
     /// Version of the program.
     pub version: &'static str,
-    /// The numerics of the build; see [`NUMERICS`](crate::NUMERICS).
+    /// Identity of the build's numerics ([`NUMERICS`](crate::NUMERICS)).
     pub numerics: &'static str,
-    /// Digest of what was asked for; see [`Simulation::made_from`](crate::Simulation::made_from).
+    /// Identity of the case ([`Simulation::made_from`](crate::Simulation::made_from)).
     pub made_from: String,
-    /// Names of the files that the program wrote into the folder.
+    /// Names of the files in the result folder.
     pub files: Vec<String>,
     /// The resolved case.
     pub case: CaseFile,
 }
 
-/// An effect: whether the run had it, why, and by how much the numbers change without it.
+/// An effect: whether the run had it, why, and the error of neglecting it.
 #[derive(Clone, Debug, Serialize)]
 pub struct EffectSummary {
-    /// Whether it is on, and why.
+    /// Decision on the effect, with the reason.
     #[serde(flatten)]
     pub verdict: EffectDecision,
-    /// Estimate by closed forms, if there is one.
+    /// Error of neglecting the effect, if closed forms estimate it.
     pub error_if_left_out: Option<NeglectError>,
 }
 
-/// Identity of a collision.
+/// The quantities of interest of a collision, SI.
 #[derive(Clone, Debug, Serialize)]
 pub struct Quantities {
-    /// Relative velocity after over before.
+    /// Relative velocity after the collision over that before.
     pub restitution: Option<f64>,
-    /// First to last contact.
+    /// Time from the first to the last contact.
     pub contact_time_s: Option<f64>,
     /// Largest contact force.
     pub peak_force_n: Option<f64>,
     /// Largest approach of the mass centres.
     pub max_approach_m: Option<f64>,
-    /// Where the pressure falls to zero, at its largest.
+    /// Largest radius at which the pressure falls to zero.
     pub max_contact_radius_m: Option<f64>,
     /// Largest pressure on the axis.
     pub peak_pressure_pa: Option<f64>,
 }
 
 impl Quantities {
-    /// Each as `number` has it.
+    /// Returns the quantities with the values of `number`.
     pub fn by(number: impl FnMut(QuantityOfInterest) -> Option<f64>) -> Self {
         let [
             restitution,
@@ -125,9 +124,9 @@ impl Quantities {
         }
     }
 
-    /// One of them.
-    pub fn number(&self, headline: QuantityOfInterest) -> Option<f64> {
-        match headline {
+    /// Returns one quantity.
+    pub fn number(&self, quantity: QuantityOfInterest) -> Option<f64> {
+        match quantity {
             QuantityOfInterest::Restitution => self.restitution,
             QuantityOfInterest::ContactTime => self.contact_time_s,
             QuantityOfInterest::PeakForce => self.peak_force_n,
@@ -138,78 +137,78 @@ impl Quantities {
     }
 }
 
-/// How far each quantity may be off, written by its key; sizes in its own unit.
+/// Error bars of the quantities, written under their keys in their units.
 #[derive(Clone, Copy, Debug)]
 pub struct UncertaintySummary([Parts; 6]);
 
 impl UncertaintySummary {
-    /// Returns quantities with the values given by the function.
+    /// Returns the error bars with the values of `parts`.
     pub fn by(parts: impl FnMut(QuantityOfInterest) -> Parts) -> Self {
         Self(QuantityOfInterest::ALL.map(parts))
     }
 
-    /// Returns one quantity.
-    pub fn parts(&self, headline: QuantityOfInterest) -> Parts {
-        self.0[headline as usize]
+    /// Returns the error bar of one quantity.
+    pub fn parts(&self, quantity: QuantityOfInterest) -> Parts {
+        self.0[quantity as usize]
     }
 }
 
 impl Serialize for UncertaintySummary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(
-            QuantityOfInterest::ALL.map(|headline| (headline.key(), self.parts(headline))),
+            QuantityOfInterest::ALL.map(|quantity| (quantity.key(), self.parts(quantity))),
         )
     }
 }
 
-/// The two parts of how far a quantity may be off.
+/// The two parts of an error bar.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Parts {
-    /// The truth of the continuum problem is expected within it.
+    /// Discretisation error: the exact solution of the model's continuum problem is expected within it.
     pub discretisation: Option<f64>,
-    /// Nature is expected within it and the first part together.
+    /// Model-form error: an experiment is expected within the sum of both parts.
     pub model: Option<f64>,
-    /// What is known of the second part where the whole is not: it is at least this.
+    /// Lower bound of the model-form error, if it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model_at_least: Option<f64>,
 }
 
 impl Parts {
-    /// Both together, where both are known.
+    /// Returns the sum of both parts, if both are known.
     pub fn sum(&self) -> Option<f64> {
         Some(self.discretisation? + self.model?)
     }
 
-    /// What is known of both together; nothing where that is nothing.
+    /// Returns the sum of the known parts; `None` if none is known.
     pub fn known(&self) -> Option<f64> {
         let parts = [self.discretisation, self.model.or(self.model_at_least)];
         parts.into_iter().flatten().reduce(|one, more| one + more)
     }
 }
 
-/// One contact of a ball that bounces.
+/// One contact of a bouncing ball.
 #[derive(Clone, Debug, Serialize)]
 pub struct BounceSummary {
     /// Relative speed at first touch.
     pub speed_before_m_s: Option<f64>,
-    /// Relative velocity after over before.
+    /// Relative velocity after the collision over that before.
     pub restitution: Option<f64>,
-    /// First to last contact.
+    /// Time from the first to the last contact.
     pub contact_time_s: Option<f64>,
     /// Largest contact force.
     pub peak_force_n: Option<f64>,
-    /// First touch since the start of the case.
+    /// Time of first touch since the start of the case.
     pub time_s: Option<f64>,
 }
 
 /// The contact of a ball at rest, with equilibrium moduli.
 #[derive(Clone, Debug, Serialize)]
 pub struct RestSummary {
-    /// When the ball was seen not to leave any more, since the start of the case.
+    /// Time since the start of the case at which the ball is found at rest.
     pub time_s: Option<f64>,
     /// Weight of the body, in newtons.
     pub static_force_n: Option<f64>,
-    /// Where the pressure falls to zero.
+    /// Radius at which the pressure falls to zero.
     pub contact_radius_m: Option<f64>,
     /// Approach of the mass centres.
     pub approach_m: Option<f64>,
@@ -217,41 +216,41 @@ pub struct RestSummary {
     pub centre_pressure_pa: Option<f64>,
 }
 
-/// One body; a wall has no mass and no vibration, a reduced model no elements.
+/// One body. A wall has no mass and no vibration, a reduced model has no elements.
 #[derive(Clone, Debug, Serialize)]
 pub struct BodySummary {
     /// Name in the case.
     pub name: String,
-    /// Elements of its mesh.
+    /// Number of elements.
     pub elements: Option<usize>,
-    /// Nodes of its mesh.
+    /// Number of nodes.
     pub nodes: Option<usize>,
     /// Mass, in kilograms.
     pub mass_kg: Option<f64>,
-    /// Mass added to light nodes by scaling, from others of the body.
+    /// Mass that mass scaling moves to light nodes.
     pub added_mass_kg: Option<f64>,
-    /// Velocity along +y before.
+    /// Velocity along +y before the collision.
     pub velocity_before_m_s: Option<f64>,
-    /// Velocity along +y after.
+    /// Velocity along +y after the collision.
     pub velocity_after_m_s: Option<f64>,
-    /// Energy left in its vibrations.
+    /// Energy of the remaining vibrations.
     pub vibration_energy_j: Option<f64>,
 }
 
 /// Cost of the run.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostSummary {
-    /// The process up to now.
+    /// Time of the process until now.
     pub wall_s: f64,
-    /// Time until the first collision could begin: case, meshes, factors, reference runs.
+    /// Time until the first collision began: case, meshes, factors, reference runs.
     pub setup_s: f64,
-    /// Collisions whose mesh or region of contact did not do, with what told that; 0 where the first did.
+    /// Time of collisions whose mesh or candidate region was not sufficient, with their error estimates.
     pub trials_s: f64,
-    /// The collision alone.
+    /// Time of the last collision alone.
     pub solve_s: f64,
-    /// Time of an element and step, of the collision alone.
+    /// Time per element update of the last collision.
     pub ns_per_element_update: Option<f64>,
-    /// Element updates of the collision, of coarser meshes before it, and of the reference runs of all.
+    /// Element updates of the collision, of coarser meshes before it, and of all reference runs.
     pub all_element_updates: Option<u64>,
     /// Threads that the run used.
     pub threads: usize,

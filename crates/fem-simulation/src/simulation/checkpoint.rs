@@ -1,7 +1,6 @@
-//! A memory as bytes, to be put into a file and taken up by another process: what it is of stands
-//! before it.
+//! Checkpoints: a restart state as bytes, which another process can read.
 //!
-//! One line of JSON, then the memory, whatever fields it has, in [postcard](https://postcard.jamesmunns.com/wire-format).
+//! A line of JSON identifies the run; the restart state follows in [postcard](https://postcard.jamesmunns.com/wire-format).
 //! Numbers keep their bits.
 
 use serde::{Deserialize, Serialize};
@@ -13,51 +12,51 @@ use crate::results::PROGRAM;
 use crate::simulation::identity::Identity;
 use crate::simulation::identity::NUMERICS;
 
-/// Of the bytes; another one is not read.
+/// Version of the format; others are not read.
 const FORMAT: u32 = 1;
-/// A longer first line is none of a checkpoint.
+/// Longest first line of a checkpoint.
 const LONGEST_HEAD: usize = 1000;
 
-/// What a checkpoint is of.
+/// The first line of a checkpoint, which identifies its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CheckpointHead {
     program: String,
     format: u32,
-    /// [`NUMERICS`] of the build.
+    /// Identity [`NUMERICS`] of the build.
     numerics: String,
-    /// See [`Identity::case`].
+    /// Identity of the case ([`Identity::case`]).
     pub case: String,
-    /// See [`Identity::result`].
+    /// Identity of the result ([`Identity::result`]).
     result: String,
-    /// SHA-256 of the memory's bytes.
+    /// SHA-256 of the restart state's bytes.
     sha256: String,
 }
 
-/// Why a run does not go on from a checkpoint.
+/// The reason why a run cannot resume from a checkpoint.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum CheckpointError {
-    /// No first line of a checkpoint, or one of another format.
-    #[error("this is no checkpoint of fem-run")]
+    /// The bytes do not begin like a checkpoint of this format.
+    #[error("this is not a checkpoint of fem-run")]
     NotOne,
-    /// Cut off or changed.
+    /// The bytes are incomplete or changed.
     #[error("this checkpoint is damaged")]
     Damaged,
-    /// Of a build that may give other bits.
+    /// The checkpoint belongs to a build that may give other bits.
     #[error(
-        "this checkpoint is of another build: its numerics are {found}, those of this one {NUMERICS}"
+        "this checkpoint belongs to another build: its numerics are {found}, those of this build {NUMERICS}"
     )]
     OtherNumerics {
-        /// Of the build that wrote it.
+        /// Numerics of the build that wrote it.
         found: String,
     },
-    /// Another case, output tables included, or other mesh files.
+    /// The checkpoint belongs to another case, another output request or other mesh files.
     #[error(
-        "this checkpoint is of another case, or this case wants other output or has other meshes"
+        "this checkpoint belongs to another case, or to other output tables or mesh files of this case"
     )]
     OtherCase,
 }
 
-/// The bytes of a memory of a run.
+/// Returns the checkpoint of a run's restart state.
 ///
 /// ```
 /// # use fem_case::schema::{BodyTable, MaterialTable, MeshTable};
@@ -71,19 +70,19 @@ pub enum CheckpointError {
 /// #     Some(MeshTable { contact_element_size: Some("0.2 mm".into()), ..Default::default() });
 /// # let simulation = Simulation::new(Case::of(file)?)?;
 /// let run = Identity::of(simulation.case())?;
-/// let mut course = simulation.start();
-/// course.advance(&mut ());
-/// let memory = course.memory().ok_or("a model that goes on from none")?;
-/// let bytes = checkpoint(&run, &memory);
-/// assert_eq!(restart_state_of(&bytes, &run), Ok(memory));
+/// let mut stepper = simulation.start();
+/// stepper.advance(&mut ());
+/// let state = stepper.memory().ok_or("a model without restart states")?;
+/// let bytes = checkpoint(&run, &state);
+/// assert_eq!(restart_state_of(&bytes, &run), Ok(state));
 ///
-/// let other = Identity { result: "of another case".to_string(), ..run };
+/// let other = Identity { result: "another case".to_string(), ..run };
 /// assert!(restart_state_of(&bytes, &other).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn checkpoint(run: &Identity, memory: &RestartState) -> Vec<u8> {
-    // A memory has lists, numbers and texts, all of which can be written.
-    let body = postcard::to_stdvec(memory).unwrap_or_default();
+pub fn checkpoint(run: &Identity, state: &RestartState) -> Vec<u8> {
+    // A restart state has lists, numbers and texts, which always serialize.
+    let body = postcard::to_stdvec(state).unwrap_or_default();
     let head = CheckpointHead {
         program: PROGRAM.to_string(),
         format: FORMAT,
@@ -98,18 +97,18 @@ pub fn checkpoint(run: &Identity, memory: &RestartState) -> Vec<u8> {
     bytes
 }
 
-/// What a checkpoint is of, from its first bytes.
+/// Reads the first line of a checkpoint.
 ///
 /// # Errors
-/// None of this program and format.
+/// Bytes of another program or format.
 pub fn checkpoint_head(bytes: &[u8]) -> Result<CheckpointHead, CheckpointError> {
     Ok(split(bytes)?.0)
 }
 
-/// The memory of a run, if the checkpoint is of this build and of this run.
+/// Reads the restart state of a run.
 ///
 /// # Errors
-/// Bytes that are no whole checkpoint; one of another build or case.
+/// An incomplete checkpoint, or one of another build or case.
 pub fn restart_state_of(bytes: &[u8], run: &Identity) -> Result<RestartState, CheckpointError> {
     let (head, body) = split(bytes)?;
     if head.numerics != NUMERICS {

@@ -1,4 +1,4 @@
-//! A case with the model that computes it, whichever that is.
+//! [`Simulation`]: a case joined with the model that computes it.
 
 pub(crate) mod checkpoint;
 pub(crate) mod identity;
@@ -7,36 +7,34 @@ use std::borrow::Cow;
 use std::convert::Infallible;
 use std::sync::Arc;
 
-use fem_case::engineering::show;
 use fem_case::schema::StartTable;
-use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
+use fem_case::{Case, CaseError, CaseFile, Scene};
 use fem_collision::{
     Approach, Collision, Monitor, OutputRequest, OutputRequestError, SnapshotRequest,
 };
 
-use crate::effects::FiniteStrain;
-use crate::effects::{EFFECTS, Effect, EffectDecision, EffectDecisions, NeglectError, decide};
+use crate::effects::{
+    EFFECTS, Effect, EffectDecision, EffectDecisions, FiniteStrain, NeglectError, decide,
+};
 use crate::error::{
     ErrorEstimate, ErrorEstimator, RefinementBound, RefinementLevel, refined_because,
-    refinement_bound, unresolved_warning,
+    refinement_bound,
 };
-use crate::estimate::{Estimate, mach};
+use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels};
 use crate::models::restart_state::RestartState;
 use crate::models::stepper::{Stepper, begun};
 use crate::models::{ModelCandidate, SelectedModel, chosen, model_of, price_of, resolved};
 use crate::plan::body_source::probes_of;
-use crate::plan::penalty_compliance::softness;
 use crate::rejection::Rejection;
-use crate::results::diagnostics::diagnose;
-use crate::results::{RunCost, Summary};
+use crate::results::{CostSummary, Summary};
 use crate::simulation::identity::identity_of;
 
-/// The collision of a case, by the model that it asks for, within its tolerance.
+/// Computes the collision of a case with its model, within its tolerance.
 ///
 /// # Errors
-/// What the model refuses, at its place in the case.
+/// A case that the model rejects, with the place in the case.
 ///
 /// ```
 /// use fem_case::schema::{BodyTable, MaterialTable, ModelTable};
@@ -61,14 +59,14 @@ pub fn collide(case: &Case) -> Result<Collision, CaseError> {
     Ok(Simulation::new(case.clone())?.run_within_tolerance(&mut ()).collision)
 }
 
-/// A collision within the tolerance of its case, as far as that can be met.
+/// A collision within the tolerance of its case, as far as a mesh can meet it.
 #[derive(Debug)]
 pub struct ComputedCollision {
-    /// The simulation that computed it, on the last mesh.
+    /// The simulation with the last mesh.
     pub simulation: Simulation,
-    /// Its result.
+    /// Result of the simulation.
     pub collision: Collision,
-    /// Its estimated errors.
+    /// Estimated errors of the result.
     pub errors: ErrorEstimate,
 }
 
@@ -81,8 +79,8 @@ impl ComputedCollision {
     /// Returns the summary with all warnings, without cost and files.
     pub fn summary(&self) -> Summary {
         let Self { simulation, collision, errors } = self;
-        let (spent, warnings) = (RunCost::default(), self.warnings());
-        Summary::of(simulation, collision, errors, spent, warnings, Vec::new())
+        let cost = CostSummary::default();
+        Summary::of(simulation, collision, errors, cost, self.warnings(), Vec::new())
     }
 }
 
@@ -95,31 +93,30 @@ pub struct Simulation {
     request: OutputRequest,
     resolved: CaseFile,
     shared: SharedModels,
-    /// Elements across a length over those that the plan takes at first.
+    /// Elements across a length over those of the planned mesh.
     pub(crate) refinement: f64,
-    /// Coarser meshes that did not do.
+    /// Coarser meshes that were not sufficient.
     pub(crate) levels: Vec<RefinementLevel>,
 }
 
 impl Simulation {
-    /// Builds the model that the case asks for.
+    /// Builds the model of a case.
     ///
     /// # Errors
-    /// What the model refuses, at its place in the case.
+    /// A case that the model rejects, with the place in the case.
     pub fn new(case: Case) -> Result<Self, CaseError> {
         Self::sharing(case, &SharedModels::default())
     }
 
-    /// Builds the model that the case asks for; what other cases have made already is taken from
-    /// `shared`.
+    /// Builds the model of a case with the caches of other cases.
     ///
     /// # Errors
-    /// As [`Simulation::new`].
+    /// Those of [`Simulation::new`].
     pub fn sharing(case: Case, shared: &SharedModels) -> Result<Self, CaseError> {
         Self::at(case, shared, 1.0, Vec::new())
     }
 
-    /// The case with so many times the elements across a length, which these meshes were too coarse for.
+    /// Builds the model with this refinement of the planned mesh, after these coarser meshes.
     fn at(
         case: Case,
         shared: &SharedModels,
@@ -145,7 +142,7 @@ impl Simulation {
         })
     }
 
-    /// The same on a finer mesh, asked for the same.
+    /// Returns the simulation on a finer mesh, with the same output request.
     pub(crate) fn refined(
         &self,
         refinement: f64,
@@ -160,116 +157,52 @@ impl Simulation {
         Ok(finer)
     }
 
-    /// As it was when a course of its case left this memory: on the mesh that it had then.
+    /// Returns the simulation on the mesh of a restart state.
     ///
     /// # Errors
-    /// What the model refuses.
-    pub fn as_in(self, memory: &RestartState) -> Result<Self, CaseError> {
-        match memory.levels.is_empty() {
+    /// A mesh that the model rejects.
+    pub fn on_mesh_of(self, state: &RestartState) -> Result<Self, CaseError> {
+        match state.levels.is_empty() {
             true => Ok(self),
-            false => self.refined(memory.refinement, memory.levels.clone()),
+            false => self.refined(state.refinement, state.levels.clone()),
         }
     }
 
-    /// What a course of it knows, with the mesh that it has.
-    pub fn restart_state_of(&self, course: &dyn Stepper) -> Option<RestartState> {
+    /// Returns the restart state of a stepper, with the mesh of the simulation.
+    pub fn restart_state_of(&self, stepper: &dyn Stepper) -> Option<RestartState> {
         let (refinement, levels) = (self.refinement, self.levels.clone());
-        Some(RestartState { refinement, levels, ..course.memory()? })
+        Some(RestartState { refinement, levels, ..stepper.memory()? })
     }
 
-    /// The case with every default filled in, without the cost of building its model.
+    /// Returns the case with every default filled in, without building its model.
     ///
     /// # Errors
-    /// What the method refuses before it makes anything.
+    /// A case that the method rejects.
     pub fn resolve(case: &Case) -> Result<CaseFile, CaseError> {
         resolved(case.scene(), case.file().clone()).map_err(|refusal| refusal.in_case(case))
     }
 
-    /// Element updates to come; as the method's own meter counts them, or an estimate.
+    /// Estimates the element updates of a case.
     ///
     /// # Errors
-    /// What the method refuses before it makes anything.
+    /// A case that the method rejects.
     pub fn price(case: &Case) -> Result<u64, CaseError> {
         price_of(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
-    /// The case.
+    /// Returns the case.
     pub fn case(&self) -> &Case {
         &self.case
     }
 
-    /// What computes it.
+    /// Returns the model.
     pub fn model(&self) -> &dyn Model {
         self.model.as_ref()
     }
 
-    /// Which models were considered, from the cheapest to the dearest; none where the case names its own.
+    /// Returns the candidate models, the cheapest first; empty if the case names its model.
     pub fn considered(&self) -> &[ModelCandidate] {
         self.chosen.as_ref().map_or(&[], |chosen| &chosen.considered)
-    }
-
-    /// What the user should know before the run.
-    pub fn warnings_before(&self) -> Vec<String> {
-        let own = self.mesh_warning().into_iter().chain(self.springs_warning());
-        let own = own.chain(self.cheaper());
-        let scene = self.case.scene();
-        let of_scene = scene.implausible_numbers().into_iter().chain(scene.unpublished_loss());
-        of_scene
-            .chain(self.shear_waves_warning())
-            .chain(self.choice_warning())
-            .chain(self.setup().warnings())
-            .chain(own)
-            .collect()
-    }
-
-    /// Returns a warning that the mesh resolves the expected contact by too few elements.
-    pub fn mesh_warning(&self) -> Option<String> {
-        unresolved_warning(self, self.setup().estimate.contact_radius)
-    }
-
-    /// That explicit elements fold where bodies meet faster than shear waves leave the contact.
-    fn shear_waves_warning(&self) -> Option<String> {
-        let scene = self.scene_of_model();
-        let mach = mach(&scene, scene.approach_speed());
-        (mach > 1.0 && *scene.model() == ModelChoice::Fem).then(|| {
-            format!(
-                "the approach speed is {mach:.1} times that of the shear waves, √(G/ρ): above 1 the flank of a body \
-                 may fold onto the other one, which stops the run; lower body.N.approach_speed, or check the moduli \
-                 and their units"
-            )
-        })
-    }
-
-    /// That springs softer than the usual ones give way, by how much, and what helps.
-    fn springs_warning(&self) -> Option<String> {
-        let elements = self.setup().elements.as_ref().filter(|elements| elements.has_springs)?;
-        let longer = softness(&elements.plan)?;
-        (longer > self.case.scene().accuracy().contact_time).then(|| {
-            format!(
-                "springs of contact.penalty_factor = {} are compliant: the contact lasts about {:.0} % longer; write \
-                 contact.penalty_factor = 1",
-                elements.plan.penalty_factor,
-                100.0 * longer
-            )
-        })
-    }
-
-    /// Returns all warnings about a collision: those before it, those of its result, and those of its model.
-    pub fn warnings_with(&self, collision: &Collision, errors: &ErrorEstimate) -> Vec<String> {
-        let scene = self.case.scene();
-        let mut warnings = scene.implausible_numbers();
-        warnings.extend(scene.unpublished_loss());
-        warnings.extend(self.choice_warning());
-        warnings.extend(self.decisions(collision).warnings);
-        warnings.extend(self.setup().unread.iter().cloned());
-        warnings.extend(diagnose(self, collision, errors));
-        warnings.extend(collision.warnings.iter().cloned());
-        warnings
-    }
-
-    /// Estimates the errors of a collision by reference runs, and returns all warnings about it.
-    pub fn warnings(&self, collision: &Collision) -> Vec<String> {
-        self.warnings_with(collision, &self.estimate_errors(collision))
     }
 
     /// Estimates the errors of a collision by reference runs.
@@ -281,92 +214,68 @@ impl Simulation {
     pub fn summary(&self, collision: &Collision) -> Summary {
         let errors = self.estimate_errors(collision);
         let warnings = self.warnings_with(collision, &errors);
-        Summary::of(self, collision, &errors, RunCost::default(), warnings, Vec::new())
+        Summary::of(self, collision, &errors, CostSummary::default(), warnings, Vec::new())
     }
 
-    /// That the run takes long, and that the condensed model, which has fields too and is expected to serve
-    /// as well, does not.
-    pub fn cheaper(&self) -> Option<String> {
-        const LONG: f64 = 3.0;
-        let Cost::Steps { seconds, .. } = self.setup().cost else { return None };
-        let scene = self.case.scene();
-        if seconds < LONG || *scene.model() != ModelChoice::Fem {
-            return None;
-        }
-        let open = SelectedModel::of(&scene.clone().with_model(ModelChoice::Auto)).ok()?;
-        // It has fields to draw, as explicit elements do.
-        let serves = |it: &&ModelCandidate| {
-            it.model.starts_with("condensed") && (it.chosen || it.reason.starts_with("serves"))
-        };
-        let other = open.considered.iter().find(serves).filter(|_| open.warning.is_none())?;
-        Some(format!(
-            "the run takes about {}; model.{} is also expected to be within the tolerance of the case \
-             and takes hundredths of a second",
-            show(seconds, "s"),
-            other.model
-        ))
-    }
-
-    /// That no model is known to serve, where the case leaves the choice open.
+    /// Returns the warning that no model is known to meet the tolerance, if the case leaves the choice open.
     pub(crate) fn choice_warning(&self) -> Option<String> {
         self.chosen.as_ref()?.warning.clone()
     }
 
-    /// What was decided on the case as it is.
+    /// Returns the decisions on the case.
     pub fn setup(&self) -> &ModelSetup {
         self.model.setup()
     }
 
-    /// What models of other cases made, and made for them.
+    /// Returns the caches that models of several cases share.
     pub(crate) fn shared(&self) -> &SharedModels {
         &self.shared
     }
 
-    /// What the run is asked for.
+    /// Returns the output request.
     pub fn request(&self) -> &OutputRequest {
         &self.request
     }
 
-    /// The case with every default filled in: it runs again to the same bits.
+    /// Returns the case with every default filled in, which runs to the same bits.
     pub fn resolved(&self) -> &CaseFile {
         &self.resolved
     }
 
-    /// Makes the run give something else than what the case asks for.
+    /// Replaces the output request of the case.
     ///
     /// # Errors
-    /// More rows or snapshots than a run keeps, times that are no times.
+    /// More rows or snapshots than a run keeps, or invalid times.
     pub fn ask_for(&mut self, request: OutputRequest) -> Result<(), OutputRequestError> {
         request.check()?;
         self.request = request;
         Ok(())
     }
 
-    /// The resolved case with its bodies meeting in another way.
+    /// Returns the resolved case with another approach.
     pub fn resolved_at(&self, approach: &Approach) -> CaseFile {
         self.meeting(self.resolved.clone(), approach)
     }
 
-    /// Digest of what the case asks to be computed, its bodies meeting like this: see
-    /// [`case_identity`](crate::case_identity).
+    /// Returns the identity of the case ([`case_identity`](crate::case_identity)) with this approach.
     pub fn made_from(&self, approach: &Approach) -> String {
         identity_of(&self.meeting(self.case.file().clone(), approach))
     }
 
+    /// Returns a case file with this approach.
     pub(crate) fn meeting(&self, mut file: CaseFile, approach: &Approach) -> CaseFile {
         if *approach != self.setup().approach {
             let [lower, upper] = approach.velocities();
             // A speed is toward the other body; a body at rest has 0, never -0.
             for (body, speed) in file.body.iter_mut().zip([lower, 0.0 - upper]) {
-                body.approach_speed = Some(Quantity::from_si(speed));
+                body.approach_speed = Some(speed.into());
             }
-            file.start = Some(StartTable { gap: Some(Quantity::from_si(approach.gap())) });
+            file.start = Some(StartTable { gap: Some(approach.gap().into()) });
         }
         file
     }
 
-    /// Makes the run compute no fields to draw, nor warn of those that could not be had. All else
-    /// keeps its bits, the resolved case too.
+    /// Removes snapshots and probes from the output request. All other results keep their bits, and the resolved case too.
     pub fn skip_snapshots(&mut self) {
         self.request.snapshots = SnapshotRequest::none();
         self.request.probes.clear();
@@ -415,7 +324,7 @@ impl Simulation {
         self.model.collide(&self.setup().approach, &self.request, monitor)
     }
 
-    /// Begins the collision: the caller decides when it goes on.
+    /// Starts the collision; the caller advances it.
     ///
     /// ```
     /// # use fem_case::schema::{BodyTable, MaterialTable, MeshTable};
@@ -427,13 +336,13 @@ impl Simulation {
     /// # file.mesh =
     /// #     Some(MeshTable { contact_element_size: Some("0.2 mm".into()), ..Default::default() });
     /// # let simulation = Simulation::new(Case::of(file)?)?;
-    /// let mut course = simulation.start();
-    /// while course.progress().fraction < 0.5 && course.advance(&mut ()) {}
+    /// let mut stepper = simulation.start();
+    /// while stepper.progress().fraction < 0.5 && stepper.advance(&mut ()) {}
     ///
-    /// // Put away, and taken up again, perhaps in another process.
-    /// let memory = serde_json::to_string(&course.memory()).unwrap();
-    /// let memory = serde_json::from_str(&memory).unwrap();
-    /// let mut resumed = simulation.resume(memory)?;
+    /// // The restart state may be written, and read by another process.
+    /// let state = serde_json::to_string(&stepper.memory()).unwrap();
+    /// let state = serde_json::from_str(&state).unwrap();
+    /// let mut resumed = simulation.resume(state)?;
     /// while resumed.advance(&mut ()) {}
     /// assert_eq!(resumed.finish(), simulation.run(&mut ()));
     /// # Ok::<(), fem_case::CaseError>(())
@@ -442,15 +351,15 @@ impl Simulation {
         begun(&self.model, &self.setup().approach, &self.request)
     }
 
-    /// Goes on from what a course of this case knew and was asked for, to the same bits.
+    /// Resumes the collision from a restart state, to the same bits.
     ///
     /// # Errors
-    /// A memory of another case, or a model that goes on from none.
-    pub fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, CaseError> {
-        self.model.resume(memory).map_err(|refusal| refusal.in_case(&self.case))
+    /// A restart state of another case, or a model without restart states.
+    pub fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, CaseError> {
+        self.model.resume(state).map_err(|refusal| refusal.in_case(&self.case))
     }
 
-    /// What closed forms say of a collision of the case's bodies; none where that is no number.
+    /// Returns the closed-form estimate for a collision of the case's bodies; `None` if it is not finite.
     pub fn estimate(&self, collision: &Collision) -> Option<Estimate> {
         let setup = self.setup();
         match collision.approach == setup.approach {
@@ -459,7 +368,7 @@ impl Simulation {
         }
     }
 
-    /// By how much the numbers of a collision of which closed forms say this change without an effect.
+    /// Returns the change of a collision's quantities without an effect.
     pub fn neglect_error(
         &self,
         verdict: &EffectDecision,
@@ -469,7 +378,7 @@ impl Simulation {
         effect.neglect_error(&self.scene_of_model(), estimate)
     }
 
-    /// The scene with the model that computes it, where the case leaves that open.
+    /// Returns the scene with the selected model, if the case leaves the choice open.
     pub(crate) fn scene_of_model(&self) -> Cow<'_, Scene> {
         let scene = self.case.scene();
         match &self.chosen {
@@ -478,8 +387,7 @@ impl Simulation {
         }
     }
 
-    /// Which effects were on in a collision of the case's bodies, and why; and what was to be known
-    /// of them before it.
+    /// Returns the effects that were on in a collision of the case's bodies, with reasons and warnings.
     pub fn decisions(&self, collision: &Collision) -> EffectDecisions {
         let setup = self.setup();
         let anew = self.estimate(collision).filter(|_| collision.approach != setup.approach);

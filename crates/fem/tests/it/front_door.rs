@@ -1,6 +1,6 @@
 //! A program that knows the crate `fem` alone: every name that it needs is here.
 
-use fem::results::{Energy, RunCost, energy_key};
+use fem::results::{CostSummary, Energy, energy_key};
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, SnapshotLabel, TermTable};
 use fem::sweep::{Members, Variations};
 use fem::{
@@ -91,8 +91,14 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
 
     // The summary.
     let errors: ErrorEstimate = simulation.estimate_errors(&collision);
-    let summary: Summary =
-        Summary::of(&simulation, &collision, &errors, RunCost::default(), Vec::new(), Vec::new());
+    let summary: Summary = Summary::of(
+        &simulation,
+        &collision,
+        &errors,
+        CostSummary::default(),
+        Vec::new(),
+        Vec::new(),
+    );
     let energy: &Energy = &summary.energy;
     assert_eq!(energy.get(Account::Kinetic), book.get(Account::Kinetic));
     assert_eq!(energy_key(Account::Kinetic), "kinetic_j");

@@ -214,7 +214,7 @@ fn a_finer_mesh_goes_on_from_its_memory() {
     let memory = finer.restart_state_of(course.as_ref()).unwrap();
     let memory = postcard::to_stdvec(&memory).unwrap();
     let memory = postcard::from_bytes(&memory).unwrap();
-    let again = simulation(RUBBER, &[FEM, FAST]).as_in(&memory).unwrap();
+    let again = simulation(RUBBER, &[FEM, FAST]).on_mesh_of(&memory).unwrap();
     assert_eq!(again.levels(), finer.levels());
     let mut resumed = again.resume(memory).unwrap();
     while resumed.advance(&mut ()) {}
