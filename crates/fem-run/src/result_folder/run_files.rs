@@ -87,7 +87,8 @@ pub fn write_result(
         missing = written.err();
         let _ = fs::remove_file(folder.join(RESERVE_FILE));
         let spent = stopwatch.spent();
-        (summary.cost.wall_s, summary.cost.peak_memory_bytes) = (spent.wall, spent.peak_memory);
+        (summary.cost.wall_s, summary.cost.peak_memory_bytes) =
+            (spent.wall_s, spent.peak_memory_bytes);
     }
     summary.warnings.extend(missing.clone());
     let wants_report = simulation.case().scene().wants_report();
