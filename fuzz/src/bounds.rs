@@ -1,5 +1,5 @@
-//! What an input may take: memory, counted by the allocator, and time, by a watchdog. An input that
-//! takes more ends the process, with its number.
+//! Limits of memory and time per input: the allocator counts the memory and a watchdog checks the time. An input that
+//! exceeds a limit ends the process, which prints its number.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -7,22 +7,22 @@ use std::io::Write;
 use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
-/// Bytes of the whole process.
+/// Allocated bytes of the whole process.
 static LIVE: AtomicI64 = AtomicI64::new(0);
 static MOST: AtomicI64 = AtomicI64::new(i64::MAX);
 
 thread_local! {
-    /// The number of the input that this thread tries.
+    /// Number of the input of this thread.
     static CURRENT: Cell<u64> = const { Cell::new(u64::MAX) };
 }
 
-/// The system's allocator, with a limit.
+/// The system's allocator with a limit.
 pub struct Counting;
 
 fn count(size: usize) {
     let live = LIVE.fetch_add(size as i64, Relaxed) + size as i64;
     if live > MOST.load(Relaxed) {
-        // What is written from here on has no limit.
+        // Printing needs memory beyond the limit.
         MOST.store(i64::MAX, Relaxed);
         let input = CURRENT.try_with(Cell::get).unwrap_or(u64::MAX);
         let _ = writeln!(std::io::stderr(), "input {input}: {live} bytes, the last {size}");
@@ -30,61 +30,61 @@ fn count(size: usize) {
     }
 }
 
-// SAFETY: all is passed on to the system's allocator.
+// SAFETY: all calls are passed on to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size());
-        // SAFETY: as asked for.
+        // SAFETY: same arguments.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         count(layout.size());
-        // SAFETY: as asked for.
+        // SAFETY: same arguments.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         count(size);
         LIVE.fetch_sub(layout.size() as i64, Relaxed);
-        // SAFETY: as asked for.
+        // SAFETY: same arguments.
         unsafe { System.realloc(pointer, layout, size) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         LIVE.fetch_sub(layout.size() as i64, Relaxed);
-        // SAFETY: as asked for.
+        // SAFETY: same arguments.
         unsafe { System.dealloc(pointer, layout) }
     }
 }
 
-/// From now on the process may hold so many bytes more than it does.
+/// Allows the process this many bytes in addition to those that it has now.
 pub fn limit_memory(bytes: i64) {
     MOST.store(LIVE.load(Relaxed) + bytes, Relaxed);
 }
 
-/// What a thread is at: since when, in ms after `began`, and with which input.
+/// The current input of a thread and its start, ms after `began`.
 #[derive(Default)]
-pub struct Post {
+pub struct CurrentInput {
     since: AtomicU64,
     input: AtomicU64,
 }
 
-impl Post {
-    /// The thread begins with an input.
+impl CurrentInput {
+    /// Starts an input.
     pub fn begin(&self, began: Instant, input: u64) {
         CURRENT.with(|current| current.set(input));
         self.input.store(input, Relaxed);
         self.since.store(began.elapsed().as_millis() as u64 + 1, Relaxed);
     }
 
-    /// The thread is done with it; how long it took.
+    /// Ends the input and returns its duration.
     pub fn end(&self, began: Instant) -> Duration {
         let since = self.since.swap(0, Relaxed);
         Duration::from_millis((began.elapsed().as_millis() as u64 + 1).saturating_sub(since))
     }
 
-    /// The input that has taken longer than this.
+    /// Returns the input if it has taken longer than this.
     pub fn overdue(&self, began: Instant, longest: Duration) -> Option<u64> {
         let since = self.since.load(Relaxed);
         let now = began.elapsed().as_millis() as u64 + 1;

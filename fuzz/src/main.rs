@@ -1,12 +1,13 @@
-//! Feeds hostile inputs; see the library.
+//! Feeds damaged inputs to readers; see the library.
 //!
-//! `fem-fuzz TARGET N [SEED]` feeds so many, `fem-fuzz all N` shares them out, `fem-fuzz TARGET =INPUT [SEED]` writes one to the standard
-//! output and feeds it. `FEM_RUN` names the command that the target `command` runs.
+//! `fem-fuzz TARGET N [SEED]` feeds N inputs, `fem-fuzz all N` distributes them over all targets, and `fem-fuzz TARGET
+//! =INPUT [SEED]` writes one input to the standard output and feeds it. `FEM_RUN` is the path of the command for the target
+//! `command`.
 
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_macros,
-    reason = "a program of its own, with clock and terminal"
+    reason = "a program that uses clock and terminal"
 )]
 
 use std::io::Write;
@@ -20,10 +21,10 @@ use fem_fuzz::{TARGETS, bounds, input_of, try_inputs};
 #[global_allocator]
 static ALLOCATOR: bounds::Counting = bounds::Counting;
 
-/// Of the whole process, beyond what the targets hold, bytes.
+/// Memory that the process may use in addition to the targets, bytes.
 const MEMORY: i64 = 1_500_000_000;
 const LONGEST: Duration = Duration::from_secs(120);
-/// Findings that are shown of each target.
+/// Number of findings that are shown per target.
 const SHOWN: usize = 20;
 
 fn main() -> ExitCode {

@@ -1,8 +1,47 @@
-//! Changes of a text or of bytes.
+//! Mutations of texts and bytes, with random numbers that are the same on every machine.
 
-use crate::random::Random;
+use std::ops::Range;
 
-/// Numbers at the limits of what formats hold and keys allow, separated by spaces.
+use fastrand::Rng;
+
+/// A generator of random numbers.
+pub struct Random(Rng);
+
+impl Random {
+    /// Creates the generator of one input.
+    pub fn of(seed: u64, input: u64) -> Self {
+        Self(Rng::with_seed(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ input))
+    }
+
+    /// Returns 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0.u64(..)
+    }
+
+    /// Returns a whole number below `n`, or 0 if `n` is 0.
+    pub fn below(&mut self, n: usize) -> usize {
+        if n == 0 { 0 } else { self.0.usize(..n) }
+    }
+
+    /// Returns one of the items.
+    pub fn one_of<'a, T: ?Sized>(&mut self, all: &[&'a T]) -> &'a T {
+        all[self.below(all.len())]
+    }
+
+    /// Returns true once in `n` calls on average.
+    pub fn once_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    /// Returns a range within a list of `n` items, usually a short one.
+    pub fn stretch(&mut self, n: usize) -> Range<usize> {
+        let start = self.below(n + 1);
+        let longest = if self.once_in(4) { n } else { 8 };
+        start..(start + self.below(longest + 1)).min(n)
+    }
+}
+
+/// Numbers at the limits of formats and keys, separated by spaces.
 const NUMBERS: &str = "0 -0.0 1 -1 2 3 0.5 0.4999999999 0.499999 -0.999 0.49 1e-3 1e3 1e-6 1e6 1e9 1e10 1e12 1e16 \
                        1e-9 1e-12 1e-30 1e30 1e75 1e-75 1e150 1e-150 1e300 -1e300 1e-300 5e-324 \
                        1.7976931348623157e308 nan inf -inf 9223372036854775807 -9223372036854775808 9007199254740993";
@@ -10,27 +49,27 @@ const NUMBERS: &str = "0 -0.0 1 -1 2 3 0.5 0.4999999999 0.499999 -0.999 0.49 1e-
 const UNITS: &str =
     "m mm um km kg/m^3 g/cm^3 GPa MPa Pa Pa*s N/m m/s cm/s m/s^2 s us 1/s % deg MB kg";
 
-/// Marks of TOML and XML, and characters that terminals or parsers treat specially.
+/// Syntax of TOML and XML, and characters with a special meaning for terminals or parsers.
 const PIECES: &str = "[ ] { } = \" ' , # . [[ ]] \"\"\" \\ \u{0} \u{1b}[2J \u{feff} ± ° é \u{202e} _ + - e true false";
 const SPACES: [&str; 3] = ["\n", "\r\n", "\t"];
 
-/// A number at a limit.
+/// Returns a number at a limit.
 pub fn number(random: &mut Random) -> &'static str {
     word_of(NUMBERS, random)
 }
 
-/// One of the words of a list.
+/// Returns one of the words of a list.
 fn word_of(list: &'static str, random: &mut Random) -> &'static str {
     list.split(' ').nth(random.below(list.split(' ').count())).unwrap_or("0")
 }
 
-/// A word of a text: letters, digits and what stands in numbers and keys.
+/// Returns whether a byte belongs to a word: letters, digits and the other characters of numbers and keys.
 fn is_of_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || b"_.+-".contains(&byte)
 }
 
-/// Where the words of a text are.
-fn words(text: &[u8]) -> Vec<std::ops::Range<usize>> {
+/// Returns the positions of the words of a text.
+fn words(text: &[u8]) -> Vec<Range<usize>> {
     let mut words = Vec::new();
     let mut k = 0;
     while k < text.len() {
@@ -46,7 +85,7 @@ fn words(text: &[u8]) -> Vec<std::ops::Range<usize>> {
     words
 }
 
-/// Changes a text here and there; words come from `others`.
+/// Mutates a text at a few places; some words come from `others`.
 pub fn change_text(text: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
     for _ in 0..=random.below(4) {
         match random.below(10) {
@@ -80,7 +119,7 @@ fn change_word(text: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
                 .map_or(vec![], |word| other[word.clone()].to_vec())
         }
         3 => {
-            // The same number, some decades off.
+            // The same number times a power of ten.
             let decades = random.below(41) as i32 - 20;
             [&text[chosen.clone()], format!("e{decades}").as_bytes()].concat()
         }
@@ -111,7 +150,7 @@ fn change_lines(text: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
     *text = own.concat();
 }
 
-/// Changes bytes here and there.
+/// Mutates some bytes.
 pub fn change_bytes(bytes: &mut Vec<u8>, random: &mut Random) {
     let at = random.stretch(bytes.len());
     match random.below(7) {
@@ -141,7 +180,7 @@ pub fn change_bytes(bytes: &mut Vec<u8>, random: &mut Random) {
 mod tests {
     use super::*;
 
-    /// Most of what is made is text still, half of it other than before, and the same each time.
+    /// Many mutated texts are still TOML, most differ from the original, and they are reproducible.
     #[test]
     fn texts_change_and_stay_texts() {
         let others = [b"a = 1\nb = { c = 'x' }\n".to_vec(), b"[d]\ne = 2.5\n".to_vec()];

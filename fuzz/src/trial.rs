@@ -1,4 +1,4 @@
-//! Feeds a target many inputs on several threads.
+//! Feeds many inputs to a target on several threads.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
@@ -6,38 +6,70 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::bounds::Post;
-use crate::random::Random;
-use crate::target::{Taken, Target};
+use crate::bounds::CurrentInput;
+use crate::mutate::Random;
 
-/// An input that was taken as none may be.
+/// The result of a valid reader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Taken {
+    /// The input is valid.
+    Accepted,
+    /// The input is rejected with a message.
+    Refused,
+}
+
+/// A reader that is fuzzed. A panic is also a finding.
+pub trait Target: Sync {
+    /// Creates an input.
+    fn make(&self, random: &mut Random) -> Vec<u8>;
+
+    /// Reads an input.
+    ///
+    /// # Errors
+    /// Returns a finding: a fault of the reader.
+    fn take(&self, input: &[u8]) -> Result<Taken, String>;
+}
+
+/// Checks the message of a rejected input.
+///
+/// # Errors
+/// Returns a finding if the message is empty, very long, or has control characters.
+pub fn refused(message: &str) -> Result<Taken, String> {
+    let is_tame = !message.contains(|c: char| c.is_control() && c != '\n');
+    match is_tame && message.trim().len() > 8 && message.len() < 100_000 {
+        true => Ok(Taken::Refused),
+        false => Err(format!("not a message for a user: {message:?}")),
+    }
+}
+
+/// A fault of a reader.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// The input's number.
+    /// Number of the input.
     pub input: u64,
-    /// What happened.
+    /// Description of the fault.
     pub words: String,
 }
 
-/// What came of many inputs.
+/// Results of many inputs.
 #[derive(Clone, Debug, Default)]
 pub struct Counts {
-    /// Inputs that were computed.
+    /// Number of valid inputs.
     pub accepted: u64,
-    /// Inputs that were refused with a message.
+    /// Number of inputs that were rejected with a message.
     pub refused: u64,
-    /// All others.
+    /// Faults of the reader.
     pub findings: Vec<Finding>,
-    /// The one that took longest, and how long.
+    /// The slowest input and its duration.
     pub slowest: (u64, Duration),
 }
 
-/// The bytes of an input.
+/// Returns the bytes of an input.
 pub fn input_of(target: &dyn Target, seed: u64, input: u64) -> Vec<u8> {
     target.make(&mut Random::of(seed, input))
 }
 
-/// Feeds the inputs of these numbers. An input that takes longer than `longest` ends the process.
+/// Feeds the inputs with these numbers. An input that takes longer than `longest` ends the process.
 pub fn try_inputs(
     target: &dyn Target,
     seed: u64,
@@ -47,19 +79,19 @@ pub fn try_inputs(
 ) -> Counts {
     let (began, next, left) =
         (Instant::now(), AtomicU64::new(inputs.start), AtomicU64::new(n_threads as u64));
-    let posts: Vec<Post> = (0..n_threads).map(|_| Post::default()).collect();
+    let current: Vec<CurrentInput> = (0..n_threads).map(|_| CurrentInput::default()).collect();
     let counts = Mutex::new(Counts::default());
-    let work = |post: &Post| {
+    let work = |own_input: &CurrentInput| {
         let mut own = Counts::default();
         loop {
             let input = next.fetch_add(1, Relaxed);
             if input >= inputs.end {
                 break;
             }
-            post.begin(began, input);
+            own_input.begin(began, input);
             let bytes = input_of(target, seed, input);
             let taken = catch_unwind(AssertUnwindSafe(|| target.take(&bytes)));
-            let took = post.end(began);
+            let took = own_input.end(began);
             own.add(input, taken.unwrap_or_else(|panic| Err(words_of(&*panic))), took);
         }
         left.fetch_sub(1, Relaxed);
@@ -68,12 +100,12 @@ pub fn try_inputs(
         }
     };
     thread::scope(|scope| {
-        for post in &posts {
-            scope.spawn(move || work(post));
+        for own_input in &current {
+            scope.spawn(move || work(own_input));
         }
         while left.load(Relaxed) > 0 {
             thread::sleep(Duration::from_millis(20));
-            if let Some(input) = posts.iter().find_map(|post| post.overdue(began, longest)) {
+            if let Some(input) = current.iter().find_map(|own_input| own_input.overdue(began, longest)) {
                 eprintln!("input {input} takes more than {longest:?}");
                 std::process::abort();
             }

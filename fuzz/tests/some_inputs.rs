@@ -1,4 +1,4 @@
-//! Some inputs of every target that needs no other program; `fem-fuzz all 1000000` feeds more.
+//! Feeds some inputs to every target that needs no other program; `fem-fuzz all 1000000` feeds more.
 
 use std::path::Path;
 use std::time::Duration;
@@ -8,7 +8,7 @@ use fem_fuzz::{TARGETS, bounds, try_inputs};
 #[global_allocator]
 static ALLOCATOR: bounds::Counting = bounds::Counting;
 
-/// So many take a second or two each.
+/// Number of inputs per target, which take one or two seconds.
 const INPUTS: [(&str, u64); 6] = [
     ("mesh", 3000),
     ("table", 2000),
@@ -19,7 +19,7 @@ const INPUTS: [(&str, u64); 6] = [
 ];
 
 #[test]
-fn some_inputs_of_every_reader_are_taken_or_refused() {
+fn every_reader_accepts_or_rejects_some_inputs() {
     let is_fed = |name: &str| INPUTS.iter().any(|(known, _)| *known == name);
     let others: Vec<_> =
         TARGETS.iter().map(|target| target.name).filter(|name| !is_fed(name)).collect();
@@ -30,7 +30,7 @@ fn some_inputs_of_every_reader_are_taken_or_refused() {
         bounds::limit_memory(1_500_000_000);
         let counts = try_inputs(&*target, 7, 0..n, 2, Duration::from_secs(120));
         assert!(counts.findings.is_empty(), "{name}: {:?}", counts.findings);
-        // Changes that leave nothing readable, or change nothing, are no trial.
+        // Useful mutations give both valid and invalid inputs.
         assert!(counts.accepted > n / 100 && counts.refused > n / 100, "{name}: {counts:?}");
     }
 }

@@ -1,9 +1,8 @@
-//! The block format of an array's bytes: `vtkZLibDataCompressor`, and its uncompressed sibling.
+//! The block format of an array's bytes, compressed (`vtkZLibDataCompressor`) or not.
 //!
-//! Compressed: a header of integers `[n_blocks, block_size, last_size, compressed_size...]`, then
-//! the zlib streams back to back. `last_size` is 0 when the last block is full (VTK) or
-//! `block_size` (meshio). Uncompressed: a header `[n_bytes]`, then the bytes. Integers are
-//! `UInt64` here when written, `UInt32` or `UInt64` when read.
+//! Compressed: a header of integers `[n_blocks, block_size, last_size, compressed_size...]`, then the consecutive zlib
+//! streams. If the last block is full, `last_size` is 0 (VTK) or `block_size` (meshio). Uncompressed: a header `[n_bytes]`,
+//! then the bytes. Integers are written as `UInt64` and read as `UInt32` or `UInt64`.
 
 use std::cell::RefCell;
 use std::io::{self, Read};
@@ -11,30 +10,29 @@ use std::io::{self, Read};
 use flate2::read::ZlibDecoder;
 use flate2::{Compress, Compression, FlushCompress, Status};
 
-/// Uncompressed bytes a block, as VTK's writer has it. A multiple of every number size: meshio
-/// turns each block into numbers on its own.
+/// Uncompressed bytes per block, as in VTK's writer. It is a multiple of every number size, since meshio converts each
+/// block separately.
 pub(crate) const BLOCK_SIZE: usize = 32768;
 
-/// Level for what shrinks. VTK's default, 5, takes twice the time of a file for a tenth of its size.
+/// Compression level. VTK's default, 5, doubles the time per file and saves a tenth of its size.
 const LEVEL: Compression = Compression::new(1);
 
-/// Sample size, in bytes, from the middle of an array that decides whether compression pays.
+/// Size in bytes of a sample from the middle of an array, which decides whether it is compressed.
 const SAMPLE_SIZE: usize = 4096;
 
-/// An array that shrinks to more than this share is stored: deflate makes noisy mantissas 5 %
-/// larger.
+/// Largest compressed fraction of a sample; other arrays are stored. Deflate makes noisy mantissas 5 % larger.
 const LARGEST_SHARE: f64 = 0.9;
 
-/// Bytes of a stream that are made at a time.
+/// Size of the output buffer of a stream, bytes.
 const ROOM: usize = 32768;
 
-/// Bytes that a stream of a block has more than the block where it is stored; generous.
+/// Upper bound of the bytes that a stored stream adds to its block.
 const MOST_ADDED: usize = 64;
 
-/// zlib cannot shrink by more than this (Technical Details, zlib.net: 1032 to 1).
+/// Largest compression ratio of zlib (Technical Details, zlib.net).
 const LARGEST_RATIO: usize = 1032;
 
-/// The two parts of a compressed array; base64 encodes each on its own.
+/// The two parts of a compressed array, which base64 encodes separately.
 #[derive(Debug)]
 pub(crate) struct Compressed {
     pub(crate) header: Vec<u8>,
@@ -42,12 +40,12 @@ pub(crate) struct Compressed {
 }
 
 thread_local! {
-    /// One state of deflate a thread: it has some 300 KB, and a new one a block took longer than the block.
+    /// The state of deflate, one per thread: it has about 300 KB, and creating one per block took longer than the block.
     static DEFLATE: RefCell<Deflate> = RefCell::new(Deflate::new());
 }
 
-/// Compresses bytes block by block, or stores them in the same format if they would hardly shrink.
-/// The same bytes give the same result.
+/// Compresses bytes block by block, or stores them in the same format if compression saves little. The result is
+/// deterministic.
 pub(crate) fn compress(bytes: &[u8]) -> io::Result<Compressed> {
     DEFLATE.with_borrow_mut(|deflate| deflate.compress(bytes))
 }
@@ -88,7 +86,7 @@ impl Deflate {
         Ok(Compressed { header, blocks })
     }
 
-    /// Whether a sample says that compression is worth its time.
+    /// Returns whether a sample shrinks enough for compression.
     fn shrinks(&mut self, bytes: &[u8]) -> io::Result<bool> {
         let start = bytes.len().saturating_sub(SAMPLE_SIZE) / 2;
         let sample = &bytes[start..bytes.len().min(start + SAMPLE_SIZE)];
@@ -98,8 +96,7 @@ impl Deflate {
     }
 }
 
-/// Appends a zlib stream of a block. How stored bytes are parted in a stream follows from the room that
-/// it is given at a time.
+/// Appends the zlib stream of a block. The size of the buffer determines how stored bytes are split.
 fn append_stream(
     state: &mut Compress,
     room: &mut Vec<u8>,
@@ -130,7 +127,7 @@ fn append_stream(
     }
 }
 
-/// What a header of `[n_blocks, block_size, last_size]` promises.
+/// The sizes in a header `[n_blocks, block_size, last_size]`.
 pub(crate) struct Layout {
     pub(crate) n_blocks: usize,
     block_size: usize,
@@ -138,15 +135,15 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// `None` if the sizes contradict each other or overflow.
+    /// Returns `None` if the sizes contradict each other or overflow.
     pub(crate) fn new(n_blocks: usize, block_size: usize, last_size: usize) -> Option<Self> {
         let last_size = if last_size == 0 { block_size } else { last_size };
-        let sound = n_blocks == 0 || (block_size > 0 && last_size <= block_size);
+        let is_valid = n_blocks == 0 || (block_size > 0 && last_size <= block_size);
         let layout = Self { n_blocks, block_size, last_size };
-        (sound && n_blocks.checked_mul(block_size).is_some()).then_some(layout)
+        (is_valid && n_blocks.checked_mul(block_size).is_some()).then_some(layout)
     }
 
-    /// Bytes before compression.
+    /// Returns the number of bytes before compression.
     pub(crate) fn n_bytes(&self) -> usize {
         match self.n_blocks {
             0 => 0,
@@ -154,8 +151,8 @@ impl Layout {
         }
     }
 
-    /// Decompresses the blocks; `None` if one is not zlib data of the promised size. Memory grows
-    /// with what the streams yield, never with what the header promises.
+    /// Decompresses the blocks; `None` if one is not zlib data of the size in the header. Memory grows with the decompressed
+    /// bytes, never with the sizes in the header.
     pub(crate) fn decompress(&self, mut blocks: &[u8], sizes: &[usize]) -> Option<Vec<u8>> {
         if self.n_bytes() / LARGEST_RATIO > blocks.len() {
             return None;
@@ -209,8 +206,7 @@ mod tests {
         }
     }
 
-    /// Numbers without pattern are stored, a header and a check sum a block more; a third of zeros
-    /// is taken out.
+    /// Numbers without pattern are stored, with a header and a check sum per block; zeros are compressed.
     #[test]
     fn only_what_shrinks_is_compressed() {
         let noise: Vec<u8> = (0..9000u64)
@@ -226,8 +222,7 @@ mod tests {
         assert!((compressed as f64) < 0.8 * zeros.len() as f64, "{compressed}");
     }
 
-    /// The state that makes all streams remembers nothing of those before: each is the one that an encoder of
-    /// its own makes.
+    /// Each stream is that of a new encoder: the shared state depends on no earlier stream.
     #[test]
     fn streams_are_those_of_new_encoders() {
         let smooth: Vec<u8> = (0..5 * BLOCK_SIZE + 77).map(|k| (k / 7 % 251) as u8).collect();

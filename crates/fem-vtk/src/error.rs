@@ -1,28 +1,28 @@
-//! Errors of reading and writing, with the file, the array, the index and the value.
+//! Errors of reading and writing, with file, array, index and value.
 
 use std::path::PathBuf;
 
-/// Every error of this crate.
+/// The error type of this crate.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The operating system refused.
+    /// The file cannot be read or written.
     #[error("{}: {source}", path.display())]
     Io {
         /// Path of the file.
         path: PathBuf,
-        /// The system's reason.
+        /// The error of the operating system.
         source: std::io::Error,
     },
 
-    /// Nothing to write: no points, no cells, an array without values, a collection without files.
-    #[error("{what}: empty, and readers crash on empty arrays; leave it out")]
+    /// A mesh, an array or a collection is empty.
+    #[error("{what} is empty, and readers crash on empty arrays: remove it")]
     Empty {
         /// Name of the empty item.
         what: String,
     },
 
-    /// An array name that XML or its readers cannot carry.
+    /// The name of an array is empty or has control characters.
     #[error(
         "{section} array {name:?}: a name needs at least one character and no control characters"
     )]
@@ -42,7 +42,7 @@ pub enum Error {
         name: String,
     },
 
-    /// Zero components, or two at points or cells.
+    /// An array has no components, or two at points or cells.
     #[error(
         "{section} array {name:?}: {components} components; allowed: 1, 3 or more \
          (readers abort on vectors of two components: pad them with `pad_vectors`)"
@@ -56,7 +56,7 @@ pub enum Error {
         components: usize,
     },
 
-    /// An array does not have as many values as the mesh asks for.
+    /// An array does not have the number of values that the mesh needs.
     #[error("{section} array {name:?}: found {found} values; {expected} are needed")]
     Length {
         /// `PointData`, `CellData` or `FieldData`.
@@ -65,66 +65,66 @@ pub enum Error {
         name: String,
         /// The number of values given.
         found: usize,
-        /// Points or cells times components, in words and number.
+        /// The expected number: points or cells times components.
         expected: String,
     },
 
-    /// An infinity or a NaN.
+    /// A value is not finite.
     #[error("{section} array {name:?}: value {value} at index {index} (component {component})")]
     NotFinite {
         /// `Points`, `PointData`, `CellData` or `FieldData`.
         section: &'static str,
         /// Name of the array.
         name: String,
-        /// Point, cell or tuple.
+        /// Index of the point, cell or tuple.
         index: usize,
-        /// Component within the tuple.
+        /// Index of the component.
         component: usize,
         /// Value that was found.
         value: f64,
     },
 
-    /// A cell names a point that is not there.
+    /// A cell has a point that does not exist.
     #[error(
         "cell {cell}, corner {corner}: point {point}; the mesh has {n_points} points, numbered from 0"
     )]
     Connectivity {
-        /// The cell, from 0.
+        /// Index of the cell.
         cell: usize,
-        /// The corner, 0 to 3.
+        /// Index of the corner, 0 to 3.
         corner: usize,
-        /// The point it names.
+        /// Index of the point.
         point: u32,
         /// The number of points.
         n_points: usize,
     },
 
-    /// A time of a collection is not finite or not later than the one before.
+    /// A time of a collection is not finite or not later than the previous one.
     #[error(
-        "{file}: time {time}; times must be finite and increase (the one before: {previous:?})"
+        "{file}: time {time}; times must be finite and increase (previous time: {previous:?})"
     )]
     Time {
-        /// The snapshot's file name.
+        /// File name of the snapshot.
         file: String,
-        /// Its time in seconds.
+        /// Time of the snapshot, s.
         time: f64,
-        /// The time before it.
+        /// The previous time, s.
         previous: Option<f64>,
     },
 
-    /// A file name of a collection that is not relative to it.
-    #[error("{file:?}: a collection lists relative file names with / between folders")]
+    /// A file name of a collection is not relative to it.
+    #[error("{file:?} is not a relative file name with / between folders")]
     FileName {
         /// Name of the array.
         file: String,
     },
 
-    /// A file that is not what this crate reads, or is damaged.
+    /// A file is damaged or has a format that this crate does not read.
     #[error("{}: {place}: found {found}; allowed: {allowed}", path.display())]
     Malformed {
         /// Path of the file.
         path: PathBuf,
-        /// The XML element or array.
+        /// XML element or array.
         place: String,
         /// Value that was found.
         found: String,
@@ -132,16 +132,16 @@ pub enum Error {
         allowed: String,
     },
 
-    /// An array that was asked for is not in the file.
+    /// A requested array is not in the file.
     #[error("{}: {section} has no array {name:?}; it has: {available}", path.display())]
     MissingArray {
         /// Path of the file.
         path: PathBuf,
         /// `Points`, `Cells`, `PointData`, `CellData` or `FieldData`.
         section: &'static str,
-        /// The name asked for.
+        /// Name of the requested array.
         name: String,
-        /// The names that are there.
+        /// Names of the arrays in the file.
         available: String,
     },
 }

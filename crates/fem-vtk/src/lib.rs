@@ -1,13 +1,11 @@
-//! VTK XML files of quadrilateral meshes: an own writer and reader, no VTK library.
+//! Writes and reads VTK XML files of quadrilateral meshes, without a VTK library.
 //!
-//! Writing: one `.vtu` (`UnstructuredGrid` of `VTK_QUAD` cells) a snapshot with [`VtuWriter`] (a
-//! series on one [`VtuGrid`]), and a `.pvd` with its `.vtu.series` twin that gives the files their
-//! times with [`write_collection`]. They are for ParaView ≥ 5.11, VTK ≥ 9.2 and meshio 5.3;
-//! `.ci/check_vtk.py` reads them with the last two.
+//! Writing: [`VtuWriter`] writes one `.vtu` (`UnstructuredGrid` of `VTK_QUAD` cells) per snapshot, a series on one
+//! [`VtuGrid`]. [`write_collection`] writes a `.pvd` and a `.vtu.series` with the times of the files. They are for ParaView ≥
+//! 5.11, VTK ≥ 9.2 and meshio 5.3; `.ci/check_vtk.py` reads them with the last two.
 //!
-//! Reading: a `.vtu` of quadrilaterals from ParaView, VTK, meshio or this crate with
-//! [`read_quad_mesh`], and any named array of such a file with [`VtuFile`]. Lengths that a file
-//! states are checked against the bytes that it has, before anything is allocated.
+//! Reading: [`read_quad_mesh`] reads a `.vtu` of quadrilaterals from ParaView, VTK, meshio or this crate, and [`VtuFile`] any
+//! named array of such a file. Lengths in a file are compared with its bytes before anything is allocated.
 //!
 //! Format: the *VTK File Formats* document, "XML File Formats", version 1.0 (`UInt64` headers).
 //!
@@ -30,26 +28,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod atomic;
 mod blocks;
-mod collection;
-mod contents;
-mod decode;
-mod document;
-mod encoding;
 mod error;
-mod grid;
-mod reader;
-mod render;
-mod scalar_type;
-mod section;
+mod read;
 mod values;
-mod writer;
+mod vtk_types;
+mod write;
 
-pub use collection::write_collection;
-pub use encoding::Encoding;
 pub use error::Error;
-pub use grid::VtuGrid;
-pub use reader::{QuadMesh, ReadArray, VtuFile, read_quad_mesh};
+pub use read::reader::{QuadMesh, ReadArray, VtuFile, read_quad_mesh};
 pub use values::{Numbers, Values, pad_vectors};
-pub use writer::VtuWriter;
+pub use write::collection::write_collection;
+pub use write::encoding::Encoding;
+pub use write::grid::VtuGrid;
+pub use write::writer::VtuWriter;

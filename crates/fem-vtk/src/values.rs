@@ -1,22 +1,22 @@
-//! Numbers on their way into a file ([`Values`], borrowed) and out of one ([`Numbers`], owned).
+//! Numbers to write ([`Values`], borrowed) and numbers that were read ([`Numbers`], owned).
 
-use crate::scalar_type::ScalarType;
+use crate::vtk_types::ScalarType;
 
-/// Borrowed numbers to write, tuple after tuple; made from a slice by `into`.
+/// Borrowed numbers to write, tuple after tuple; a slice converts by `into`.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Values<'a> {
-    /// `f64`
+    /// Values of type `f64`.
     Float64(&'a [f64]),
-    /// `f32`
+    /// Values of type `f32`.
     Float32(&'a [f32]),
-    /// `u8`
+    /// Values of type `u8`.
     UInt8(&'a [u8]),
-    /// `i32`
+    /// Values of type `i32`.
     Int32(&'a [i32]),
-    /// `u32`
+    /// Values of type `u32`.
     UInt32(&'a [u32]),
-    /// `i64`
+    /// Values of type `i64`.
     Int64(&'a [i64]),
 }
 
@@ -65,7 +65,7 @@ impl Values<'_> {
         }
     }
 
-    /// Index and value of the first infinity or NaN.
+    /// Returns index and value of the first value that is not finite.
     pub(crate) fn first_not_finite(&self) -> Option<(usize, f64)> {
         match self {
             Self::Float64(values) => first_not_finite(values),
@@ -98,14 +98,14 @@ fn little_endian<T: Copy, const N: usize>(values: &[T], bytes: fn(T) -> [u8; N])
 /// Numbers read from a file, widened without loss.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Numbers {
-    /// From `Float32` or `Float64`.
+    /// Values of type `Float32` or `Float64`.
     Float(Vec<f64>),
-    /// From any integer type.
+    /// Values of any integer type.
     Integer(Vec<i64>),
 }
 
 impl Numbers {
-    /// The number of values: tuples times components.
+    /// Returns the number of values: tuples times components.
     pub fn len(&self) -> usize {
         match self {
             Self::Float(values) => values.len(),
@@ -113,18 +113,18 @@ impl Numbers {
         }
     }
 
-    /// Whether there is no value.
+    /// Returns whether there is no value.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// Index and value of the first infinity or NaN.
+/// Returns index and value of the first value that is not finite.
 pub(crate) fn first_not_finite(values: &[f64]) -> Option<(usize, f64)> {
     values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
 }
 
-/// `(r, y)` pairs as the `(r, y, 0)` triples that readers need; a last odd value is left out.
+/// Returns `(r, y)` pairs as the `(r, y, 0)` triples that readers need; a last single value is dropped.
 pub fn pad_vectors(pairs: &[f64]) -> Vec<f64> {
     let (pairs, _) = pairs.as_chunks::<2>();
     pairs.iter().flat_map(|&[r, y]| [r, y, 0.0]).collect()

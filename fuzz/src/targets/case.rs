@@ -1,18 +1,17 @@
-//! The text of a case, with overrides, from reading to the first steps of a run.
+//! The text of a case with overrides, from reading to the first steps of a run.
 
 use fem::effects::EFFECTS;
 use fem::{Case, Cost, Monitor, Progress, QuantityOfInterest, Simulation};
 
 use super::{cases, root};
-use crate::mutate::change_text;
-use crate::random::Random;
-use crate::target::{Taken, Target, refused};
+use crate::mutate::{Random, change_text};
+use crate::trial::{Taken, Target, refused};
 
-/// A line of the text that is an override.
+/// Prefix of a line that is an override.
 const SET: &str = "#--set ";
-/// Element updates of a run that is begun.
+/// Largest number of element updates of a run that is started.
 const DEAREST: u64 = 3_000_000;
-/// Models put in the place of the case's own.
+/// Models that replace that of the case.
 const MODELS: [&str; 12] = [
     "ting={}",
     "ting={finite_size=true}",
@@ -59,7 +58,7 @@ impl Target for CaseText {
     fn take(&self, input: &[u8]) -> Result<Taken, String> {
         let text = String::from_utf8_lossy(input);
         let overrides = text.lines().filter_map(|line| line.strip_prefix(SET));
-        // A run of the limits' size is for whoever has asked for it.
+        // Default limits would allow too long runs.
         let small = ["limits.elements=3000", "limits.memory='300 MB'"].map(String::from);
         let overrides: Vec<String> = overrides.map(String::from).chain(small).collect();
         match Case::parse("fuzzed.toml", &text, &root().join("cases"), &overrides) {
@@ -69,16 +68,16 @@ impl Target for CaseText {
     }
 }
 
-/// What every valid case must do.
+/// Checks a valid case: it can be written and read again, planned and run.
 ///
 /// # Errors
-/// A finding.
+/// Returns a finding.
 pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     let written =
         case.file().to_toml().map_err(|error| format!("it cannot be written: {error}"))?;
     let again = Case::parse("again.toml", &written, &root().join("cases"), &[]);
     let again = again.map_err(|error| format!("what it writes is no case: {error}"))?;
-    // NaN would not equal itself; none is in a scene that was accepted.
+    // A valid scene has no NaN, which would not be equal to itself.
     if again.scene().bodies() != case.scene().bodies() {
         return Err("what it writes is another scene".to_string());
     }
@@ -112,7 +111,7 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     }
 }
 
-/// What a user is shown before the run.
+/// Checks the plan that a user is shown before the run.
 fn look_at(simulation: &Simulation) -> Result<(), String> {
     let setup = simulation.setup();
     for warning in simulation.warnings_before() {
@@ -139,7 +138,7 @@ fn look_at(simulation: &Simulation) -> Result<(), String> {
     }
 }
 
-/// Looks on for so many reports.
+/// Interrupts a run after this number of reports.
 pub(super) struct Patience(pub u32);
 
 impl Monitor for Patience {

@@ -1,4 +1,4 @@
-//! Restart files: bytes that are changed, with a digest that says they are whole.
+//! Restart files: mutated bytes, often with a valid digest.
 
 use std::path::Path;
 
@@ -7,9 +7,8 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use super::case::Patience;
-use crate::mutate::change_bytes;
-use crate::random::Random;
-use crate::target::{Taken, Target, refused};
+use crate::mutate::{Random, change_bytes};
+use crate::trial::{Taken, Target, refused};
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms.toml");
 const BOUNCES: &str = include_str!("../../../cases/three_bounces.toml");
@@ -71,7 +70,7 @@ impl Run {
 }
 
 impl Target for Checkpoint {
-    /// Which run it is of, one byte, and the file.
+    /// Returns one byte for the run, and the restart file.
     fn make(&self, random: &mut Random) -> Vec<u8> {
         let k = random.below(self.runs.len());
         let run = &self.runs[k];
@@ -127,7 +126,7 @@ impl Target for Checkpoint {
     }
 }
 
-/// A head, its digest made anew, and another body.
+/// Returns a header with the digest of this body, and the body.
 fn whole(head: &[u8], body: &[u8]) -> Vec<u8> {
     let mut value: Value = serde_json::from_slice(head).unwrap_or_default();
     let digest: String = Sha256::digest(body).iter().map(|byte| format!("{byte:02x}")).collect();
@@ -138,7 +137,7 @@ fn whole(head: &[u8], body: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Another number, or a list that is longer or shorter, somewhere.
+/// Changes a number or the length of a list somewhere in a value.
 fn change_value(value: &mut Value, random: &mut Random) {
     match value {
         Value::Object(fields) => {

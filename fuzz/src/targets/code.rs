@@ -1,13 +1,12 @@
-//! A case made in code: any value at any key that the schema has.
+//! A case made in code, with any value at any key of the schema.
 
 use fem::{Case, CaseFile};
 use toml::{Table, Value};
 
 use super::case::try_case;
 use super::cases;
-use crate::mutate::number;
-use crate::random::Random;
-use crate::target::{Taken, Target, refused};
+use crate::mutate::{Random, number};
+use crate::trial::{Taken, Target, refused};
 
 pub struct CaseInCode {
     seeds: Vec<Table>,
@@ -40,19 +39,19 @@ impl Target for CaseInCode {
     }
 
     fn take(&self, input: &[u8]) -> Result<Taken, String> {
-        // What is no case file is the reader's matter.
+        // The target `case` tests texts that are not a case file.
         let Ok(file) = toml::from_str::<CaseFile>(&String::from_utf8_lossy(input)) else {
             return Ok(Taken::Refused);
         };
         match Case::of(file) {
             Ok(case) => try_case(case),
             Err(error) if error.key().is_some() => refused(&error.to_string()),
-            Err(error) => Err(format!("a fault of no key: {error}")),
+            Err(error) => Err(format!("a fault without a key: {error}")),
         }
     }
 }
 
-/// Another value at some key; or what another case has there.
+/// Changes the value at some key, or takes the value of another case.
 fn change(value: &mut Value, other: &Value, random: &mut Random) {
     match value {
         Value::Table(table) => {
@@ -100,7 +99,7 @@ fn leaf_of(leaf: &Value, random: &mut Random) -> Value {
             random.one_of(&["", "on", "off", "auto", "all", "shear", "\u{1b}", "x y"]).to_string(),
         ),
         _ => match unit() {
-            // The unit stays: a quantity that may be allowed.
+            // With its unit the quantity may be valid.
             Some(unit) => Value::String(format!("{number} {unit}")),
             None => Value::Float(float),
         },

@@ -1,4 +1,4 @@
-//! The command: its exit status, what it says, and what it writes.
+//! The command: its exit status, messages and written files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,14 +7,13 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use super::{cases, files, root};
-use crate::mutate::change_text;
-use crate::random::Random;
-use crate::target::{Taken, Target};
+use crate::mutate::{Random, change_text};
+use crate::trial::{Taken, Target};
 
 const LONGEST: Duration = Duration::from_secs(60);
-/// What limits the address space of the process, kB.
+/// Limit of the address space of the process, kB.
 const MEMORY: &str = "4000000";
-/// Commands that read the case, at the folder `cases`, or the data.
+/// Commands that read a case.
 const READING_A_CASE: [&[&str]; 5] = [
     &["check", "in.toml"],
     &["in.toml", "--out", "result", "--set", "limits.element_updates=3e6"],
@@ -22,6 +21,7 @@ const READING_A_CASE: [&[&str]; 5] = [
     &["in.toml", "--out", "result", "--set", "model.ting={}", "--json"],
     &["invert", "in.toml", "--restitution", "0.9", "--law", "tsuji"],
 ];
+/// Commands that read a table of data.
 const READING_DATA: [&[&str]; 3] = [
     &["fit", "glass.toml", "--data", "in.csv", "--law", "kuwabara_kono", "--out", "result"],
     &[
@@ -35,7 +35,7 @@ const READING_DATA: [&[&str]; 3] = [
         "--out",
         "result",
     ],
-    // Each term more is a second of a core for the largest of the tables.
+    // Each further term takes a second for the largest table.
     &[
         "calibrate",
         "glass.toml",
@@ -66,7 +66,7 @@ impl Command {
 }
 
 impl Target for Command {
-    /// Which command, one byte, and the text that it reads.
+    /// Returns one byte for the command, and the text that it reads.
     fn make(&self, random: &mut Random) -> Vec<u8> {
         let which = random.below(READING_A_CASE.len() + READING_DATA.len());
         let seeds = if which < READING_A_CASE.len() { &self.cases } else { &self.data };
@@ -118,8 +118,10 @@ impl Command {
     }
 }
 
+/// Waits for a process and ends it after a time limit.
+///
 /// # Errors
-/// A process that takes too long; it is ended.
+/// The process takes too long.
 fn wait(child: &mut Child) -> Result<(), String> {
     let begin = Instant::now();
     while child.try_wait().map_err(|error| error.to_string())?.is_none() {

@@ -1,16 +1,15 @@
-//! A mesh file, to a sphere's mesh.
+//! A mesh file, read as the mesh of a sphere.
 
 use fem_mesh::{HalfDisc, SphereMesh};
 use fem_vtk::VtuFile;
 
 use super::files;
-use crate::mutate::{change_bytes, change_text};
-use crate::random::Random;
-use crate::target::{Taken, Target, refused};
+use crate::mutate::{Random, change_bytes, change_text};
+use crate::trial::{Taken, Target, refused};
 
-/// m
+/// Radius of the sphere, m.
 const RADIUS: f64 = 0.01;
-/// What other readers and writers lay out otherwise.
+/// Files of other writers with other layouts.
 const FIXTURES: &str = "crates/fem-vtk/tests/fixtures";
 
 pub struct MeshFile {
@@ -21,7 +20,7 @@ impl MeshFile {
     pub fn new() -> Self {
         let mut seeds: Vec<Vec<u8>> =
             files(FIXTURES, "vtu").into_iter().map(|(_, bytes)| bytes).collect();
-        // A sphere often: the rest ends at the first test of shape.
+        // Most inputs start from a sphere, since others fail the first check of the shape.
         let sphere = HalfDisc {
             radius: RADIUS,
             contact_element_size: 2e-3,
@@ -57,12 +56,12 @@ impl Target for MeshFile {
         match SphereMesh::import(RADIUS, nodes, mesh.quads) {
             Err(error) => refused(&error.to_string()),
             Ok(mesh) if mesh.nodes().iter().flatten().all(|x| x.is_finite()) => Ok(Taken::Accepted),
-            Ok(_) => Err("a mesh of nodes that are nowhere".to_string()),
+            Ok(_) => Err("a node of the mesh is not finite".to_string()),
         }
     }
 }
 
-/// A mesh as text, so that a change of a word is a change of a number.
+/// Writes a mesh as text, so that mutated words change numbers.
 fn ascii(nodes: &[[f64; 2]], quads: &[[u32; 4]]) -> String {
     let points: Vec<String> = nodes.iter().map(|[r, y]| format!("{r:?} {y:?} 0")).collect();
     let corners: Vec<String> =

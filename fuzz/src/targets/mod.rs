@@ -1,4 +1,4 @@
-//! Everything that reads what a user has written.
+//! Readers of files of a user.
 
 mod case;
 mod checkpoint;
@@ -11,15 +11,15 @@ mod table;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::target::Target;
+use crate::trial::Target;
 
-/// Something that is fed.
+/// An entry of the list of targets.
 pub struct Entry {
-    /// What it is called.
+    /// Name of the target.
     pub name: &'static str,
-    /// Its part of all inputs, per cent: more of those that are cheap.
+    /// Share of all inputs, per cent; cheap targets get more.
     pub share: u64,
-    /// Makes it, of the path of the command, which one of them runs.
+    /// Creates the target from the path of the command, which one target runs.
     pub make: fn(&Path) -> Box<dyn Target>,
 }
 
@@ -27,7 +27,7 @@ const fn entry(name: &'static str, share: u64, make: fn(&Path) -> Box<dyn Target
     Entry { name, share, make }
 }
 
-/// All of them.
+/// All targets.
 pub const TARGETS: [Entry; 7] = [
     entry("mesh", 30, |_| Box::new(mesh::MeshFile::new())),
     entry("table", 25, |_| Box::new(table::DataTable::new())),
@@ -43,7 +43,7 @@ fn root() -> PathBuf {
     here.parent().unwrap_or(here).to_path_buf()
 }
 
-/// The files of a folder of the repository with this ending, in the order of their names.
+/// Returns the files of a folder of the repository with this extension, in the order of their names.
 fn files(folder: &str, ending: &str) -> Vec<(String, Vec<u8>)> {
     let entries = fs::read_dir(root().join(folder)).into_iter().flatten().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
@@ -53,7 +53,7 @@ fn files(folder: &str, ending: &str) -> Vec<(String, Vec<u8>)> {
     paths.iter().filter_map(|path| Some((name(path), fs::read(path).ok()?))).collect()
 }
 
-/// The cases of the repository.
+/// Returns the cases of the repository.
 fn cases() -> Vec<Vec<u8>> {
     let shipped = files("cases", "toml").into_iter();
     shipped.filter(|(name, _)| !name.starts_with("sweep")).map(|(_, text)| text).collect()

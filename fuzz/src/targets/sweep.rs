@@ -1,4 +1,4 @@
-//! A sweep file, to its members.
+//! A sweep file and its members.
 
 use std::fs;
 use std::io::Write;
@@ -7,11 +7,10 @@ use fem::sweep::load;
 use tempfile::{NamedTempFile, TempDir, tempdir};
 
 use super::{cases, files};
-use crate::mutate::change_text;
-use crate::random::Random;
-use crate::target::{Taken, Target, refused};
+use crate::mutate::{Random, change_text};
+use crate::trial::{Taken, Target, refused};
 
-/// Ranges, linked keys, a table.
+/// A sweep with a range, linked keys and a table.
 const MADE: &str = r#"case = "glass_0.5ms.toml"
 
 [vary]
@@ -20,7 +19,7 @@ const MADE: &str = r#"case = "glass_0.5ms.toml"
 "body.1.approach_speed" = { table = "speeds.csv", columns = ["v"] }
 "#;
 
-/// What the sweeps of the repository lack.
+/// A sweep with features that those of the repository lack.
 const ALL: &str = r#"case = "glass_0.5ms.toml"
 combine = "paired"
 keep = "all"
@@ -40,7 +39,7 @@ series = "model"
 
 pub struct SweepText {
     seeds: Vec<Vec<u8>>,
-    /// With the cases that sweeps name.
+    /// A folder with the cases that sweeps name.
     folder: TempDir,
 }
 
@@ -57,7 +56,7 @@ impl SweepText {
         let sweeps = shipped.filter(|(name, _)| name.starts_with("sweep")).map(|(_, text)| text);
         let mut seeds: Vec<Vec<u8>> = sweeps.collect();
         seeds.extend([ALL, MADE].map(|text| text.as_bytes().to_vec()));
-        // Words to take over.
+        // Further words for mutations.
         seeds.extend(cases().into_iter().take(2));
         Self { seeds, folder }
     }

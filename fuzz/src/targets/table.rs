@@ -6,9 +6,8 @@ use fem::measured::{
 };
 
 use super::{files, root};
-use crate::mutate::change_text;
-use crate::random::Random;
-use crate::target::{Taken, Target, refused};
+use crate::mutate::{Random, change_text};
+use crate::trial::{Taken, Target, refused};
 
 const KINDS: [Kind; 3] = [Kind::Length, Kind::Mass, Kind::Angle];
 /// Columns that data may have.

@@ -27,7 +27,7 @@ fn fault(overrides: &[&str]) -> String {
     parse(BALL, overrides).unwrap_err().to_string()
 }
 
-/// Numbers of data books, by a second way: moduli of other sources and what a user knows by heart.
+/// The numbers agree with moduli of other sources.
 #[test]
 fn materials_are_solids_and_say_where_they_are_from() {
     assert!(materials().len() > 15, "{:?}", materials().keys());
@@ -64,7 +64,7 @@ fn materials_are_solids_and_say_where_they_are_from() {
     }
 }
 
-/// What relaxes is a solid of which next to nothing lasts, as the eleven terms of the paper add up to.
+/// PVB relaxes to almost nothing, as the eleven terms of the paper add up to.
 #[test]
 fn the_terms_of_pvb_add_up() {
     let case = parse(BALL, &["body.1.material='lib:pvb'"]).unwrap();
@@ -87,7 +87,7 @@ fn a_case_has_the_table_that_it_names() {
     let edited = case.edited(|file| file.body[1].material = Some("lib:steel".into())).unwrap();
     let steel = parse(BALL, &["body.1.material='lib:steel'"]).unwrap();
     assert_eq!(edited.scene().bodies(), steel.scene().bodies());
-    // A case without one is none the wiser.
+    // Other materials are not added.
     assert!(!case.file().material.contains_key("lib:steel"));
 }
 
@@ -113,14 +113,14 @@ fn single_keys_can_be_overridden() {
     let text = format!("{BALL}\n[material.'lib:pmma']\ndensity = 1200\n");
     let case = parse(&text, &[]).unwrap();
     assert_eq!(case.scene().bodies()[1].material().unwrap().density(), 1200.0);
-    // To blame is what the user gave.
+    // The key that the user gave is blamed.
     let three = fault(&["material.'lib:pmma'.shear_modulus=1e9"]);
     assert!(three.starts_with("--set material.'lib:pmma'.shear_modulus=…:"), "{three}");
     assert!(three.contains("exactly two of"), "{three}");
 }
 
 #[test]
-fn an_unknown_one_is_told_what_there_is() {
+fn an_unknown_name_lists_the_library() {
     let error = parse(&BALL.replace("pmma", "pmna"), &[]).unwrap_err();
     assert_eq!((error.line(), error.column()), (Some(9), Some(12)), "{error}");
     let text = error.to_string();
@@ -140,9 +140,9 @@ fn an_unknown_one_is_told_what_there_is() {
     assert!(fault(&["material.'lib:pmma'=3"]).contains("lib:pmma"));
 }
 
-/// What nobody has published is said, however the library's material came into the case; and of nothing else.
+/// The warning of an unpublished loss appears for each way to use a material of the library, and only then.
 #[test]
-fn a_loss_that_is_not_published_is_said() {
+fn an_unpublished_loss_causes_a_warning() {
     let said = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unpublished_loss();
     assert!(said(BALL, &[]).unwrap().contains("the loss of pmma in an impact is not published"));
     // As `fem-run new` writes it, and as a resolved case has it.
@@ -156,6 +156,6 @@ fn a_loss_that_is_not_published_is_said() {
     for set in ["body.1.material='lib:pvb'", relaxing, law] {
         assert_eq!(said(BALL, &[set]), None, "{set}");
     }
-    // A material of the user's is the user's.
+    // Other numbers make it the user's material.
     assert_eq!(said(&copy, &["material.pmma.density=1200"]), None);
 }

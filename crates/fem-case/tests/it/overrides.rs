@@ -1,4 +1,4 @@
-//! `--set KEY=VALUE`: what it can do, and that its faults name it and not a line of the file.
+//! Overrides `--set KEY=VALUE`: their effect, and faults that name the override and not a line of the file.
 
 use std::path::Path;
 
@@ -82,7 +82,7 @@ fn a_table_that_is_absent_is_made() {
     assert!(case.scene().bodies()[0].material().unwrap().relaxation().is_some());
 }
 
-/// The fault of the override `marked`, in which «» enclose what must be underlined.
+/// Checks the fault of the override `marked`, in which «» enclose the text that must be underlined.
 #[track_caller]
 fn fault(key: &str, marked: &str, message: &str) {
     let (before, rest) = marked.split_once('«').unwrap();
@@ -126,9 +126,9 @@ fn faults_in_the_value() {
     fault("model.ting", "model.ting={«finite»=true}", "unknown key `finite` in model.ting");
 }
 
-/// A shell eats the quotes of `body.0.approach_speed="1 m/s"`.
+/// A shell removes the quotes of `body.0.approach_speed="1 m/s"`.
 #[test]
-fn words_that_are_no_toml_are_a_string() {
+fn text_that_is_not_toml_is_a_string() {
     for (bare, quoted) in [
         ("body.0.approach_speed=1 m/s", "body.0.approach_speed='1 m/s'"),
         ("mesh.contact_element_size=14um", "mesh.contact_element_size='14um'"),
@@ -141,7 +141,7 @@ fn words_that_are_no_toml_are_a_string() {
         let [bare, quoted] = [bare, quoted].map(|text| with(&[text]).unwrap());
         assert_eq!(format!("{:?}", bare.scene()), format!("{:?}", quoted.scene()));
     }
-    // What stands on it goes on.
+    // Later overrides of its keys work.
     let case = with(&["model=ting", "model.ting.tolerance=1e-4"]).unwrap();
     assert_eq!(
         case.file()

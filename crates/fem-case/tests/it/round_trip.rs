@@ -1,5 +1,5 @@
-//! A case printed in SI numbers and read again is the same scene, to the last bit; no text makes
-//! the reader panic; the cases of the repository say what they should.
+//! A case that is written in SI numbers and read again is the same scene to the last bit; no text makes the reader panic;
+//! and the shipped cases have their documented values.
 
 use std::path::{Path, PathBuf};
 
@@ -135,64 +135,23 @@ fn truncated_and_mutated_cases_never_panic() {
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 33) as usize % below
     };
-    let pieces = [
-        "\"",
-        "'",
-        "[",
-        "]",
-        "{",
-        "}",
-        "=",
-        ".",
-        "-",
-        "0",
-        "9",
-        "e",
-        "\n",
-        " ",
-        "nan",
-        "inf",
-        "µ",
-        "²",
-        "/",
-        "^",
-        "(",
-        ")",
-        "[[body]]",
-        "wall = {}",
-        "\u{0}",
-        "\\u0000",
-        "#",
-        ",",
-        "1e999",
-        "true",
-        "1979-05-27",
-        "[[[[",
-        "mesh",
-        "\"\"\"",
-        "\r",
-        "\u{feff}",
-    ];
-    for _ in 0..2_000 {
-        let mut text: Vec<char> = FULL.chars().collect();
-        for _ in 0..=random(3) {
-            let start = random(text.len());
-            let end = (start + random(4)).min(text.len());
-            let piece = pieces[random(pieces.len())].chars();
-            text.splice(start..end, piece.take(random(12)));
-        }
-        read(&text.into_iter().collect::<String>(), &[]);
-    }
-    let overrides =
-        ["body.0.sphere.diameter='1 mm'", "material.\"my glass\".density=1", "a.b=[{}]"];
-    for _ in 0..2_000 {
-        let mut text: Vec<char> = overrides[random(overrides.len())].chars().collect();
+    let pieces = "\" ' [ ] { } = . - 0 9 e \n nan inf µ ² / ^ ( ) [[body]] wall={} \u{0} \\u0000 # , 1e999 true \
+                  1979-05-27 [[[[ mesh \"\"\" \r \u{feff}";
+    let pieces: Vec<&str> = pieces.split(' ').chain([" "]).collect();
+    let mut mutated = |text: &str| {
+        let mut text: Vec<char> = text.chars().collect();
         for _ in 0..=random(3) {
             let start = random(text.len());
             let end = (start + random(4)).min(text.len());
             text.splice(start..end, pieces[random(pieces.len())].chars());
         }
-        read(FULL, &[text.into_iter().collect()]);
+        text.into_iter().collect::<String>()
+    };
+    let overrides =
+        ["body.0.sphere.diameter='1 mm'", "material.\"my glass\".density=1", "a.b=[{}]"];
+    for k in 0..600 {
+        read(&mutated(FULL), &[]);
+        read(FULL, &[mutated(overrides[k % overrides.len()])]);
     }
     // Deep nesting must not exhaust the stack.
     read(&format!("a = {}", "[".repeat(100_000)), &[]);
@@ -201,7 +160,7 @@ fn truncated_and_mutated_cases_never_panic() {
     read(FULL, &[format!("{}a=1", "a.".repeat(100_000))]);
     read(FULL, &[format!("model.law={}", "[".repeat(100_000))]);
     read(&FULL.replace("1.2345 km/h", &"(".repeat(100_000)), &[]);
-    assert!(n_valid > 10 && n_faults > 1_000, "{n_valid} valid, {n_faults} faults");
+    assert!(n_valid > 10 && n_faults > 500, "{n_valid} valid, {n_faults} faults");
 }
 
 fn repository_case(name: &str) -> Case {

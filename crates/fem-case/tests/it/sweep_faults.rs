@@ -19,7 +19,7 @@ name = "floor"
 wall = {}
 "#;
 
-/// Where the faults of a sweep over these values are, by file, line and column.
+/// Returns file, line and column of the faults of a sweep over these values.
 fn places(values: &str) -> Vec<(String, usize, usize)> {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("base.toml"), BASE).unwrap();
@@ -44,7 +44,7 @@ fn faults_of_the_base_case_hide_none_of_the_values() {
 }
 
 #[test]
-fn what_a_value_mends_is_no_fault() {
+fn a_fault_that_a_value_replaces_is_not_reported() {
     let found =
         places("material.glass.density = ['2390 kg/m^3']\nbody.0.approach_speed = ['2 kg']");
     assert_eq!(found, [("sweep.toml".to_string(), 4, 26)]);

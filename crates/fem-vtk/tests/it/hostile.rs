@@ -1,4 +1,4 @@
-//! Files whose numbers lie: an error that says where, no panic, no memory for what is not there.
+//! Files with wrong numbers: an error with its position, no panic, and no memory for data that do not exist.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -207,7 +207,7 @@ fn broken_base64_and_offsets() {
     refuse(&close("_12345678").replace("</AppendedData>", ""), "truncated");
 }
 
-/// What a message quotes of a file a terminal does not obey.
+/// Messages contain no control characters of a file.
 #[test]
 fn control_characters_are_not_quoted() {
     let strange = ["\u{1b}[2J", "\u{7f}", "\u{9b}31m"];

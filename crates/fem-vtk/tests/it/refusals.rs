@@ -1,4 +1,4 @@
-//! What is not written: each refusal, its words, and that the old file stays.
+//! Rejected files: each error, its message, and that the old file is unchanged.
 
 use fem_vtk::{Error, VtuWriter, write_collection};
 

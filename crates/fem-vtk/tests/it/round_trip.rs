@@ -1,4 +1,4 @@
-//! What the writer writes, the reader reads, bit for bit, in every encoding.
+//! Reading returns the written data bit for bit in every encoding.
 
 use fem_vtk::{Encoding, QuadMesh, VtuFile, VtuWriter, pad_vectors};
 

@@ -1,4 +1,4 @@
-//! Weight, what bears it, and bounces.
+//! Faults of gravity, its support, and bounces.
 
 use super::marked::{error_at_mark, parse};
 
@@ -14,7 +14,7 @@ const SPHERE: &str = "sphere = { diameter = 0.03 }\nmaterial = \"glass\"";
 const GRAVITY: &str = "[gravity]\nacceleration = \"9.81 m/s^2\"\n";
 const STOP: &str = "[stop]\nbounces = 3\n";
 
-/// Every text in place of another one; the marked place must be what the error points at.
+/// Replaces parts of the case; the error must point at the marked text.
 fn fault(changes: &[(&str, &str)], message: &str, help: &str) {
     let text = changes.iter().fold(BALL.to_string(), |text, (from, to)| {
         assert!(text.contains(from), "{from} is not in {text}");
@@ -26,7 +26,7 @@ fn fault(changes: &[(&str, &str)], message: &str, help: &str) {
 }
 
 #[test]
-fn what_falls_needs_something_below_that_bears_it() {
+fn a_falling_sphere_needs_a_support() {
     parse(BALL).unwrap();
     parse(&BALL.replace(WALL, &format!("{SPHERE}\nheld = true"))).unwrap();
     let (weight, held) = ("«[gravity]»", format!("{SPHERE}\nheld = true"));
@@ -60,7 +60,7 @@ fn without_gravity_nothing_is_held_and_nothing_comes_back() {
         "is held, but there is no [gravity]",
         "9.81 m/s^2",
     );
-    // A table without a key says nothing.
+    // A table without keys is valid.
     parse(&BALL.replace(GRAVITY, "").replace(STOP, "[stop]\n")).unwrap();
 }
 

@@ -1,4 +1,4 @@
-//! A valid case, and the same with a fault in a marked place.
+//! A valid case, and helpers for cases with a fault at a marked position.
 
 use std::path::Path;
 
@@ -61,7 +61,7 @@ pub fn parse(text: &str) -> Result<Case, CaseError> {
     Case::parse("pair.toml", text, Path::new("."), &[])
 }
 
-/// The error of `marked`, in which «» enclose the text that must be underlined.
+/// Returns the error of `marked`, in which «» enclose the text that must be underlined.
 #[track_caller]
 pub fn error_at_mark(marked: &str) -> CaseError {
     let (before, rest) = marked.split_once('«').expect("a mark");
@@ -72,14 +72,18 @@ pub fn error_at_mark(marked: &str) -> CaseError {
     let column = before.rsplit('\n').next().unwrap().chars().count() + 1;
     assert_eq!((error.line(), error.column()), (Some(line), Some(column)), "{error}");
     assert_eq!(&text[error.span().unwrap()], culprit, "{error}");
-    // One fault is one.
     assert_eq!(error.others(), []);
+    // The same case made in code has the same fault, at the same key.
+    if let Some(in_code) = toml::from_str(&text).ok().and_then(|file| Case::of(file).err()) {
+        assert_eq!((in_code.key(), in_code.message()), (error.key(), error.message()));
+        assert_eq!((in_code.line(), Some(in_code.source_name())), (None, error.key()));
+    }
     assert_eq!(error.source_name(), "pair.toml");
     assert_eq!(error.source_text(), Some(text.as_str()));
     error
 }
 
-/// The valid case with one part replaced has this fault: `message` and `help` in its text.
+/// Checks message and help of the fault of the valid case with one part replaced.
 #[track_caller]
 pub fn fault(part: &str, replacement: &str, message: &str, help: &str) {
     assert!(VALID.contains(part), "{part}");

@@ -1,4 +1,4 @@
-//! Numbers: units, range, and what is no number.
+//! Faults of numbers: units, ranges, and values that are not finite.
 
 use super::marked::{VALID, fault, parse};
 
@@ -89,7 +89,7 @@ fn out_of_range() {
 }
 
 #[test]
-fn what_is_seldom_meant_is_told_and_not_refused() {
+fn implausible_numbers_cause_warnings() {
     let odd = |part: &str, replacement: &str| {
         assert!(VALID.contains(part), "{part}");
         parse(&VALID.replacen(part, replacement, 1)).unwrap().scene().implausible_numbers()
@@ -106,7 +106,7 @@ fn what_is_seldom_meant_is_told_and_not_refused() {
         let found = odd(part, replacement);
         assert!(found.iter().any(|text| text.contains(told)), "{replacement}: {found:?}");
     }
-    // Rare, and meant.
+    // Rare values that are plausible.
     for (part, replacement) in
         [("\"22.2 mm\"", "1.5"), ("\"2390 kg/m^3\"", "11"), ("\"63 GPa\"", "\"1 kPa\"")]
     {

@@ -1,4 +1,4 @@
-//! Where a fault is said to be: files that cannot be read, and keys that a later check blames.
+//! Positions of faults: files that cannot be read, and keys that a later check blames.
 
 use fem_case::Case;
 

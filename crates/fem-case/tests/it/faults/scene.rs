@@ -1,4 +1,4 @@
-//! Materials, bodies and what is asked of their collision.
+//! Faults of materials, bodies, models, snapshots and probes.
 
 use fem_case::Probe;
 
@@ -61,121 +61,74 @@ fn materials() {
     assert!(error.message().contains("poissons_ratio"), "{error}");
 }
 
+const GLASS: &str = "[material.glass]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n";
+const STRIKER: &str = "[[body]]\nname = \"striker\"\nsphere = { diameter = 1 }\nmaterial = \"glass\"\n\
+                       approach_speed = 1\n";
+const TARGET: &str = "[[body]]\nname = \"target\"\nwall = {}\n";
+
+/// Every fault of the bodies: a part of the case, its replacement, and the message.
 #[test]
 fn bodies() {
-    let two = "[[body]]\nname = \"striker\"\nsphere = { diameter = 1 }\nmaterial = \"glass\"\n\
-               approach_speed = 1\n[[body]]\nname = \"target\"\nwall = {}\n";
-    let glass = "[material.glass]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n";
-    parse(&format!("{glass}{two}")).unwrap();
-    let is = |text: String, message: &str| {
+    let case = format!("{GLASS}{STRIKER}{TARGET}");
+    parse(&case).unwrap();
+    for (part, replacement, message) in [
+        (STRIKER, "", "only one [[body]]"),
+        ("wall = {}\n", "wall = {}\n«[[body]]»\nname = \"c\"\nwall = {}\n", "the case has 3 [[body]]"),
+        ("speed = 1", "speed = «0»", "receding or at rest"),
+        ("speed = 1", "speed = «-1»", "receding or at rest"),
+        ("approach_speed = 1\n[[body]]", "«[[body]]»", "receding or at rest"),
+        (
+            "wall = {}",
+            "sphere.diameter = 1\nmaterial = 'glass'\napproach_speed = «-1.0»",
+            "add up to 0.0",
+        ),
+        ("wall = {}", "wall = {}\napproach_speed = «-0.5»", "approach_speed is"),
+        ("wall = {}", "wall = {}\nmaterial = «'glass'»", "has no material"),
+        ("wall = {}", "wall = «{}»\nsphere.diameter = 1", "both sphere and wall"),
+        ("wall = {}", "wall = {}\nhalf_space = «{}»", "both wall and half_space"),
+        (TARGET, "«[[body]]»\nname = \"target\"\nhalf_space = {}", "the key `material` is missing"),
+        (
+            "wall = {}",
+            "half_space = {}\nmaterial = 'glass'\napproach_speed = «-0.5»",
+            "approach_speed is -0.5",
+        ),
+        (TARGET, "«[[body]]»\nname = \"target\"", "neither sphere, wall nor half_space"),
+        ("sphere = { diameter = 1 }\nmaterial = \"glass\"", "wall = {}", "both bodies are walls"),
+        (
+            "sphere = { diameter = 1 }",
+            "half_space = {}",
+            "one body is a wall and the other a half-space",
+        ),
+        ("\"target\"", "«\"striker\"»", "both bodies have the name"),
+        ("\"target\"", "«\"the target\"»", "not a body's name"),
+        ("\"target\"", "«\"\"»", "not a body's name"),
+        ("\"target\"", "«'Kügel'»", "not a body's name"),
+        (GLASS, "", "no material \"glass\""),
+        ("diameter = 1", "diameter = 1, mesh = «''»", "mesh is an empty path"),
+    ] {
+        assert!(case.contains(part), "{part}");
+        let mut text = case.replacen(part, replacement, 1);
+        // Where the fault is in the other body.
+        if !text.contains('«') {
+            text = match message {
+                "only one [[body]]" => text.replacen("[[body]]", "«[[body]]»", 1),
+                "no material \"glass\"" => text.replacen("\"glass\"", "«\"glass\"»", 1),
+                _ => text.replacen("\"target\"\nwall = {}", "\"target\"\nwall = «{}»", 1),
+            };
+        }
         let error = error_at_mark(&text);
         assert!(error.message().contains(message), "{error}");
-    };
-    is(format!("«»{glass}"), "no [[body]]");
-    is("«»".to_string(), "no [[body]]");
-    is(
-        format!(
-            "{glass}{}",
-            two.replacen("[[body]]", "«[[body]]»", 1)
-                .split("[[body]]\nname = \"target")
-                .next()
-                .unwrap()
-        ),
-        "only one [[body]]",
-    );
-    is(format!("{glass}{two}«[[body]]»\nname = \"c\"\nwall = {{}}\n"), "the case has 3 [[body]]");
-    is(format!("{glass}{}", two.replace("speed = 1", "speed = «0»")), "receding or at rest");
-    is(format!("{glass}{}", two.replace("speed = 1", "speed = «-1»")), "receding or at rest");
-    is(
-        format!(
-            "{glass}{}",
-            two.replace("[[body]]\nname = \"target", "«[[body]]»\nname = \"target")
-                .replace("approach_speed = 1\n", "")
-        ),
-        "receding or at rest",
-    );
-    is(
-        format!(
-            "{glass}{}",
-            two.replace(
-                "wall = {}",
-                "sphere.diameter = 1\nmaterial = 'glass'\napproach_speed = «-1.0»"
-            )
-        ),
-        "add up to 0.0",
-    );
-    is(
-        format!("{glass}{}", two.replace("wall = {}", "wall = {}\napproach_speed = «-0.5»")),
-        "approach_speed is",
-    );
-    is(
-        format!("{glass}{}", two.replace("wall = {}", "wall = {}\nmaterial = «'glass'»")),
-        "has no material",
-    );
-    is(
-        "[[body]]\nname = 'a'\nwall = {}\n[[body]]\nname = 'b'\nwall = «{}»".to_string(),
-        "both bodies are walls",
-    );
-    is(
-        "[[body]]\nname = 'a'\nwall = {}\n[material.g]\ndensity = 1\nyoungs_modulus = 1\n\
-         poissons_ratio = 0\n[[body]]\nname = 'b'\nhalf_space = «{}»\nmaterial = 'g'"
-            .to_string(),
-        "one body is a wall and the other a half-space",
-    );
-    is(
-        format!("{glass}{}", two.replace("wall = {}", "wall = «{}»\nsphere.diameter = 1")),
-        "both sphere and wall",
-    );
-    is(
-        format!("{glass}{}", two.replace("wall = {}", "wall = {}\nhalf_space = «{}»")),
-        "both wall and half_space",
-    );
-    is(
-        format!(
-            "{glass}{}",
-            two.replace(
-                "[[body]]\nname = \"target\"\nwall = {}",
-                "«[[body]]»\nname = \"target\"\nhalf_space = {}"
-            )
-        ),
-        "the key `material` is missing",
-    );
-    is(
-        format!(
-            "{glass}{}",
-            two.replace(
-                "wall = {}",
-                "half_space = {}\nmaterial = 'glass'\napproach_speed = «-0.5»"
-            )
-        ),
-        "approach_speed is -0.5",
-    );
-    is(
-        format!(
-            "{glass}{}",
-            two.replace("[[body]]\nname = \"target\"\nwall = {}", "«[[body]]»\nname = \"target\"")
-        ),
-        "neither sphere, wall nor half_space",
-    );
-    is(
-        format!("{glass}{}", two.replace("\"target\"", "«\"striker\"»")),
-        "both bodies have the name",
-    );
-    is(format!("{glass}{}", two.replace("\"target\"", "«\"the target\"»")), "not a body's name");
-    is(format!("{glass}{}", two.replace("\"target\"", "«\"\"»")), "not a body's name");
-    is(format!("{glass}{}", two.replace("\"target\"", "«'Kügel'»")), "not a body's name");
-    is(two.replace("\"glass\"", "«\"glass\"»"), "no material \"glass\"");
-    is(
-        format!("{glass}{}", two.replace("diameter = 1", "diameter = 1, mesh = «''»")),
-        "mesh is an empty path",
-    );
-    // A moving wall, and a body that recedes more slowly than the other follows, are fine.
-    parse(&format!(
-        "{glass}{}",
-        two.replace("wall = {}", "wall = {}\napproach_speed = 2")
-            .replace("speed = 1", "speed = -1")
-    ))
-    .unwrap();
+    }
+    for text in [format!("«»{GLASS}"), "«»".to_string()] {
+        assert!(error_at_mark(&text).message().contains("no [[body]]"));
+    }
+    let half_spaces = "[[body]]\nname = 'a'\nhalf_space = {}\nmaterial = 'glass'\n\
+                       [[body]]\nname = 'b'\nhalf_space = «{}»\nmaterial = 'glass'";
+    let error = error_at_mark(&format!("{GLASS}{half_spaces}"));
+    assert!(error.message().contains("both bodies are half-spaces"), "{error}");
+    // A moving wall, and a body that recedes more slowly than the other follows, are valid.
+    let moving = case.replace("wall = {}", "wall = {}\napproach_speed = 2");
+    parse(&moving.replace("speed = 1", "speed = -1")).unwrap();
 }
 
 #[test]
@@ -197,6 +150,15 @@ fn models() {
     fault("fem = {}", "auto = «3»", "auto is an integer", "");
     fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "keep exactly one");
     fault("[model]\nfem = {}", "«[model]»", "names no model", "fem = {}");
+    fault("fem = {}", "condensed.steps = «\"many\"»", "does not begin with a number", "");
+    fault("fem = {}", "law = «{}»", "model.law names no law", "kuwabara_kono");
+    fault("fem = {}", "law.tsuji = «{}»", "the key `e` is missing", "write e");
+    let two = "[model.law.tsuji]\ne = 0.9\nalpha = «0.1»";
+    fault("[model]\nfem = {}", two, "both e and alpha are given", "");
+    let two = "[model.law.linear]\nk = 1e7\ncontact_time = «\"60 us\"»";
+    fault("[model]\nfem = {}", two, "both k and contact_time are given", "");
+    let accuracy = "[accuracy]\ntolerance = «\"2\"»\n[model]\nfem = {}";
+    fault("[model]\nfem = {}", accuracy, "tolerance is \"2\"", "at most 0.5");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What is no TOML, or no key or type of a case.
+//! Texts that are not TOML, and keys and types that a case does not have.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -104,9 +104,9 @@ fn wrong_words() {
     fault("\"off\"", "«\"no\"»", "bulk_viscosity is \"no\"", "\"auto\", \"on\", \"off\"");
 }
 
-/// Eight faults of five kinds, each told once, in one reading.
+/// Eight faults of five kinds, each reported once.
 #[test]
-fn all_faults_of_a_file_are_told_at_once() {
+fn all_faults_of_a_file_are_reported_at_once() {
     let text = VALID
         .replace("2390 kg/m^3", "2390 kg")
         .replace("poissons_ratio = 0.244", "poissons_ratio = 0.7")
@@ -124,7 +124,7 @@ fn all_faults_of_a_file_are_told_at_once() {
         changed.filter(|(_, (old, new))| old != new).map(|(k, _)| k + 1).collect();
     assert_eq!(lines, expected, "{error}");
     assert_eq!(all.len(), 8, "{error}");
-    // Each has its block, and each is what the reader says of it alone.
+    // Each has its block, with the message of the single fault.
     for fault in &all {
         let own = fault.to_string();
         assert!(error.to_string().contains(own.lines().next().unwrap()), "{own}");
@@ -138,9 +138,9 @@ fn all_faults_of_a_file_are_told_at_once() {
     assert_eq!(names, BTreeSet::from(expected));
 }
 
-/// What a body lacks hides nothing of what it has.
+/// A missing shape does not hide other faults of a body.
 #[test]
-fn a_body_without_a_shape_tells_its_other_faults() {
+fn a_body_without_a_shape_reports_its_other_faults() {
     let sphere = "sphere = { diameter = \"15.9 mm\" }";
     let (before, after) = VALID.split_once(sphere).unwrap();
     let after = after.replacen("\"glass\"", "\"lib:stel\"", 1);

@@ -1,4 +1,4 @@
-//! What an edit leaves alone, what it changes, and what is blamed for a fault.
+//! Edits of a case: unchanged keys, changed keys, and the key that is blamed for a fault.
 
 use fem_case::schema::*;
 use fem_case::{Case, CaseFile};

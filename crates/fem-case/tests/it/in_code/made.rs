@@ -1,4 +1,4 @@
-//! What is made in code is what is written.
+//! Cases made in code are the same as those that are read.
 
 use std::path::Path;
 

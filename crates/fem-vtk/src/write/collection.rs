@@ -1,4 +1,4 @@
-//! The time series of a run: a ParaView collection (`.pvd`) and the same as JSON (`.vtu.series`).
+//! Time series: a ParaView collection (`.pvd`) and the same series as JSON (`.vtu.series`).
 
 use std::fmt::Write;
 use std::path::Path;
@@ -6,19 +6,18 @@ use std::path::Path;
 use quick_xml::escape::escape;
 use serde_json::json;
 
-use crate::atomic::write_atomically;
 use crate::error::Error;
+use crate::write::write_atomically;
 
 /// Writes `path` (`<stem>.pvd`) and `<stem>.vtu.series` beside it.
 ///
-/// `snapshots` are times in seconds and `.vtu` file names relative to `path`'s folder. Each of the
-/// two files appears whole or not at all.
+/// `snapshots` are times in seconds and `.vtu` file names relative to `path`'s folder. Each of the two files is written
+/// completely or not at all.
 ///
 /// # Errors
 ///
-/// No snapshot; a time that is not finite or not later than the one before (ParaView draws two
-/// files of one time on top of each other); an absolute file name or one with `\` or control
-/// characters; the file system.
+/// There is no snapshot; a time is not finite or not later than the previous one (ParaView superposes files of the same
+/// time); a file name is absolute or has `\` or control characters; or a file cannot be written.
 pub fn write_collection<S: AsRef<str>>(
     path: impl AsRef<Path>,
     snapshots: &[(f64, S)],

@@ -1,34 +1,34 @@
-//! From an array's text or bytes in the file to numbers.
+//! Decodes an array's text or bytes into numbers.
 //!
-//! Every length in the file is a claim: it is checked against the bytes that are there before
-//! anything of that size is read or allocated.
+//! Every length in the file is compared with the bytes that exist before anything of that size is read or allocated.
 
 use std::borrow::Cow;
+use std::str::FromStr;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::blocks::Layout;
-use crate::document::{ArrayEntry, Document, Fault};
-use crate::scalar_type::ScalarType;
+use crate::read::vtu_xml::{ArrayEntry, FormatError, VtuXml};
 use crate::values::Numbers;
+use crate::vtk_types::ScalarType;
 
 /// Decodes one array. Returns its components and its numbers, tuple after tuple.
 pub(crate) fn decode(
     bytes: &[u8],
-    document: &Document,
+    xml_file: &VtuXml,
     entry: &ArrayEntry,
-) -> Result<(usize, Numbers), Fault> {
+) -> Result<(usize, Numbers), FormatError> {
     let place = place(entry);
-    let fault = |(found, allowed): Claim| Fault::new(&place, found, allowed);
+    let fault = |(found, allowed): Claim| FormatError::new(&place, found, allowed);
     let scalar_type = ScalarType::from_name(&entry.scalar_type).ok_or_else(|| {
         let allowed = ScalarType::ALL.map(ScalarType::name).join(", ");
-        Fault::new(&place, format!("type {:?}", entry.scalar_type), allowed)
+        FormatError::new(&place, format!("type {:?}", entry.scalar_type), allowed)
     })?;
     let components =
         entry.components.trim().parse().ok().filter(|&components| components > 0).ok_or_else(
             || {
-                Fault::new(
+                FormatError::new(
                     &place,
                     format!("NumberOfComponents {:?}", entry.components),
                     "a whole number, 1 or greater",
@@ -38,25 +38,23 @@ pub(crate) fn decode(
     let text = bytes.get(entry.text.clone()).unwrap_or_default().trim_ascii();
     let numbers = match entry.format.as_str() {
         "ascii" => parse_ascii(text, scalar_type).map_err(fault)?,
-        "binary" => {
-            let stream = Stream { data: text, base64: true, wide: document.wide_headers };
-            to_numbers(&read_bytes(stream, document.compressed).map_err(fault)?, scalar_type)
-                .map_err(fault)?
-        }
-        "appended" => {
-            let stream = appended_stream(bytes, document, entry).map_err(fault)?;
-            to_numbers(&read_bytes(stream, document.compressed).map_err(fault)?, scalar_type)
-                .map_err(fault)?
+        "binary" | "appended" => {
+            let stream = match entry.format.as_str() {
+                "binary" => Ok(Stream { data: text, base64: true, wide: xml_file.wide_headers }),
+                _ => appended_stream(bytes, xml_file, entry),
+            };
+            let data = stream.and_then(|stream| read_bytes(stream, xml_file.compressed));
+            data.and_then(|data| to_numbers(&data, scalar_type)).map_err(fault)?
         }
         other => {
             let found = format!("format {other:?}");
-            return Err(Fault::new(place, found, "\"ascii\", \"binary\", \"appended\""));
+            return Err(FormatError::new(place, found, "\"ascii\", \"binary\", \"appended\""));
         }
     };
     Ok((components, numbers))
 }
 
-/// How errors call an array.
+/// Returns the name of an array for errors.
 pub(crate) fn place(entry: &ArrayEntry) -> String {
     format!("{} array {:?}", entry.section.name(), entry.name)
 }
@@ -69,34 +67,32 @@ fn truncated() -> Claim {
 }
 
 fn parse_ascii(text: &[u8], scalar_type: ScalarType) -> Result<Numbers, Claim> {
-    let text = String::from_utf8_lossy(text);
-    let words = text.split_ascii_whitespace();
-    let wrong =
-        |word: &str| (format!("{word:?}"), format!("numbers of type {}", scalar_type.name()));
-    if scalar_type.is_float() {
-        let values: Result<_, _> =
-            words.map(|word| word.parse().map_err(|_| wrong(word))).collect();
-        Ok(Numbers::Float(values?))
-    } else {
-        let values: Result<_, _> =
-            words.map(|word| word.parse().map_err(|_| wrong(word))).collect();
-        Ok(Numbers::Integer(values?))
+    fn parse<T: FromStr>(text: &str, scalar_type: ScalarType) -> Result<Vec<T>, Claim> {
+        let wrong =
+            |word: &str| (format!("{word:?}"), format!("numbers of type {}", scalar_type.name()));
+        let words = text.split_ascii_whitespace();
+        words.map(|word| word.parse().map_err(|_| wrong(word))).collect()
     }
+    let text = String::from_utf8_lossy(text);
+    Ok(match scalar_type.is_float() {
+        true => Numbers::Float(parse(&text, scalar_type)?),
+        false => Numbers::Integer(parse(&text, scalar_type)?),
+    })
 }
 
 fn appended_stream<'a>(
     bytes: &'a [u8],
-    document: &Document,
+    xml_file: &VtuXml,
     entry: &ArrayEntry,
 ) -> Result<Stream<'a>, Claim> {
     let offset = entry.offset.as_deref().unwrap_or_default();
-    let appended = document.appended.as_ref().ok_or_else(|| {
+    let appended = xml_file.appended.as_ref().ok_or_else(|| {
         ("format \"appended\"".to_owned(), "an AppendedData element in the file".to_owned())
     })?;
     let data = bytes.get(appended.data.clone()).unwrap_or_default();
     let from_offset = offset.trim().parse().ok().and_then(|offset: usize| data.get(offset..));
     match from_offset {
-        Some(data) => Ok(Stream { data, base64: !appended.raw, wide: document.wide_headers }),
+        Some(data) => Ok(Stream { data, base64: !appended.raw, wide: xml_file.wide_headers }),
         None => {
             Err((format!("offset {offset:?}"), format!("0 to {} (the appended data)", data.len())))
         }
@@ -115,7 +111,7 @@ impl<'a> Stream<'a> {
         if self.wide { 8 } else { 4 }
     }
 
-    /// The next `n_bytes`, which stand on their own in base64, without moving on.
+    /// Returns the next `n_bytes`, a separate piece of base64, without consuming them, and their number of characters.
     fn peek(&self, n_bytes: usize) -> Result<(Cow<'a, [u8]>, usize), Claim> {
         if !self.base64 {
             let bytes = self.data.get(..n_bytes).ok_or_else(truncated)?;
@@ -139,22 +135,13 @@ impl<'a> Stream<'a> {
         Ok(bytes)
     }
 
-    /// Header integers in `bytes`; one that does not fit the machine cannot be a true length.
+    /// Returns the header integers in `bytes`; one that does not fit into `usize` cannot be a valid length.
     fn integers(&self, bytes: &[u8]) -> Result<Vec<usize>, Claim> {
-        let numbers: Result<_, _> = if self.wide {
-            bytes
-                .as_chunks()
-                .0
-                .iter()
-                .map(|&chunk| usize::try_from(u64::from_le_bytes(chunk)))
-                .collect()
-        } else {
-            bytes
-                .as_chunks()
-                .0
-                .iter()
-                .map(|&chunk| usize::try_from(u32::from_le_bytes(chunk)))
-                .collect()
+        let wide = |&chunk: &[u8; 8]| usize::try_from(u64::from_le_bytes(chunk));
+        let narrow = |&chunk: &[u8; 4]| usize::try_from(u32::from_le_bytes(chunk));
+        let numbers: Result<_, _> = match self.wide {
+            true => bytes.as_chunks().0.iter().map(wide).collect(),
+            false => bytes.as_chunks().0.iter().map(narrow).collect(),
         };
         numbers.map_err(|_| truncated())
     }
@@ -190,8 +177,8 @@ fn read_uncompressed(mut stream: Stream) -> Result<Vec<u8>, Claim> {
     let size = stream.header_size();
     let (header, n_characters) = stream.peek(size)?;
     let n_bytes = stream.integers(&header)?[0];
-    // Header and data are one piece of base64 in today's VTK and meshio, two in the format's
-    // description: then the header alone is padded (4 bytes by two characters, 8 by one).
+    // Header and data are one piece of base64 in VTK and meshio, but two pieces in the description of the format, where
+    // the header has its own padding (two characters for 4 bytes, one for 8).
     let n_padding = 3 - size % 3;
     let together = stream.base64 && stream.data.get(n_characters - n_padding) != Some(&b'=');
     if together {

@@ -1,4 +1,33 @@
-//! The number types of VTK XML files.
+//! The sections and number types of VTK XML files.
+
+/// The cell type of a four-node quadrilateral, `VTK_QUAD`.
+pub(crate) const VTK_QUAD: u8 = 9;
+
+/// A section of arrays, which determines their number of tuples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Section {
+    FieldData,
+    PointData,
+    CellData,
+    Points,
+    Cells,
+}
+
+impl Section {
+    pub(crate) const ALL: [Self; 5] =
+        [Self::FieldData, Self::PointData, Self::CellData, Self::Points, Self::Cells];
+
+    /// Returns the name of the XML element.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::FieldData => "FieldData",
+            Self::PointData => "PointData",
+            Self::CellData => "CellData",
+            Self::Points => "Points",
+            Self::Cells => "Cells",
+        }
+    }
+}
 
 /// A VTK number type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +58,7 @@ impl ScalarType {
         Self::Float64,
     ];
 
-    /// The name in the attribute `type`.
+    /// Returns the name in the attribute `type`.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Int8 => "Int8",
@@ -49,7 +78,7 @@ impl ScalarType {
         Self::ALL.into_iter().find(|scalar| scalar.name() == name)
     }
 
-    /// Bytes a value.
+    /// Returns the number of bytes per value.
     pub(crate) fn size(self) -> usize {
         match self {
             Self::Int8 | Self::UInt8 => 1,

@@ -1,16 +1,15 @@
-//! The text and bytes of a `.vtu`, of arrays already checked.
+//! Renders the text and bytes of a `.vtu` from validated arrays.
 
 use std::fmt::Write;
 
 use quick_xml::escape::escape;
 
 use crate::blocks::{Compressed, compress};
-use crate::contents::{Contents, NamedArray};
-use crate::encoding::Encoding;
-use crate::scalar_type::ScalarType;
-use crate::section::Section;
+use crate::vtk_types::{ScalarType, Section};
+use crate::write::encoding::Encoding;
+use crate::write::writer::{NamedArray, VtuWriter};
 
-/// The file: XML, appended data (empty if inline), XML again.
+/// A file: XML, appended data (empty if inline), and XML again.
 pub(crate) struct RenderedFile {
     encoding: Encoding,
     xml: String,
@@ -19,8 +18,8 @@ pub(crate) struct RenderedFile {
 }
 
 impl RenderedFile {
-    pub(crate) fn new(contents: &Contents) -> std::io::Result<Self> {
-        let encoding = contents.encoding;
+    pub(crate) fn new(writer: &VtuWriter) -> std::io::Result<Self> {
+        let encoding = writer.encoding;
         let mut file = Self { encoding, xml: String::new(), appended: Vec::new(), end: "" };
         file.push_line(0, "<?xml version=\"1.0\"?>");
         file.push_line(
@@ -29,12 +28,12 @@ impl RenderedFile {
              header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">",
         );
         file.push_line(1, "<UnstructuredGrid>");
-        file.push_grid(contents)?;
+        file.push_grid(writer)?;
         file.push_line(1, "</UnstructuredGrid>");
         if encoding.is_appended() {
             file.push_line(1, &format!("<AppendedData encoding=\"{}\">", encoding.appended_name()));
             file.xml.push('_');
-            // meshio cuts raw data at the last line break before the closing tag.
+            // meshio ends raw data at the last line break before the closing tag.
             file.end = "\n  </AppendedData>\n</VTKFile>\n";
         } else {
             file.end = "</VTKFile>\n";
@@ -42,7 +41,7 @@ impl RenderedFile {
         Ok(file)
     }
 
-    /// The file's bytes, to be written one after the other.
+    /// Returns the consecutive parts of the file.
     pub(crate) fn parts(&self) -> [&[u8]; 3] {
         [self.xml.as_bytes(), &self.appended, self.end.as_bytes()]
     }
@@ -51,10 +50,10 @@ impl RenderedFile {
         let _ = writeln!(self.xml, "{:1$}{line}", "", 2 * level);
     }
 
-    fn push_grid(&mut self, contents: &Contents) -> std::io::Result<()> {
-        let n_points = contents.grid.points.len();
-        let n_cells = contents.grid.quads.len();
-        let time = contents.time.map(|time| [time]);
+    fn push_grid(&mut self, writer: &VtuWriter) -> std::io::Result<()> {
+        let n_points = writer.grid.points.len();
+        let n_cells = writer.grid.quads.len();
+        let time = writer.time.map(|time| [time]);
         let time = time.as_ref().map(|time| NamedArray {
             section: Section::FieldData,
             name: "TimeValue",
@@ -62,7 +61,7 @@ impl RenderedFile {
             values: time.into(),
         });
         let field: Vec<&NamedArray> =
-            time.iter().chain(contents.of_section(Section::FieldData)).collect();
+            time.iter().chain(writer.of_section(Section::FieldData)).collect();
         if !field.is_empty() {
             self.push_line(2, "<FieldData>");
             for array in field {
@@ -74,32 +73,32 @@ impl RenderedFile {
             2,
             &format!("<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">"),
         );
-        self.push_data(contents, Section::PointData)?;
-        self.push_data(contents, Section::CellData)?;
-        self.push_mesh(contents)?;
+        self.push_data(writer, Section::PointData)?;
+        self.push_data(writer, Section::CellData)?;
+        self.push_mesh(writer)?;
         self.push_line(2, "</Piece>");
         Ok(())
     }
 
-    fn push_data(&mut self, contents: &Contents, section: Section) -> std::io::Result<()> {
+    fn push_data(&mut self, writer: &VtuWriter, section: Section) -> std::io::Result<()> {
         let mut attributes = String::new();
         for (attribute, components) in [("Scalars", 1), ("Vectors", 3)] {
             if let Some(array) =
-                contents.of_section(section).find(|array| array.components == components)
+                writer.of_section(section).find(|array| array.components == components)
             {
                 let _ = write!(attributes, " {attribute}=\"{}\"", escape(array.name));
             }
         }
         self.push_line(3, &format!("<{}{attributes}>", section.name()));
-        for array in contents.of_section(section) {
+        for array in writer.of_section(section) {
             self.push_array(array)?;
         }
         self.push_line(3, &format!("</{}>", section.name()));
         Ok(())
     }
 
-    fn push_mesh(&mut self, contents: &Contents) -> std::io::Result<()> {
-        let grid = contents.grid.compressed()?;
+    fn push_mesh(&mut self, writer: &VtuWriter) -> std::io::Result<()> {
+        let grid = writer.grid.compressed()?;
         self.push_line(3, "<Points>");
         let points = Declaration::new("Points", ScalarType::Float64, 3);
         self.push_compressed(&points, &grid.points);
@@ -151,12 +150,12 @@ impl RenderedFile {
     }
 }
 
-/// What a `DataArray` says of itself.
+/// The attributes of a `DataArray`.
 struct Declaration<'a> {
     name: &'a str,
     scalar_type: ScalarType,
     components: usize,
-    /// Where it is not the number of points or cells.
+    /// The number of tuples, if it is not the number of points or cells.
     n_tuples: Option<usize>,
 }
 

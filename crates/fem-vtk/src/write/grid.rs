@@ -1,18 +1,16 @@
-//! The mesh of a `.vtu`, compressed once for all files that show it.
+//! The mesh of a series of `.vtu` files, compressed once.
 
 use std::io;
 use std::sync::{Arc, OnceLock};
 
 use crate::blocks::{Compressed, compress};
 use crate::values::Values;
-
-/// The cell type of a four-node quadrilateral, `VTK_QUAD`.
-pub(crate) const VTK_QUAD: u8 = 9;
+use crate::vtk_types::VTK_QUAD;
 
 /// Points and quadrilaterals that several files share.
 ///
-/// A series of snapshots repeats its mesh in every file; its arrays, half of what can be compressed,
-/// are compressed with the first of them.
+/// A series of snapshots repeats its mesh in every file. The arrays of the mesh, half of the bytes, are compressed only
+/// for the first file.
 #[derive(Clone, Debug)]
 pub struct VtuGrid<'a> {
     pub(crate) points: &'a [[f64; 3]],
@@ -31,7 +29,7 @@ pub(crate) struct CompressedGrid {
 }
 
 impl<'a> VtuGrid<'a> {
-    /// Points in metres and the four corners of each cell, point numbers from 0.
+    /// Creates a grid: points in metres, and the four corners of each cell as point numbers from 0.
     pub fn new(points: &'a [[f64; 3]], quads: &'a [[u32; 4]]) -> Self {
         Self { points, quads, compressed: Arc::default() }
     }

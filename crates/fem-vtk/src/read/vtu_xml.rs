@@ -1,7 +1,7 @@
-//! The XML of a `.vtu`, parsed to a list of arrays whose data stay where they are in the file.
+//! Parses the XML of a `.vtu` into a list of arrays; their data remain in the bytes of the file.
 //!
-//! Appended data may be any bytes, so the file is cut at `<AppendedData ...>`: XML before, data
-//! up to the last `</AppendedData>`, then only `</VTKFile>`.
+//! Appended data may be any bytes, so the file is split at `<AppendedData ...>`: XML before, data up to the last
+//! `</AppendedData>`, then only `</VTKFile>`.
 
 use std::ops::Range;
 
@@ -9,17 +9,17 @@ use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
-use crate::section::Section;
+use crate::vtk_types::Section;
 
-/// The value that was found and the allowed ones, at a place in the file.
+/// An error in the format of a file: the place, the value that was found, and the allowed ones.
 #[derive(Debug)]
-pub(crate) struct Fault {
+pub(crate) struct FormatError {
     pub(crate) place: String,
     pub(crate) found: String,
     pub(crate) allowed: String,
 }
 
-impl Fault {
+impl FormatError {
     pub(crate) fn new(
         place: impl Into<String>,
         found: impl Into<String>,
@@ -29,7 +29,7 @@ impl Fault {
     }
 }
 
-/// A file may hold anything; a terminal must not obey it.
+/// Replaces control characters, which a terminal would execute.
 pub(crate) fn tame(text: String) -> String {
     match text.contains(char::is_control) {
         true => text.replace(char::is_control, "\u{fffd}"),
@@ -37,7 +37,7 @@ pub(crate) fn tame(text: String) -> String {
     }
 }
 
-/// One `DataArray`; attributes are checked when it is decoded.
+/// A `DataArray`; its attributes are validated when it is decoded.
 #[derive(Debug)]
 pub(crate) struct ArrayEntry {
     pub(crate) section: Section,
@@ -46,11 +46,11 @@ pub(crate) struct ArrayEntry {
     pub(crate) components: String,
     pub(crate) format: String,
     pub(crate) offset: Option<String>,
-    /// The element's own text in the file.
+    /// The text of the element in the file.
     pub(crate) text: Range<usize>,
 }
 
-/// The block at the end of the file, after its `_`.
+/// The appended data at the end of the file, after their `_`.
 #[derive(Debug)]
 pub(crate) struct Appended {
     pub(crate) raw: bool,
@@ -59,7 +59,7 @@ pub(crate) struct Appended {
 
 /// The parsed file.
 #[derive(Debug, Default)]
-pub(crate) struct Document {
+pub(crate) struct VtuXml {
     pub(crate) wide_headers: bool,
     pub(crate) compressed: bool,
     pub(crate) n_points: usize,
@@ -71,48 +71,48 @@ pub(crate) struct Document {
 
 const WHOLE_FILE: &str = "a whole .vtu file (VTK XML UnstructuredGrid)";
 
-/// The most elements around one that matters: a `DataArray` in its section.
+/// The largest depth of an element that is read: a `DataArray` in its section.
 const DEEPEST: usize = 4;
 
-impl Document {
-    pub(crate) fn parse(bytes: &[u8]) -> Result<Self, Fault> {
+impl VtuXml {
+    pub(crate) fn parse(bytes: &[u8]) -> Result<Self, FormatError> {
         let (xml_end, data) = find_appended(bytes)?;
         let xml = std::str::from_utf8(&bytes[..xml_end]).map_err(|error| {
-            Fault::new(format!("byte {}", error.valid_up_to()), "no UTF-8 text", WHOLE_FILE)
+            FormatError::new(format!("byte {}", error.valid_up_to()), "text that is not UTF-8", WHOLE_FILE)
         })?;
-        let mut document = Self::default();
-        let open = document.read_events(xml)?;
+        let mut xml_file = Self::default();
+        let open = xml_file.read_events(xml)?;
         match (data, open.as_slice()) {
             (Some(data), [root, appended]) if root == "VTKFile" && appended == "AppendedData" => {
-                if let Some(appended) = &mut document.appended {
+                if let Some(appended) = &mut xml_file.appended {
                     appended.data = data;
                 }
             }
             (None, []) => {}
             _ => {
-                return Err(Fault::new(
+                return Err(FormatError::new(
                     "end of file",
                     format!("<{}> still open", open.join("><")),
                     WHOLE_FILE,
                 ));
             }
         }
-        match document.n_pieces {
-            1 => Ok(document),
+        match xml_file.n_pieces {
+            1 => Ok(xml_file),
             n_pieces => {
-                Err(Fault::new("UnstructuredGrid", format!("{n_pieces} pieces"), "one Piece"))
+                Err(FormatError::new("UnstructuredGrid", format!("{n_pieces} pieces"), "one Piece"))
             }
         }
     }
 
-    /// Reads the elements; the names of those still open at the end are returned.
-    fn read_events(&mut self, xml: &str) -> Result<Vec<String>, Fault> {
+    /// Reads the elements and returns the names of those that are not closed.
+    fn read_events(&mut self, xml: &str) -> Result<Vec<String>, FormatError> {
         let mut reader = Reader::from_str(xml);
         let mut open: Vec<String> = Vec::new();
         loop {
             let start = position(&reader);
             let event = reader.read_event().map_err(|error| {
-                Fault::new(
+                FormatError::new(
                     format!("byte {}", reader.error_position()),
                     format!("broken XML ({error})"),
                     WHOLE_FILE,
@@ -131,26 +131,26 @@ impl Document {
                     self.take_text(start..position(&reader))?;
                 }
                 Event::CData(_) | Event::GeneralRef(_) if is_array(&open) => {
-                    return Err(Fault::new("DataArray", "XML references or CDATA", "plain text"));
+                    return Err(FormatError::new("DataArray", "XML references or CDATA", "plain text"));
                 }
                 Event::Eof => break,
                 _ => {}
             }
         }
         if self.n_pieces == 0 && open.is_empty() {
-            return Err(Fault::new("file", "no VTKFile element with a Piece", WHOLE_FILE));
+            return Err(FormatError::new("file", "no VTKFile element with a Piece", WHOLE_FILE));
         }
         Ok(open)
     }
 
-    fn open_element(&mut self, open: &[String], element: &BytesStart) -> Result<(), Fault> {
+    fn open_element(&mut self, open: &[String], element: &BytesStart) -> Result<(), FormatError> {
         if open.len() > DEEPEST {
             return Ok(());
         }
         let path: Vec<&str> = open.iter().map(String::as_str).chain([element.name().0]).collect();
         match path.as_slice() {
             ["VTKFile"] => self.read_root(element),
-            [_] => Err(Fault::new("file", format!("root element {}", path[0]), "VTKFile")),
+            [_] => Err(FormatError::new("file", format!("root element {}", path[0]), "VTKFile")),
             ["VTKFile", "UnstructuredGrid", "Piece"] => self.read_piece(element),
             ["VTKFile", "AppendedData"] => self.read_appended(element),
             ["VTKFile", "UnstructuredGrid", section, "DataArray"]
@@ -164,11 +164,11 @@ impl Document {
         }
     }
 
-    fn read_root(&mut self, element: &BytesStart) -> Result<(), Fault> {
+    fn read_root(&mut self, element: &BytesStart) -> Result<(), FormatError> {
         let place = "VTKFile";
         let kind = attribute(element, "type")?.unwrap_or_default();
         if kind != "UnstructuredGrid" {
-            return Err(Fault::new(
+            return Err(FormatError::new(
                 place,
                 format!("type {kind:?}"),
                 "type \"UnstructuredGrid\" (.vtu)",
@@ -176,13 +176,13 @@ impl Document {
         }
         let order = attribute(element, "byte_order")?.unwrap_or("LittleEndian".into());
         if order != "LittleEndian" {
-            return Err(Fault::new(place, format!("byte_order {order:?}"), "\"LittleEndian\""));
+            return Err(FormatError::new(place, format!("byte_order {order:?}"), "\"LittleEndian\""));
         }
         self.wide_headers = match attribute(element, "header_type")?.as_deref() {
             None | Some("UInt32") => false,
             Some("UInt64") => true,
             Some(other) => {
-                return Err(Fault::new(
+                return Err(FormatError::new(
                     place,
                     format!("header_type {other:?}"),
                     "\"UInt32\", \"UInt64\"",
@@ -194,33 +194,33 @@ impl Document {
             Some("vtkZLibDataCompressor") => true,
             Some(other) => {
                 let allowed = "\"vtkZLibDataCompressor\" or none (ParaView: choose it when saving)";
-                return Err(Fault::new(place, format!("compressor {other:?}"), allowed));
+                return Err(FormatError::new(place, format!("compressor {other:?}"), allowed));
             }
         };
         Ok(())
     }
 
-    fn read_piece(&mut self, element: &BytesStart) -> Result<(), Fault> {
+    fn read_piece(&mut self, element: &BytesStart) -> Result<(), FormatError> {
         self.n_pieces += 1;
         self.n_points = count(element, "NumberOfPoints")?;
         self.n_cells = count(element, "NumberOfCells")?;
         Ok(())
     }
 
-    fn read_appended(&mut self, element: &BytesStart) -> Result<(), Fault> {
+    fn read_appended(&mut self, element: &BytesStart) -> Result<(), FormatError> {
         let raw = match attribute(element, "encoding")?.as_deref() {
             Some("raw") => true,
             None | Some("base64") => false,
             Some(other) => {
                 let found = format!("encoding {other:?}");
-                return Err(Fault::new("AppendedData", found, "\"raw\", \"base64\""));
+                return Err(FormatError::new("AppendedData", found, "\"raw\", \"base64\""));
             }
         };
         self.appended = Some(Appended { raw, data: 0..0 });
         Ok(())
     }
 
-    fn read_array(&mut self, section: Section, element: &BytesStart) -> Result<(), Fault> {
+    fn read_array(&mut self, section: Section, element: &BytesStart) -> Result<(), FormatError> {
         self.arrays.push(ArrayEntry {
             section,
             name: attribute(element, "Name")?.unwrap_or_default(),
@@ -233,21 +233,21 @@ impl Document {
         Ok(())
     }
 
-    fn take_text(&mut self, text: Range<usize>) -> Result<(), Fault> {
+    fn take_text(&mut self, text: Range<usize>) -> Result<(), FormatError> {
         match self.arrays.last_mut() {
             Some(array) if array.text.is_empty() => {
                 array.text = text;
                 Ok(())
             }
             Some(array) => {
-                Err(Fault::new(&array.name, "data in several pieces", "one piece of text"))
+                Err(FormatError::new(&array.name, "data in several pieces", "one piece of text"))
             }
             None => Ok(()),
         }
     }
 }
 
-/// Whether the innermost open element is a `DataArray` of a section that is kept.
+/// Returns whether the innermost open element is a `DataArray` of a known section.
 fn is_array(open: &[String]) -> bool {
     let section = open.len().checked_sub(2).map(|index| open[index].as_str());
     open.last().is_some_and(|name| name == "DataArray")
@@ -258,9 +258,9 @@ fn position(reader: &Reader<&[u8]>) -> usize {
     reader.buffer_position() as usize
 }
 
-fn attribute(element: &BytesStart, name: &str) -> Result<Option<String>, Fault> {
+fn attribute(element: &BytesStart, name: &str) -> Result<Option<String>, FormatError> {
     let place = element.name().0;
-    let broken = |found: String| Fault::new(place, found, "well-formed attributes");
+    let broken = |found: String| FormatError::new(place, found, "well-formed attributes");
     for attribute in element.attributes() {
         let attribute = attribute.map_err(|error| broken(error.to_string()))?;
         if attribute.key.0 == name {
@@ -273,22 +273,22 @@ fn attribute(element: &BytesStart, name: &str) -> Result<Option<String>, Fault> 
     Ok(None)
 }
 
-fn count(element: &BytesStart, name: &str) -> Result<usize, Fault> {
+fn count(element: &BytesStart, name: &str) -> Result<usize, FormatError> {
     let text = attribute(element, name)?.unwrap_or_default();
     text.trim().parse().map_err(|_| {
-        Fault::new("Piece", format!("{name} {text:?}"), "a whole number, 0 or greater")
+        FormatError::new("Piece", format!("{name} {text:?}"), "a whole number, 0 or greater")
     })
 }
 
-/// The end of the XML and the range of the appended data, if there are any.
-fn find_appended(bytes: &[u8]) -> Result<(usize, Option<Range<usize>>), Fault> {
+/// Returns the end of the XML and the range of the appended data, if there are any.
+fn find_appended(bytes: &[u8]) -> Result<(usize, Option<Range<usize>>), FormatError> {
     const OPEN: &[u8] = b"<AppendedData";
     const CLOSE: &[u8] = b"</AppendedData>";
     let Some(open) = bytes.windows(OPEN.len()).position(|window| window == OPEN) else {
         return Ok((bytes.len(), None));
     };
     let cut = |found| {
-        Fault::new("AppendedData", found, "<AppendedData ...>_data</AppendedData></VTKFile>")
+        FormatError::new("AppendedData", found, "<AppendedData ...>_data</AppendedData></VTKFile>")
     };
     let tag = bytes[open..]
         .iter()

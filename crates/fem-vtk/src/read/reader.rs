@@ -1,13 +1,12 @@
-//! Quadrilateral meshes and named arrays out of a `.vtu`.
+//! Reads quadrilateral meshes and named arrays from a `.vtu`.
 
 use std::path::{Path, PathBuf};
 
-use crate::decode::{decode, place};
-use crate::document::{ArrayEntry, Document, Fault, tame};
 use crate::error::Error;
-use crate::grid::VTK_QUAD;
-use crate::section::Section;
+use crate::read::decode::{decode, place};
+use crate::read::vtu_xml::{ArrayEntry, FormatError, VtuXml, tame};
 use crate::values::{Numbers, first_not_finite};
+use crate::vtk_types::{Section, VTK_QUAD};
 
 /// Points and quadrilaterals of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,14 +20,14 @@ pub struct QuadMesh {
 /// A data array of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadArray {
-    /// Values a tuple, at least 1.
+    /// Number of values per tuple, at least 1.
     pub components: usize,
-    /// All values, tuple after tuple; floats are finite.
+    /// All values, tuple after tuple; floating-point values are finite.
     pub values: Numbers,
 }
 
 impl ReadArray {
-    /// The values, if the file has them as floats.
+    /// Returns the values if the file has them as floating-point numbers.
     pub fn as_float(&self) -> Option<&[f64]> {
         match &self.values {
             Numbers::Float(values) => Some(values),
@@ -36,7 +35,7 @@ impl ReadArray {
         }
     }
 
-    /// The values, if the file has them as integers.
+    /// Returns the values if the file has them as integers.
     pub fn as_integer(&self) -> Option<&[i64]> {
         match &self.values {
             Numbers::Integer(values) => Some(values),
@@ -49,12 +48,12 @@ impl ReadArray {
 ///
 /// # Errors
 ///
-/// As [`VtuFile::open`] and [`VtuFile::quad_mesh`].
+/// The errors are those of [`VtuFile::open`] and [`VtuFile::quad_mesh`].
 pub fn read_quad_mesh(path: impl AsRef<Path>) -> Result<QuadMesh, Error> {
     VtuFile::open(path)?.quad_mesh()
 }
 
-/// A `.vtu` in memory; arrays are decoded when asked for.
+/// A `.vtu` in memory; its arrays are decoded when they are requested.
 ///
 /// Accepted: one piece; ascii, inline base64, appended base64 or raw; zlib blocks or uncompressed;
 /// headers of 32 or 64 bits; every VTK number type; little-endian.
@@ -62,7 +61,7 @@ pub fn read_quad_mesh(path: impl AsRef<Path>) -> Result<QuadMesh, Error> {
 pub struct VtuFile {
     path: PathBuf,
     bytes: Vec<u8>,
-    document: Document,
+    xml: VtuXml,
 }
 
 impl VtuFile {
@@ -70,8 +69,8 @@ impl VtuFile {
     ///
     /// # Errors
     ///
-    /// The file system; XML that is broken or ends early; a VTK file of another kind, byte order
-    /// or compressor; not exactly one piece.
+    /// The file cannot be read; its XML is broken or ends early; it is a VTK file of another type, byte order or compressor;
+    /// or it does not have exactly one piece.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let bytes =
@@ -79,29 +78,29 @@ impl VtuFile {
         Self::from_bytes(path, bytes)
     }
 
-    /// As [`VtuFile::open`], of bytes at hand; `path` only names them in errors.
+    /// Parses the bytes of a file, as [`VtuFile::open`] does; `path` only names them in errors.
     ///
     /// # Errors
     ///
     /// The errors are those of [`VtuFile::open`].
     pub fn from_bytes(path: impl AsRef<Path>, bytes: Vec<u8>) -> Result<Self, Error> {
         let path = path.as_ref().to_path_buf();
-        match Document::parse(&bytes) {
-            Ok(document) => Ok(Self { path, bytes, document }),
-            Err(fault) => Err(malformed(&path, fault)),
+        match VtuXml::parse(&bytes) {
+            Ok(xml) => Ok(Self { path, bytes, xml }),
+            Err(error) => Err(malformed(&path, error)),
         }
     }
 
-    /// Points and cells.
+    /// Returns points and cells.
     ///
     /// # Errors
     ///
-    /// No points or cells; points that are not three finite coordinates; a cell that is not a
-    /// `VTK_QUAD` (its number and type are named); a point number out of range; damaged data.
+    /// There are no points or cells; a point does not have three finite coordinates; a cell is not a `VTK_QUAD`; a point
+    /// number is out of range; or the data are damaged.
     pub fn quad_mesh(&self) -> Result<QuadMesh, Error> {
-        let Document { n_points, n_cells, .. } = self.document;
+        let VtuXml { n_points, n_cells, .. } = self.xml;
         if n_points == 0 || n_cells == 0 {
-            return Err(self.fault(
+            return Err(self.error(
                 "Piece",
                 format!("{n_points} points, {n_cells} cells"),
                 "at least one of each",
@@ -120,7 +119,7 @@ impl VtuFile {
                 let in_range = usize::try_from(point).is_ok_and(|point| point < n_points);
                 quad[corner] = u32::try_from(point).ok().filter(|_| in_range).ok_or_else(|| {
                     let found = format!("point {point} at corner {corner} of cell {cell}");
-                    self.fault(
+                    self.error(
                         "Cells array \"connectivity\"",
                         found,
                         format!("0 to {}", n_points - 1),
@@ -132,35 +131,35 @@ impl VtuFile {
         Ok(QuadMesh { points, quads })
     }
 
-    /// Point data: `n_points` tuples.
+    /// Returns an array of point data, with `n_points` tuples.
     ///
     /// # Errors
     ///
-    /// No such array, damaged data, a wrong length, an infinity or NaN.
+    /// The array does not exist, is damaged, has a wrong length, or has a value that is not finite.
     pub fn point_data(&self, name: &str) -> Result<ReadArray, Error> {
-        self.read_sized(Section::PointData, name, self.document.n_points)
+        self.read_sized(Section::PointData, name, self.xml.n_points)
     }
 
-    /// Cell data: `n_cells` tuples.
+    /// Returns an array of cell data, with `n_cells` tuples.
     ///
     /// # Errors
     ///
-    /// No such array, damaged data, a wrong length, an infinity or NaN.
+    /// The array does not exist, is damaged, has a wrong length, or has a value that is not finite.
     pub fn cell_data(&self, name: &str) -> Result<ReadArray, Error> {
-        self.read_sized(Section::CellData, name, self.document.n_cells)
+        self.read_sized(Section::CellData, name, self.xml.n_cells)
     }
 
-    /// An array of the file as a whole, such as `TimeValue`.
+    /// Returns an array of the whole file, such as `TimeValue`.
     ///
     /// # Errors
     ///
-    /// No such array, damaged data, an incomplete tuple, an infinity or NaN.
+    /// The array does not exist, is damaged, has an incomplete tuple, or has a value that is not finite.
     pub fn field_data(&self, name: &str) -> Result<ReadArray, Error> {
         let entry = self.find(Section::FieldData, name)?;
         let array = self.read_entry(entry)?;
         if !array.values.len().is_multiple_of(array.components) {
             let found = format!("{} values", array.values.len());
-            return Err(self.fault(
+            return Err(self.error(
                 place(entry),
                 found,
                 format!("a multiple of {}", array.components),
@@ -169,50 +168,50 @@ impl VtuFile {
         Ok(array)
     }
 
-    /// The names of the point data, in the order of the file.
+    /// Returns the names of the point data, in the order of the file.
     pub fn point_data_names(&self) -> impl Iterator<Item = &str> {
         self.names(Section::PointData)
     }
 
-    /// The names of the cell data, in the order of the file.
+    /// Returns the names of the cell data, in the order of the file.
     pub fn cell_data_names(&self) -> impl Iterator<Item = &str> {
         self.names(Section::CellData)
     }
 
     fn names(&self, section: Section) -> impl Iterator<Item = &str> {
-        let arrays = self.document.arrays.iter();
+        let arrays = self.xml.arrays.iter();
         arrays.filter(move |entry| entry.section == section).map(|entry| entry.name.as_str())
     }
 
     fn read_points(&self) -> Result<Vec<[f64; 3]>, Error> {
         let mut arrays =
-            self.document.arrays.iter().filter(|entry| entry.section == Section::Points);
+            self.xml.arrays.iter().filter(|entry| entry.section == Section::Points);
         let (Some(entry), None) = (arrays.next(), arrays.next()) else {
-            return Err(self.fault("Points", "none or several arrays", "one DataArray"));
+            return Err(self.error("Points", "none or several arrays", "one DataArray"));
         };
         let array = self.read_entry(entry)?;
         let place = place(entry);
         match &array.values {
             Numbers::Float(values) if array.components == 3 => {
-                self.check_length(&place, values.len(), self.document.n_points, 3)?;
+                self.check_length(&place, values.len(), self.xml.n_points, 3)?;
                 Ok(values.as_chunks().0.to_vec())
             }
             _ => {
                 let found =
                     format!("{} components of type {}", array.components, entry.scalar_type);
-                Err(self.fault(place, found, "3 components of type Float32 or Float64"))
+                Err(self.error(place, found, "3 components of type Float32 or Float64"))
             }
         }
     }
 
     fn check_types(&self) -> Result<(), Error> {
         let types = self.read_integers("types")?;
-        self.check_length("Cells array \"types\"", types.len(), self.document.n_cells, 1)?;
+        self.check_length("Cells array \"types\"", types.len(), self.xml.n_cells, 1)?;
         match types.iter().position(|&kind| kind != i64::from(VTK_QUAD)) {
             None => Ok(()),
             Some(cell) => {
                 let found = format!("cell {cell} of type {}", cell_type_name(types[cell]));
-                Err(self.fault(
+                Err(self.error(
                     "Cells array \"types\"",
                     found,
                     "only four-node quadrilaterals (9, VTK_QUAD)",
@@ -223,12 +222,12 @@ impl VtuFile {
 
     fn check_offsets(&self) -> Result<(), Error> {
         let offsets = self.read_integers("offsets")?;
-        self.check_length("Cells array \"offsets\"", offsets.len(), self.document.n_cells, 1)?;
+        self.check_length("Cells array \"offsets\"", offsets.len(), self.xml.n_cells, 1)?;
         match (4..).step_by(4).zip(&offsets).position(|(expected, &offset)| offset != expected) {
             None => Ok(()),
             Some(cell) => {
                 let found = format!("{} at cell {cell}", offsets[cell]);
-                Err(self.fault(
+                Err(self.error(
                     "Cells array \"offsets\"",
                     found,
                     "4, 8, 12, ... for quadrilaterals",
@@ -242,7 +241,7 @@ impl VtuFile {
         match self.read_entry(entry)?.values {
             Numbers::Integer(values) => Ok(values),
             Numbers::Float(_) => {
-                Err(self.fault(place(entry), format!("type {}", entry.scalar_type), "integers"))
+                Err(self.error(place(entry), format!("type {}", entry.scalar_type), "integers"))
             }
         }
     }
@@ -260,7 +259,7 @@ impl VtuFile {
     }
 
     fn find(&self, section: Section, name: &str) -> Result<&ArrayEntry, Error> {
-        let arrays = &self.document.arrays;
+        let arrays = &self.xml.arrays;
         arrays.iter().find(|entry| entry.section == section && entry.name == name).ok_or_else(
             || {
                 let available: Vec<&str> = self.names(section).collect();
@@ -277,8 +276,8 @@ impl VtuFile {
     }
 
     fn read_entry(&self, entry: &ArrayEntry) -> Result<ReadArray, Error> {
-        let (components, values) = decode(&self.bytes, &self.document, entry)
-            .map_err(|fault| malformed(&self.path, fault))?;
+        let (components, values) = decode(&self.bytes, &self.xml, entry)
+            .map_err(|error| malformed(&self.path, error))?;
         if let Numbers::Float(floats) = &values
             && let Some((index, value)) = first_not_finite(floats)
         {
@@ -287,7 +286,7 @@ impl VtuFile {
                 index / components,
                 index % components
             );
-            return Err(self.fault(place(entry), found, "finite numbers"));
+            return Err(self.error(place(entry), found, "finite numbers"));
         }
         Ok(ReadArray { components, values })
     }
@@ -302,29 +301,29 @@ impl VtuFile {
         if tuples.checked_mul(components) == Some(found) {
             return Ok(());
         }
-        Err(self.fault(
+        Err(self.error(
             place,
             format!("{found} values"),
             format!("{tuples} tuples x {components} components"),
         ))
     }
 
-    fn fault(
+    fn error(
         &self,
         place: impl Into<String>,
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Error {
-        malformed(&self.path, Fault::new(place, found, allowed))
+        malformed(&self.path, FormatError::new(place, found, allowed))
     }
 }
 
-fn malformed(path: &Path, fault: Fault) -> Error {
-    let Fault { place, found, allowed } = fault;
+fn malformed(path: &Path, error: FormatError) -> Error {
+    let FormatError { place, found, allowed } = error;
     Error::Malformed { path: path.to_path_buf(), place, found, allowed }
 }
 
-/// The types a mesh of faces, edges and corners usually has.
+/// Returns number and name of a cell type of usual meshes.
 fn cell_type_name(kind: i64) -> String {
     let name = match kind {
         1 => "VTK_VERTEX",

@@ -1,21 +1,20 @@
-//! The ways to put an array's compressed bytes into the file.
+//! Encodings of an array's compressed bytes in the file.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::blocks::Compressed;
 
-/// Where the bytes go and how they look. VTK 9.2 and 9.7 and meshio 5.3 read all three.
+/// Position and encoding of the bytes. VTK 9.2 and 9.7 and meshio 5.3 read all three.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// Base64 inside each `DataArray` element.
     InlineBase64,
-    /// Base64 in one block at the end: the default of VTK's own writer. The file is well-formed
-    /// XML.
+    /// Base64 in one block at the end, the default of VTK's writer. The file is well-formed XML.
     #[default]
     AppendedBase64,
-    /// Bytes in one block at the end: a quarter smaller, but no well-formed XML, and meshio needs
-    /// three times as long to read it (200,000 cells).
+    /// Bytes in one block at the end: a quarter smaller, but not well-formed XML, and meshio takes three times as long to
+    /// read it (200,000 cells).
     AppendedRaw,
 }
 
@@ -24,7 +23,7 @@ impl Encoding {
         self != Self::InlineBase64
     }
 
-    /// The attribute `encoding` of `AppendedData`.
+    /// Returns the attribute `encoding` of `AppendedData`.
     pub(crate) fn appended_name(self) -> &'static str {
         match self {
             Self::AppendedRaw => "raw",
@@ -32,7 +31,7 @@ impl Encoding {
         }
     }
 
-    /// Header and blocks as they stand in the file. Base64 pads each of the two.
+    /// Encodes header and blocks; base64 pads each of them separately.
     pub(crate) fn encode(self, compressed: &Compressed) -> Vec<u8> {
         let Compressed { header, blocks } = compressed;
         match self {

@@ -1,12 +1,19 @@
-//! Files that appear whole or not at all: VTK reads a truncated file as zero points, silently.
+//! Writers of `.vtu` files and of their time series.
+
+pub(crate) mod collection;
+pub(crate) mod encoding;
+pub(crate) mod grid;
+mod render;
+pub(crate) mod writer;
 
 use std::io::Write;
 use std::path::Path;
 
 use crate::error::Error;
 
-/// Writes a hidden temporary file beside `path`, then renames it over `path`.
-pub(crate) fn write_atomically(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
+/// Writes a hidden temporary file beside `path`, then renames it to `path`. A partly written file would be read by VTK as
+/// zero points, without an error.
+fn write_atomically(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
     let io_error = |source| Error::Io { path: path.to_path_buf(), source };
     let name =
         path.file_name().ok_or_else(|| io_error(std::io::ErrorKind::InvalidFilename.into()))?;
@@ -20,7 +27,7 @@ pub(crate) fn write_atomically(path: &Path, parts: &[&[u8]]) -> Result<(), Error
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // As any new file: the umask applies. The default of the crate is owner only.
+        // The umask applies as for any new file; the default of the crate is owner only.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let mut file = builder.tempfile_in(folder).map_err(io_error)?;

@@ -1,0 +1,5 @@
+//! Readers of `.vtu` files.
+
+mod decode;
+pub(crate) mod reader;
+mod vtu_xml;
