@@ -105,7 +105,9 @@ pub fn try_inputs(
         }
         while left.load(Relaxed) > 0 {
             thread::sleep(Duration::from_millis(20));
-            if let Some(input) = current.iter().find_map(|own_input| own_input.overdue(began, longest)) {
+            if let Some(input) =
+                current.iter().find_map(|own_input| own_input.overdue(began, longest))
+            {
                 eprintln!("input {input} takes more than {longest:?}");
                 std::process::abort();
             }

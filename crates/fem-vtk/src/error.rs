@@ -100,9 +100,7 @@ pub enum Error {
     },
 
     /// A time of a collection is not finite or not later than the previous one.
-    #[error(
-        "{file}: time {time}; times must be finite and increase (previous time: {previous:?})"
-    )]
+    #[error("{file}: time {time}; times must be finite and increase (previous time: {previous:?})")]
     Time {
         /// File name of the snapshot.
         file: String,

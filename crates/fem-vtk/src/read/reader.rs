@@ -184,8 +184,7 @@ impl VtuFile {
     }
 
     fn read_points(&self) -> Result<Vec<[f64; 3]>, Error> {
-        let mut arrays =
-            self.xml.arrays.iter().filter(|entry| entry.section == Section::Points);
+        let mut arrays = self.xml.arrays.iter().filter(|entry| entry.section == Section::Points);
         let (Some(entry), None) = (arrays.next(), arrays.next()) else {
             return Err(self.error("Points", "none or several arrays", "one DataArray"));
         };
@@ -276,8 +275,8 @@ impl VtuFile {
     }
 
     fn read_entry(&self, entry: &ArrayEntry) -> Result<ReadArray, Error> {
-        let (components, values) = decode(&self.bytes, &self.xml, entry)
-            .map_err(|error| malformed(&self.path, error))?;
+        let (components, values) =
+            decode(&self.bytes, &self.xml, entry).map_err(|error| malformed(&self.path, error))?;
         if let Numbers::Float(floats) = &values
             && let Some((index, value)) = first_not_finite(floats)
         {

@@ -78,7 +78,11 @@ impl VtuXml {
     pub(crate) fn parse(bytes: &[u8]) -> Result<Self, FormatError> {
         let (xml_end, data) = find_appended(bytes)?;
         let xml = std::str::from_utf8(&bytes[..xml_end]).map_err(|error| {
-            FormatError::new(format!("byte {}", error.valid_up_to()), "text that is not UTF-8", WHOLE_FILE)
+            FormatError::new(
+                format!("byte {}", error.valid_up_to()),
+                "text that is not UTF-8",
+                WHOLE_FILE,
+            )
         })?;
         let mut xml_file = Self::default();
         let open = xml_file.read_events(xml)?;
@@ -131,7 +135,11 @@ impl VtuXml {
                     self.take_text(start..position(&reader))?;
                 }
                 Event::CData(_) | Event::GeneralRef(_) if is_array(&open) => {
-                    return Err(FormatError::new("DataArray", "XML references or CDATA", "plain text"));
+                    return Err(FormatError::new(
+                        "DataArray",
+                        "XML references or CDATA",
+                        "plain text",
+                    ));
                 }
                 Event::Eof => break,
                 _ => {}
@@ -176,7 +184,11 @@ impl VtuXml {
         }
         let order = attribute(element, "byte_order")?.unwrap_or("LittleEndian".into());
         if order != "LittleEndian" {
-            return Err(FormatError::new(place, format!("byte_order {order:?}"), "\"LittleEndian\""));
+            return Err(FormatError::new(
+                place,
+                format!("byte_order {order:?}"),
+                "\"LittleEndian\"",
+            ));
         }
         self.wide_headers = match attribute(element, "header_type")?.as_deref() {
             None | Some("UInt32") => false,

@@ -195,7 +195,8 @@ impl<'a> VtuWriter<'a> {
         };
         let expected = format!("{count} {entities} x {components} components");
         (count.checked_mul(components) == Some(found), expected)
-    }}
+    }
+}
 
 fn check_finite(
     section: Section,

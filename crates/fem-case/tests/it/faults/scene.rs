@@ -73,7 +73,11 @@ fn bodies() {
     parse(&case).unwrap();
     for (part, replacement, message) in [
         (STRIKER, "", "only one [[body]]"),
-        ("wall = {}\n", "wall = {}\n«[[body]]»\nname = \"c\"\nwall = {}\n", "the case has 3 [[body]]"),
+        (
+            "wall = {}\n",
+            "wall = {}\n«[[body]]»\nname = \"c\"\nwall = {}\n",
+            "the case has 3 [[body]]",
+        ),
         ("speed = 1", "speed = «0»", "receding or at rest"),
         ("speed = 1", "speed = «-1»", "receding or at rest"),
         ("approach_speed = 1\n[[body]]", "«[[body]]»", "receding or at rest"),
