@@ -4,14 +4,18 @@
 //! result folder ── report ─────────┐
 //! collision ────── section_view ───┼─ fem-figure ─ SVG, in HTML pages or alone
 //! sweep's members ─ sweep ─────────┤
-//! fits, exports ── law_figures ────┘
+//! fits, exports ── law_figures ────┤
+//! accuracy study ─ accuracy ───────┘
 //! ```
 //!
 //! [`report`] makes the report page of one run and the comparison of several, [`sweep`] the figure of a sweep,
-//! [`law_figures`] those of fits, calibrations and exports. [`section_view`] draws the axial stress in both
+//! [`law_figures`] those of fits, calibrations and exports, [`accuracy`] the page, table and figure of an accuracy
+//! study. [`section_view`] draws the axial stress in both
 //! bodies, for the report page, for a failed run and for the page in the browser. Nothing is computed
 //! here but Hertz' curves.
 
+#[cfg(feature = "files")]
+pub mod accuracy;
 pub mod law_figures;
 pub mod number_text;
 pub mod quantity_axis;

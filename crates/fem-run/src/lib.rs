@@ -18,7 +18,6 @@
     reason = "the command has the clock, the terminal and the exit status"
 )]
 
-mod accuracy;
 mod arguments;
 mod commands;
 mod forecast;

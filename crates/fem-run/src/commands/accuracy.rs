@@ -1,18 +1,32 @@
 //! `fem-run accuracy CASE`: errors and run times of all models and many settings.
 
 use std::io::{Write, stderr};
+use std::time::{Duration, Instant};
 
-use fem::accuracy::{Study, Variants};
-use fem::{Identity, Simulation};
+use comfy_table::CellAlignment::{Left, Right};
+use fem::accuracy::{Measurement, Study, Variant, Variants};
+use fem::{CaseError, Identity, Monitor, Progress, Simulation};
 use fem_case::engineering::show;
+use fem_report::accuracy::{AccuracyResult, csv, figure, json, markdown, sentences, terminal_tables};
 use indicatif::HumanCount;
 
-use crate::accuracy::{Climb, Findings, climb, json, markdown, picture, report, write_csv};
 use crate::arguments::case::{CaseArguments, ToleranceArguments};
+use crate::progress::ItemProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
 use crate::text::standard_output::{self, one_line};
+use crate::text::tables::table;
+
+/// Shorter runs are timed three times, and the median is taken.
+const TIMED_THRICE: Duration = Duration::from_millis(500);
+const N_TIMES: usize = 3;
+/// Time of an element update, s, until one is measured.
+const UPDATE: f64 = 2e-8;
+/// Fewest element updates from which their time is measured.
+const FEWEST_UPDATES: u64 = 200_000;
+/// Largest ratio of the times of condensed bodies on a mesh and on the next coarser one.
+const NEXT_LEVEL: f64 = 4.0;
 
 /// Compare models and settings by their errors and run times
 ///
@@ -41,45 +55,52 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Runs the study of a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
+    let (budget, quiet) = (arguments.budget, arguments.output.quiet);
     let case = arguments.input.load_within(&arguments.within)?;
     let variants = Variants::of(&case)?;
     let identity = Identity::of(&case)?;
     let stem = arguments.input.stem();
     let mut output = arguments.output.claim(&stem, "accuracy", &[&identity.case])?;
-    if !arguments.output.quiet {
-        announce(&arguments.input.name(), &variants, arguments.budget);
+    if !quiet {
+        announce(&arguments.input.name(), &variants, budget);
     }
-
-    let climbed = climb(&variants, arguments.budget, &interrupt, arguments.output.quiet)?;
+    let measured = measure(&variants, budget, &interrupt, quiet)?;
     if interrupt.is_requested() {
         return Err(Failure::interrupted("interrupted: nothing was written")
             .with_help("--budget SECONDS ends the study after a time and keeps its results"));
     }
-    let Climb { measured, left_out } = climbed;
-    let study = Study::of(&variants, &measured, &case.scene().accuracy());
-    let resolved = Simulation::resolve(&case)?;
-    let findings = Findings {
+    let accuracy = case.scene().accuracy();
+    let result = AccuracyResult {
         title: case.scene().title(),
-        default: resolved,
-        accuracy: case.scene().accuracy(),
+        case: Simulation::resolve(&case)?,
+        accuracy,
         variants: &variants,
-        measured: &measured,
-        study: &study,
-        left_out,
-        budget: arguments.budget,
+        study: &Study::of(&variants, &measured, &accuracy),
+        left_out: measured.iter().filter(|result| result.is_none()).count(),
+        budget,
     };
-    write_csv(&mut output, &findings)?;
-    let svg = picture(&findings);
-    let has_picture = svg.is_some();
+    let table_of_all = csv(&result)
+        .map_err(|error| Failure::failed(format!("accuracy.csv cannot be written: {error}")))?;
+    output.write("accuracy.csv", table_of_all)?;
+    let svg = figure(&result);
+    let page = markdown(&result, svg.is_some());
     if let Some(svg) = svg {
         output.write("accuracy.svg", svg)?;
     }
-    output.write("accuracy.md", markdown(&findings, has_picture))?;
-    let place = output.publish(&json(&findings))?;
-    if arguments.output.quiet {
+    output.write("accuracy.md", page)?;
+    let place = output.publish(&json(&result))?;
+    if quiet {
         return Ok(());
     }
-    standard_output::print(&format!("{}\nResult: {place}\n", report(&findings)))
+    let mut text = format!("{}\n", one_line(result.title));
+    for part in terminal_tables(&result) {
+        let mut alignment = vec![Right; part.rows[0].len()];
+        alignment[0] = Left;
+        let rows = table(&alignment, part.rows);
+        text += &format!("\n{}\n{}\n", part.heading, rows.trim_end());
+    }
+    sentences(&result).iter().for_each(|sentence| text += &format!("\n{sentence}\n"));
+    standard_output::print(&format!("{text}\nResult: {place}\n"))
 }
 
 /// Prints one line on stderr about the study.
@@ -93,4 +114,96 @@ fn announce(case: &str, variants: &Variants, budget: f64) {
         HumanCount(updates),
         show(budget, "s")
     );
+}
+
+/// Runs the variants, the cheapest first, until the budget (s) is spent. Returns the result and the run time
+/// (s) of each; `None` if it was left out for lack of time.
+fn measure(
+    variants: &Variants,
+    budget: f64,
+    interrupt: &Interrupt,
+    quiet: bool,
+) -> Result<Vec<Option<(Measurement, f64)>>, CaseError> {
+    let progress = ItemProgress::new(interrupt.clone(), "variants", variants.all.len(), quiet);
+    let end = Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX / 4);
+    let deadline = Deadline { end: Instant::now() + end, interrupt };
+    let mut measured = vec![None; variants.all.len()];
+    let mut forecast = Forecast { update: UPDATE, condensed: 0.0 };
+    for index in variants.cheapest_first() {
+        let variant = &variants.all[index];
+        let left = deadline.end.saturating_duration_since(Instant::now()).as_secs_f64();
+        let fits =
+            left > 0.0 && !interrupt.is_requested() && forecast.seconds(variant) <= left;
+        let ran = fits.then(|| run(variant, variants.contact_radius, deadline)).transpose()?;
+        let took =
+            ran.as_ref().map_or("no time left".to_string(), |(_, seconds)| show(*seconds, "s"));
+        let (series, describe) = (variant.series.name(), variant.describe());
+        progress.finish_item(&format!("{took:>12}  {series}  {describe}"));
+        if let Some(ran) = ran {
+            forecast.learn(variant, &ran);
+            measured[index] = Some(ran).filter(|(result, _)| {
+                result.is_complete || Instant::now() < deadline.end
+            });
+        }
+    }
+    progress.finish();
+    Ok(measured)
+}
+
+/// Returns the result of a variant and the median of its run times, with new meshes each time and without
+/// writing files.
+fn run(
+    variant: &Variant,
+    contact_radius: f64,
+    mut deadline: Deadline<'_>,
+) -> Result<(Measurement, f64), CaseError> {
+    let mut seconds = Vec::new();
+    loop {
+        let begin = Instant::now();
+        let measurement = Measurement::of(variant, contact_radius, &mut deadline)?;
+        let spent = begin.elapsed();
+        seconds.push(spent.as_secs_f64());
+        if seconds.len() == N_TIMES || spent > TIMED_THRICE {
+            seconds.sort_by(f64::total_cmp);
+            return Ok((measurement, seconds[seconds.len() / 2]));
+        }
+    }
+}
+
+/// A monitor that ends a run when the budget is spent or the user interrupts.
+#[derive(Clone, Copy)]
+struct Deadline<'a> {
+    end: Instant,
+    interrupt: &'a Interrupt,
+}
+
+impl Monitor for Deadline<'_> {
+    fn report(&mut self, _: Progress) -> bool {
+        Instant::now() < self.end && !self.interrupt.is_requested()
+    }
+}
+
+/// Forecast of run times from those of earlier variants.
+struct Forecast {
+    /// Time of an element update, s.
+    update: f64,
+    /// Time of the last condensed variant, s.
+    condensed: f64,
+}
+
+impl Forecast {
+    fn seconds(&self, variant: &Variant) -> f64 {
+        match variant.price {
+            0 => NEXT_LEVEL * self.condensed,
+            price => price as f64 * self.update,
+        }
+    }
+
+    fn learn(&mut self, variant: &Variant, (measurement, seconds): &(Measurement, f64)) {
+        match measurement.element_updates {
+            None => self.condensed = if variant.value.is_some() { *seconds } else { 0.0 },
+            Some(updates) if updates > FEWEST_UPDATES => self.update = seconds / updates as f64,
+            Some(_) => {}
+        }
+    }
 }

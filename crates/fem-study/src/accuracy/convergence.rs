@@ -1,39 +1,127 @@
-//! The limit of a sequence of results on finer and finer meshes, estimated from its own levels.
+//! Convergence of a sequence of results: its limit, its order, and the uncertainty of both.
 //!
-//! The limit is that of a [`PowerLaw`] through the finest levels where one rules over them; else the finest
-//! level stands for it. The order follows from the differences of the levels to the finest, (h_f, q_f),
-//! whose own error is not known:
+//! ```math
+//! q(h) = q_0 + C\,h^p
+//! ```
+//!
+//! with h the size of an element, the length of a step or a tolerance, in any unit, and q any result.
+//! [`PowerLaw`] fits q₀, C and p by least squares, every level with the same weight. It assumes that one power
+//! rules over all levels: a sequence that has not begun to converge, or whose levels scatter, shows in
+//! [`PowerLaw::uncertainty`] and in an order at the end of the range.
+//!
+//! [`Convergence`] takes the limit of a power law through the finest levels, or the finest level if no
+//! power law fits. The [`ObservedOrder`] follows from the differences of the levels to the finest, (h_f, q_f), whose
+//! own error is not known:
 //!
 //! ```math
 //! \ln|q-q_f| = \ln C + \ln(h^p-h_f^p)
 //! ```
 //!
-//! by least squares through the levels that differ from it by more than twice what is known of the limit, and its
-//! uncertainty is the standard error of p (of a fit that is not linear: Draper and Smith 1998, 24.2).
+//! by least squares through the levels that differ from it by more than twice the uncertainty of the limit. Its
+//! uncertainty is the standard error of p in a nonlinear fit (Draper and Smith 1998, 24.2).
 
 use fem_laws::bisection::last_where;
 
-use super::power_law::PowerLaw;
+/// The limit of a sequence and its order of convergence.
+///
+/// ```
+/// use fem_study::accuracy::PowerLaw;
+///
+/// let levels = [4.0, 2.8, 2.0, 1.4].map(|h: f64| (h, 0.9 + 0.01 * h * h));
+/// let fit = PowerLaw::fit(&levels).expect("four levels");
+/// assert!((fit.order - 2.0).abs() < 1e-4 && (fit.limit - 0.9).abs() < 1e-5);
+/// assert!(fit.uncertainty < 1e-4);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PowerLaw {
+    /// The order p.
+    pub order: f64,
+    /// The limit q₀, in the unit of q.
+    pub limit: f64,
+    /// The factor C, in the unit of q over that of hᵖ.
+    pub factor: f64,
+    /// Largest move of the limit when one of the levels is left out, in the unit of q.
+    pub uncertainty: f64,
+}
 
-/// Orders that a sequence is believed to have.
+/// Orders among which that of a power law is searched.
+const FITTED_ORDERS: (f64, f64) = (0.2, 4.0);
+/// Golden-section steps: the order is found to 1e-9 of the range.
+const N_STEPS: usize = 45;
+
+impl PowerLaw {
+    /// Returns the least-squares fit to levels (h, q) in any order, h > 0 and not all the same; `None` for
+    /// fewer than four. If a q is not a number, limit and factor are not either.
+    pub fn fit(levels: &[(f64, f64)]) -> Option<Self> {
+        if levels.len() < 4 {
+            return None;
+        }
+        let (order, limit, factor) = best(levels);
+        let without = |k: usize| {
+            let mut others = levels.to_vec();
+            others.remove(k);
+            (best(&others).1 - limit).abs()
+        };
+        let uncertainty = (0..levels.len()).map(without).fold(0.0, f64::max);
+        Some(Self { order, limit, factor, uncertainty })
+    }
+}
+
+/// Returns order, limit and factor with the least squares; for a given order limit and factor are linear.
+fn best(levels: &[(f64, f64)]) -> (f64, f64, f64) {
+    let squares = |order: f64| line(levels, order).2;
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    // The minimum need not be the only one: start from the best of a scan.
+    let n = 38;
+    let (first, last) = FITTED_ORDERS;
+    let scan = |k: usize| first + (last - first) * k as f64 / n as f64;
+    let k = (0..=n).min_by(|a, b| squares(scan(*a)).total_cmp(&squares(scan(*b)))).unwrap_or(0);
+    let (mut low, mut high) = (scan(k.saturating_sub(1)), scan((k + 1).min(n)));
+    for _ in 0..N_STEPS {
+        let (a, b) = (high - golden * (high - low), low + golden * (high - low));
+        if squares(a) < squares(b) { high = b } else { low = a }
+    }
+    let order = 0.5 * (low + high);
+    let (limit, factor, _) = line(levels, order);
+    (order, limit, factor)
+}
+
+/// Returns q₀, C and the sum of squares for a given order.
+fn line(levels: &[(f64, f64)], order: f64) -> (f64, f64, f64) {
+    let n = levels.len() as f64;
+    let x = |h: f64| h.powf(order);
+    let mean_x = levels.iter().map(|(h, _)| x(*h)).sum::<f64>() / n;
+    let mean_q = levels.iter().map(|(_, q)| q).sum::<f64>() / n;
+    let (mut xx, mut xq) = (0.0, 0.0);
+    for (h, q) in levels {
+        xx += (x(*h) - mean_x).powi(2);
+        xq += (x(*h) - mean_x) * (q - mean_q);
+    }
+    let factor = xq / xx;
+    let limit = mean_q - factor * mean_x;
+    let squares = levels.iter().map(|(h, q)| (q - limit - factor * x(*h)).powi(2)).sum();
+    (limit, factor, squares)
+}
+
+/// Observed orders outside this range are taken as coincidence.
 const ORDERS: std::ops::Range<f64> = 0.5..3.9;
 /// Largest distance of the limit beyond the finest level, as a multiple of the last step.
 const FARTHEST: f64 = 2.0;
-/// Levels that a limit is made of.
+/// Number of finest levels that the limit is extrapolated from.
 const N_LEVELS: usize = 6;
-/// Errors below this multiple of the limit's uncertainty are not used for the order.
+/// Smallest error that is used for the order, as a multiple of the limit's uncertainty.
 const CLEAR: f64 = 2.0;
-/// Errors that are less than this over the limit are rounding.
+/// Smaller relative errors are rounding.
 const ROUNDING: f64 = 1e-6;
-/// Orders that are tried, and of that range what a slope is taken over.
-const TRIED: (f64, f64) = (0.1, 8.0);
-const SLOPE: f64 = 1e-5;
-/// Number of levels from which an order is estimated.
+/// Range in which the observed order is searched, and the step of its derivative over that range.
+const SEARCHED_ORDERS: (f64, f64) = (0.1, 8.0);
+const DERIVATIVE_STEP: f64 = 1e-5;
+/// Fewest levels beside the finest that determine an order.
 const FEWEST: usize = 3;
-/// A slope with a larger standard error is none.
-const LOOSEST: f64 = 0.75;
+/// Largest standard error of an order.
+const LARGEST_STANDARD_ERROR: f64 = 0.75;
 /// Relative uncertainty of the remaining distance to the limit.
-const LEFT: f64 = 0.2;
+const EXTRAPOLATION_UNCERTAINTY: f64 = 0.2;
 
 /// The limit of a sequence of levels (h, q), h in any unit and q in its own.
 ///
@@ -43,7 +131,7 @@ const LEFT: f64 = 0.2;
 /// let levels = [4.0, 2.8, 2.0, 1.4].map(|h: f64| (h, 0.9 + 0.01 * h * h));
 /// let found = Convergence::of(&levels).expect("levels");
 /// assert!((found.limit - 0.9).abs() < found.uncertainty && found.is_extrapolated);
-/// // Two levels tell of no order.
+/// // Two levels do not determine an order.
 /// assert_eq!(Convergence::of(&levels[2..]).map(|found| found.order), Some(None));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +146,7 @@ pub struct Convergence {
     pub order: Option<ObservedOrder>,
 }
 
-/// |q − q₀| = C hᵖ, as levels show it.
+/// The observed order of convergence: |q − q₀| = C hᵖ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObservedOrder {
     /// The order p.
@@ -89,7 +177,7 @@ impl Convergence {
         };
         let law = law.filter(is_sound);
         let (limit, uncertainty) = match law {
-            Some(law) => (law.limit, law.uncertainty.max(LEFT * (law.limit - finest).abs())),
+            Some(law) => (law.limit, law.uncertainty.max(EXTRAPOLATION_UNCERTAINTY * (law.limit - finest).abs())),
             None => (finest, step),
         };
         let is_extrapolated = law.is_some();
@@ -99,7 +187,7 @@ impl Convergence {
 }
 
 impl ObservedOrder {
-    /// Estimates the limit of levels, the finest first.
+    /// Estimates the order from levels, the finest first, and the uncertainty of their limit.
     fn of(levels: &[(f64, f64)], uncertainty: f64) -> Option<Self> {
         let [(finest, of_finest), others @ ..] = levels else { return None };
         let least = (CLEAR * uncertainty).max(ROUNDING * of_finest.abs());
@@ -118,43 +206,17 @@ impl ObservedOrder {
         };
         let residual =
             |p: f64| move |x: f64, difference: f64| difference.ln() - (x.powf(p) - 1.0).ln();
-        let (from, to) = TRIED;
+        let (from, to) = SEARCHED_ORDERS;
         let order = last_where(from, to, |p| {
-            let step = (to - from) * SLOPE;
+            let step = (to - from) * DERIVATIVE_STEP;
             spread(&residual(p + step)) < spread(&residual(p - step))
         });
         let slope = |x: f64, _: f64| x.powf(order) * x.ln() / (x.powf(order) - 1.0);
         let squares = spread(&residual(order));
         let standard_error = (squares / (n - 2.0) / spread(&slope)).sqrt();
         let factor = mean(&residual(order)).exp() / finest.powf(order);
-        let is_seen = ORDERS.contains(&order) && standard_error < LOOSEST;
+        let is_seen = ORDERS.contains(&order) && standard_error < LARGEST_STANDARD_ERROR;
         is_seen.then_some(Self { order, standard_error, factor })
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Without order there is no extrapolation, and with one level no certainty.
-    #[test]
-    fn what_does_not_converge_is_not_extrapolated() {
-        let noise = [(4.0, 1.0), (3.0, 1.2), (2.0, 0.9), (1.5, 1.15), (1.0, 1.05)];
-        let found = Convergence::of(&noise).unwrap();
-        assert_eq!((found.limit, found.is_extrapolated, found.order), (1.05, false, None));
-        assert!((found.uncertainty - 0.1).abs() < 1e-12);
-        assert_eq!(Convergence::of(&noise[..1]).unwrap().uncertainty, f64::INFINITY);
-        assert_eq!(Convergence::of(&[]), None);
-    }
-
-    #[test]
-    fn the_order_is_the_slope() {
-        for order in [1.0, 2.0, 3.0] {
-            let level = |h: f64| (h, 6.0 - 0.1 * h.powf(order));
-            let levels = [4.0, 2.8, 2.0, 1.4, 1.0, 0.7].map(level);
-            let seen = Convergence::of(&levels).unwrap().order.unwrap();
-            assert!((seen.order - order).abs() < 1e-3, "{seen:?}");
-            assert!((seen.factor - 0.1).abs() < 1e-3 && seen.standard_error < 1e-3, "{seen:?}");
-        }
-    }
-}

@@ -2,11 +2,10 @@
 
 use fem_case::CaseError;
 use fem_collision::{Monitor, OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest};
+use fem_simulation::{Cost, SharedModels, Simulation};
 
-use super::stress_places::StressPlaces;
-use super::variant::Variant;
-use fem_simulation::Simulation;
-use fem_simulation::{Cost, SharedModels};
+use super::stress_samples::axial_stresses;
+use super::variants::Variant;
 
 /// The results of a variant, SI.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,45 +29,41 @@ pub struct Measurement {
 }
 
 impl Measurement {
-    /// Computes a variant, its fields at the largest approach too.
+    /// Computes a variant and its fields at the largest approach, for a contact of this radius, m. Nothing is
+    /// shared with other variants, so that the run time includes meshes and factors.
     ///
     /// # Errors
     /// The model does not support the variant.
     pub fn of(
         variant: &Variant,
         contact_radius: f64,
-        shared: &SharedModels,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, CaseError> {
-        let mut simulation = Simulation::sharing(variant.case.clone(), shared)?;
+        let mut simulation = Simulation::sharing(variant.case.clone(), &SharedModels::default())?;
         let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
         let request = OutputRequest { snapshots, ..simulation.request().clone() };
-        // A label more or less is no fault.
+        // One snapshot is within every limit.
         let _ = simulation.ask_for(request);
         let collision = simulation.run(monitor);
         let (elements, memory) = match simulation.setup().cost {
-            Cost::Steps { elements, memory, .. } => (elements, Some(memory)),
-            Cost::Factors { elements, memory, .. } => (elements, Some(memory)),
+            Cost::Steps { elements, memory, .. } | Cost::Factors { elements, memory, .. } => {
+                (elements, Some(memory))
+            }
             Cost::Little { .. } => (0, None),
         };
-        let is_complete = collision.is_complete();
-        let finite = |value: f64| value.is_finite().then_some(value);
-        let value = |quantity: QuantityOfInterest| match is_complete {
-            true => quantity.of(&collision).and_then(finite),
-            false => None,
+        let complete = collision.is_complete().then_some(&collision);
+        let value = |quantity: QuantityOfInterest| {
+            quantity.of(complete?).filter(|value| value.is_finite())
         };
-        let snapshot = collision.snapshot(SnapshotInstant::Maximum).filter(|_| is_complete);
-        let stress = snapshot.and_then(|snapshot| {
-            StressPlaces::around(contact_radius).sample(&simulation, snapshot)
-        });
+        let snapshot = complete.and_then(|it| it.snapshot(SnapshotInstant::Maximum));
         Ok(Self {
             values: QuantityOfInterest::ALL.map(value),
-            stress,
+            stress: snapshot.and_then(|now| axial_stresses(&simulation, now, contact_radius)),
             elements,
             steps: collision.steps,
             element_updates: collision.element_updates,
             memory,
-            is_complete,
+            is_complete: collision.is_complete(),
         })
     }
 

@@ -4,33 +4,62 @@ use fem_case::Accuracy;
 use fem_collision::QuantityOfInterest;
 
 use super::convergence::{Convergence, ObservedOrder};
-use super::error_parts::{ErrorPart, ErrorSource};
 use super::limit::Limit;
 use super::measurement::Measurement;
-use super::stress_places::relative_difference;
-use super::variant::{Series, Variant};
-use super::variants::Variants;
+use super::series::Series;
+use super::stress_samples::relative_difference;
+use super::variants::{Variant, Variants};
 
-/// Levels with fewer elements across the contact are not used for orders and limits.
+/// Fewest elements across the contact of levels that are used for orders and limits.
 const FEWEST_ACROSS: f64 = 4.5;
 /// Error of the coarser result as a multiple of the difference: for second order in a step that was halved,
 /// or first order in a compliance that was quartered.
 const QUARTERED: f64 = 4.0 / 3.0;
 
+/// One number per quantity of interest, in the order of [`QuantityOfInterest::ALL`].
+type Numbers = [Option<f64>; 6];
+
+/// The comparison of all variants.
+#[derive(Clone, Debug)]
+pub struct Study<'a> {
+    /// The variants whose collision ended by itself, in order, with their errors.
+    pub runs: Vec<VariantRun<'a>>,
+    /// The limits, in the order of [`QuantityOfInterest::ALL`].
+    pub limits: [Option<Limit>; 6],
+    /// Observed orders of convergence in the element size, in the order of [`QuantityOfInterest::ALL`];
+    /// `None` if the levels do not determine one.
+    pub orders: Vec<(Series, [Option<ObservedOrder>; 6])>,
+    /// Sources of the error of explicit elements, with eight of them across the contact.
+    pub parts: Vec<ErrorPart>,
+}
+
+/// A variant with its results.
+#[derive(Clone, Copy, Debug)]
+pub struct VariantRun<'a> {
+    /// The variant.
+    pub variant: &'a Variant,
+    /// Its results.
+    pub measurement: &'a Measurement,
+    /// Its run time, s.
+    pub seconds: f64,
+    /// Its errors.
+    pub errors: VariantErrors,
+}
+
 /// The errors of a variant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VariantErrors {
-    /// Difference to the limit, in the order of [`QuantityOfInterest::ALL`]: the restitution's absolute, all others
-    /// relative.
-    pub errors: [Option<f64>; 6],
+    /// Differences from the limits, in the order of [`QuantityOfInterest::ALL`]: the restitution's absolute,
+    /// all others relative.
+    pub signed: Numbers,
     /// The same without sign, and no smaller than that of any finer variant of its series: an error that
     /// passes through zero is a coincidence.
-    pub sure: [Option<f64>; 6],
+    pub monotone: Numbers,
     /// Relative root mean square error of σ_yy around the contact at the largest approach; `None` for the
     /// reference variant.
-    pub stress_error: Option<f64>,
+    pub stress: Option<f64>,
     /// The same, and no smaller than that of any finer variant of its series.
-    pub sure_stress_error: Option<f64>,
+    pub monotone_stress: Option<f64>,
     /// Largest of the monotone errors of restitution, contact time and peak force.
     pub worst: Option<f64>,
     /// Largest of these and the peak pressure over the tolerances of the case, with the uncertainties of
@@ -40,143 +69,162 @@ pub struct VariantErrors {
     pub is_on_frontier: bool,
 }
 
-/// The comparison of all variants.
-#[derive(Clone, Debug)]
-pub struct Study {
-    /// The limits, in the order of [`QuantityOfInterest::ALL`].
-    pub limits: [Option<Limit>; 6],
-    /// Errors of each variant, in the order of the variants; `None` if it did not run.
-    pub judged: Vec<Option<VariantErrors>>,
-    /// Observed orders of convergence in the size of the elements, in the order of
-    /// [`QuantityOfInterest::ALL`]; `None` where the levels do not determine one.
-    pub orders: Vec<(Series, [Option<ObservedOrder>; 6])>,
-    /// Sources of the error of explicit elements, with eight of them across the contact.
-    pub parts: Vec<ErrorPart>,
-    /// The reference variant of stresses.
-    pub finest_field: Option<usize>,
+/// The source of an error of explicit elements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorSource {
+    /// The finite size of elements, from condensed bodies on the same mesh.
+    Mesh,
+    /// The compliance of the penalty springs, extrapolated from a run with four times their stiffness.
+    ContactSprings,
+    /// The mass that is added for longer steps, against a run without it.
+    AddedMass,
+    /// The finite time step, of second order, from half the step.
+    TimeStep,
+    /// Waves and large strains, which condensed bodies lack.
+    LeftOutByCondensed,
+    /// The assumption of small strains, against a run at finite strain, both with springs between nodes
+    /// that have mass.
+    SmallStrain,
 }
 
-/// A variant with its results and its run time in seconds.
-struct Run<'a> {
-    index: usize,
-    variant: &'a Variant,
-    measurement: &'a Measurement,
-    seconds: f64,
+impl ErrorSource {
+    /// Returns its name for readers.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::ContactSprings => "contact springs",
+            Self::AddedMass => "added mass",
+            Self::TimeStep => "time step",
+            Self::LeftOutByCondensed => "left out by condensed",
+            Self::SmallStrain => "small strain",
+        }
+    }
 }
 
-impl Study {
+/// An error and its source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorPart {
+    /// The source of the error.
+    pub source: ErrorSource,
+    /// Its contribution to each quantity, in the order of [`QuantityOfInterest::ALL`]: the restitution's
+    /// absolute, all others relative.
+    pub errors: Numbers,
+}
+
+impl<'a> Study<'a> {
     /// Compares the results and run times (s) of the variants; `None` for those that did not run.
     pub fn of(
-        variants: &Variants,
-        measured: &[Option<(Measurement, f64)>],
+        variants: &'a Variants,
+        measured: &'a [Option<(Measurement, f64)>],
         accuracy: &Accuracy,
     ) -> Self {
-        let ran = variants.all.iter().zip(measured).enumerate();
-        let ran = ran.filter_map(|(index, (variant, measured))| {
+        let runs = variants.all.iter().zip(measured).filter_map(|(variant, measured)| {
             let (measurement, seconds) = measured.as_ref()?;
-            Some(Run { index, variant, measurement, seconds: *seconds })
+            let errors = VariantErrors::default();
+            Some(VariantRun { variant, measurement, seconds: *seconds, errors })
         });
-        let ran: Vec<Run<'_>> = ran.filter(|run| run.measurement.is_complete).collect();
+        let mut runs: Vec<_> = runs.filter(|run| run.measurement.is_complete).collect();
         let limits = QuantityOfInterest::ALL.map(|quantity| {
-            let of = |series| levels(&ran, series, quantity, FEWEST_ACROSS);
+            let of = |series| levels(&runs, series, quantity);
             Limit::of(&of(Series::Condensed), &of(Series::CondensedSprings), &of(Series::Explicit))
         });
-        let finest_field = finest_field(&ran, &limits);
-        let reference = finest_field.and_then(|index| {
-            let run = ran.iter().find(|run| run.index == index)?;
-            run.measurement.stress.as_deref()
-        });
-        let mut judged = vec![None; variants.all.len()];
-        for run in &ran {
-            let errors = QuantityOfInterest::ALL.map(|quantity| {
-                let limit = limits[quantity as usize]?;
-                let value = run.measurement.value(quantity)?;
-                Some((value - limit.value) / quantity.scale(limit.value))
-            });
-            let sample =
-                run.measurement.stress.as_deref().filter(|_| finest_field != Some(run.index));
-            let stress_error = sample
-                .zip(reference)
-                .and_then(|(sample, reference)| relative_difference(sample, reference));
-            judged[run.index] = Some(VariantErrors {
-                errors,
-                sure: errors.map(|error| error.map(f64::abs)),
-                stress_error,
-                sure_stress_error: stress_error,
-                ..VariantErrors::default()
-            });
+        set_errors(&mut runs, &limits);
+        make_monotone(&mut runs);
+        for VariantRun { errors, .. } in &mut runs {
+            errors.worst = worst(&errors.monotone);
+            errors.in_tolerances = in_tolerances(&errors.monotone, &limits, accuracy);
         }
-        take_luck_away(&ran, &mut judged);
-        for judged in judged.iter_mut().flatten() {
-            judged.worst = worst(&judged.sure);
-            judged.in_tolerances = in_tolerances(&judged.sure, &limits, accuracy);
-        }
-        mark_frontier(&ran, &mut judged);
-        let orders = Series::ALL.into_iter().filter(|series| series.is_over_element_size());
-        let orders = orders.filter_map(|series| {
-            let orders = QuantityOfInterest::ALL.map(|quantity| {
-                Convergence::of(&levels(&ran, series, quantity, FEWEST_ACROSS))?.order
-            });
+        mark_frontier(&mut runs);
+        let orders = Series::over_element_size().filter_map(|series| {
+            let order = |quantity| Convergence::of(&levels(&runs, series, quantity))?.order;
+            let orders = QuantityOfInterest::ALL.map(order);
             orders.iter().any(Option::is_some).then_some((series, orders))
         });
-        let orders = orders.collect();
-        let parts = parts(&ran, &limits);
-        Self { limits, judged, orders, parts, finest_field }
+        let (orders, parts) = (orders.collect(), parts(&runs, &limits));
+        Self { runs, limits, orders, parts }
     }
 
-    /// Returns the fastest of some variants that is within the tolerances of the case.
+    /// Returns the fastest of the variants that serve which is within the tolerances of the case.
     pub fn cheapest_within(
         &self,
-        variants: &Variants,
-        measured: &[Option<(Measurement, f64)>],
-        serves: impl Fn(usize) -> bool,
-    ) -> Option<usize> {
-        let within = |k: &usize| {
-            let judged = self.judged[*k].and_then(|judged| judged.in_tolerances);
-            let is_choice = variants.all[*k].series.is_choice();
-            is_choice && serves(*k) && judged.is_some_and(|share| share <= 1.0)
+        serves: impl Fn(&VariantRun<'a>) -> bool,
+    ) -> Option<&VariantRun<'a>> {
+        let within = |run: &&VariantRun<'a>| {
+            let is_within = run.errors.in_tolerances.is_some_and(|share| share <= 1.0);
+            run.variant.series.is_choice() && serves(run) && is_within
         };
-        let seconds = |k: &usize| measured[*k].as_ref().map_or(f64::INFINITY, |ran| ran.1);
-        let within = (0..self.judged.len()).filter(within);
-        within.min_by(|a, b| seconds(a).total_cmp(&seconds(b)))
+        self.runs.iter().filter(within).min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
+}
+
+/// Returns the runs of a series.
+fn of_series<'r, 'a>(
+    runs: &'r [VariantRun<'a>],
+    series: Series,
+) -> impl Iterator<Item = &'r VariantRun<'a>> {
+    runs.iter().filter(move |run| run.variant.series == series)
 }
 
 /// Returns the values of a series over its element size.
 fn levels(
-    ran: &[Run<'_>],
+    runs: &[VariantRun<'_>],
     series: Series,
     quantity: QuantityOfInterest,
-    fewest_across: f64,
 ) -> Vec<(f64, f64)> {
-    let of_series = ran.iter().filter(|run| run.variant.series == series);
-    let level = |run: &Run<'_>| {
-        run.variant.elements_across.filter(|across| *across >= fewest_across)?;
+    let level = |run: &VariantRun<'_>| {
+        run.variant.elements_across.filter(|across| *across >= FEWEST_ACROSS)?;
         Some((run.variant.value?, run.measurement.value(quantity)?))
     };
-    of_series.filter_map(level).collect()
+    of_series(runs, series).filter_map(level).collect()
 }
 
-/// Returns the variant with the finest field: of condensed bodies, or of explicit elements where their
+/// Sets the differences of all results from the limits, and of all fields from the finest field.
+fn set_errors(runs: &mut [VariantRun<'_>], limits: &[Option<Limit>; 6]) {
+    let finest = finest_field(runs, limits);
+    let reference = finest.and_then(|finest| runs[finest].measurement.stress.as_deref());
+    for (index, run) in runs.iter_mut().enumerate() {
+        let signed = QuantityOfInterest::ALL.map(|quantity| {
+            let limit = limits[quantity as usize]?;
+            let value = run.measurement.value(quantity)?;
+            Some((value - limit.value) / quantity.scale(limit.value))
+        });
+        let sample = run.measurement.stress.as_deref().filter(|_| finest != Some(index));
+        let stress = sample.zip(reference).and_then(|(own, all)| relative_difference(own, all));
+        let monotone = signed.map(|error| error.map(f64::abs));
+        run.errors = VariantErrors {
+            signed,
+            monotone,
+            stress,
+            monotone_stress: stress,
+            ..VariantErrors::default()
+        };
+    }
+}
+
+/// Returns the index of the run with the finest field: of condensed bodies, or of explicit elements if their
 /// results differ.
-fn finest_field(ran: &[Run<'_>], limits: &[Option<Limit>; 6]) -> Option<usize> {
+fn finest_field(runs: &[VariantRun<'_>], limits: &[Option<Limit>; 6]) -> Option<usize> {
     /// Relative difference of explicit elements above which their field is used.
     const SEEN: f64 = 2e-3;
     let adds = QuantityOfInterest::ALL.into_iter().zip(limits).any(|(quantity, limit)| {
         let Some(limit) = limit else { return false };
-        let is_sure = limit.condensed.is_some_and(|condensed| condensed != limit.value);
-        is_sure && limit.added.is_some_and(|added| added.abs() > SEEN * quantity.scale(limit.value))
+        let is_clear = limit.condensed.is_some_and(|condensed| condensed != limit.value);
+        let scale = quantity.scale(limit.value);
+        is_clear && limit.added.is_some_and(|added| added.abs() > SEEN * scale)
     });
     let finest = |series| {
-        let fields = ran.iter().filter(|run| run.variant.series == series);
-        let fields = fields.filter(|run| run.measurement.stress.is_some());
-        fields.max_by_key(|run| run.measurement.elements).map(|run| run.index)
+        let has_field = |run: &VariantRun<'_>| {
+            run.variant.series == series && run.measurement.stress.is_some()
+        };
+        let fields = (0..runs.len()).filter(|index| has_field(&runs[*index]));
+        fields.max_by_key(|index| runs[*index].measurement.elements)
     };
     let (condensed, explicit) = (finest(Series::Condensed), finest(Series::Explicit));
     if adds { explicit.or(condensed) } else { condensed.or(explicit) }
 }
 
-fn worst(errors: &[Option<f64>; 6]) -> Option<f64> {
+/// Returns the largest error of restitution, contact time and peak force.
+fn worst(errors: &Numbers) -> Option<f64> {
     let three = [
         QuantityOfInterest::Restitution,
         QuantityOfInterest::ContactTime,
@@ -187,8 +235,9 @@ fn worst(errors: &[Option<f64>; 6]) -> Option<f64> {
     })
 }
 
+/// Returns the largest error over its tolerance, with the uncertainty of its limit.
 fn in_tolerances(
-    errors: &[Option<f64>; 6],
+    errors: &Numbers,
     limits: &[Option<Limit>; 6],
     accuracy: &Accuracy,
 ) -> Option<f64> {
@@ -213,65 +262,70 @@ fn tolerance(quantity: QuantityOfInterest, accuracy: &Accuracy) -> Option<f64> {
 }
 
 /// Makes each error at least that of any finer variant of the same series.
-fn take_luck_away(ran: &[Run<'_>], judged: &mut [Option<VariantErrors>]) {
-    for series in Series::ALL.into_iter().filter(|series| series.is_over_element_size()) {
-        let mut of_series: Vec<&Run<'_>> =
-            ran.iter().filter(|run| run.variant.series == series).collect();
-        let size = |run: &Run<'_>| run.variant.value.unwrap_or(f64::INFINITY);
+fn make_monotone(runs: &mut [VariantRun<'_>]) {
+    for series in Series::over_element_size() {
+        let mut of_series: Vec<_> =
+            runs.iter_mut().filter(|run| run.variant.series == series).collect();
+        let size = |run: &VariantRun<'_>| run.variant.value.unwrap_or(f64::INFINITY);
         of_series.sort_by(|a, b| size(a).total_cmp(&size(b)));
         let mut worst = [None; 7];
-        for run in of_series {
-            let Some(judged) = judged[run.index].as_mut() else { continue };
-            let sure = judged.sure.iter_mut().chain([&mut judged.sure_stress_error]);
-            for (worst, sure) in worst.iter_mut().zip(sure) {
-                // An error that is not there is below any that is.
-                *sure = sure.map(|sure| worst.map_or(sure, |worst: f64| worst.max(sure)));
-                *worst = sure.or(*worst);
+        for VariantRun { errors, .. } in of_series {
+            let own = errors.monotone.iter_mut().chain([&mut errors.monotone_stress]);
+            for (worst, own) in worst.iter_mut().zip(own) {
+                *own = own.map(|own| worst.map_or(own, |worst: f64| worst.max(own)));
+                *worst = own.or(*worst);
             }
         }
     }
 }
 
 /// Marks, from the fastest on, each variant that is closer to the limit than all before it.
-fn mark_frontier(ran: &[Run<'_>], judged: &mut [Option<VariantErrors>]) {
-    let mut by_time: Vec<&Run<'_>> =
-        ran.iter().filter(|run| run.variant.series.is_choice()).collect();
+fn mark_frontier(runs: &mut [VariantRun<'_>]) {
+    let mut by_time: Vec<_> =
+        runs.iter_mut().filter(|run| run.variant.series.is_choice()).collect();
     by_time.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let mut nearest = f64::INFINITY;
-    for run in by_time {
-        let Some(judged) = judged[run.index].as_mut() else { continue };
-        let Some(worst) = judged.worst.filter(|worst| *worst < nearest) else { continue };
+    for VariantRun { errors, .. } in by_time {
+        let Some(worst) = errors.worst.filter(|worst| *worst < nearest) else { continue };
         nearest = worst;
-        judged.is_on_frontier = true;
+        errors.is_on_frontier = true;
     }
 }
 
 /// Returns the sources of errors, as far as the variants that show them have run.
-fn parts(ran: &[Run<'_>], limits: &[Option<Limit>; 6]) -> Vec<ErrorPart> {
-    let is_common =
-        |run: &&Run<'_>| run.variant.elements_across.is_none() || run.variant.has_common_elements;
-    let of = |series, value: Option<f64>| {
-        let of_series = ran.iter().filter(|run| run.variant.series == series).filter(is_common);
-        let mut same = of_series.filter(|run| value.is_none_or(|_| run.variant.value == value));
+fn parts(runs: &[VariantRun<'_>], limits: &[Option<Limit>; 6]) -> Vec<ErrorPart> {
+    let values = |series, value: Option<f64>| {
+        let mut same = of_series(runs, series).filter(|run| {
+            let variant = run.variant;
+            (variant.elements_across.is_none() || variant.has_common_elements)
+                && (value.is_none() || variant.value == value)
+        });
         same.next().map(|run| run.measurement.values)
     };
-    let limit_values = limits.map(|limit| limit.map(|limit| limit.value));
-    let condensed_limits = limits.map(|limit| limit.and_then(|limit| limit.condensed));
-    let base = of(Series::Explicit, None);
-    let part = |source, values: Option<[Option<f64>; 6]>, others: Option<_>, factor| {
-        let errors = ErrorPart::between(source, values?, others?, limit_values, factor);
-        errors.errors.iter().any(Option::is_some).then_some(errors)
+    let of_limits = |part: fn(Limit) -> Option<f64>| limits.map(|limit| limit.and_then(part));
+    let limit_values = of_limits(|limit| Some(limit.value));
+    let part = |source, values: Option<Numbers>, others: Option<Numbers>, factor: f64| {
+        let (values, others) = (values?, others?);
+        let errors = QuantityOfInterest::ALL.map(|quantity| {
+            let k = quantity as usize;
+            Some(factor * (values[k]? - others[k]?) / quantity.scale(limit_values[k]?))
+        });
+        errors.iter().any(Option::is_some).then_some(ErrorPart { source, errors })
     };
-    let without = limits.map(|limit| limit.and_then(|limit| Some(limit.condensed? + limit.added?)));
-    let strained = of(Series::FiniteStrain, None);
-    // Where it is on anyway both are the same.
-    let small_strain = of(Series::Penalty, None).filter(|_| base != strained);
+    let base = values(Series::Explicit, None);
+    let condensed = Some(of_limits(|limit| limit.condensed));
+    let explicit = Some(of_limits(|limit| Some(limit.condensed? + limit.added?)));
+    let stiffer = values(Series::PenaltyFactor, Some(4.0));
+    let unscaled = values(Series::MassScaling, Some(0.0));
+    let strained = values(Series::FiniteStrain, None);
+    // If finite strain is always on, both are the same.
+    let small_strain = values(Series::Penalty, None).filter(|_| base != strained);
     let all = [
-        part(ErrorSource::Mesh, of(Series::Condensed, None), Some(condensed_limits), 1.0),
-        part(ErrorSource::ContactSprings, base, of(Series::PenaltyFactor, Some(4.0)), QUARTERED),
-        part(ErrorSource::AddedMass, base, of(Series::MassScaling, Some(0.0)), 1.0),
-        part(ErrorSource::TimeStep, base, of(Series::StepFactor, Some(0.45)), QUARTERED),
-        part(ErrorSource::LeftOutByCondensed, Some(condensed_limits), Some(without), 1.0),
+        part(ErrorSource::Mesh, values(Series::Condensed, None), condensed, 1.0),
+        part(ErrorSource::ContactSprings, base, stiffer, QUARTERED),
+        part(ErrorSource::AddedMass, base, unscaled, 1.0),
+        part(ErrorSource::TimeStep, base, values(Series::StepFactor, Some(0.45)), QUARTERED),
+        part(ErrorSource::LeftOutByCondensed, condensed, explicit, 1.0),
         part(ErrorSource::SmallStrain, small_strain, strained, 1.0),
     ];
     all.into_iter().flatten().collect()

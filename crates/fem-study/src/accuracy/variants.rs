@@ -1,53 +1,69 @@
-//! The variants of a scene that the accuracy study computes.
+//! The transformation of a case into the variants of an accuracy study.
 
-use fem_case::schema::ContactMethod;
-use fem_case::{Case, CaseError, Scene};
-
-use super::variant::{Series, Variant};
-use fem_simulation::Estimate;
-use fem_simulation::MeshRule;
-use fem_simulation::Simulation;
+use fem_case::{Case, CaseError, ModelChoice, Scene};
 use fem_simulation::effects::FiniteStrain;
 use fem_simulation::error::{Setting, first_contact};
-use fem_simulation::{ErrorEstimator, RefinedBeforeRun};
-use fem_simulation::{Plan, divided_radius};
-use fem_simulation::{contact_method, unread};
+use fem_simulation::{
+    ErrorEstimator, Estimate, MeshRule, Plan, RefinedBeforeRun, Simulation, chosen, contact_method,
+    divided_radius, unread,
+};
 
-/// Elements across the contact radius, of condensed bodies.
-const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];
-/// The same of condensed bodies that vibrate.
-const VIBRATING: [f64; 3] = [4.0, 8.0, 16.0];
-/// The same of explicit elements.
-const EXPLICIT: [f64; 8] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0];
-/// The same with much mass that is moved, and with other springs.
-const COMPARED: [f64; 5] = [3.0, 4.0, 5.0, 8.0, 11.0];
-/// The same at finite strain.
-const STRAINED: [f64; 2] = [4.0, 8.0];
-/// Where one setting is varied by itself.
-pub(super) const COMMON: f64 = 8.0;
-/// Modes of each body that vibrates.
-const MODES: u8 = 12;
-/// Large mass scaling, as a multiple of the mesh's own: it halves the length of the run.
-const MUCH_MASS: f64 = 4.0;
-const PENALTY_FACTORS: [f64; 2] = [0.25, 4.0];
-const MASS_SCALINGS: [f64; 3] = [0.0, 1e-3, 2e-2];
-const STEP_FACTORS: [f64; 1] = [0.45];
-/// Growth of a mesh of half as many elements.
-const GROWN: f64 = 1.25;
+use super::series::{COMMON, LARGE_MASS_SCALING, PRESETS, Preset, Series, Varied};
 
-/// Lengths at the contact, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lengths {
-    /// Contact radius by closed forms, m: elements are counted across it.
-    pub contact_radius: f64,
-    /// The length that elements divide, m.
-    pub(super) divided: f64,
+/// One variant of a scene: a model, a mesh and settings.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// The series that it belongs to.
+    pub series: Series,
+    /// The value that varies in its series: an element size (m), a factor, a share; `None` if the series
+    /// has one variant.
+    pub value: Option<f64>,
+    /// Elements across the contact radius; `None` without a mesh or with a mesh from a file.
+    pub elements_across: Option<f64>,
+    /// Whether its element size is that of the variants that vary another setting.
+    pub has_common_elements: bool,
+    /// Settings that differ from the case.
+    settings: Vec<Setting>,
+    /// The case with these settings.
+    pub case: Case,
+    /// Estimated number of element updates; 0 without elements.
+    pub price: u64,
 }
 
-impl Lengths {
-    /// Returns the length of elements for a number of elements across the contact.
-    pub(super) fn element(&self, across: f64) -> f64 {
-        short(self.divided / across)
+impl Variant {
+    /// Returns the model that computes it: the chosen one, if the case leaves the model open.
+    fn model(&self) -> ModelChoice {
+        let scene = self.case.scene();
+        let chosen = chosen(scene).ok().flatten();
+        chosen.map_or(scene.model().clone(), |chosen| chosen.scene.model().clone())
+    }
+
+    /// Whether explicit elements compute it.
+    pub fn is_explicit(&self) -> bool {
+        self.model() == ModelChoice::Fem
+    }
+
+    /// Describes the variant within its series.
+    pub fn describe(&self) -> String {
+        let own = self.settings.iter().rev().find_map(|setting| match *setting {
+            Setting::Hertz { finite_size: true } | Setting::Ting { finite_size: true } => {
+                Some("with finite size".to_string())
+            }
+            Setting::PenaltyFactor(value) => Some(format!("penalty factor {value}")),
+            Setting::MassScaling(share) if self.series == Series::MassScaling => {
+                Some(format!("{} % of mass added", 100.0 * share))
+            }
+            Setting::StepFactor(value) => Some(format!("step factor {value}")),
+            _ => None,
+        });
+        let across = self.elements_across.map(|across| format!("a/h = {across:.1}"));
+        let model = (self.series == Series::AsWritten).then(|| self.model().name().to_string());
+        [model, across, own].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    /// Returns the overrides that make it of the case: `--set KEY=VALUE`, in order.
+    pub fn overrides(&self) -> Vec<String> {
+        self.settings.iter().map(|setting| setting.as_override()).collect()
     }
 }
 
@@ -56,12 +72,21 @@ impl Lengths {
 pub struct Variants {
     /// The variants, grouped by series, from coarse to fine.
     pub all: Vec<Variant>,
-    /// Lengths at the contact that decide on element sizes.
-    pub lengths: Lengths,
+    /// Contact radius by closed forms, m: elements are counted across it.
+    pub contact_radius: f64,
     /// Whether a run of the case refines its mesh if that of its variant does not meet the tolerance.
     pub is_open: bool,
-    /// The first error among the variants that were left out.
-    refused: Option<CaseError>,
+}
+
+/// The scene that is varied.
+struct Base {
+    /// The case without its own mesh, contact method, time step and output.
+    case: Case,
+    contact_radius: f64,
+    /// The length that elements divide, m.
+    divided: f64,
+    /// Whether meshes are staggered; `None` if they are read from files.
+    is_staggered: Option<bool>,
 }
 
 impl Variants {
@@ -71,110 +96,26 @@ impl Variants {
     /// No model with elements supports any mesh: the first such error. Single variants that fail, for
     /// example by the limits of the case, are left out.
     pub fn of(case: &Case) -> Result<Self, CaseError> {
-        let base = case.edited(|file| {
-            (file.mesh, file.contact, file.time, file.output) = (None, None, None, None);
-            file.stop = first_contact(file);
-        })?;
-        let plan = Plan::of_case(&base)?;
-        let contact_radius = plan.estimate.contact_radius;
-        // Of a contact as wide as its sphere the plan counts elements across less than all of it.
-        let unit = contact_radius.min(divided_radius(&plan.estimate));
-        let lengths = Lengths { contact_radius, divided: unit };
-        let mut variants = Self { all: Vec::new(), lengths, is_open: false, refused: None };
+        let base = Base::of(case)?;
         let own = case.edited(|file| (file.output, file.stop) = (None, first_contact(file)))?;
-        match as_it_runs(own) {
-            Ok((own, is_open)) => {
-                variants.add(&own, Series::AsWritten, &[], None);
-                variants.is_open = is_open;
-            }
-            Err(refused) => variants.refused = Some(refused),
-        }
-        let add = |series, settings: &[Setting], value| {
-            variants.add(&base, series, settings, value);
-        };
-        let made = plan.makes_meshes.then_some(plan.finer_body.is_some());
-        Self::fill(&base, made, &lengths, add);
-        match variants.refused.take() {
-            // What has only closed forms has no limit to tell.
-            Some(refused) if !variants.all.iter().any(Variant::has_elements) => Err(refused),
-            _ => Ok(variants),
-        }
-    }
-
-    /// Adds the variants that the scene needs, series by series, on staggered meshes or not, unless meshes
-    /// are read from files.
-    fn fill(
-        base: &Case,
-        made: Option<bool>,
-        lengths: &Lengths,
-        mut add: impl FnMut(Series, &[Setting], Option<f64>),
-    ) {
-        for finite_size in [false, true] {
-            add(Series::Hertz, &[Setting::Hertz { finite_size }], None);
-        }
-        let relaxes = base.scene().bodies().iter().filter_map(|body| body.material());
-        if relaxes.into_iter().any(|material| material.relaxation().is_some()) {
-            for finite_size in [false, true] {
-                add(Series::Ting, &[Setting::Ting { finite_size }], None);
+        let own = as_it_runs(own);
+        let is_open = own.as_ref().is_ok_and(|(_, is_open)| *is_open);
+        let variant = |(case, _)| base.variant(Series::AsWritten, Vec::new(), None, case);
+        let mut made = vec![own.and_then(variant)];
+        for preset in PRESETS.iter().filter(|preset| base.has(preset)) {
+            for (settings, value) in base.settings(preset) {
+                let case = edited(&base.case, &settings);
+                made.push(case.and_then(|case| base.variant(preset.series, settings, value, case)));
             }
         }
-        let mut over_size = |series, across: &[f64], settings: &[Setting]| {
-            let Some(is_staggered) = made else { return add(series, settings, None) };
-            let mass = if series == Series::ExplicitScaled { MUCH_MASS } else { 1.0 };
-            for across in across {
-                let size = lengths.element(*across);
-                let settings = [settings, &own(settings, *across, mass, is_staggered)].concat();
-                add(series, &[&settings[..], &[Setting::ElementSize(size)]].concat(), Some(size));
-            }
-        };
-        for (series, across, vibration_modes, penalty_springs) in [
-            (Series::Condensed, &CONDENSED[..], 0, false),
-            (Series::CondensedSprings, &EXPLICIT[..], 0, true),
-            (Series::CondensedVibrating, &VIBRATING[..], MODES, false),
-        ] {
-            over_size(series, across, &[Setting::Condensed { vibration_modes, penalty_springs }]);
-        }
-        let explicit = Setting::Explicit;
-        over_size(Series::Explicit, &EXPLICIT, &[explicit]);
-        if made.is_some() {
-            over_size(Series::ExplicitScaled, &COMPARED, &[explicit]);
-            over_size(Series::ExplicitGrown, &COMPARED, &[explicit, Setting::Growth(GROWN)]);
-        }
-        for (series, method) in [
-            (Series::Penalty, ContactMethod::Penalty),
-            (Series::NodeToSurface, ContactMethod::NodeToSurface),
-        ] {
-            let setting = Setting::ContactMethod(method);
-            if is_read(base, setting) {
-                over_size(series, &COMPARED, &[explicit, setting]);
-            }
-        }
-        if !explicit_has_finite_strain(base) {
-            over_size(Series::FiniteStrain, &STRAINED, &[explicit, Setting::FiniteStrain]);
-        }
-        let mut varied = |series, values: &[f64], setting: fn(f64) -> Setting| {
-            for value in values {
-                let mut settings = vec![explicit];
-                if let Some(is_staggered) = made {
-                    settings.extend(own(&[explicit, setting(*value)], COMMON, 1.0, is_staggered));
-                    settings.push(Setting::ElementSize(lengths.element(COMMON)));
-                }
-                settings.push(setting(*value));
-                add(series, &settings, Some(*value));
-            }
-        };
-        varied(Series::PenaltyFactor, &PENALTY_FACTORS, Setting::PenaltyFactor);
-        varied(Series::MassScaling, &MASS_SCALINGS, Setting::MassScaling);
-        varied(Series::StepFactor, &STEP_FACTORS, Setting::StepFactor);
-    }
-
-    /// Adds the variant if its model supports it.
-    fn add(&mut self, base: &Case, series: Series, settings: &[Setting], value: Option<f64>) {
-        match Variant::new(base, series, settings.to_vec(), value, &self.lengths) {
-            Ok(variant) => self.all.push(variant),
-            Err(refused) => {
-                self.refused.get_or_insert(refused);
-            }
+        let (all, failed): (Vec<_>, Vec<_>) = made.into_iter().partition(Result::is_ok);
+        let all: Vec<Variant> = all.into_iter().flatten().collect();
+        let has_elements =
+            |one: &Variant| matches!(one.model(), ModelChoice::Fem | ModelChoice::Condensed(_));
+        match failed.into_iter().find_map(Result::err) {
+            // Closed forms alone do not determine a limit.
+            Some(first) if !all.iter().any(has_elements) => Err(first),
+            _ => Ok(Self { all, contact_radius: base.contact_radius, is_open }),
         }
     }
 
@@ -187,6 +128,113 @@ impl Variants {
     }
 }
 
+impl Base {
+    fn of(case: &Case) -> Result<Self, CaseError> {
+        let case = case.edited(|file| {
+            (file.mesh, file.contact, file.time, file.output) = (None, None, None, None);
+            file.stop = first_contact(file);
+        })?;
+        let plan = Plan::of_case(&case)?;
+        let contact_radius = plan.estimate.contact_radius;
+        // If the contact is as wide as its sphere, the plan's elements divide a shorter length.
+        let divided = contact_radius.min(divided_radius(&plan.estimate));
+        let is_staggered = plan.makes_meshes.then_some(plan.finer_body.is_some());
+        Ok(Self { case, contact_radius, divided, is_staggered })
+    }
+
+    /// Whether the scene has the effect that a series varies, and reads its settings.
+    fn has(&self, preset: &Preset) -> bool {
+        match preset.series {
+            Series::Ting => {
+                let mut materials =
+                    self.case.scene().bodies().iter().filter_map(|body| body.material());
+                materials.any(|material| material.relaxation().is_some())
+            }
+            Series::ExplicitScaled | Series::ExplicitGrown => self.is_staggered.is_some(),
+            Series::Penalty | Series::NodeToSurface => {
+                let scenes = [&[Setting::Explicit][..], preset.settings];
+                let [Ok(usual), Ok(named)] = scenes.map(|all| edited(&self.case, all)) else {
+                    return false;
+                };
+                let (usual, named) = (usual.scene(), named.scene());
+                unread(named, is_finite(named)).is_none()
+                    && contact_method(named) != contact_method(usual)
+            }
+            Series::FiniteStrain => {
+                let usual = edited(&self.case, &[Setting::Explicit]);
+                !usual.is_ok_and(|case| is_finite(case.scene()))
+            }
+            _ => true,
+        }
+    }
+
+    /// Returns the settings and the varied value of each variant of a series.
+    fn settings(&self, preset: &Preset) -> Vec<(Vec<Setting>, Option<f64>)> {
+        let is_made = self.is_staggered.is_some();
+        match preset.varied {
+            Varied::Nothing => Vec::new(),
+            Varied::FiniteSize(setting) => {
+                [false, true].map(|is_on| (vec![setting(is_on)], None)).into()
+            }
+            Varied::ElementSize(_) if !is_made => vec![(preset.settings.to_vec(), None)],
+            Varied::ElementSize(all) => {
+                let of = |&across| (self.meshed(preset, None, across), Some(self.element(across)));
+                all.iter().map(of).collect()
+            }
+            Varied::Factor(setting, values) => {
+                let of = |&value| (self.meshed(preset, Some(setting(value)), COMMON), Some(value));
+                values.iter().map(of).collect()
+            }
+        }
+    }
+
+    /// Returns the settings of a series and those that go with a mesh of a number of elements across the
+    /// contact: mass scaling as a multiple of the plan's, and staggered meshes for penalty springs if those of
+    /// the scene are.
+    fn meshed(&self, preset: &Preset, varied: Option<Setting>, across: f64) -> Vec<Setting> {
+        let mut settings = preset.settings.to_vec();
+        if let Some(is_staggered) = self.is_staggered {
+            let has = |wanted: fn(&Setting) -> bool| preset.settings.iter().any(wanted);
+            let is_scaled = matches!(varied, Some(Setting::MassScaling(_)));
+            if has(|one| matches!(one, Setting::Explicit)) && !is_scaled {
+                let is_large = preset.series == Series::ExplicitScaled;
+                let multiple = if is_large { LARGE_MASS_SCALING } else { 1.0 };
+                let share = multiple * MeshRule::mass_scaling_beside(across);
+                settings.push(Setting::MassScaling(rounded(share)));
+            }
+            let is_nodal = |one: &_| matches!(one, Setting::Condensed { penalty_springs: false, .. });
+            if is_staggered && !has(is_nodal) {
+                settings.push(Setting::Staggered(true));
+            }
+            settings.push(Setting::ElementSize(self.element(across)));
+        }
+        settings.extend(varied);
+        settings
+    }
+
+    /// Returns the element size for a number of elements across the contact, m.
+    fn element(&self, across: f64) -> f64 {
+        rounded(self.divided / across)
+    }
+
+    fn variant(
+        &self,
+        series: Series,
+        settings: Vec<Setting>,
+        value: Option<f64>,
+        case: Case,
+    ) -> Result<Variant, CaseError> {
+        let price = Simulation::price(&case)?;
+        let size = settings.iter().find_map(|setting| match setting {
+            Setting::ElementSize(size) => Some(*size),
+            _ => None,
+        });
+        let elements_across = size.map(|size| self.contact_radius / size);
+        let has_common_elements = size == Some(self.element(COMMON));
+        Ok(Variant { series, value, elements_across, has_common_elements, settings, case, price })
+    }
+}
+
 /// Returns a case with the model, mesh and settings with which it is run, as far as they are known before
 /// the run, and whether refinement may follow.
 fn as_it_runs(case: Case) -> Result<(Case, bool), CaseError> {
@@ -196,49 +244,15 @@ fn as_it_runs(case: Case) -> Result<(Case, bool), CaseError> {
     Ok((Case::of(simulation.resolved().clone())?, is_open))
 }
 
-/// Whether explicit elements of a case take a contact method, and another one than they take without.
-fn is_read(case: &Case, method: Setting) -> bool {
-    let (Some(usual), Some(named)) = (explicit(case, &[]), explicit(case, &[method])) else {
-        return false;
-    };
-    let (usual, named) = (usual.scene(), named.scene());
-    unread(named, is_finite(named)).is_none() && contact_method(named) != contact_method(usual)
-}
-
-/// Whether explicit elements of a case are at finite strain if nothing else is said.
-fn explicit_has_finite_strain(case: &Case) -> bool {
-    explicit(case, &[]).is_some_and(|case| is_finite(case.scene()))
-}
-
-/// The case of explicit elements with settings.
-fn explicit(case: &Case, settings: &[Setting]) -> Option<Case> {
-    let all = [&[Setting::Explicit], settings].concat();
-    case.edited(|file| all.iter().for_each(|setting| setting.apply(file))).ok()
+fn edited(case: &Case, settings: &[Setting]) -> Result<Case, CaseError> {
+    case.edited(|file| settings.iter().for_each(|setting| setting.apply(file)))
 }
 
 fn is_finite(scene: &Scene) -> bool {
     Estimate::of(scene).is_ok_and(|estimate| FiniteStrain::laws(scene, &estimate) != [None; 2])
 }
 
-/// Returns the settings that go with a mesh of a number of elements across the contact: mass scaling as a
-/// multiple of the plan's, and staggered meshes for penalty springs if those of the scene are.
-fn own(settings: &[Setting], across: f64, mass: f64, is_staggered: bool) -> Vec<Setting> {
-    let has = |wanted: fn(&Setting) -> bool| settings.iter().any(wanted);
-    let is_explicit = has(|it| matches!(it, Setting::Explicit));
-    let at_nodes = has(|it| matches!(it, Setting::Condensed { penalty_springs: false, .. }));
-    let is_scaled = has(|it| matches!(it, Setting::MassScaling(_)));
-    let mut own = Vec::new();
-    if is_explicit && !is_scaled {
-        let mass = mass * MeshRule::mass_scaling_beside(across);
-        own.push(Setting::MassScaling(short(mass)));
-    }
-    if is_staggered && !at_nodes {
-        own.push(Setting::Staggered(true));
-    }
-    own
-}
-
 /// Rounds a length to four digits, as a user would write it.
-fn short(length: f64) -> f64 {
+fn rounded(length: f64) -> f64 {
     format!("{length:.3e}").parse().unwrap_or(length)
 }

@@ -1,10 +1,11 @@
-//! Calibration: a Prony series of a material from measured restitutions, and what they leave open.
+//! Calibration: a Prony series of a material from measured restitutions, and what they leave undetermined.
 //!
 //! ```text
-//! fault ─── target ─────── pair_model ── experiment ─┬─ calibration ─┬─ warnings ─ numbers
-//! settings  what relaxes   restitutions  a pair and  │  weights      ├─ relaxation
-//!           speed_span     of a series   its speeds  │               └─ curves
-//!           mesh, Hertz                              maxwell
+//! fault ─── target ─────── pair_model ── experiment ─┬─ calibration ─┬─ warnings ─ stored_calibration
+//! settings  relaxing       restitutions  a pair and  │  weights      └─ curves
+//!           material       of a series   its speeds  │
+//!           speed_span                               maxwell
+//!           mesh, Hertz
 //! ```
 //!
 //! The case gives bodies and instantaneous moduli. Each pair of bodies has one model for all of its
@@ -15,11 +16,10 @@ mod curves;
 mod experiment;
 mod fault;
 mod maxwell;
-mod numbers;
 mod pair_model;
-mod relaxation;
 mod settings;
 mod speed_span;
+mod stored_calibration;
 mod target;
 mod warnings;
 
@@ -28,10 +28,6 @@ pub use curves::{Abscissa, RestitutionCurves};
 pub use experiment::Experiment;
 pub use fault::CalibrationFault;
 pub use maxwell::{Beyond, Maxwell};
-pub use numbers::{
-    CalibrationNumbers, CombinationNumbers, ExponentNumbers, MaxwellNumbers, PairNumbers,
-    RangeNumbers, TermNumbers,
-};
 pub use settings::{CalibrationModel, SettingNames, Settings};
 pub use speed_span::SpeedDoubt;
 pub use target::Target;

@@ -1,14 +1,10 @@
 //! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
 
-use crate::fit::dem::{
-    Dashpot, Elastic, Export, Snippet, Sphere, drake_snippets, fit_dissipation, lammps_snippets,
-    lethe_snippets, liggghts_snippets, mercury_snippets, mfix_snippets, mujoco_snippets,
-    restitution_of, yade_snippets,
-};
+use crate::fit::dem::{Dashpot, Elastic, Export, Sphere, fit_dissipation, restitution_of};
 use crate::fit::{FitError, Model, Outcome, Point, Problem};
 use fem_case::{Body, Case, Scene};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
-use fem_laws::{EndRule, LawError, LawFamily};
+use fem_laws::{EndRule, LawFamily};
 
 use super::chosen_law::model_of;
 use super::impact_curve::ImpactCurve;
@@ -75,7 +71,7 @@ impl DemExport {
     /// let curve = ImpactCurve::measured(case.scene(), &ice)?;
     /// let export = DemExport::of(&case, curve, 0.01)?;
     /// assert!((export.export.hertz.restitution - 0.6).abs() < 1e-6);
-    /// assert!(export.snippets()?.iter().any(|snippet| snippet.code == "LAMMPS"));
+    /// assert!(export.export.snippets()?.iter().any(|snippet| snippet.code == "LAMMPS"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, FitError> {
@@ -122,22 +118,6 @@ impl DemExport {
             unpublished_loss: curve.unpublished_loss.clone(),
         };
         Ok(Self { curve, export, laws: [constant, viscoelastic, linear] })
-    }
-
-    /// Input of LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo.
-    ///
-    /// # Errors
-    /// Numbers that a code's formula does not take.
-    pub fn snippets(&self) -> Result<Vec<Snippet>, LawError> {
-        let mut snippets = lammps_snippets(&self.export)?;
-        snippets.extend(liggghts_snippets(&self.export)?);
-        snippets.extend(yade_snippets(&self.export)?);
-        snippets.extend(mercury_snippets(&self.export));
-        snippets.extend(lethe_snippets(&self.export));
-        snippets.extend(mfix_snippets(&self.export)?);
-        snippets.extend(drake_snippets(&self.export));
-        snippets.extend(mujoco_snippets(&self.export));
-        Ok(snippets)
     }
 }
 

@@ -1,18 +1,15 @@
-//! Contact laws by their parameters: fitted to restitutions, found for a wanted one, written for DEM
-//! codes.
+//! Contact laws: fitted to restitutions, inverted for one restitution, ranked, and exported to DEM codes.
 //!
 //! ```text
-//! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ fit_numbers
+//! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ stored_fit
 //! keys and                a case's    ├─ law_inversion
 //! values as               law, what   ├─ law_ranking
-//! text                    is given    └─ impact_curve ─ dem_export ─┬─ export_numbers
+//! text                    is given    └─ impact_curve ─ dem_export ─┬─ stored_export
 //!                                        e(v), T(v)                └─ pair_export
 //! ```
 
 mod chosen_law;
 mod dem_export;
-mod export_numbers;
-mod fit_numbers;
 mod impact_curve;
 mod law_fault;
 mod law_fit;
@@ -20,13 +17,11 @@ mod law_inversion;
 mod law_ranking;
 mod pair_export;
 mod parameter;
+mod stored_export;
+mod stored_fit;
 
 pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of};
 pub use dem_export::{DemExport, FittedLaw};
-pub use export_numbers::{ExportNumbers, PointNumbers, SnippetNumbers, SphereNumbers};
-pub use fit_numbers::{
-    ComparedNumbers, FitNumbers, ParameterNumbers, ProfileNumbers, ProfilePointNumbers,
-};
 pub use impact_curve::ImpactCurve;
 pub use law_fault::LawFault;
 pub use law_fit::LawFit;

@@ -197,7 +197,7 @@ impl PairExport {
 
 /// `lammps_viscoelastic_eta`, …: the file's stem and the entry's name.
 fn entries(of: &DemExport) -> BTreeMap<String, f64> {
-    let snippets = of.snippets().unwrap_or_default();
+    let snippets = of.export.snippets().unwrap_or_default();
     let named = snippets.iter().flat_map(|snippet| {
         let stem = snippet.name.split('.').next().unwrap_or(snippet.name);
         snippet.entries.iter().map(move |(key, value)| (format!("{stem}_{key}"), *value))

@@ -5,12 +5,13 @@ use std::f64::consts::PI;
 use crate::common::{glass, glass_model};
 use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
 use fem_laws::{EndRule, HertzImpact, LawFamily, LawImpact, Pair, Partner};
+use fem_study::fit::Point;
 use fem_study::fit::dem::{
     Dashpot, Elastic, Export, Grain, HuntCrossley, PairOfGrains, Sphere, TsujiVersion,
-    characteristic_velocity, drake_snippets, grain_snippets, hertz_mindlin_entry, hooke_stiffness,
-    lammps_snippets, lethe_snippets, liggghts_snippets, mercury_snippets, mfix_entry, mfix_outcome,
-    mfix_snippets, mujoco_snippets, tsuji_entry, tsuji_outcome, viscel_entry, viscoelastic_damping,
-    yade_betan, yade_snippets,
+    characteristic_velocity, dissipation_of, fit_dissipation, grain_snippets, hertz_mindlin_entry,
+    hooke_stiffness, lammps_snippets, lethe_snippets, liggghts_snippets, mercury_snippets,
+    mfix_entry, mfix_outcome, mfix_snippets, restitution_of, tsuji_entry, tsuji_outcome,
+    viscel_entry, viscoelastic_damping, yade_betan, yade_snippets,
 };
 
 fn export() -> Export {
@@ -44,14 +45,7 @@ fn files_say_of_which_materials_no_loss_is_known() {
     let of = |unpublished_loss: Vec<String>| {
         let hunt_crossley = Some(hunt_crossley);
         let export = Export { unpublished_loss, hunt_crossley, ..export() };
-        let mut all = lammps_snippets(&export).unwrap();
-        all.extend(liggghts_snippets(&export).unwrap());
-        all.extend(yade_snippets(&export).unwrap());
-        all.extend(mercury_snippets(&export));
-        all.extend(lethe_snippets(&export));
-        all.extend(mfix_snippets(&export).unwrap());
-        all.extend(drake_snippets(&export));
-        all.extend(mujoco_snippets(&export));
+        let all = export.snippets().unwrap();
         let codes: std::collections::BTreeSet<_> = all.iter().map(|one| one.code).collect();
         assert_eq!(codes.len(), 8);
         all
@@ -306,12 +300,8 @@ fn hertzian_dashpots_of_mfix_and_mercury_make_what_is_said() {
 #[test]
 fn snippets_say_which_pair_they_are_for() {
     let all = |export: &Export| {
-        let mut all = lammps_snippets(export).unwrap();
-        all.extend(liggghts_snippets(export).unwrap());
-        all.extend(yade_snippets(export).unwrap());
-        all.extend(mercury_snippets(export));
-        all.extend(lethe_snippets(export));
-        all.extend(mfix_snippets(export).unwrap());
+        let mut all = export.snippets().unwrap();
+        all.retain(|snippet| !["Drake", "MuJoCo"].contains(&snippet.code));
         all
     };
     let unlike = all(&export());
@@ -369,5 +359,52 @@ fn walls_have_the_modulus_of_the_contact() {
             .unwrap();
         let made = modulus / (2.0 * (1.0 - sphere.poissons_ratio.powi(2)));
         assert!((made / export.pair.contact_modulus() - 1.0).abs() < 1e-9, "{lammps}");
+    }
+}
+
+/// Drake's equation of motion is stepped half-implicitly, with 20,000 steps per contact: accurate to 1e-4.
+#[test]
+fn drakes_restitution_is_that_of_the_motion() {
+    for a in [0.03, 0.3, 2.0] {
+        let (mut x, mut v, dt) = (0.0_f64, 1.0_f64, std::f64::consts::PI / 20_000.0);
+        while x >= 0.0 {
+            v -= dt * x * (1.0 + a * v).max(0.0);
+            x += dt * v;
+        }
+        assert!((restitution_of(a) + v).abs() < 2e-4, "{a}: {} {v}", restitution_of(a));
+    }
+}
+
+/// e = 1 − 2a/3 + O(a²).
+#[test]
+fn a_weak_drake_dashpot_is_that_of_hunt_and_crossley() {
+    for a in [1e-2, 1e-3] {
+        assert!((restitution_of(a) - (1.0 - 2.0 * a / 3.0)).abs() < a * a, "{a}");
+    }
+}
+
+/// The dissipation that made the data is found; for data with another slope, no neighbour is better.
+#[test]
+fn drakes_dissipation_fits_best() {
+    let of = |e: &dyn Fn(f64) -> f64| -> Vec<Point> {
+        [0.05, 0.1, 0.3, 1.0, 4.0].iter().map(|v| Point::new(*v, e(*v))).collect()
+    };
+    let exact = fit_dissipation(&of(&|v| restitution_of(0.7 * v))).unwrap().unwrap();
+    assert!((exact.dissipation / 0.7 - 1.0).abs() < 1e-6 && exact.rms < 1e-7, "{exact:?}");
+    let points = of(&|v| 0.8 - 0.1 * v.ln());
+    let best = fit_dissipation(&points).unwrap().unwrap();
+    let sum = |d: f64| -> f64 {
+        points.iter().map(|p| (restitution_of(d * p.speed) - p.restitution).powi(2)).sum()
+    };
+    for factor in [0.01, 0.1, 0.5, 0.99, 1.01, 2.0, 10.0] {
+        assert!(sum(best.dissipation) < sum(factor * best.dissipation), "{factor}");
+    }
+    assert_eq!(fit_dissipation(&of(&|_| 1.0)), Ok(None));
+}
+
+#[test]
+fn drakes_dissipation_inverts_its_restitution() {
+    for e in [0.05, 0.5, 0.92, 0.999] {
+        assert!((restitution_of(dissipation_of(e)) - e).abs() < 1e-6, "{e}");
     }
 }

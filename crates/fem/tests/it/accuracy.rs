@@ -1,7 +1,7 @@
 //! The accuracy study: the variants of a scene and their comparison.
 
 use fem::accuracy::{ErrorSource, Measurement, Series, Study, Variants};
-use fem::{Case, ErrorEstimator, SharedModels, Simulation};
+use fem::{Case, ErrorEstimator, Simulation};
 use fem_collision::QuantityOfInterest;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
@@ -18,21 +18,16 @@ fn climb(text: &str, most_updates: u64) -> (Variants, Vec<Option<(Measurement, f
     let measure = |variant: &fem::accuracy::Variant| {
         let across = variant.elements_across.unwrap_or_default();
         let is_cheap = variant.price <= most_updates && across < 17.0;
-        let radius = variants.lengths.contact_radius;
-        is_cheap.then(|| {
-            (
-                Measurement::of(variant, radius, &SharedModels::default(), &mut ()).unwrap(),
-                1.0 + across,
-            )
-        })
+        let measure = || Measurement::of(variant, variants.contact_radius, &mut ()).unwrap();
+        is_cheap.then(|| (measure(), 1.0 + across))
     };
     let measured = variants.all.iter().map(measure).collect();
     (variants, measured)
 }
 
-/// The limit of an elastic ball on a wall is Hertz' with the finite size of the ball, which is known to
-/// 0.05 % of contact time and force at this contact of 0.03 radii; and the error of a mesh falls with
-/// its elements.
+/// The limit of an elastic ball on a wall is Hertz' closed form with the finite size of the ball, which is accurate
+/// to 0.05 % in contact time and force at this contact radius of 0.03 ball radii. The error falls with the element
+/// size.
 #[test]
 fn the_limit_is_that_of_theory_and_finer_is_nearer() {
     let (variants, measured) = climb(BALL, 4_000_000);
@@ -55,12 +50,11 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
     let restitution = study.limits[QuantityOfInterest::Restitution as usize].unwrap();
     assert!((restitution.value - 1.0).abs() < 1e-4, "{restitution:?}");
 
-    let sure = |series| {
-        let of_series = variants.all.iter().zip(&study.judged);
-        let of_series = of_series.filter(move |(variant, _)| variant.series == series);
-        of_series.filter_map(|(_, judged)| judged.map(|judged| judged.sure))
+    let errors = |series| {
+        let of_series = study.runs.iter().filter(move |run| run.variant.series == series);
+        of_series.map(|run| run.errors)
     };
-    let condensed: Vec<_> = sure(Series::Condensed).collect();
+    let condensed: Vec<_> = errors(Series::Condensed).map(|errors| errors.monotone).collect();
     assert_eq!(condensed.len(), 7);
     for quantity in QuantityOfInterest::ALL {
         let errors: Vec<f64> =
@@ -73,47 +67,37 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
         let k = quantity as usize;
         assert!(condensed[0][k].unwrap() > 2.5 * condensed[4][k].unwrap(), "{quantity:?}");
     }
-    let stress = |series, k: usize| {
-        let of_series = variants.all.iter().zip(&study.judged);
-        let mut judged = of_series.filter(|(variant, _)| variant.series == series).map(|(_, j)| j);
-        judged.nth(k).unwrap().unwrap().stress_error
-    };
     for series in [Series::Condensed, Series::Explicit] {
-        let of_series = variants.all.iter().zip(&study.judged);
-        let of_series = of_series.filter(|(variant, _)| variant.series == series);
-        let sure = of_series.filter_map(|(_, judged)| judged.as_ref()?.sure_stress_error);
-        let sure: Vec<f64> = sure.collect();
-        assert!(sure.len() >= 3 && sure.is_sorted_by(|coarse, fine| coarse >= fine), "{sure:?}");
+        let stress: Vec<f64> =
+            errors(series).filter_map(|errors| errors.monotone_stress).collect();
+        let is_falling = stress.is_sorted_by(|coarse, fine| coarse >= fine);
+        assert!(stress.len() >= 3 && is_falling, "{stress:?}");
     }
-    let (coarse, fine) = (stress(Series::Condensed, 0), stress(Series::Condensed, 5));
+    let stress: Vec<_> = errors(Series::Condensed).map(|errors| errors.stress).collect();
+    let (coarse, fine) = (stress[0], stress[5]);
     assert!(coarse > fine.map(|fine| 3.0 * fine), "{coarse:?} {fine:?}");
 }
 
-/// Of equal errors the faster is taken, what varies one setting alone is no choice, and what is asked
-/// for decides.
+/// Of variants within the tolerance the fastest is taken; those that vary one setting alone are no choice.
 #[test]
 fn the_cheapest_within_the_tolerance_is_taken() {
     let (variants, measured) = climb(BALL, 500_000);
     let accuracy = case(BALL).scene().accuracy();
     let study = Study::of(&variants, &measured, &accuracy);
-    let taken = |serves: &dyn Fn(usize) -> bool| {
-        let index = study.cheapest_within(&variants, &measured, serves)?;
-        Some(&variants.all[index])
-    };
-    let all = taken(&|_| true).unwrap();
+    let all = study.cheapest_within(|_| true).unwrap().variant;
     assert_eq!(all.series, Series::Hertz);
-    let meshes = taken(&|index| variants.all[index].elements_across.is_some()).unwrap();
+    let meshes = study.cheapest_within(|run| run.variant.elements_across.is_some());
+    let meshes = meshes.unwrap().variant;
     assert_eq!(meshes.series, Series::Condensed);
     assert!(meshes.elements_across.unwrap() < 8.0, "{meshes:?}");
     let strict = fem_case::Accuracy::within(1e-6);
     let study = Study::of(&variants, &measured, &strict);
-    assert_eq!(study.cheapest_within(&variants, &measured, |_| true), None);
+    assert!(study.cheapest_within(|_| true).is_none());
 }
 
-/// With a quarter of the stiffness springs give way by several times as much: contact time and approach
-/// grow. Each part is told for each number.
+/// Each part of the error has a value for each quantity. Compliant springs lengthen contact time and approach.
 #[test]
-fn parts_of_the_error_are_told() {
+fn the_error_has_parts() {
     let (variants, measured) = climb(BALL, 30_000_000);
     let study = Study::of(&variants, &measured, &case(BALL).scene().accuracy());
     let part = |source| study.parts.iter().find(|part| part.source == source).unwrap();
@@ -129,10 +113,10 @@ fn parts_of_the_error_are_told() {
     }
 }
 
-/// Every way is another one: none twice under two names, none whose setting the scene does not read; and of each model
-/// there is one with the elements of which parts of the error are told.
+/// No two variants are equal, no variant has a setting that its scene does not read, and each model has one variant
+/// with the common element size, from which the parts of the error follow.
 #[test]
-fn no_way_is_there_twice() {
+fn no_variant_occurs_twice() {
     let relaxing = BALL.replace(
         "poissons_ratio = 0.33 }",
         "poissons_ratio = 0.33, relaxation = { acts_on = 'all', terms = [{ weight = 0.5, decay_rate = 1e4 }] } }",
@@ -168,7 +152,7 @@ fn no_way_is_there_twice() {
 
 /// A mesh of the user's own cannot be refined: the other variants run, and the limit is not known.
 #[test]
-fn what_a_scene_does_not_call_for_is_no_rung() {
+fn an_effect_that_a_scene_lacks_has_no_variant() {
     let variants = Variants::of(&case(BALL)).unwrap();
     let has =
         |variants: &Variants, series| variants.all.iter().any(|variant| variant.series == series);

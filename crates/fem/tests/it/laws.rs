@@ -122,7 +122,7 @@ fn an_export_says_where_it_is_good() {
     assert!((export.export.hertz.restitution - 0.9).abs() < 1e-7);
     assert_eq!(constant.validity[..2], [0.05, 0.5]);
     assert!(viscoelastic.validity[2] > 0.01);
-    let numbers = export.numbers("ball", &export.snippets().unwrap());
+    let numbers = export.numbers("ball", &export.export.snippets().unwrap());
     let numbers = serde_json::to_value(numbers).unwrap();
     assert_eq!(numbers["wall"], true);
     assert!(numbers["snippets"][0]["entries"].as_object().is_some_and(|all| !all.is_empty()));

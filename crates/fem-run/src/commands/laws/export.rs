@@ -180,7 +180,7 @@ fn fitted(
             failure
         }
     })?;
-    let snippets = fitted.snippets()?;
+    let snippets = fitted.export.snippets()?;
     Ok((fitted, snippets))
 }
 

@@ -18,7 +18,7 @@
 use fem_laws::EndRule;
 use fem_laws::bisection::last_where;
 
-use super::snippet::{Export, HuntCrossley, Snippet, short, speed, time};
+use super::snippet::{DRAKE_POINT_CONTACT, Export, HuntCrossley, Snippet, short, speed, time};
 use crate::fit::error::FitError;
 use crate::fit::least_squares::minimise;
 use crate::fit::problem::Point;
@@ -80,98 +80,38 @@ pub fn fit_dissipation(points: &[Point]) -> Result<Option<HuntCrossley>, FitErro
     }))
 }
 
-/// A point contact with the d that fits e(v) best, and T of the linear law.
+/// Returns a point contact with the d that fits e(v) best, and T of the linear law; none if they cannot be entered.
 pub fn drake_snippets(export: &Export) -> Vec<Snippet> {
-    // What cannot be entered is left out.
     let (Ok(law), Some(fitted)) = (export.linear_law(EndRule::ZeroForce), export.hunt_crossley)
     else {
         return Vec::new();
     };
-    let HuntCrossley { dissipation, rms, validity } = fitted;
+    let HuntCrossley { dissipation, rms, .. } = fitted;
+    let stiffness = 2.0 * law.stiffness();
     let (slow, fast) = export.speeds;
     let made = |speed: f64| restitution_of(dissipation * speed);
-    let heading = export.heading(
-        "Drake, point contact, Hunt & Crossley",
-        validity,
+    let commands = format!(
+        "from pydrake.geometry import AddContactMaterial, ProximityProperties\n\n\
+         properties = ProximityProperties()   # of both bodies\n\
+         AddContactMaterial(\n    dissipation={}, point_stiffness={}, properties=properties)\n\
+         # The contact takes {}: a discrete plant needs a fiftieth of that, or less.\n",
+        short(dissipation),
+        short(stiffness),
+        time(export.linear.contact_time)
+    );
+    vec![export.snippet(
+        DRAKE_POINT_CONTACT,
+        &[("dissipation", dissipation), ("point_stiffness", stiffness)],
         &[
-            format!(
+            &format!(
                 "Makes e = {:.4} at {}, {:.4} at {}: what it loses goes with speed.",
                 made(slow),
                 speed(slow),
                 made(fast),
                 speed(fast)
             ),
-            format!("dissipation is fitted to e(v); rms error {rms:.4}."),
+            &format!("dissipation is fitted to e(v); rms error {rms:.4}."),
         ],
-    );
-    let text = format!(
-        "{heading}from pydrake.geometry import AddContactMaterial, ProximityProperties\n\n\
-         properties = ProximityProperties()   # of both bodies\n\
-         AddContactMaterial(\n    dissipation={}, point_stiffness={}, properties=properties)\n\
-         # The contact takes {}: a discrete plant needs a fiftieth of that, or less.\n",
-        short(dissipation),
-        short(2.0 * law.stiffness()),
-        time(export.linear.contact_time)
-    );
-    vec![Snippet {
-        name: "drake_point_contact.py",
-        code: "Drake",
-        model: "Hunt-Crossley",
-        entries: vec![("dissipation", dissipation), ("point_stiffness", 2.0 * law.stiffness())],
-        restitution: None,
-        validity,
-        text,
-    }]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The equation of motion itself, stepped: half-implicit, to 1e-4 with 20,000 steps a contact.
-    #[test]
-    fn the_restitution_is_that_of_the_motion() {
-        for a in [0.03, 0.3, 2.0] {
-            let (mut x, mut v, dt) = (0.0_f64, 1.0_f64, std::f64::consts::PI / 20_000.0);
-            while x >= 0.0 {
-                v -= dt * x * (1.0 + a * v).max(0.0);
-                x += dt * v;
-            }
-            assert!((restitution_of(a) + v).abs() < 2e-4, "{a}: {} {v}", restitution_of(a));
-        }
-    }
-
-    /// e = 1 − 2a/3 + O(a²).
-    #[test]
-    fn a_weak_dashpot_is_that_of_hunt_and_crossley() {
-        for a in [1e-2, 1e-3] {
-            assert!((restitution_of(a) - (1.0 - 2.0 * a / 3.0)).abs() < a * a, "{a}");
-        }
-    }
-
-    /// The dissipation that made the data is found; for data with another slope, no neighbour is better.
-    #[test]
-    fn the_dissipation_is_the_one_that_fits_best() {
-        let of = |e: &dyn Fn(f64) -> f64| -> Vec<Point> {
-            [0.05, 0.1, 0.3, 1.0, 4.0].iter().map(|v| Point::new(*v, e(*v))).collect()
-        };
-        let exact = fit_dissipation(&of(&|v| restitution_of(0.7 * v))).unwrap().unwrap();
-        assert!((exact.dissipation / 0.7 - 1.0).abs() < 1e-6 && exact.rms < 1e-7, "{exact:?}");
-        let points = of(&|v| 0.8 - 0.1 * v.ln());
-        let best = fit_dissipation(&points).unwrap().unwrap();
-        let sum = |d: f64| -> f64 {
-            points.iter().map(|p| (restitution_of(d * p.speed) - p.restitution).powi(2)).sum()
-        };
-        for factor in [0.01, 0.1, 0.5, 0.99, 1.01, 2.0, 10.0] {
-            assert!(sum(best.dissipation) < sum(factor * best.dissipation), "{factor}");
-        }
-        assert_eq!(fit_dissipation(&of(&|_| 1.0)), Ok(None));
-    }
-
-    #[test]
-    fn one_is_the_others_inverse() {
-        for e in [0.05, 0.5, 0.92, 0.999] {
-            assert!((restitution_of(dissipation_of(e)) - e).abs() < 1e-6, "{e}");
-        }
-    }
+        &commands,
+    )]
 }

@@ -8,7 +8,7 @@ use fem_laws::Pair;
 use super::mfix::mfix_entry;
 use super::snippet::{Sphere, short, unpublished_loss};
 
-/// Letters of pairs that a line takes beside a sentence.
+/// Longest list of pairs that stands in a sentence, in characters.
 const LONGEST_LIST: usize = 40;
 
 /// A material at a size: a type, or phase, of a code.
@@ -23,23 +23,23 @@ pub struct Grain {
 /// Two grains and their restitution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairOfGrains {
-    /// Places of the grains, the first not above the second.
+    /// Indices of the grains, in order.
     pub grains: [usize; 2],
     /// The two grains as a pair.
     pub pair: Pair,
-    /// One e for all speeds.
+    /// Their restitution at all speeds.
     pub restitution: f64,
-    /// Materials whose loss counts as nothing, since none is known: e is too high.
+    /// Materials whose loss is taken as 0 because none is published: e is too high.
     pub unpublished_loss: Vec<String>,
 }
 
-/// Files and their texts; pairs in the order 11, 12, …, 22, ….
+/// Returns the names and the texts of the files; pairs are in the order 11, 12, …, 22, ….
 pub fn grain_snippets(grains: &[Grain], pairs: &[PairOfGrains]) -> Vec<(&'static str, String)> {
     let mut files = vec![
         ("lammps_pairs.in", lammps(grains, pairs)),
         ("liggghts_pairs.in", liggghts(grains, pairs)),
     ];
-    // What cannot be entered is left out.
+    // A restitution may be too small for MFIX.
     files.extend(mfix(grains, pairs).map(|text| ("mfix_pairs.dat", text)));
     files
 }
@@ -122,16 +122,10 @@ fn mfix(grains: &[Grain], pairs: &[PairOfGrains]) -> Option<String> {
     text += "  des_coll_model = 'HERTZIAN'\n";
     for (index, Grain { sphere, .. }) in grains.iter().enumerate() {
         let phase = index + 1;
-        let Sphere { diameter, density, youngs_modulus, poissons_ratio } = sphere;
+        let [diameter, density, young, poisson] = sphere.texts();
         text += &format!(
-            "  d_p0({phase}) = {}\n  ro_s0({phase}) = {}\n",
-            short(*diameter),
-            short(*density)
-        );
-        text += &format!(
-            "  e_young({phase}) = {}\n  v_poisson({phase}) = {}\n",
-            short(*youngs_modulus),
-            short(*poissons_ratio)
+            "  d_p0({phase}) = {diameter}\n  ro_s0({phase}) = {density}\n  \
+             e_young({phase}) = {young}\n  v_poisson({phase}) = {poisson}\n"
         );
     }
     text += "  # Entered for what comes out: HERTZIAN damps too little.\n";

@@ -26,7 +26,9 @@ use fem_laws::bisection::last_where;
 use fem_laws::laws::kuwabara_kono;
 use fem_laws::{LawError, Pair};
 
-use super::snippet::{Export, Snippet, short};
+use super::snippet::{
+    Export, LAMMPS_COEFF_RESTITUTION, LAMMPS_TSUJI, LAMMPS_VISCOELASTIC, Snippet, short, time,
+};
 
 /// Which LAMMPS: the factor of its `tsuji`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,103 +80,77 @@ pub fn viscoelastic_damping(pair: &Pair, dissipation_time: f64) -> Result<f64, L
 /// # Errors
 /// The dissipation time is out of its range.
 pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
-    let code = "LAMMPS";
+    const FRICTIONLESS: &str = "Without friction; put in your own tangential model.";
     let e = export.hertz.restitution;
-    let (time, viscoelastic_validity) = export.dissipation_time;
-    let eta = viscoelastic_damping(&export.pair, time)?;
-    let coeff = |name, damping: &'static str, entry: f64, key, extra: &str, notes: &[String]| {
-        let is_constant = key != "eta";
-        let validity = if is_constant { export.hertz.validity } else { viscoelastic_validity };
-        let model = format!("LAMMPS, granular hertz/material, damping {damping}");
-        let mut text = export.heading(&model, validity, notes);
-        let contact = |modulus: f64, poissons_ratio: f64| {
-            format!(
-                "hertz/material {} {} {} tangential linear_nohistory 0.0 0.0 damping \
-                 {damping}{extra}",
-                short(modulus),
-                short(entry),
-                short(poissons_ratio)
-            )
-        };
-        if let [sphere] = &export.spheres[..] {
-            text += &format!(
-                "# LAMMPS takes a wall for the sphere's own material: the modulus makes it a {}.\n\
-                 # Put your own wall in the place of zplane 0 NULL.\n\
-                 fix wall all wall/gran granular {} zplane 0 NULL\n",
-                export.wall(),
-                contact(
-                    2.0 * (1.0 - sphere.poissons_ratio.powi(2)) * export.pair.contact_modulus(),
-                    sphere.poissons_ratio
-                )
-            );
-        } else {
-            text += "pair_style granular\n";
-            for (index, sphere) in export.spheres.iter().enumerate() {
-                let contact = contact(sphere.youngs_modulus, sphere.poissons_ratio);
-                text += &format!("pair_coeff {0} {0} {contact}\n", index + 1);
-            }
-            text += "# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n";
-            text += export.unlike_note();
-        }
-        let restitution = is_constant.then_some(e);
-        Snippet {
-            name,
-            code,
-            model: damping,
-            entries: vec![(key, entry)],
-            restitution,
-            validity,
-            text,
-        }
-    };
-    let frictionless = "Without friction; put in your own tangential model.".to_string();
-    let mut snippets = vec![
-        coeff(
-            "lammps_coeff_restitution.in",
-            "coeff_restitution",
-            e,
-            "e",
-            "",
-            &[
-                "One restitution for all speeds; the contact ends at zero overlap.".to_string(),
-                frictionless.clone(),
-            ],
-        ),
-        coeff(
-            "lammps_viscoelastic.in",
-            "viscoelastic",
-            eta,
-            "eta",
-            " limit_damping",
-            &[
-                format!(
-                    "A = {}: restitution falls with speed; the contact ends at zero force.",
-                    super::snippet::time(time)
-                ),
-                format!(
-                    "eta = 2 E* A/m_eff holds for this contact's sizes only (1/(m s)): {eta:.6e}."
-                ),
-                frictionless.clone(),
-            ],
-        ),
-    ];
-    if let Some(entry) = tsuji_entry(e, TsujiVersion::Plain) {
+    let (dissipation_time, _) = export.dissipation_time;
+    let eta = viscoelastic_damping(&export.pair, dissipation_time)?;
+    let constant = export.snippet(
+        LAMMPS_COEFF_RESTITUTION,
+        &[("e", e)],
+        &["One restitution for all speeds; the contact ends at zero overlap.", FRICTIONLESS],
+        &commands(export, e, "coeff_restitution"),
+    );
+    let viscoelastic = export.snippet(
+        LAMMPS_VISCOELASTIC,
+        &[("eta", eta)],
+        &[
+            &format!(
+                "A = {}: restitution falls with speed; the contact ends at zero force.",
+                time(dissipation_time)
+            ),
+            &format!(
+                "eta = 2 E* A/m_eff holds for this contact's sizes only (1/(m s)): {eta:.6e}."
+            ),
+            FRICTIONLESS,
+        ],
+        &commands(export, eta, "viscoelastic limit_damping"),
+    );
+    let tsuji = tsuji_entry(e, TsujiVersion::Plain).map(|entry| {
         let later = tsuji_entry(e, TsujiVersion::RootTwo);
         let later = later.map_or("nothing".to_string(), |later| format!("{later:.4}"));
-        snippets.push(coeff(
-            "lammps_tsuji.in",
-            "tsuji",
-            entry,
-            "e",
-            "",
+        export.snippet(
+            LAMMPS_TSUJI,
+            &[("e", entry)],
             &[
-                format!(
+                &format!(
                     "Entered {entry:.4}, wanted and made {e:.4}: up to the release of 22 July 2025"
                 ),
-                format!("tsuji damps too little. Later sources correct it: there enter {later}."),
-                frictionless,
+                &format!("tsuji damps too little. Later sources correct it: there enter {later}."),
+                FRICTIONLESS,
             ],
-        ));
+            &commands(export, entry, "tsuji"),
+        )
+    });
+    Ok([constant, viscoelastic].into_iter().chain(tsuji).collect())
+}
+
+/// Returns the commands that set up the contact of two spheres, or of a sphere and a wall.
+fn commands(export: &Export, entry: f64, damping: &str) -> String {
+    let contact = |modulus: f64, poissons_ratio: f64| {
+        format!(
+            "hertz/material {} {} {} tangential linear_nohistory 0.0 0.0 damping {damping}",
+            short(modulus),
+            short(entry),
+            short(poissons_ratio)
+        )
+    };
+    if let [sphere] = &export.spheres[..] {
+        let twice_the_plane_modulus =
+            2.0 * (1.0 - sphere.poissons_ratio.powi(2)) * export.pair.contact_modulus();
+        return format!(
+            "# LAMMPS takes a wall for the sphere's own material: the modulus makes it a {}.\n\
+             # Put your own wall in the place of zplane 0 NULL.\n\
+             fix wall all wall/gran granular {} zplane 0 NULL\n",
+            export.wall(),
+            contact(twice_the_plane_modulus, sphere.poissons_ratio)
+        );
     }
-    Ok(snippets)
+    let coefficients = export.per_sphere(|index, sphere| {
+        let contact = contact(sphere.youngs_modulus, sphere.poissons_ratio);
+        format!("pair_coeff {index} {index} {contact}\n")
+    });
+    format!(
+        "pair_style granular\n{coefficients}# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n{}",
+        export.unlike_note()
+    )
 }

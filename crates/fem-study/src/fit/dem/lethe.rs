@@ -9,41 +9,31 @@
 //! Elliott's exact coefficient, ended at zero overlap, constants in five digits. e of a pair is the harmonic
 //! mean of both bodies', so both get the pair's. Read, not run.
 
-use super::snippet::{Export, Snippet, short};
+use super::snippet::{Export, LETHE, Snippet, short};
 
 /// Returns the sections of a parameter file.
 pub fn lethe_snippets(export: &Export) -> Vec<Snippet> {
     let e = export.hertz.restitution;
-    let mut text = export.heading(
-        "Lethe, hertz_mindlin_limit_overlap",
-        export.hertz.validity,
-        &[
-            "One restitution for all speeds; the contact ends at zero overlap.".to_string(),
-            "Without friction; put in your own.".to_string(),
-        ],
-    );
-    text += "subsection model parameters\n  \
-             set particle particle contact force method = hertz_mindlin_limit_overlap\n  \
-             set particle wall contact force method     = nonlinear\nend\n\
-             subsection lagrangian physical properties\n";
+    let mut text = "subsection model parameters\n  \
+         set particle particle contact force method = hertz_mindlin_limit_overlap\n  \
+         set particle wall contact force method     = nonlinear\nend\n\
+         subsection lagrangian physical properties\n"
+        .to_string();
     let is_one = export.spheres.len() == 2 && export.spheres.first() == export.spheres.last();
     let kinds = if is_one { &export.spheres[..1] } else { &export.spheres[..] };
     text += &format!("  set number of particle types = {}\n", kinds.len());
     for (index, sphere) in kinds.iter().enumerate() {
+        let [diameter, density, young, poisson] = sphere.texts();
         text += &format!(
             "  subsection particle type {index}\n    \
              set size distribution type            = uniform\n    \
-             set diameter                          = {}\n    \
-             set density particles                 = {}\n    \
-             set young modulus particles           = {}\n    \
-             set poisson ratio particles           = {}\n    \
+             set diameter                          = {diameter}\n    \
+             set density particles                 = {density}\n    \
+             set young modulus particles           = {young}\n    \
+             set poisson ratio particles           = {poisson}\n    \
              set restitution coefficient particles = {}\n    \
              set friction coefficient particles    = 0\n    \
              set rolling friction particles        = 0\n  end\n",
-            short(sphere.diameter),
-            short(sphere.density),
-            short(sphere.youngs_modulus),
-            short(sphere.poissons_ratio),
             short(e)
         );
     }
@@ -63,13 +53,13 @@ pub fn lethe_snippets(export: &Export) -> Vec<Snippet> {
         _ => text += export.unlike_note(),
     }
     text += "end\n";
-    vec![Snippet {
-        name: "lethe.prm",
-        code: "Lethe",
-        model: "hertz_mindlin_limit_overlap",
-        entries: vec![("restitution coefficient", e)],
-        restitution: Some(e),
-        validity: export.hertz.validity,
-        text,
-    }]
+    vec![export.snippet(
+        LETHE,
+        &[("restitution coefficient", e)],
+        &[
+            "One restitution for all speeds; the contact ends at zero overlap.",
+            "Without friction; put in your own.",
+        ],
+        &text,
+    )]
 }

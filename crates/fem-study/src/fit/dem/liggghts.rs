@@ -13,7 +13,7 @@
 
 use fem_laws::{EndRule, LawError, Pair};
 
-use super::snippet::{Export, Snippet, short, time};
+use super::snippet::{Export, LIGGGHTS_HERTZ, LIGGGHTS_HOOKE, Snippet, short, time};
 
 /// Returns k_n, N/m, of `hooke` for a characteristic velocity, m/s.
 pub fn hooke_stiffness(pair: &Pair, velocity: f64) -> f64 {
@@ -32,71 +32,45 @@ pub fn characteristic_velocity(pair: &Pair, stiffness: f64) -> f64 {
 /// # Errors
 /// The linear law cannot be made.
 pub fn liggghts_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
+    const END: &str = "The contact ends at zero overlap; limitForce on would raise e.";
     let [first, second] = &export.spheres[..] else { return Ok(Vec::new()) };
     let stiffness = export.linear_law(EndRule::ZeroOverlap)?.stiffness();
     let velocity = characteristic_velocity(&export.pair, stiffness);
-    let code = "LIGGGHTS";
-    let globals = |e: f64| {
+    let ([_, _, young1, poisson1], [_, _, young2, poisson2]) = (first.texts(), second.texts());
+    let commands = |model: &str, e: f64, more: &str| {
+        let (e, note) = (short(e), export.unlike_note());
         format!(
-            "fix m1 all property/global youngsModulus peratomtype {1} {2}\n\
-             fix m2 all property/global poissonsRatio peratomtype {3} {4}\n\
-             fix m3 all property/global coefficientRestitution peratomtypepair 2 {0} {0} {0} {0}\n\
-             fix m4 all property/global coefficientFriction peratomtypepair 2 0 0 0 0\n",
-            short(e),
-            short(first.youngs_modulus),
-            short(second.youngs_modulus),
-            short(first.poissons_ratio),
-            short(second.poissons_ratio)
-        ) + export.unlike_note()
+            "fix m1 all property/global youngsModulus peratomtype {young1} {young2}\n\
+             fix m2 all property/global poissonsRatio peratomtype {poisson1} {poisson2}\n\
+             fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}\n\
+             fix m4 all property/global coefficientFriction peratomtypepair 2 0 0 0 0\n\
+             {note}{more}pair_style gran model {model} tangential history\npair_coeff * *\n"
+        )
     };
-    let style =
-        |model: &str| format!("pair_style gran model {model} tangential history\npair_coeff * *\n");
-    let ends = "The contact ends at zero overlap; limitForce on would raise e.".to_string();
-    let (e, hertz) = (export.hertz.restitution, &export.hertz);
-    let hertz_text = export.heading(
-        "LIGGGHTS, gran model hertz",
-        hertz.validity,
-        &["One restitution for all speeds.".to_string(), ends.clone()],
-    );
-    let linear = &export.linear;
-    let hooke_text = export.heading(
-        "LIGGGHTS, gran model hooke",
-        linear.validity,
-        &[
-            format!(
-                "Linear, contact time {} at all speeds: characteristicVelocity is chosen for it.",
-                time(linear.contact_time)
-            ),
-            ends,
-        ],
-    );
+    let (e, linear) = (export.hertz.restitution, &export.linear);
+    let more =
+        format!("fix m5 all property/global characteristicVelocity scalar {}\n", short(velocity));
     Ok(vec![
-        Snippet {
-            name: "liggghts_hertz.in",
-            code,
-            model: "hertz",
-            entries: vec![("coefficientRestitution", e)],
-            restitution: Some(e),
-            validity: hertz.validity,
-            text: hertz_text + &globals(e) + &style("hertz"),
-        },
-        Snippet {
-            name: "liggghts_hooke.in",
-            code,
-            model: "hooke",
-            entries: vec![
+        export.snippet(
+            LIGGGHTS_HERTZ,
+            &[("coefficientRestitution", e)],
+            &["One restitution for all speeds.", END],
+            &commands("hertz", e, ""),
+        ),
+        export.snippet(
+            LIGGGHTS_HOOKE,
+            &[
                 ("coefficientRestitution", linear.restitution),
                 ("characteristicVelocity", velocity),
             ],
-            restitution: Some(linear.restitution),
-            validity: linear.validity,
-            text: hooke_text
-                + &globals(linear.restitution)
-                + &format!(
-                    "fix m5 all property/global characteristicVelocity scalar {}\n",
-                    short(velocity)
-                )
-                + &style("hooke"),
-        },
+            &[
+                &format!(
+                    "Linear, contact time {} at all speeds: characteristicVelocity is chosen for it.",
+                    time(linear.contact_time)
+                ),
+                END,
+            ],
+            &commands("hooke", linear.restitution, &more),
+        ),
     ])
 }

@@ -12,81 +12,51 @@
 //! mass of two equal particles, 2m*, of the linear law. Both end at zero overlap: what is entered is made.
 //! Mercury would take harmonic means of two species, so the pair's own values are set. Read, not run.
 
-use super::snippet::{Export, Snippet, short, time};
+use super::snippet::{Export, MERCURY_HERTZIAN, MERCURY_LINEAR, Snippet, short, slashed, time};
 
 /// Returns both species of the pair.
 pub fn mercury_snippets(export: &Export) -> Vec<Snippet> {
+    const PLACE: &str = "Goes into setupInitialConditions() of your Mercury3D.";
     let (e, linear) = (export.hertz.restitution, &export.linear);
-    let hertz_call = format!(
+    let modulus = export.pair.contact_modulus();
+    let hertz = format!(
         "setEffectiveElasticModulusAndRestitutionCoefficient({}, {})",
-        short(export.pair.contact_modulus()),
+        short(modulus),
         short(e)
     );
-    let hertz = heading(
-        export,
-        "MercuryDPM, HertzianViscoelastic",
-        export.hertz.validity,
-        "One restitution for all speeds; the contact ends at zero overlap.".to_string(),
-    );
-    let linear_call = format!(
+    let hooke = format!(
         "setCollisionTimeAndRestitutionCoefficient({}, {}, {})",
         short(linear.contact_time),
         short(linear.restitution),
         short(2.0 * export.pair.effective_mass())
     );
-    let hooke = heading(
-        export,
-        "MercuryDPM, LinearViscoelastic",
-        linear.validity,
-        format!(
-            "Linear, {} at all speeds; the mass is twice that of the pair, m1 m2/(m1 + m2).",
-            time(linear.contact_time)
-        ),
-    );
-    let snippet = |name, model, entries, validity, text| Snippet {
-        name,
-        code: "MercuryDPM",
-        model,
-        entries,
-        restitution: Some(e),
-        validity,
-        text,
-    };
-    let modulus = export.pair.contact_modulus();
     vec![
-        snippet(
-            "mercury_hertzian.cpp",
-            "HertzianViscoelastic",
-            vec![("effectiveElasticModulus", modulus), ("restitutionCoefficient", e)],
-            export.hertz.validity,
-            hertz + &body(export, "HertzianViscoelasticMindlinSpecies", &hertz_call),
+        export.snippet(
+            MERCURY_HERTZIAN,
+            &[("effectiveElasticModulus", modulus), ("restitutionCoefficient", e)],
+            &["One restitution for all speeds; the contact ends at zero overlap.", PLACE],
+            &commands(export, "HertzianViscoelasticMindlinSpecies", &hertz),
         ),
-        snippet(
-            "mercury_linear.cpp",
-            "LinearViscoelastic",
-            vec![
+        export.snippet(
+            MERCURY_LINEAR,
+            &[
                 ("collisionTime", linear.contact_time),
                 ("restitutionCoefficient", linear.restitution),
             ],
-            linear.validity,
-            hooke + &body(export, "LinearViscoelasticSpecies", &linear_call),
+            &[
+                &format!(
+                    "Linear, {} at all speeds; the mass is twice that of the pair, m1 m2/(m1 + m2).",
+                    time(linear.contact_time)
+                ),
+                PLACE,
+            ],
+            &commands(export, "LinearViscoelasticSpecies", &hooke),
         ),
     ]
 }
 
-fn heading(export: &Export, model: &str, validity: [f64; 3], note: String) -> String {
-    let place = "Goes into setupInitialConditions() of your Mercury3D.".to_string();
-    comment(&export.heading(model, validity, &[note, place]))
-}
-
-/// A comment of C++.
-fn comment(text: &str) -> String {
-    let line = |line: &str| format!("//{}\n", line.trim_start_matches('#'));
-    text.lines().map(line).collect()
-}
-
-/// Two species and what goes for one with the other; of equal spheres one, of a wall the second.
-fn body(export: &Export, species: &str, call: &str) -> String {
+/// Returns two species and their mixed species: one for equal spheres, and for a wall the second.
+fn commands(export: &Export, species: &str, call: &str) -> String {
     let mut text = format!("// #include <Species/{species}.h>\n");
     let first = &export.spheres[0];
     let is_one = export.spheres.len() == 2 && Some(first) == export.spheres.last();
@@ -104,7 +74,7 @@ fn body(export: &Export, species: &str, call: &str) -> String {
             text += "// second: of the wall.\n";
         }
         text += &format!("speciesHandler.getMixedObject(first, second)->{call};\n");
-        text += &comment(export.unlike_note());
+        text += &slashed(export.unlike_note());
     }
     text
 }

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 
 use fem_laws::{EndRule, LawError};
 
-use super::snippet::{Export, Snippet, short, time};
+use super::snippet::{Export, MFIX_HERTZIAN, MFIX_LSD, Snippet, short, time};
 
 /// Returns the restitution that `HERTZIAN` makes of an e_n in (0, 1].
 pub fn mfix_outcome(entered: f64) -> f64 {
@@ -39,83 +39,65 @@ fn of_sine(sine: f64) -> f64 {
     (-PI * sine / ((1.0 - sine) * (1.0 + sine)).sqrt()).exp()
 }
 
-/// Returns the keywords of `mfix.dat`.
+/// Returns the keywords of `mfix.dat`; those of the Hertzian model if the restitution can be entered.
 ///
 /// # Errors
 /// The linear law cannot be made.
 pub fn mfix_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     let (e, linear) = (export.hertz.restitution, &export.linear);
     let stiffness = export.linear_law(EndRule::ZeroOverlap)?.stiffness();
-    let mut snippets = Vec::new();
-    // What cannot be entered is left out.
-    if let Some(entry) = mfix_entry(e) {
-        let mut text = export.heading(
-            "MFIX-DEM, Hertzian",
-            export.hertz.validity,
-            &[
-                format!(
-                    "Entered {entry:.4}, made {e:.4}, wanted the latter: HERTZIAN damps too little."
-                ),
-                "One restitution for all speeds; the contact ends at zero overlap.".to_string(),
-            ],
-        );
-        text += "  des_coll_model = 'HERTZIAN'\n";
-        for (index, sphere) in export.spheres.iter().enumerate() {
-            let [young, poisson] = [sphere.youngs_modulus, sphere.poissons_ratio].map(short);
-            let phase = index + 1;
-            text += &format!("  e_young({phase}) = {young}\n  v_poisson({phase}) = {poisson}\n");
-        }
-        if let [sphere] = &export.spheres[..] {
-            text += &format!(
+    let hertz = mfix_entry(e).map(|entry| {
+        let moduli = export.per_sphere(|phase, sphere| {
+            let [_, _, young, poisson] = sphere.texts();
+            format!("  e_young({phase}) = {young}\n  v_poisson({phase}) = {poisson}\n")
+        });
+        let wall = match &export.spheres[..] {
+            [sphere] => format!(
                 "  # A {}, of Poisson's ratio 0.\n  ew_young = {}\n  vw_poisson = 0.0\n",
                 export.wall(),
                 short(export.wall_modulus(sphere))
-            );
-        }
-        text += &restitutions(export, entry, true);
-        snippets.push(Snippet {
-            name: "mfix_hertzian.dat",
-            code: "MFIX-DEM",
-            model: "HERTZIAN",
-            entries: vec![("des_en_input", entry)],
-            restitution: Some(e),
-            validity: export.hertz.validity,
-            text,
-        });
-    }
-    let mut text = export.heading(
-        "MFIX-DEM, linear spring and dashpot",
-        linear.validity,
-        &[
-            format!("Linear, contact time {} at all speeds.", time(linear.contact_time)),
-            "One kn is for all pairs of a run: of other masses it makes another contact time."
-                .to_string(),
-        ],
-    );
-    let key = if export.spheres.len() < 2 { "kn_w" } else { "kn" };
-    text += &format!("  des_coll_model = 'LSD'\n  {key} = {}\n", short(stiffness));
-    text += &restitutions(export, linear.restitution, false);
-    snippets.push(Snippet {
-        name: "mfix_lsd.dat",
-        code: "MFIX-DEM",
-        model: "LSD",
-        entries: vec![("kn", stiffness), ("des_en_input", linear.restitution)],
-        restitution: Some(linear.restitution),
-        validity: linear.validity,
-        text,
+            ),
+            _ => String::new(),
+        };
+        export.snippet(
+            MFIX_HERTZIAN,
+            &[("des_en_input", entry)],
+            &[
+                &format!(
+                    "Entered {entry:.4}, made {e:.4}, wanted the latter: HERTZIAN damps too little."
+                ),
+                "One restitution for all speeds; the contact ends at zero overlap.",
+            ],
+            &format!(
+                "  des_coll_model = 'HERTZIAN'\n{moduli}{wall}{}",
+                restitutions(export, entry, true)
+            ),
+        )
     });
-    Ok(snippets)
+    let key = if export.spheres.len() < 2 { "kn_w" } else { "kn" };
+    let hooke = export.snippet(
+        MFIX_LSD,
+        &[("kn", stiffness), ("des_en_input", linear.restitution)],
+        &[
+            &format!("Linear, contact time {} at all speeds.", time(linear.contact_time)),
+            "One kn is for all pairs of a run: of other masses it makes another contact time.",
+        ],
+        &format!(
+            "  des_coll_model = 'LSD'\n  {key} = {}\n{}",
+            short(stiffness),
+            restitutions(export, linear.restitution, false)
+        ),
+    );
+    Ok(hertz.into_iter().chain([hooke]).collect())
 }
 
-/// Solids and their restitutions: of the pairs 11, 12, 22, or with the wall. Hertzian contacts ask for a
-/// tangential one, too.
+/// Returns solids and their restitutions: of the pairs 11, 12, 22, or with the wall. Hertzian contacts also have a
+/// tangential one.
 fn restitutions(export: &Export, entry: f64, has_tangential: bool) -> String {
-    let mut text = String::new();
-    for (index, sphere) in export.spheres.iter().enumerate() {
-        let [diameter, density] = [sphere.diameter, sphere.density].map(short);
-        let phase = index + 1;
-        text += &format!("  d_p0({phase}) = {diameter}\n  ro_s0({phase}) = {density}\n");
-    }
+    let mut text = export.per_sphere(|phase, sphere| {
+        let [diameter, density, ..] = sphere.texts();
+        format!("  d_p0({phase}) = {diameter}\n  ro_s0({phase}) = {density}\n")
+    });
     let pairs: &[(&str, usize)] = match export.spheres.len() {
         1 => &[("wall_input", 1)],
         _ => &[("input", 1), ("input", 2), ("input", 3)],

@@ -1,13 +1,13 @@
-//! The numbers that codes of the discrete element method ask for, and what they make of them.
+//! Input for codes of the discrete element method, and the restitution that each code makes of it.
 //!
-//! Three conventions hide behind a "restitution" that is entered:
+//! Codes interpret an entered restitution in three ways:
 //!
-//! - a contact that ends at zero overlap, the dashpot pulling at the end: LAMMPS without
-//!   `limit_damping`, LIGGGHTS without `limitForce on`, MercuryDPM, Lethe, MFIX-DEM;
-//! - one that ends at zero force: YADE, MuJoCo, Drake, and the two above with those keywords;
-//! - a formula that is an approximation: LAMMPS' `tsuji`, YADE's Hertz–Mindlin `en`, MFIX's `HERTZIAN`.
+//! - The contact ends at zero overlap, and the dashpot pulls at the end: LAMMPS without `limit_damping`, LIGGGHTS
+//!   without `limitForce on`, MercuryDPM, Lethe, MFIX-DEM.
+//! - The contact ends at zero force: YADE, MuJoCo, Drake, and LAMMPS and LIGGGHTS with those keywords.
+//! - An approximate formula: LAMMPS' `tsuji`, YADE's Hertz–Mindlin `en`, MFIX's `HERTZIAN`.
 //!
-//! Each code has a file with its formulas, their source, and the snippet that uses them.
+//! Each code has a file with its formulas, their source, and the snippets that use them.
 
 mod drake;
 mod grains;
@@ -30,3 +30,25 @@ pub use mfix::{mfix_entry, mfix_outcome, mfix_snippets};
 pub use mujoco::mujoco_snippets;
 pub use snippet::{Dashpot, Elastic, Export, HuntCrossley, Snippet, Sphere};
 pub use yade::{hertz_mindlin_entry, viscel_entry, yade_betan, yade_snippets};
+
+use fem_laws::LawError;
+
+impl Export {
+    /// Returns the input of all codes.
+    ///
+    /// # Errors
+    /// Numbers that a code's formula does not take.
+    pub fn snippets(&self) -> Result<Vec<Snippet>, LawError> {
+        let all = [
+            lammps_snippets(self)?,
+            liggghts_snippets(self)?,
+            yade_snippets(self)?,
+            mercury_snippets(self),
+            lethe_snippets(self),
+            mfix_snippets(self)?,
+            drake_snippets(self),
+            mujoco_snippets(self),
+        ];
+        Ok(all.concat())
+    }
+}

@@ -14,38 +14,28 @@
 
 use fem_laws::EndRule;
 
-use super::snippet::{Export, Snippet, short, time};
+use super::snippet::{Export, MUJOCO_CONTACT, Snippet, short, time};
 
-/// Returns a contact with e and T of the linear law.
+/// Returns a contact with e and T of the linear law; none if they cannot be entered.
 pub fn mujoco_snippets(export: &Export) -> Vec<Snippet> {
-    // What cannot be entered is left out.
     let Ok(law) = export.linear_law(EndRule::ZeroForce) else { return Vec::new() };
     let mass = export.pair.effective_mass();
     let (stiffness, damping) = (law.stiffness() / mass, law.damping() / mass);
-    let e = export.linear.restitution;
-    let heading = export.heading(
-        "MuJoCo, solref in its direct format",
-        export.linear.validity,
-        &[
-            format!("Makes e = {e:.4} in {}, of any sizes;", time(export.linear.contact_time)),
-            "the time step must be a fiftieth of that or less.".to_string(),
-        ],
-    );
-    let heading = heading.replace("--", "-");
-    let text = format!(
-        "<!--\n{heading}-->\n<mujoco>\n  <option timestep=\"{}\" integrator=\"Euler\"/>\n  <default>\n    \
+    let (e, contact_time) = (export.linear.restitution, export.linear.contact_time);
+    let commands = format!(
+        "<mujoco>\n  <option timestep=\"{}\" integrator=\"Euler\"/>\n  <default>\n    \
          <geom solref=\"-{} -{}\" solimp=\"0.9 0.9 0.001\" condim=\"1\"/>\n  </default>\n</mujoco>\n",
-        short(export.linear.contact_time / 100.0),
+        short(contact_time / 100.0),
         short(stiffness),
         short(damping)
     );
-    vec![Snippet {
-        name: "mujoco_contact.xml",
-        code: "MuJoCo",
-        model: "solref",
-        entries: vec![("stiffness", stiffness), ("damping", damping)],
-        restitution: Some(e),
-        validity: export.linear.validity,
-        text,
-    }]
+    vec![export.snippet(
+        MUJOCO_CONTACT,
+        &[("stiffness", stiffness), ("damping", damping)],
+        &[
+            &format!("Makes e = {e:.4} in {}, of any sizes;", time(contact_time)),
+            "the time step must be a fiftieth of that or less.",
+        ],
+        &commands,
+    )]
 }

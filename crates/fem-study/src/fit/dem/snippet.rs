@@ -1,4 +1,4 @@
-//! The content of DEM snippets, and their heading.
+//! The content of DEM snippets: the laws that they enter, their heading, and their comments.
 
 use fem_laws::laws::{ContactLaw, linear_from_restitution};
 use fem_laws::{EndRule, LawError, Pair};
@@ -19,7 +19,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// A sphere of a diameter, m, and a material, with its instantaneous moduli.
+    /// Creates a sphere of a diameter, m, and a material, with its instantaneous moduli.
     pub fn new(diameter: f64, material: &Material) -> Self {
         Self {
             diameter,
@@ -27,6 +27,11 @@ impl Sphere {
             youngs_modulus: material.instantaneous().youngs_modulus(),
             poissons_ratio: material.instantaneous().poissons_ratio(),
         }
+    }
+
+    /// Returns diameter, density, Young's modulus and Poisson's ratio as text.
+    pub(super) fn texts(&self) -> [String; 4] {
+        [self.diameter, self.density, self.youngs_modulus, self.poissons_ratio].map(short)
     }
 }
 
@@ -105,43 +110,112 @@ pub struct Snippet {
     pub text: String,
 }
 
+/// The fitted law whose numbers a snippet enters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum EnteredLaw {
+    /// One restitution for all speeds, on Hertz' spring.
+    Constant,
+    /// The viscoelastic dashpot of Kuwabara & Kono.
+    Viscoelastic,
+    /// A linear spring and dashpot.
+    Linear,
+    /// The dashpot of Hunt & Crossley.
+    HuntCrossley,
+}
+
+/// A file of a code: its name, the code, the model in the code's own words and in the heading, and its law.
+#[derive(Clone, Copy)]
+pub(super) struct SnippetFile(&'static str, &'static str, &'static str, &'static str, EnteredLaw);
+
+#[rustfmt::skip]
+mod files {
+    use super::{EnteredLaw, SnippetFile};
+
+    pub(crate) const LAMMPS_COEFF_RESTITUTION: SnippetFile = SnippetFile("lammps_coeff_restitution.in", "LAMMPS", "coeff_restitution", "granular hertz/material, damping coeff_restitution", EnteredLaw::Constant);
+    pub(crate) const LAMMPS_VISCOELASTIC: SnippetFile = SnippetFile("lammps_viscoelastic.in", "LAMMPS", "viscoelastic", "granular hertz/material, damping viscoelastic", EnteredLaw::Viscoelastic);
+    pub(crate) const LAMMPS_TSUJI: SnippetFile = SnippetFile("lammps_tsuji.in", "LAMMPS", "tsuji", "granular hertz/material, damping tsuji", EnteredLaw::Constant);
+    pub(crate) const LIGGGHTS_HERTZ: SnippetFile = SnippetFile("liggghts_hertz.in", "LIGGGHTS", "hertz", "gran model hertz", EnteredLaw::Constant);
+    pub(crate) const LIGGGHTS_HOOKE: SnippetFile = SnippetFile("liggghts_hooke.in", "LIGGGHTS", "hooke", "gran model hooke", EnteredLaw::Linear);
+    pub(crate) const YADE_HERTZ_MINDLIN: SnippetFile = SnippetFile("yade_hertz_mindlin.py", "YADE", "Hertz-Mindlin", "Hertz-Mindlin", EnteredLaw::Constant);
+    pub(crate) const YADE_VISCEL: SnippetFile = SnippetFile("yade_viscel.py", "YADE", "ViscEl", "ViscEl", EnteredLaw::Linear);
+    pub(crate) const MERCURY_HERTZIAN: SnippetFile = SnippetFile("mercury_hertzian.cpp", "MercuryDPM", "HertzianViscoelastic", "HertzianViscoelastic", EnteredLaw::Constant);
+    pub(crate) const MERCURY_LINEAR: SnippetFile = SnippetFile("mercury_linear.cpp", "MercuryDPM", "LinearViscoelastic", "LinearViscoelastic", EnteredLaw::Linear);
+    pub(crate) const LETHE: SnippetFile = SnippetFile("lethe.prm", "Lethe", "hertz_mindlin_limit_overlap", "hertz_mindlin_limit_overlap", EnteredLaw::Constant);
+    pub(crate) const MFIX_HERTZIAN: SnippetFile = SnippetFile("mfix_hertzian.dat", "MFIX-DEM", "HERTZIAN", "Hertzian", EnteredLaw::Constant);
+    pub(crate) const MFIX_LSD: SnippetFile = SnippetFile("mfix_lsd.dat", "MFIX-DEM", "LSD", "linear spring and dashpot", EnteredLaw::Linear);
+    pub(crate) const DRAKE_POINT_CONTACT: SnippetFile = SnippetFile("drake_point_contact.py", "Drake", "Hunt-Crossley", "point contact, Hunt & Crossley", EnteredLaw::HuntCrossley);
+    pub(crate) const MUJOCO_CONTACT: SnippetFile = SnippetFile("mujoco_contact.xml", "MuJoCo", "solref", "solref in its direct format", EnteredLaw::Linear);
+}
+pub(super) use files::*;
+
 impl Export {
+    /// Returns the snippet of a file with these commands. Its heading says what it is fitted to and where it is
+    /// valid, and ends with the notes.
+    pub(super) fn snippet(
+        &self,
+        SnippetFile(name, code, model, title, law): SnippetFile,
+        entries: &[(&'static str, f64)],
+        notes: &[&str],
+        commands: &str,
+    ) -> Snippet {
+        let (restitution, validity) = match law {
+            EnteredLaw::Constant => (Some(self.hertz.restitution), self.hertz.validity),
+            EnteredLaw::Viscoelastic => (None, self.dissipation_time.1),
+            EnteredLaw::Linear => (Some(self.linear.restitution), self.linear.validity),
+            EnteredLaw::HuntCrossley => {
+                (None, self.hunt_crossley.map_or([f64::INFINITY, 0.0, 0.0], |it| it.validity))
+            }
+        };
+        let heading = self.heading(&format!("{code}, {title}"), validity, notes);
+        let heading = match name.rsplit_once('.').map_or("", |(_, ending)| ending) {
+            "cpp" => slashed(&heading),
+            "xml" => format!("<!--\n{}-->\n", heading.replace("--", "-")),
+            _ => heading,
+        };
+        let (entries, text) = (entries.to_vec(), heading + commands);
+        Snippet { name, code, model, entries, restitution, validity, text }
+    }
+
+    /// Returns the text of all spheres, each with its number from 1.
+    pub(super) fn per_sphere(&self, text: impl Fn(usize, &Sphere) -> String) -> String {
+        self.spheres.iter().enumerate().map(|(index, sphere)| text(index + 1, sphere)).collect()
+    }
+
     /// Returns the comment lines that open each snippet: its law, its spheres and its validity.
-    pub(crate) fn heading(&self, model: &str, validity: [f64; 3], notes: &[String]) -> String {
-        let [from, to, worst] = validity;
+    fn heading(&self, model: &str, [from, to, worst]: [f64; 3], notes: &[&str]) -> String {
         let diameters: Vec<_> = self.spheres.iter().map(|sphere| short(sphere.diameter)).collect();
         let bodies = match &diameters[..] {
             [one] => format!("a sphere of {one} m on a {}", self.wall()),
             all => format!("spheres of {} m", all.join(" and ")),
         };
-        // Of a loss that is not known the fit is good, and the restitution is not.
+        // If a loss is not known, the fit is valid but the restitution is not.
         let e = if self.unpublished_loss.is_empty() { "e" } else { "the fit" };
+        let good = format!("good to {}", self.tolerance);
         let range = if from == to {
-            format!("{e} is good to {} at {} alone", self.tolerance, speed(from))
+            format!("{e} is {good} at {} alone", speed(from))
         } else if from <= to {
-            format!("{e} is good to {} from {} to {}", self.tolerance, speed(from), speed(to))
+            format!("{e} is {good} from {} to {}", speed(from), speed(to))
         } else {
-            format!("{e} is nowhere good to {}", self.tolerance)
+            format!("{e} is nowhere {good}")
         };
+        let (slowest, fastest) = self.speeds;
         let mut text = format!(
             "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {} to {}; {range}\n\
              # (largest error {worst:.4}).\n",
             self.title,
-            speed(self.speeds.0),
-            speed(self.speeds.1)
+            speed(slowest),
+            speed(fastest)
         );
         if !self.unpublished_loss.is_empty() {
             text += &unpublished_loss("e", &self.unpublished_loss);
         }
-        for note in notes {
-            text += &format!("# {note}\n");
-        }
+        notes.iter().for_each(|note| text += &format!("# {note}\n"));
         text
     }
 
     /// Returns a comment, for codes that use the entries of 1 and 2 for 1 with 1 and 2 with 2 too, that
     /// names the pair; it is empty for equal spheres.
-    pub(crate) fn unlike_note(&self) -> &'static str {
+    pub(super) fn unlike_note(&self) -> &'static str {
         if self.spheres.first() == self.spheres.last() {
             return "";
         }
@@ -149,13 +223,13 @@ impl Export {
          # export each; all at once: fem-run export CASE --diameters D1,D2.\n"
     }
 
-    /// Names the body that a single sphere strikes.
-    pub(crate) fn wall(&self) -> &'static str {
+    /// Returns the name of the body that a single sphere strikes.
+    pub(super) fn wall(&self) -> &'static str {
         if self.has_rigid_wall() { "rigid wall" } else { "block without an end" }
     }
 
     /// Whether a single sphere strikes a rigid wall: E* is then its own E/(1 − ν²).
-    pub(crate) fn has_rigid_wall(&self) -> bool {
+    pub(super) fn has_rigid_wall(&self) -> bool {
         match &self.spheres[..] {
             [sphere] => self.wall_compliance(sphere) <= 1e-9 / self.pair.contact_modulus(),
             _ => false,
@@ -164,7 +238,7 @@ impl Export {
 
     /// Returns Young's modulus, Pa, of a wall with Poisson's ratio 0 that gives the contact's E*; for a
     /// rigid wall a million times the sphere's.
-    pub(crate) fn wall_modulus(&self, sphere: &Sphere) -> f64 {
+    pub(super) fn wall_modulus(&self, sphere: &Sphere) -> f64 {
         if self.has_rigid_wall() {
             1e6 * sphere.youngs_modulus
         } else {
@@ -179,14 +253,14 @@ impl Export {
     }
 
     /// Returns the linear law that has the wanted e and T under an end rule.
-    pub(crate) fn linear_law(&self, end_rule: EndRule) -> Result<ContactLaw, LawError> {
+    pub(super) fn linear_law(&self, end_rule: EndRule) -> Result<ContactLaw, LawError> {
         let Dashpot { restitution, contact_time, .. } = self.linear;
         linear_from_restitution(&self.pair, restitution, contact_time, end_rule)
     }
 }
 
 /// Returns a comment that the loss of some materials is missing in the restitutions named.
-pub(crate) fn unpublished_loss(restitutions: &str, materials: &[String]) -> String {
+pub(super) fn unpublished_loss(restitutions: &str, materials: &[String]) -> String {
     let materials = materials.join(" and ").replace(char::is_control, " ");
     format!(
         "# WARNING: no loss of {materials} is known, and none is in {restitutions}.\n\
@@ -194,8 +268,13 @@ pub(crate) fn unpublished_loss(restitutions: &str, materials: &[String]) -> Stri
     )
 }
 
+/// Returns comment lines of C++ in place of those with a hash.
+pub(super) fn slashed(text: &str) -> String {
+    text.lines().map(|line| format!("//{}\n", line.trim_start_matches('#'))).collect()
+}
+
 /// Formats a number with up to ten digits, as short as possible.
-pub(crate) fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     if (1e-4..1e6).contains(&rounded.abs()) || rounded == 0.0 {
         rounded.to_string()
@@ -205,11 +284,11 @@ pub(crate) fn short(value: f64) -> String {
 }
 
 /// Formats a speed for a comment.
-pub(crate) fn speed(value: f64) -> String {
+pub(super) fn speed(value: f64) -> String {
     format!("{} m/s", number(value, 4))
 }
 
 /// Formats a time for a comment.
-pub(crate) fn time(value: f64) -> String {
+pub(super) fn time(value: f64) -> String {
     format!("{} s", number(value, 4))
 }

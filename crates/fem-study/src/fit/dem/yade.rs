@@ -17,7 +17,9 @@ use fem_laws::bisection::falling_zero;
 use fem_laws::laws::power;
 use fem_laws::{EndRule, LawError, LawImpact, Pair};
 
-use super::snippet::{Export, Snippet, short, time};
+use super::snippet::{
+    Dashpot, Export, Snippet, Sphere, YADE_HERTZ_MINDLIN, YADE_VISCEL, short, time,
+};
 
 /// Returns β_n of an en from 0 to 1 (not included).
 pub fn yade_betan(en: f64) -> f64 {
@@ -69,85 +71,56 @@ pub fn viscel_entry(export: &Export) -> Result<(f64, f64), LawError> {
 }
 
 /// Returns both laws for two spheres, and none for a wall, which YADE takes for a sphere of the same
-/// radius.
+/// radius. The linear law is left out if it cannot be entered.
 ///
 /// # Errors
-/// The linear law cannot be made.
+/// The pair has no collision.
 pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     if export.spheres.len() != 2 {
         return Ok(Vec::new());
     }
-    let code = "YADE";
+    let materials = |kind: &str, more: &dyn Fn(&Sphere) -> String| {
+        let material = |index: usize, sphere: &Sphere| {
+            let (density, more) = (short(sphere.density), more(sphere));
+            format!("material{index} = {kind}(density={density}, frictionAngle=0, {more})\n")
+        };
+        export.per_sphere(material) + export.unlike_note()
+    };
     let e = export.hertz.restitution;
     let en = hertz_mindlin_entry(&export.pair, e)?;
-    let material = |kind: &str, more: &str, index: usize| {
-        let sphere = &export.spheres[index];
-        format!(
-            "material{} = {kind}(density={}, frictionAngle=0, {more})\n",
-            index + 1,
-            short(sphere.density)
-        )
+    let elastic = |sphere: &Sphere| {
+        let [_, _, young, poisson] = sphere.texts();
+        format!("young={young}, poisson={poisson}")
     };
-    let elastic = |index: usize| {
-        let sphere = &export.spheres[index];
-        format!("young={}, poisson={}", short(sphere.youngs_modulus), short(sphere.poissons_ratio))
-    };
-    let mut hertz = export.heading(
-        "YADE, Hertz-Mindlin",
-        export.hertz.validity,
-        &[format!("Makes e = {e:.4} at all speeds; the contact ends at zero force.")],
+    let hertz = export.snippet(
+        YADE_HERTZ_MINDLIN,
+        &[("en", en)],
+        &[&format!("Makes e = {e:.4} at all speeds; the contact ends at zero force.")],
+        &format!(
+            "{}ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en={1}, es={1})\n\
+             law2 = Law2_ScGeom_MindlinPhys_Mindlin()\n",
+            materials("FrictMat", &elastic),
+            short(en)
+        ),
     );
-    for index in 0..2 {
-        hertz += &material("FrictMat", &elastic(index), index);
-    }
-    hertz += export.unlike_note();
-    hertz += &format!(
-        "ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en={0}, es={0})\n\
-         law2 = Law2_ScGeom_MindlinPhys_Mindlin()\n",
-        short(en)
-    );
-    let mut snippets = vec![Snippet {
-        name: "yade_hertz_mindlin.py",
-        code,
-        model: "Hertz-Mindlin",
-        entries: vec![("en", en)],
-        restitution: Some(e),
-        validity: export.hertz.validity,
-        text: hertz,
-    }];
-    // What cannot be entered is left out.
-    if let Ok((tc, en)) = viscel_entry(export) {
-        let mut text = export.heading(
-            "YADE, ViscEl",
-            export.linear.validity,
+    let linear = viscel_entry(export).ok().map(|(tc, en)| {
+        let Dashpot { restitution, contact_time, .. } = export.linear;
+        let more = format!("tc={}, en={1}, et={1}", short(tc), short(en));
+        export.snippet(
+            YADE_VISCEL,
+            &[("tc", tc), ("en", en)],
             &[
-                format!(
-                    "Linear; makes e = {:.4} in {}: YADE cuts the force at zero, so en and tc",
-                    export.linear.restitution,
-                    time(export.linear.contact_time)
+                &format!(
+                    "Linear; makes e = {restitution:.4} in {}: YADE cuts the force at zero, so en and tc",
+                    time(contact_time)
                 ),
-                "differ from both.".to_string(),
+                "differ from both.",
             ],
-        );
-        for index in 0..2 {
-            text += &material(
-                "ViscElMat",
-                &format!("tc={}, en={1}, et={1}", short(tc), short(en)),
-                index,
-            );
-        }
-        text += export.unlike_note();
-        text +=
-            "ip2 = Ip2_ViscElMat_ViscElMat_ViscElPhys()\nlaw2 = Law2_ScGeom_ViscElPhys_Basic()\n";
-        snippets.push(Snippet {
-            name: "yade_viscel.py",
-            code,
-            model: "ViscEl",
-            entries: vec![("tc", tc), ("en", en)],
-            restitution: Some(export.linear.restitution),
-            validity: export.linear.validity,
-            text,
-        });
-    }
-    Ok(snippets)
+            &format!(
+                "{}ip2 = Ip2_ViscElMat_ViscElMat_ViscElPhys()\nlaw2 = Law2_ScGeom_ViscElPhys_Basic()\n",
+                materials("ViscElMat", &|_| more.clone())
+            ),
+        )
+    });
+    Ok(std::iter::once(hertz).chain(linear).collect())
 }

@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::bounded::Linear;
-use super::fit::{MODEL_ERROR, SpectrumFit};
-use super::problem::{SpectrumProblem, root_mean_square};
+use super::{MODEL_ERROR, SpectrumFit};
+use super::{SpectrumProblem, root_mean_square};
 use super::ranges::{Seeker, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;

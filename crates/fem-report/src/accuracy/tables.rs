@@ -1,0 +1,220 @@
+//! The results of an accuracy study for readers: tables and sentences on the terminal, and `accuracy.md`.
+
+use std::fmt::Write;
+
+use fem::accuracy::{ObservedOrder, Series, VariantRun};
+use fem_case::engineering::show;
+use fem_collision::QuantityOfInterest;
+
+use super::AccuracyResult;
+use crate::number_text::{grouped, one_line};
+
+/// Stands for a missing number.
+const NONE: &str = "-";
+/// Column heads of the quantities of interest.
+const SYMBOLS: [&str; 6] = ["e", "T", "F", "approach", "a", "p0"];
+
+/// A table with a heading.
+pub struct AccuracyTable {
+    /// The heading.
+    pub heading: &'static str,
+    /// The column heads, and then the rows; the first column is text.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl AccuracyTable {
+    fn new<'h>(
+        heading: &'static str,
+        header: impl IntoIterator<Item = &'h str>,
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Self {
+        let header = header.into_iter().map(String::from).collect();
+        Self { heading, rows: std::iter::once(header).chain(rows).collect() }
+    }
+}
+
+/// Returns the tables on the terminal: the fastest variants at each accuracy, limits and sources of error.
+pub fn terminal_tables(result: &AccuracyResult<'_>) -> Vec<AccuracyTable> {
+    let heading = "Most accurate for their time";
+    let fastest = variants(result, heading, |run| run.errors.is_on_frontier);
+    with_rows([fastest, limits(result), error_parts(result)])
+}
+
+fn with_rows(tables: impl IntoIterator<Item = AccuracyTable>) -> Vec<AccuracyTable> {
+    tables.into_iter().filter(|table| table.rows.len() > 1).collect()
+}
+
+/// Returns `accuracy.md` with all tables.
+pub fn markdown(result: &AccuracyResult<'_>, has_figure: bool) -> String {
+    let mut text = format!("# {}\n", one_line(result.title));
+    for sentence in sentences(result) {
+        let _ = writeln!(text, "\n{sentence}");
+    }
+    if has_figure {
+        let _ = writeln!(text, "\n![errors over seconds](accuracy.svg)");
+    }
+    let all = variants(result, "All", |_| true);
+    for table in with_rows([limits(result), error_parts(result), orders(result), all]) {
+        let _ = writeln!(text, "\n## {}\n", table.heading);
+        for (k, row) in table.rows.iter().enumerate() {
+            let _ = writeln!(text, "| {} |", row.join(" | "));
+            if k == 0 {
+                let _ = writeln!(text, "|{}", " --- |".repeat(row.len()));
+            }
+        }
+    }
+    text + "\nErrors are differences from the limit, relative except that of the restitution; a dash marks a number \
+            that the model does not compute. Times are medians, with new meshes and factors each time and without \
+            writing files. The error of the stress is the root mean square error of σ_yy over the root mean square of \
+            σ_yy, at 49 places in each body around the contact, at the largest approach.\n"
+}
+
+/// Returns an error for a table: absolute for the restitution, in percent for all others.
+fn error_text(quantity: QuantityOfInterest, error: Option<f64>) -> String {
+    match (quantity, error.map(|error| 100.0 * error)) {
+        (_, None) => NONE.into(),
+        (QuantityOfInterest::Restitution, Some(0.0)) => "0".to_string(),
+        (QuantityOfInterest::Restitution, _) => format!("{:+.1e}", error.unwrap_or_default()),
+        (_, Some(percent)) if percent.abs() >= 10.0 => format!("{percent:+.0} %"),
+        (_, Some(percent)) if percent.abs() >= 0.1 => format!("{percent:+.2} %"),
+        (_, Some(percent)) => format!("{percent:+.3} %"),
+    }
+}
+
+fn errors(errors: [Option<f64>; 6]) -> impl Iterator<Item = String> {
+    let pairs = QuantityOfInterest::ALL.into_iter().zip(errors);
+    pairs.map(|(quantity, error)| error_text(quantity, error))
+}
+
+fn variants(
+    result: &AccuracyResult<'_>,
+    heading: &'static str,
+    is_shown: impl Fn(&VariantRun<'_>) -> bool,
+) -> AccuracyTable {
+    let row = |run: &VariantRun<'_>| {
+        let updates = run.measurement.element_updates;
+        let mut cells = vec![
+            run.variant.series.name().to_string(),
+            run.variant.describe(),
+            show(run.seconds, "s"),
+            updates.map_or(NONE.into(), |n| grouped(n as f64, ',')),
+        ];
+        cells.extend(errors(run.errors.signed));
+        cells.push(run.errors.stress.map_or(NONE.into(), |e| format!("{:.1} %", 100.0 * e)));
+        cells
+    };
+    let header = ["", "", "time", "updates"].into_iter().chain(SYMBOLS).chain(["stress"]);
+    let shown = result.study.runs.iter().filter(|run| is_shown(run));
+    AccuracyTable::new(heading, header, shown.map(row))
+}
+
+fn limits(result: &AccuracyResult<'_>) -> AccuracyTable {
+    let limits = QuantityOfInterest::ALL.into_iter().zip(result.study.limits);
+    let rows = limits.filter_map(|(quantity, limit)| {
+        let limit = limit?;
+        let in_unit = |value: f64| match quantity {
+            QuantityOfInterest::Restitution => format!("{value:.5}"),
+            _ => show(value, quantity.unit()),
+        };
+        let scale = quantity.scale(limit.value);
+        Some(vec![
+            quantity.name().to_string(),
+            in_unit(limit.value),
+            error_text(quantity, Some(limit.uncertainty / scale)).replacen('+', "±", 1),
+            limit.condensed.map_or(NONE.into(), in_unit),
+            error_text(quantity, limit.added.map(|added| added / scale)),
+        ])
+    });
+    AccuracyTable::new(
+        "The limit",
+        ["", "limit", "uncertainty", "condensed", "explicit adds"],
+        rows,
+    )
+}
+
+fn error_parts(result: &AccuracyResult<'_>) -> AccuracyTable {
+    let parts = result.study.parts.iter();
+    let rows = parts.map(|part| {
+        std::iter::once(part.source.name().to_string()).chain(errors(part.errors)).collect()
+    });
+    let heading = "Sources of error, with eight elements across the contact";
+    AccuracyTable::new(heading, std::iter::once("").chain(SYMBOLS), rows)
+}
+
+fn orders(result: &AccuracyResult<'_>) -> AccuracyTable {
+    let order = |found: &Option<ObservedOrder>| match found {
+        Some(found) => format!("{:.1} ± {:.1}", found.order, found.standard_error),
+        None => NONE.into(),
+    };
+    let rows = result.study.orders.iter().map(|(series, orders)| {
+        std::iter::once(series.name().to_string()).chain(orders.iter().map(order)).collect()
+    });
+    let heading = "Observed orders in the element size";
+    AccuracyTable::new(heading, std::iter::once("").chain(SYMBOLS), rows)
+}
+
+/// Returns which variants to choose, and what the study leaves open.
+pub fn sentences(result: &AccuracyResult<'_>) -> Vec<String> {
+    let AccuracyResult { study, accuracy, variants, left_out, .. } = result;
+    let share = |share: f64| format!("{} %", fem_figure::tick(100.0 * share));
+    let three = [accuracy.restitution, accuracy.contact_time, accuracy.peak_force];
+    let asked = match three.iter().all(|other| *other == three[0]) {
+        true => format!(
+            "{} in e, T and F and {} in the peak pressure",
+            share(three[0]),
+            share(accuracy.peak_pressure)
+        ),
+        false => "the tolerances of the case".to_string(),
+    };
+    let mut sentences = vec![match study.cheapest_within(|_| true) {
+        Some(run) => format!("Within {asked}: {}.", choice(run)),
+        None => format!("No variant that was computed is within {asked}."),
+    }];
+    // The finest field has no error estimate: it is the reference of all others.
+    let with_fields = study.cheapest_within(|run| {
+        let error = run.errors.monotone_stress;
+        run.measurement.stress.is_some() && error.is_none_or(|e| e <= accuracy.peak_pressure)
+    });
+    if let Some(run) = with_fields {
+        let tolerance = share(accuracy.peak_pressure);
+        sentences
+            .push(format!("With stress fields, the stress within {tolerance}: {}.", choice(run)));
+    }
+    let explicit = study.cheapest_within(|run| run.variant.is_explicit());
+    sentences.extend(explicit.map(|run| format!("With explicit elements: {}.", choice(run))));
+    let own = study.runs.iter().find(|run| run.variant.series == Series::AsWritten);
+    let is_named = explicit.is_some_and(|run| run.variant.series == Series::AsWritten);
+    if let Some(own) = own.filter(|_| !is_named)
+        && let Some(share) = own.errors.in_tolerances
+    {
+        let is_refined = share > 1.0 && variants.is_open;
+        sentences.push(format!(
+            "The case as written, {}: {}, {share:.2} times the tolerance{}.",
+            own.variant.describe(),
+            show(own.seconds, "s"),
+            if is_refined { "; a run would refine the mesh" } else { "" }
+        ));
+    }
+    if *left_out > 0 {
+        sentences.push(format!(
+            "{left_out} of {} variants were left out: they would have exceeded the time budget of {}.",
+            variants.all.len(),
+            show(result.budget, "s")
+        ));
+    }
+    sentences
+}
+
+/// Describes a variant with its run time and the overrides that choose it.
+fn choice(run: &VariantRun<'_>) -> String {
+    let describe = run.variant.describe();
+    let gap = if describe.is_empty() { "" } else { ", " };
+    let overrides = run.variant.overrides();
+    let settings: Vec<String> = overrides.iter().map(|set| format!("--set '{set}'")).collect();
+    let settings = match settings.is_empty() {
+        true => String::new(),
+        false => format!(" (`{}`)", settings.join(" ")),
+    };
+    let (name, time) = (run.variant.series.name(), show(run.seconds, "s"));
+    format!("{name}{gap}{describe}: {time}{settings}")
+}

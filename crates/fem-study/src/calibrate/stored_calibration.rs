@@ -1,0 +1,149 @@
+//! The stored forms of a calibration: `calibrate.json` and `relaxation.toml`.
+
+use fem_case::schema::{ActsOn, RelaxationTable, TermTable};
+use fem_simulation::results::PROGRAM;
+use serde_json::{Value, json};
+
+use super::calibration::Calibration;
+use super::experiment::Experiment;
+use super::maxwell::Beyond;
+use crate::fit::spectrum::{Combination, Range};
+
+impl Calibration {
+    /// Returns the stored form of the calibration in SI units; `case` is the case's name, `warnings` are those of
+    /// [`Calibration::warnings`].
+    pub fn numbers(&self, case: &str, warnings: Vec<String>) -> Value {
+        let fit = &self.fit;
+        let [total, rate, time] = &fit.moments;
+        let exponent = self.loss_exponent();
+        let combinations = fit.resolution.combinations.iter().map(combination);
+        json!({
+            "case": case,
+            "data": self.measured.data.name,
+            "model": self.model.word(),
+            "material": self.target.material,
+            "acts_on": self.acts_on(),
+            "points": self.measured.data.points.len(),
+            "pairs": self.experiments.iter().map(pair).collect::<Value>(),
+            "contact_times_s": self.contact_times(),
+            "regularisation": self.regularisation,
+            "confidence": self.confidence,
+            "terms": (0..self.times.len()).map(|k| self.term(k)).collect::<Value>(),
+            "weight_sum": range(total),
+            "initial_decay_rate_1_s": range(rate),
+            "viscous_time_s": range(time),
+            "combinations": combinations.collect::<Value>(),
+            "combinations_determined": fit.resolution.n_determined(),
+            "rms": fit.rms,
+            "error": fit.error,
+            "misfit": fit.misfit,
+            "degrees_of_freedom": fit.degrees_of_freedom,
+            "evaluations": fit.n_evaluations,
+            "maxwell": {
+                "relaxation_time_s": self.maxwell.time,
+                "beyond_search": self.maxwell.beyond.map(Beyond::word),
+                "rms": self.maxwell.rms,
+            },
+            "pure_error": fit.pure_error.map(|pure| pure.error),
+            "loss_exponent_of_speed": exponent.map(|exponent| {
+                json!({ "value": exponent.value, "standard_error": exponent.standard_error })
+            }),
+            "warnings": warnings,
+        })
+    }
+
+    fn term(&self, k: usize) -> Value {
+        let range = &self.fit.weight_ranges[k];
+        json!({
+            "relaxation_time_s": self.times[k],
+            "weight": self.fit.weights[k],
+            "range": [range.low, range.high],
+            "share_of_data": self.fit.resolution.shares[k],
+        })
+    }
+}
+
+fn pair(experiment: &Experiment) -> Value {
+    json!({
+        "diameters_m": experiment.diameters,
+        "points": experiment.points.len(),
+        "elements_across_smallest_contact": experiment.elements_across.map(|across| across.0),
+        "elements_across_largest_contact": experiment.elements_across.map(|across| across.1),
+    })
+}
+
+fn range(range: &Range) -> Value {
+    json!({ "value": range.value, "range": [range.low, range.high] })
+}
+
+fn combination(combination: &Combination) -> Value {
+    json!({
+        "coefficients": combination.coefficients,
+        "singular_value": combination.singular_value,
+        "value": combination.value,
+        "standard_error": Some(combination.standard_error).filter(|error| error.is_finite()),
+        "determined": combination.is_determined,
+    })
+}
+
+impl Calibration {
+    /// Returns the table that gives the material the series that was found; `None` if nothing relaxes.
+    pub fn relaxation(&self) -> Option<RelaxationTable> {
+        let terms = self.terms().into_iter();
+        let terms =
+            terms.map(|term| TermTable::with_relaxation_time(term.weight, term.relaxation_time));
+        let terms: Vec<TermTable> = terms.collect();
+        (!terms.is_empty()).then(|| RelaxationTable { acts_on: self.acts_on(), terms })
+    }
+
+    /// Returns the moduli that relax.
+    pub fn acts_on(&self) -> ActsOn {
+        self.target.acts_on.into()
+    }
+
+    /// Returns the table of the relaxation as text to paste into a case file; only comments if nothing relaxes.
+    pub fn relaxation_toml(&self) -> String {
+        let resolution = &self.fit.resolution;
+        let mut text = format!(
+            "# By {PROGRAM} calibrate from {}: {} of {} combinations of weights are the data's.\n",
+            self.measured.data.name,
+            resolution.n_determined(),
+            self.fit.weights.len(),
+        );
+        let terms = self.terms();
+        if terms.is_empty() {
+            return text + "# No term has a weight: the data show no loss.\n";
+        }
+        text += &format!("[material.{}.relaxation]\n", toml_key(&self.target.material));
+        text += &format!("acts_on = \"{}\"\nterms = [\n", self.acts_on().word());
+        for term in terms {
+            text += &format!(
+                "    {{ weight = {:?}, relaxation_time = {:?} }},\n",
+                term.weight, term.relaxation_time
+            );
+        }
+        text + "]\n"
+    }
+}
+
+/// Returns a name as a key of TOML.
+fn toml_key(name: &str) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    match !name.is_empty() && name.chars().all(is_bare) {
+        true => name.to_string(),
+        // A string of JSON is one of TOML.
+        false => serde_json::Value::from(name).to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_are_no_bare_keys_are_quoted() {
+        assert_eq!(toml_key("soda-lime_1"), "soda-lime_1");
+        assert_eq!(toml_key("a \"b\""), "\"a \\\"b\\\"\"");
+        assert_eq!(toml_key(""), "\"\"");
+    }
+}

@@ -1,0 +1,71 @@
+//! `export.json`: the laws of DEM codes in SI units.
+
+use fem_laws::LawFamily;
+use serde_json::{Map, Value, json};
+
+use super::dem_export::DemExport;
+use crate::fit::Point;
+use crate::fit::dem::{Snippet, Sphere, restitution_of};
+
+impl DemExport {
+    /// Returns the stored form of the export in SI units; `case` is the case's name.
+    pub fn numbers(&self, case: &str, snippets: &[Snippet]) -> Value {
+        let (export, points) = (&self.export, &self.curve.points);
+        let sphere = |sphere: &Sphere| {
+            json!({
+                "diameter_m": sphere.diameter,
+                "density_kg_m3": sphere.density,
+                "youngs_modulus_pa": sphere.youngs_modulus,
+                "poissons_ratio": sphere.poissons_ratio,
+            })
+        };
+        let point = |point: &Point| {
+            json!({
+                "speed_m_s": point.speed,
+                "restitution": point.restitution,
+                "contact_time_s": point.contact_time,
+            })
+        };
+        json!({
+            "case": case,
+            "wall": export.spheres.len() < 2,
+            "spheres": export.spheres.iter().map(sphere).collect::<Value>(),
+            "tolerance": export.tolerance,
+            "speeds_m_s": export.speeds,
+            "effective_mass_kg": export.pair.effective_mass(),
+            "effective_radius_m": export.pair.effective_radius(),
+            "contact_modulus_pa": export.pair.contact_modulus(),
+            "dissipation_time_s": export.dissipation_time.0,
+            "linear_contact_time_s": export.linear.contact_time,
+            "has_hertz_times": self.curve.has_hertz_times,
+            "unpublished_loss": export.unpublished_loss,
+            "data": points.iter().map(point).collect::<Value>(),
+            "snippets": snippets.iter().map(|snippet| self.snippet(snippet)).collect::<Value>(),
+        })
+    }
+
+    /// Returns a file for a code with its range of validity, which is `null` if it is valid at no speed, and the
+    /// restitutions that it makes at the speeds of the data.
+    fn snippet(&self, snippet: &Snippet) -> Value {
+        let [from, to, worst] = snippet.validity;
+        let mut laws = self.laws.iter();
+        let viscoelastic = laws.find(|law| law.model.family() == LawFamily::KuwabaraKono);
+        let at_speed = |point: &Point| match (snippet.restitution, snippet.entries.first()) {
+            (Some(restitution), _) => Some(restitution),
+            (None, Some(("dissipation", d))) => Some(restitution_of(d * point.speed)),
+            (None, _) => viscoelastic?.outcome(point.speed).map(|outcome| outcome.restitution),
+        };
+        let entries = snippet.entries.iter().map(|(key, value)| (key.to_string(), json!(value)));
+        json!({
+            "file": snippet.name,
+            "code": snippet.code,
+            "model": snippet.model,
+            "entries": entries.collect::<Map<_, _>>(),
+            "restitution": snippet.restitution,
+            "valid_from_m_s": (from <= to).then_some(from),
+            "valid_to_m_s": (from <= to).then_some(to),
+            "worst_error": worst,
+            "restitutions_at_data": self.curve.points.iter().map(at_speed).collect::<Vec<_>>(),
+        })
+    }
+}
