@@ -13,7 +13,7 @@ pub enum Kind {
     Analytic,
     /// A number or a curve that others have published.
     Published,
-    /// Measured on another program.
+    /// A result of another program.
     CrossCode,
     /// An earlier value of this program, which detects changes but does not show correctness.
     Regression,
@@ -37,11 +37,11 @@ pub enum Tolerance {
     Relative(f64),
     /// |ours − reference|, in the quantity's unit.
     Absolute(f64),
-    /// No reference: an upper bound.
+    /// An upper bound, without a reference.
     AtMost(f64),
-    /// No reference: a lower bound.
+    /// A lower bound, without a reference.
     AtLeast(f64),
-    /// From one value to another, both allowed.
+    /// A range that includes both ends.
     Within(f64, f64),
 }
 
@@ -58,7 +58,7 @@ pub struct Check {
     pub kind: Kind,
     /// Where the reference comes from.
     pub source: String,
-    /// The reference, SI; none for bounds.
+    /// The reference, SI; `None` for bounds.
     pub reference: Option<f64>,
     /// Allowed deviation.
     pub tolerance: Tolerance,
@@ -71,7 +71,7 @@ pub struct Check {
 pub struct CheckResult {
     /// The check that was made.
     pub check: Check,
-    /// Measured value, SI; absent if the study did not measure it.
+    /// Measured value, SI; `None` if the study did not measure it.
     pub measured: Option<f64>,
     /// Whether it lies within the tolerance.
     pub passed: bool,
@@ -149,7 +149,7 @@ impl CheckResult {
     }
 }
 
-/// A number without unit: five digits, small and large ones with an exponent.
+/// Formats a number without unit with five digits, small and large ones with an exponent.
 pub(crate) fn plain(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || !value.is_finite() {

@@ -42,7 +42,7 @@ impl Section {
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunFile {
-    /// Relative to the claim's folder.
+    /// Path of the case, relative to the claim's folder.
     pub case: PathBuf,
     /// Overrides of the case, `KEY=VALUE` each.
     #[serde(default)]
@@ -64,7 +64,7 @@ pub struct Claim {
     pub statement: String,
     /// Paragraphs on deviations and their causes.
     pub discussion: Vec<String>,
-    /// Cases by name.
+    /// The cases by name.
     pub runs: BTreeMap<String, RunFile>,
     /// Parameters of the study.
     pub parameters: toml::Table,

@@ -1,4 +1,4 @@
-//! Claims as they are written: `validation/NAME/claim.toml`.
+//! Reads claims from their files, `validation/NAME/claim.toml`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,7 +10,6 @@ use serde::de::Error as _;
 use crate::check::{Check, Kind, Tolerance};
 use crate::claim::{Claim, RunFile, Section};
 use crate::error::ClaimError;
-use crate::position::position;
 use crate::studies::find_study;
 
 const CLAIM_FILE: &str = "claim.toml";
@@ -97,7 +96,7 @@ impl TryFrom<RawCheck> for CheckFile {
 /// are shown.
 ///
 /// # Errors
-/// A folder that cannot be read, a claim file that is wrong, a name that is not there.
+/// The folder cannot be read, a claim file is invalid, or there is no claim with a name.
 pub fn load_claims(folder: &Path, names: &[String]) -> Result<Vec<Claim>, ClaimError> {
     let unreadable = |error| ClaimError::Unreadable { path: folder.to_path_buf(), error };
     let mut known = Vec::new();
@@ -148,4 +147,11 @@ fn read(name: String, folder: PathBuf) -> Result<Claim, ClaimError> {
         claim.load_case(run)?;
     }
     Ok(claim)
+}
+
+/// Returns line and column, both from 1, of a byte offset; columns count characters.
+fn position(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }

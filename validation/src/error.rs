@@ -9,7 +9,7 @@ use fem_laws::LawError;
 use fem_material::MaterialError;
 use fem_mesh::MeshError;
 
-/// A folder of claims that cannot be read.
+/// Errors of reading claims.
 #[derive(Debug, thiserror::Error)]
 pub enum ClaimError {
     /// A file or folder cannot be read.
@@ -32,7 +32,7 @@ pub enum ClaimError {
         /// Description of the error.
         message: String,
     },
-    /// A case of a claim that cannot be read.
+    /// A case of a claim cannot be read.
     #[error("{0}")]
     Case(#[from] CaseError),
     /// There is no claim with this name.
@@ -48,10 +48,10 @@ pub enum ClaimError {
 /// Errors of a study.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum StudyError {
-    /// A case that cannot be read or prepared.
+    /// A case cannot be read or prepared.
     #[error("{0}")]
     Case(#[from] CaseError),
-    /// A run that was stopped.
+    /// A run was stopped.
     #[error("{title}: {stop}")]
     Stopped {
         /// Title of the case.

@@ -1,24 +1,22 @@
-//! A claim and its verdict.
+//! Evaluates a claim: runs its study and makes its checks.
 
 use crate::check::{Check, CheckResult};
 use crate::claim::Claim;
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Observer};
-use crate::price::Price;
-use crate::shelf::Shelf;
+use crate::laboratory::{Laboratory, Observer, Price, Shelf};
 use crate::studies::find_study;
 
-/// A claim that was tried.
+/// The result of a claim.
 #[derive(Debug, Clone)]
 pub struct ClaimResult {
     /// The claim that was tested.
     pub claim: Claim,
-    /// Its checks, in the order of the claim; none were made if the study failed.
+    /// The results of its checks, in the order of the claim; empty if the study failed.
     pub checks: Vec<CheckResult>,
     /// Measurements, tables and figures of the study.
     pub findings: Findings,
-    /// Why the study failed.
+    /// The error of a study that failed.
     pub error: Option<StudyError>,
     /// Cost of the claim.
     pub price: Price,

@@ -9,31 +9,31 @@ use fem_figure::Chart;
 pub struct Figure {
     /// A name for a file, unique in a claim: letters, digits, `_`.
     pub name: String,
-    /// One or two sentences: what is seen, and what it says.
+    /// One or two sentences on what the figure shows.
     pub caption: String,
     /// A self-contained SVG document.
     pub svg: String,
 }
 
-/// Numbers in rows.
+/// A table of the findings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Caption of the table.
     pub caption: String,
     /// Names of the columns.
     pub header: Vec<String>,
-    /// Each as long as the header.
+    /// The rows, each as long as the header.
     pub rows: Vec<Vec<String>>,
 }
 
 /// Measurements, tables and figures of a study.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Findings {
-    /// By name, SI.
+    /// Measured quantities by name, SI.
     pub quantities: BTreeMap<String, f64>,
-    /// In the order in which they are shown.
+    /// The figures, in order.
     pub figures: Vec<Figure>,
-    /// In the order in which they are shown.
+    /// The tables, in order.
     pub tables: Vec<Table>,
 }
 
@@ -43,12 +43,12 @@ impl Findings {
         Self::default()
     }
 
-    /// A measured quantity, SI.
+    /// Records a measured quantity, SI.
     pub fn measure(&mut self, quantity: impl Into<String>, value: f64) {
         self.quantities.insert(quantity.into(), value);
     }
 
-    /// The larger of a quantity so far and a value, signs counted; NaN stays.
+    /// Records the larger of a quantity so far and a signed value; a NaN stays.
     pub fn measure_worst(&mut self, quantity: &str, value: f64) {
         let largest = self.quantities.entry(quantity.to_string()).or_insert(value);
         if value > *largest || value.is_nan() {
@@ -56,7 +56,7 @@ impl Findings {
         }
     }
 
-    /// Charts side by side; nothing if they have no points.
+    /// Adds a figure of charts side by side; none if they have no points.
     pub fn draw(&mut self, name: &str, caption: impl Into<String>, charts: &[Chart]) {
         if let Some(svg) = fem_figure::svg(charts) {
             self.figures.push(Figure { name: name.into(), caption: caption.into(), svg });

@@ -1,9 +1,10 @@
-//! Runs the cases of a claim.
+//! Runs the cases of a claim, each once, and counts their cost.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fem::effects::{Effect, RigidPartner};
-use fem::{Estimate, Explicit, Model, ModelSetup, Simulation};
+use fem::{Estimate, Explicit, Model, ModelSetup, SharedModels, Simulation};
 use fem_case::{Case, CaseFile, ModelChoice};
 use fem_collision::{Collision, Monitor, Progress};
 use fem_laws::HertzImpact;
@@ -12,19 +13,17 @@ use serde::de::DeserializeOwned;
 
 use crate::claim::Claim;
 use crate::error::StudyError;
-use crate::price::Price;
 use crate::run::{ExplicitRun, Run};
-use crate::shelf::Shelf;
 
-/// Looks on while claims are evaluated, from several threads.
+/// Observes the evaluation of claims from several threads.
 pub trait Observer: Sync {
-    /// Seconds since whenever; the only clock of the studies.
+    /// Returns the time since some instant, s; the only clock of the studies.
     fn clock(&self) -> f64;
     /// Whether the user wants to stop.
     fn is_interrupted(&self) -> bool;
 }
 
-/// Where a study runs the cases of its claim.
+/// Runs the cases of a claim for its study.
 pub struct Laboratory<'a> {
     claim: &'a Claim,
     shelf: &'a Shelf,
@@ -33,7 +32,7 @@ pub struct Laboratory<'a> {
 }
 
 impl<'a> Laboratory<'a> {
-    /// A laboratory for a claim.
+    /// Creates the laboratory of a claim.
     pub fn new(claim: &'a Claim, shelf: &'a Shelf, observer: &'a dyn Observer) -> Self {
         Self { claim, shelf, observer, price: Mutex::default() }
     }
@@ -43,19 +42,19 @@ impl<'a> Laboratory<'a> {
         self.claim
     }
 
-    /// The study's parameters.
+    /// Returns the parameters of the study.
     ///
     /// # Errors
-    /// Parameters that are missing, unknown or of the wrong type.
+    /// A parameter is missing, unknown or of the wrong type.
     pub fn parameters<T: DeserializeOwned>(&self) -> Result<T, StudyError> {
         let table = self.claim.parameters.clone();
         table.try_into().map_err(|error| StudyError::parameters(format!("[parameters]: {error}")))
     }
 
-    /// A case of the claim by the name of its `[run.NAME]`.
+    /// Returns a case of the claim by the name of its `[run.NAME]`.
     ///
     /// # Errors
-    /// No such run; what is wrong with the case.
+    /// The claim has no such run, or the case is invalid.
     pub fn case(&self, run: &str) -> Result<Case, StudyError> {
         let file = self.claim.runs.get(run).ok_or_else(|| {
             StudyError::parameters(format!("the claim has no [run.{run}], which the study needs"))
@@ -66,8 +65,8 @@ impl<'a> Laboratory<'a> {
     /// Runs a case of the explicit model, or takes the result of an earlier run of it.
     ///
     /// # Errors
-    /// A case that cannot be prepared or has another model, a run that does not end by itself, an
-    /// interrupt.
+    /// The case cannot be prepared or has another model, the run does not end by itself, or the user interrupts
+    /// it.
     pub fn run(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
         if self.observer.is_interrupted() {
             return Err(StudyError::Interrupted);
@@ -83,19 +82,19 @@ impl<'a> Laboratory<'a> {
         result
     }
 
-    /// Runs cases on all cores; results in the order of the cases.
+    /// Runs cases on all cores and returns their results in order.
     ///
     /// # Errors
-    /// As [`Laboratory::run`], of the first case that has one.
+    /// As [`Laboratory::run`], for the first case with an error.
     pub fn run_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<ExplicitRun>>, StudyError> {
         cases.into_par_iter().map(|case| self.run(case)).collect()
     }
 
-    /// Runs a case of any model, or takes the result of an earlier run of it. A partner that the plan takes as rigid
-    /// is: its own elements would ask for thousands of times as many steps.
+    /// Runs a case of any model, or takes the result of an earlier run of it. A partner that the plan treats as rigid
+    /// gets no elements, which would need thousands of times as many steps.
     ///
     /// # Errors
-    /// As [`Laboratory::run`], but for the model.
+    /// As [`Laboratory::run`], with any model.
     pub fn simulate(&self, case: Case) -> Result<Arc<Run>, StudyError> {
         if *case.scene().model() == ModelChoice::Fem && !has_rigid_partner(&case) {
             return self.run(case).map(|run| Arc::new(run.run.clone()));
@@ -109,15 +108,15 @@ impl<'a> Laboratory<'a> {
         result
     }
 
-    /// Runs cases of any model on all cores; results in the order of the cases.
+    /// Runs cases of any model on all cores and returns their results in order.
     ///
     /// # Errors
-    /// As [`Laboratory::simulate`], of the first case that has one.
+    /// As [`Laboratory::simulate`], for the first case with an error.
     pub fn simulate_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Run>>, StudyError> {
         cases.into_par_iter().map(|case| self.simulate(case)).collect()
     }
 
-    /// Does some other work than [`Laboratory::run`], which says how many element updates it took.
+    /// Does other work than [`Laboratory::run`]; the work returns its result and its number of element updates.
     ///
     /// # Errors
     /// Those of the work.
@@ -161,7 +160,7 @@ impl<'a> Laboratory<'a> {
         Ok(Arc::new(ExplicitRun { model, run }))
     }
 
-    /// A condensed pair that the shelf has is not made again.
+    /// Runs a case of another model; models on the shelf are shared.
     fn run_other(&self, case: Case) -> Result<Arc<Run>, StudyError> {
         let simulation = Simulation::sharing(case, &self.shelf.shared)?;
         let (case, hertz) = (simulation.case().clone(), simulation.setup().estimate.hertz);
@@ -212,4 +211,46 @@ impl Monitor for Listener<'_> {
     fn report(&mut self, _: Progress) -> bool {
         !self.0.is_interrupted()
     }
+}
+
+/// Cost of a claim: runs, element updates and time.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Price {
+    /// Number of runs; runs that claims share count in each.
+    pub runs: u64,
+    /// Elements times steps.
+    pub element_updates: u64,
+    /// Seconds of one core.
+    pub seconds: f64,
+}
+
+/// A run that is done, is being computed, or has failed.
+type Slot<T> = Arc<OnceLock<Result<Arc<T>, StudyError>>>;
+
+/// Runs keyed by their resolved case.
+#[derive(Debug)]
+struct Slots<T>(Mutex<HashMap<String, Slot<T>>>);
+
+impl<T> Slots<T> {
+    /// Returns the slot of a resolved case.
+    fn slot(&self, key: String) -> Slot<T> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default().clone()
+    }
+}
+
+impl<T> Default for Slots<T> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+/// The runs that claims share: a case is run once.
+#[derive(Debug, Default)]
+pub struct Shelf {
+    /// Runs of the explicit model.
+    explicit: Slots<ExplicitRun>,
+    /// Runs of all other models.
+    others: Slots<Run>,
+    /// Data shared by runs at several speeds or relaxations.
+    shared: SharedModels,
 }

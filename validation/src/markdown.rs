@@ -9,7 +9,7 @@ use crate::findings::Figure;
 /// The study whose tables the page shows.
 const HARD: &str = "hard";
 
-/// The figures of all claims, by their addresses from the folder of the Markdown page.
+/// Returns the figures of all claims with their addresses relative to the Markdown page.
 pub fn pictures(results: &[ClaimResult]) -> impl Iterator<Item = (String, &Figure)> {
     results.iter().flat_map(pictures_of)
 }
@@ -67,7 +67,7 @@ pub fn has_hard_scenes(claim: &Claim) -> bool {
     claim.study == HARD
 }
 
-/// A Markdown page of every hard scene with every model, an axis a table.
+/// Returns a Markdown page of every hard scene with every model, one table per axis.
 pub fn hard_scenes(results: &[ClaimResult]) -> String {
     let hard = results.iter().filter(|result| has_hard_scenes(&result.claim));
     let tables = hard.flat_map(|result| &result.findings.tables);

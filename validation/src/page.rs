@@ -1,4 +1,4 @@
-//! The page of results: one HTML file that needs nothing else.
+//! The page of results, a self-contained HTML file.
 
 use askama::Template;
 use base64::Engine;
@@ -19,10 +19,10 @@ struct Page<'a> {
     sections: Vec<(&'static str, Vec<&'a ClaimResult>)>,
 }
 
-/// The page as HTML, of so many claims; the others were not tried.
+/// Returns the page as HTML; of `n_all` claims only those with a result were tested.
 ///
 /// # Errors
-/// None that depend on the results.
+/// The template cannot be rendered; no result causes that.
 pub fn page(results: &[ClaimResult], n_all: usize, version: &str) -> Result<String, askama::Error> {
     let of = |section: Section| {
         let claims: Vec<_> = results.iter().filter(|r| r.claim.section == section).collect();
@@ -39,12 +39,12 @@ pub fn page(results: &[ClaimResult], n_all: usize, version: &str) -> Result<Stri
     page.render()
 }
 
-/// As an image's address: kept apart from the page's own styles and names.
+/// Returns a figure as the address of an image, so that its styles and names do not mix with those of the page.
 fn data_address(figure: &Figure) -> String {
     format!("data:image/svg+xml;base64,{}", STANDARD.encode(&figure.svg))
 }
 
-/// `1.2 s`, or `3 ms`.
+/// Formats a time, such as `1.2 s` or `3 ms`.
 fn seconds(value: &f64) -> String {
     fem_case::engineering::Unit::fitting(*value, "s").with_digits(2).show(*value)
 }

@@ -1,23 +1,24 @@
-//! How wide and how high the force of a collision is, from its history.
+//! Duration and height of the force pulse of a collision, from its history.
 //!
-//! The width is the time of Hertz' pulse that is as wide by its second moment, √(∫F (t − t̄)² dt/∫F dt); the
-//! height the top of the parabola that fits the force best within a tenth of the contact time around its
-//! largest value, and so of the pressure. Neither knows of single points that close last or ring.
+//! The duration is that of the Hertz pulse with the same second moment, √(∫F (t − t̄)² dt/∫F dt). The
+//! height is the maximum of the parabola that fits the force best within a tenth of the contact time around its
+//! largest value; the pressure is treated in the same way. Single points that close last or oscillate hardly change
+//! either.
 
 use fem_collision::HistoryRow;
 
-/// Time of Hertz' elastic pulse over the root of its second moment, by quadrature.
+/// Duration of Hertz' elastic pulse over the root of its second moment, by quadrature.
 const TIME_OVER_WIDTH: f64 = 5.152_65;
 
-/// Half of what the parabola is fitted to, over the contact time.
+/// Half-width of the parabola's fit, over the contact time.
 const HALF_WIDTH: f64 = 0.05;
 
 /// Duration and height of a force pulse, free of the noise of single rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
-    /// By its second moment, s.
+    /// Duration from the second moment, s.
     pub time: f64,
-    /// Its top, N.
+    /// Height of the force pulse, N.
     pub force: f64,
     /// Pressure on the axis around the instant of the largest force, Pa.
     pub pressure: f64,
@@ -35,8 +36,8 @@ impl Pulse {
     }
 }
 
-/// Time from the first to the last row with more than a tenth of the largest force, its ends between rows, s: the
-/// width by which pulses of other codes are compared.
+/// Returns the time during which the force is above a tenth of its largest value, s, with its ends interpolated
+/// between rows; pulses of other codes are compared by it.
 pub fn width_at_tenth(rows: &[HistoryRow]) -> f64 {
     let tenth = 0.1 * rows.iter().map(|row| row.contact_force).fold(0.0, f64::max);
     let is_above = |row: &HistoryRow| row.contact_force > tenth;
@@ -52,7 +53,7 @@ pub fn width_at_tenth(rows: &[HistoryRow]) -> f64 {
     }
 }
 
-/// The largest mean of the force over so long (s), N: of its integral, linear between rows.
+/// Returns the largest mean of the force over a window (s), N; the force is linear between rows.
 pub fn largest_mean(rows: &[HistoryRow], window: f64) -> f64 {
     let mut impulses = vec![0.0];
     for pair in rows.windows(2) {
@@ -70,7 +71,7 @@ pub fn largest_mean(rows: &[HistoryRow], window: f64) -> f64 {
     means.fold(0.0, f64::max)
 }
 
-/// Root of the second moment of the force over time, trapezoidal rule.
+/// Returns the root of the second moment of the force over time by the trapezoidal rule.
 fn width(rows: &[HistoryRow]) -> f64 {
     let moment = |of: &dyn Fn(f64) -> f64| -> f64 {
         let value = |row: &HistoryRow| row.contact_force * of(row.time);
@@ -84,8 +85,8 @@ fn width(rows: &[HistoryRow]) -> f64 {
     (moment(&|time| (time - mean) * (time - mean)) / impulse).sqrt()
 }
 
-/// The top, within a tenth of the contact time, of the parabola of least squares through the rows around the largest
-/// force.
+/// Returns the maximum, within a tenth of the contact time, of the least-squares parabola through the rows around the
+/// largest force.
 fn top(rows: &[HistoryRow], contact_time: f64, value: fn(&HistoryRow) -> f64) -> f64 {
     let Some(peak) = rows.iter().max_by(|a, b| a.contact_force.total_cmp(&b.contact_force)) else {
         return f64::NAN;
@@ -113,7 +114,7 @@ fn top(rows: &[HistoryRow], contact_time: f64, value: fn(&HistoryRow) -> f64) ->
             + entry(0, 2) * (entry(1, 0) * entry(2, 1) - entry(1, 1) * entry(2, 0))
     };
     let [c_0, c_1, c_2] = [0, 1, 2].map(|j| minor(Some(j)) / minor(None));
-    // What still grows or falls at the largest force, as pressures of flat balls do, has its largest value at an end.
+    // A value that grows or falls at the largest force, as the pressure of flattened balls does, is largest at an end.
     let x = if c_2 < 0.0 { (-0.5 * c_1 / c_2).clamp(-1.0, 1.0) } else { c_1.signum() };
     c_0 + x * (c_1 + x * c_2)
 }
@@ -184,9 +185,9 @@ mod tests {
         assert!((force(&rows) / 0.9993f64.powi(2) - 1.0).abs() < 1e-9);
     }
 
-    /// A pressure that falls all the while, faster at first, has no top.
+    /// A pressure that falls all the time, faster at first, has no maximum inside.
     #[test]
-    fn what_falls_all_the_while_is_largest_at_the_beginning() {
+    fn a_falling_pressure_is_largest_at_the_beginning() {
         let mut rows = pulse(|t| 4.0 * t * (1.0 - t));
         for row in &mut rows {
             row.centre_pressure = Some(1.0 + (row.time - 1.0).powi(2));
@@ -195,9 +196,9 @@ mod tests {
         assert!((top - (1.0 + 0.55f64.powi(2))).abs() < 1e-3, "{top}");
     }
 
-    /// A point that rings by a per cent over a hundredth of the time moves the top by next to nothing.
+    /// An oscillation by a per cent with a period of a hundredth hardly changes the height.
     #[test]
-    fn ringing_does_not_count() {
+    fn oscillations_do_not_change_the_pulse() {
         let quiet = pulse(|t| (std::f64::consts::PI * t).sin());
         let ringing = pulse(|t| (std::f64::consts::PI * t).sin() + 0.01 * (628.3 * t).sin());
         let change = force(&ringing) / force(&quiet) - 1.0;

@@ -1,4 +1,4 @@
-//! Cases that were run.
+//! The results of cases that were run.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -11,12 +11,12 @@ use fem_laws::HertzImpact;
 
 use crate::error::StudyError;
 
-/// A case of any model and what came out of it; the run ended by itself.
+/// A case of any model and its result; the run ended by itself.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The case that was run.
     pub case: Case,
-    /// Hertz with instantaneous moduli.
+    /// Hertz' impact with instantaneous moduli.
     pub hertz: HertzImpact,
     /// Result of the run.
     pub collision: Collision,
@@ -26,19 +26,19 @@ pub struct Run {
     pub seconds: f64,
 }
 
-/// Numbers that a model may not know are NaN where it does not.
+/// Quantities that the model does not compute are NaN.
 impl Run {
-    /// First to last contact, s.
+    /// Returns the contact time, s.
     pub fn contact_time(&self) -> f64 {
         known(self.collision.contact_time)
     }
 
-    /// Largest contact force, N.
+    /// Returns the largest contact force, N.
     pub fn peak_force(&self) -> f64 {
         known(self.collision.peak_force)
     }
 
-    /// Largest approach, m.
+    /// Returns the largest approach, m.
     pub fn max_approach(&self) -> f64 {
         known(self.collision.max_approach)
     }
@@ -49,22 +49,22 @@ impl Run {
         0.5 * diameters.fold(f64::INFINITY, f64::min)
     }
 
-    /// Largest contact radius, m.
+    /// Returns the largest contact radius, m.
     pub fn max_contact_radius(&self) -> f64 {
         known(self.collision.max_contact_radius)
     }
 
-    /// Largest pressure on the axis, Pa.
+    /// Returns the largest pressure on the axis, Pa.
     pub fn peak_pressure(&self) -> f64 {
         known(self.collision.peak_pressure)
     }
 
-    /// Worst imbalance of energy over the energy of approach.
+    /// Returns the largest energy residual over the energy of approach.
     pub fn energy_residual(&self) -> f64 {
         known(self.collision.residual_relative)
     }
 
-    /// Worst drift of momentum over Σ m|v|.
+    /// Returns the largest drift of momentum over Σ m|v|.
     pub fn momentum_residual(&self) -> f64 {
         known(self.collision.momentum_residual_relative)
     }
@@ -74,8 +74,8 @@ impl Run {
         self.collision.bodies.each_ref().map(|body| known(body.velocity_after))
     }
 
-    /// Centre pressure over that of Hertz at this run's own peak force, p0 ∝ F^(1/3): free of the
-    /// error in force.
+    /// Returns the peak pressure over that of Hertz at this run's own peak force, p0 ∝ F^(1/3), which does not depend on
+    /// the error of the force.
     pub fn pressure_over_hertz_at_force(&self) -> f64 {
         let over = self.peak_force() / self.hertz.peak_force();
         self.peak_pressure() / (self.hertz.peak_pressure() * over.cbrt())
@@ -89,14 +89,14 @@ fn known(value: Option<f64>) -> f64 {
 /// A run of the explicit model, with its meshes and contact.
 #[derive(Debug)]
 pub struct ExplicitRun {
-    /// Meshes, bodies and contact, as they were in the end.
+    /// Meshes, bodies and contact at the end of the run.
     pub model: Arc<Model>,
     /// Results that every model has.
     pub run: Run,
 }
 
 impl ExplicitRun {
-    /// The penalty springs between the bodies.
+    /// Returns the penalty springs between the bodies.
     ///
     /// # Errors
     /// The contact is not made of penalty springs alone, for example with surface slip.
@@ -108,8 +108,7 @@ impl ExplicitRun {
 /// Returns the error for a contact that is not made of penalty springs alone.
 pub(crate) fn no_springs() -> StudyError {
     StudyError::parameters(
-        "the study is of penalty springs alone, which this contact has not; unlike bodies have them with \
-         effects.surface_slip = \"off\"",
+        "the study needs a contact of penalty springs only; set effects.surface_slip = \"off\" for unlike bodies",
     )
 }
 

@@ -1,12 +1,11 @@
-//! Condensed bodies against the explicit model: the same meshes, materials and springs.
+//! Condensed bodies against the explicit model with the same meshes, materials and springs.
 //!
 //! Each run of the claim is computed twice, and `NAME.QUANTITY` is the difference of the two over
 //! the explicit value; `NAME.restitution` is |Δe|. `worst.QUANTITY` is the largest of all runs.
 //!
-//! The explicit force is noisy where nodes touch first and last, which the contact time sees. So
-//! the duration is held as the width of the pulse, from the instant at which the approach rate has
-//! lost half of what compression takes to the one at which it has gained half of what restitution
-//! gives: a velocity is an integral of the force.
+//! The explicit force is noisy when nodes touch first and last, which changes the contact time. So
+//! the duration is measured between the instants at which the approach rate has lost half of its value during
+//! compression and gained half of its final value during restitution: a velocity is an integral of the force.
 
 use std::sync::Arc;
 
@@ -32,7 +31,7 @@ struct Parameters {
     condensed: CondensedTable,
 }
 
-/// Name and value.
+/// Name and value of a quantity.
 type Quantity = (&'static str, fn(&Run) -> f64);
 
 const RELATIVE: [Quantity; 5] = [
@@ -79,14 +78,14 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// s; NaN if the approach rate does not pass both instants.
+/// Returns the width of the pulse, s; NaN if the approach rate does not pass both instants.
 fn pulse_width(run: &Run) -> f64 {
     let speed = run.hertz.approach_speed();
     let passes = |rate: f64| passes(&run.collision, rate);
     passes(-0.5 * run.restitution * speed) - passes(0.5 * speed)
 }
 
-/// When the approach rate falls through a value (m/s), s.
+/// Returns the time at which the approach rate falls through a value (m/s), s.
 fn passes(collision: &Collision, value: f64) -> f64 {
     let rate = |row: &HistoryRow| row.velocity[0] - row.velocity[1];
     let is_around = |two: &&[HistoryRow]| rate(&two[0]) > value && rate(&two[1]) <= value;

@@ -1,8 +1,8 @@
 //! Limits and orders of convergence of a case over the size of its elements.
 //!
-//! For each quantity q of the collision q(h) = q₀ + C hᵖ is fitted to the levels:
-//! `NAME.limit`, `NAME.order`, and `NAME.uncertainty`, the largest move of the limit when a level
-//! is left out, relative to it.
+//! For each quantity q of the collision it fits q(h) = q₀ + C hᵖ to the levels and measures
+//! `NAME.limit`, `NAME.order`, and `NAME.uncertainty`, the largest relative change of the limit when a level
+//! is left out.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use crate::run::{ExplicitRun, Run};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Element sizes at the contact, m, the largest first.
+    /// Element sizes at the contact, m, in descending order.
     contact_element_sizes: Vec<f64>,
 }
 
@@ -59,7 +59,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         findings.measure(format!("{name}.limit"), fit.limit);
         findings.measure(format!("{name}.order"), fit.order);
         findings.measure(format!("{name}.uncertainty"), fit.uncertainty / fit.limit.abs());
-        // The restitution of elastic bodies has nothing to converge from.
+        // The restitution of elastic bodies has no error that converges.
         let points = levels.iter().map(|(h, q)| (1e6 * h, (q / fit.limit - 1.0).abs()));
         chart = chart.with(Curve::points_on_line(symbol, points.collect()));
     }
@@ -100,14 +100,14 @@ fn tabulate(findings: &mut Findings, sizes: &[f64], runs: &[Arc<ExplicitRun>]) {
     findings.tabulate("The levels.", header, rows);
 }
 
-/// Radius of Hertz' pressure with the run's peak force and centre pressure, p0 = 3F/(2πa²), m. It
-/// does not depend on where points happen to lie at the edge of the contact.
+/// Returns the contact radius of Hertz' pressure with the run's peak force and pressure, p0 = 3F/(2πa²), m. It
+/// does not depend on the position of nodes at the edge of the contact.
 fn equivalent_radius(run: &Run) -> f64 {
     (1.5 * run.peak_force() / (std::f64::consts::PI * run.peak_pressure())).sqrt()
 }
 
-/// Contact radius at maximum compression, m, as the root of p² = α − β r² fitted to the nodal
-/// pressures, whose area an r weighs: free of where a node happens to lie at the edge. NaN without
+/// Returns the contact radius at maximum compression, m, as the root of p² = α − β r² fitted to the nodal
+/// pressures, weighted by r. It does not depend on the position of nodes at the edge. NaN without
 /// a snapshot of the maximum.
 fn profile_radius(run: &ExplicitRun) -> Result<f64, StudyError> {
     let snapshots = &run.collision.snapshots;

@@ -1,24 +1,19 @@
-//! How quantities are measured: one study a file.
+//! The studies that measure the quantities of claims, by the names that claims call them.
 
-mod balances;
 mod condensed_explicit;
-mod contact_patch;
 mod convergence;
-mod critical_step;
-mod error_bars;
 mod finite_strain;
 mod hard;
 mod hertz_field;
-mod invariance;
+mod mechanics;
+mod order;
 mod paper;
 mod pressed_sphere;
+mod random_scenes;
 mod relaxing;
 mod sections;
-mod soft_contours;
-mod soft_random;
 mod summary;
 mod surface_slip;
-mod uniform_stress;
 mod vibration;
 mod vibration_loss;
 mod viscoelastic;
@@ -27,22 +22,22 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Measures the quantities of a claim.
+/// A function that measures the quantities of a claim.
 pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 
-/// All studies by the names that claims call them.
+/// All studies and their names.
 const STUDIES: &[(&str, Study)] = &[
-    ("balances", balances::study),
+    ("balances", mechanics::balances::study),
     ("condensed_explicit", condensed_explicit::study),
-    ("contact_patch", contact_patch::study),
+    ("contact_patch", mechanics::contact_patch::study),
     ("convergence", convergence::study),
-    ("critical_step", critical_step::study),
-    ("error_bars", error_bars::study),
-    ("finite_strain", finite_strain::study),
+    ("critical_step", mechanics::critical_step::study),
+    ("error_bars", random_scenes::error_bars_study),
+    ("finite_strain", finite_strain::laws::study),
     ("hard", hard::study),
-    ("hard_random", hard::random_study),
+    ("hard_random", random_scenes::model_differences_study),
     ("hertz_field", hertz_field::study),
-    ("invariance", invariance::study),
+    ("invariance", mechanics::invariance::study),
     ("paper_contact_stress", paper::contact_stress::study),
     ("paper_contact_time", paper::contact_time::study),
     ("paper_contours", paper::contours::study),
@@ -51,25 +46,25 @@ const STUDIES: &[(&str, Study)] = &[
     ("paper_solid", paper::solid::study),
     ("paper_velocities", paper::velocities::study),
     ("pressed_sphere", pressed_sphere::study),
-    ("soft_contours", soft_contours::study),
-    ("soft_random", soft_random::study),
+    ("soft_contours", finite_strain::contours::study),
+    ("soft_random", random_scenes::soft_scenes_study),
     ("summary", summary::study),
     ("surface_slip", surface_slip::study),
-    ("uniform_stress", uniform_stress::study),
+    ("uniform_stress", mechanics::uniform_stress::study),
     ("vibration", vibration::study),
     ("vibration_loss", vibration_loss::study),
     ("viscoelastic", viscoelastic::study),
 ];
 
-/// The names that claims can call.
+/// Returns the names of all studies.
 pub fn study_names() -> impl Iterator<Item = &'static str> {
     STUDIES.iter().map(|(name, _)| *name)
 }
 
-/// The study of a name.
+/// Returns the study of a name.
 ///
 /// # Errors
-/// No such study: which there are.
+/// There is no such study; the message lists all.
 pub(crate) fn find_study(name: &str) -> Result<Study, String> {
     let found = STUDIES.iter().find(|(known, _)| *known == name);
     found.map(|(_, study)| *study).ok_or_else(|| {

@@ -1,14 +1,14 @@
-//! Cases whose material relaxes otherwise than the file says.
+//! Cases with another relaxation of a material.
 
 use fem_case::Case;
 use fem_case::schema::{RelaxationTable, TermTable};
 
 use crate::error::StudyError;
 
-/// The case with this relaxation in place of the material's own.
+/// Returns the case with this relaxation of a material.
 ///
 /// # Errors
-/// No such material; a relaxation that cannot be.
+/// There is no such material, or the relaxation is invalid.
 pub(super) fn with_relaxation(
     case: &Case,
     material: &str,
@@ -21,10 +21,10 @@ pub(super) fn with_relaxation(
     Ok(case.edited(|file| drop(file.material.insert(material.to_string(), table)))?)
 }
 
-/// The case with this as the only Prony term of a material that relaxes, on the same moduli.
+/// Returns the case with this as the only Prony term of a material that relaxes, acting on the same moduli.
 ///
 /// # Errors
-/// No such material, or an elastic one; a term that cannot be.
+/// There is no such material, it is elastic, or the term is invalid.
 pub(super) fn with_term(case: &Case, material: &str, term: TermTable) -> Result<Case, StudyError> {
     let own = case.file().material.get(material).and_then(|table| table.relaxation.as_ref());
     let missing = || StudyError::parameters(format!("the case has no `{material}` that relaxes"));

@@ -1,15 +1,15 @@
-//! Deformed bodies in section with σ_yy, as pictures show them.
+//! Sections of the deformed bodies with σ_yy, for figures.
 
 use fem_collision::Snapshot;
 use fem_figure::contour::Section;
 
 use crate::run::ExplicitRun;
 
-/// σ_yy among (σ_rr, σ_yy, σ_θθ, σ_ry).
+/// Index of σ_yy among (σ_rr, σ_yy, σ_θθ, σ_ry).
 const AXIAL: usize = 1;
 const MILLI: f64 = 1e3;
 
-/// Half sections of both bodies at an instant, in mm, with σ_yy over a unit (Pa); nothing of a rigid body.
+/// Returns half sections of both bodies at an instant, in mm, with σ_yy over a unit (Pa); empty for a rigid body.
 pub fn halves(run: &ExplicitRun, snapshot: &Snapshot, unit: f64) -> [Section; 2] {
     let mut halves: [Section; 2] = Default::default();
     let bodies = run.model.bodies().iter().zip(&snapshot.bodies);
@@ -29,7 +29,7 @@ pub fn halves(run: &ExplicitRun, snapshot: &Snapshot, unit: f64) -> [Section; 2]
     halves
 }
 
-/// Smallest and largest value of both; NaN if any point's is.
+/// Returns the smallest and the largest value of both bodies; NaN if any value is.
 pub fn range(halves: &[Section; 2]) -> (f64, f64) {
     let values = || halves.iter().flat_map(|half| half.values.iter().copied());
     if values().any(f64::is_nan) {

@@ -1,4 +1,4 @@
-//! The quantities of plain runs: `NAME.restitution`, `NAME.contact_time`, ….
+//! Measures the quantities of each run: `NAME.restitution`, `NAME.contact_time`, ….
 
 use crate::error::StudyError;
 use crate::findings::Findings;
@@ -19,7 +19,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// The quantities of a run by name, SI; NaN where the model has none.
+/// Returns the quantities of a run by name, SI; NaN if the model does not compute one.
 pub(crate) fn quantities(run: &Run) -> impl Iterator<Item = (&'static str, f64)> {
     let (collision, hertz) = (&run.collision, &run.hertz);
     let known = |value: Option<f64>| value.unwrap_or(f64::NAN);

@@ -1,8 +1,8 @@
 //! Effect of slip between the surfaces of unlike bodies: each run of the claim is computed with it, which is the
 //! default, and without.
 //!
-//! `NAME.QUANTITY` is the change over the value without; `NAME.restitution` is |Δe|,
-//! `NAME.energy_residual` the worst imbalance with it.
+//! `NAME.QUANTITY` is the relative change by the slip; `NAME.restitution` is |Δe|, and
+//! `NAME.energy_residual` the largest energy residual with slip.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::run::Run;
 
-/// Name and value.
+/// Name and value of a quantity.
 type Quantity = (&'static str, fn(&Run) -> f64);
 
 const RELATIVE: [Quantity; 4] = [

@@ -1,8 +1,8 @@
 //! Restitution of relaxing spheres against Ting's quasi-static impact.
 //!
 //! The case `base` is run with its relaxation replaced by each series of the parameters and at each
-//! speed. Against Ting on half-spaces |Δe| is held to 5e-4 + 0.03 (1 − e): a sphere is stiffer than
-//! a half-space by first order in a/R. Against Ting with that compliance in series the bound is
+//! speed. Compared with Ting on half-spaces, |Δe| is at most 5e-4 + 0.03 (1 − e), since a sphere is stiffer than
+//! a half-space by first order in a/R. Compared with Ting with that compliance in series, the bound is
 //! absolute.
 
 use std::sync::Arc;
@@ -33,7 +33,7 @@ struct Parameters {
     series: Vec<(f64, f64)>,
     /// The material that relaxes.
     material: String,
-    /// Decay rate times contact time of the single term where it is not varied.
+    /// Decay rate times contact time of the single term if it is not varied.
     rate: f64,
     /// Default element size over element size.
     refinement: f64,

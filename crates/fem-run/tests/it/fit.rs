@@ -411,7 +411,7 @@ fn slips_of_the_hand_are_answered() {
     for (law, told) in [
         ("tsuij", "did you mean tsuji?"),
         ("mishra", "did you mean mishra_murty?"),
-        ("tsuji", "take out what parts the thousands"),
+        ("tsuji", "remove the separator of thousands"),
     ] {
         let ran = place.run(&["fit", "case.toml", "--data", "parted.csv", "--law", law]);
         assert_eq!(ran.code, Some(2));
@@ -521,7 +521,7 @@ fn tables_are_read_or_refused_with_what_to_do() {
         &[],
         &["e.dat:1: the first row is of numbers", "speed_m_s,restitution"],
     );
-    refused("impact speed\n1\n", &[], &["--columns restitution=COLUMN", "parted by commas"]);
+    refused("impact speed\n1\n", &[], &["--columns restitution=COLUMN", "separated by commas"]);
     refused("u,COR\n1,0.9\n", &[], &["found are u, cor", "--columns speed=COLUMN"]);
     let table = "u,COR\n1,0.9\n";
     refused(table, &["--columns", "speeed=u"], &["did you mean speed?"]);

@@ -1,4 +1,4 @@
-//! A Prony series of a material from measured restitutions.
+//! The calibration: a Prony series of a material from measured restitutions.
 
 use crate::fit::FitError;
 use crate::fit::spectrum::{
@@ -16,17 +16,17 @@ use super::speed_span::ends;
 use super::target::Target;
 use crate::measured::{DataError, MeasuredPairs};
 
-/// Factor by which the relaxation times reach beyond the contact times: a term ten times slower or faster
-/// loses a tenth, and one beyond differs from it by its weight only.
+/// Factor by which the relaxation times reach beyond the contact times. A term that is ten times slower or faster
+/// loses a tenth; one beyond differs from it in its weight only.
 const REACH: f64 = 10.0;
-/// λ without uncertainties.
+/// The regularisation λ of data without uncertainties.
 const REGULARISATION: f64 = 1e-3;
 /// Keys of a case's condensed model that a calibration replaces.
 pub(super) const UNUSED_STEPS: &str = "model.condensed.steps";
-/// Weights this small are rounding.
+/// Smaller weights are rounding.
 const LEAST_WEIGHT: f64 = 1e-9;
 
-/// A series, what it was found from, and what the data leave open of it.
+/// A Prony series, the data that it was found from, and how well they determine it.
 ///
 /// ```
 /// # use std::path::Path;
@@ -50,7 +50,7 @@ const LEAST_WEIGHT: f64 = 1e-9;
 /// let found = Calibration::of(&case, measured.into(), &settings)?;
 /// assert!(found.fit.rms < 0.005);
 ///
-/// // The same case with what was found.
+/// // The same case with the series that was found.
 /// let series = found.relaxation();
 /// let relaxing = case.edited(|file| {
 ///     if let Some(glass) = file.material.get_mut(&found.target.material) {
@@ -64,15 +64,15 @@ const LEAST_WEIGHT: f64 = 1e-9;
 pub struct Calibration {
     /// The measured data.
     pub measured: MeasuredPairs,
-    /// One a pair of bodies, in their order.
+    /// One experiment per pair of bodies, in their order.
     pub experiments: Vec<Experiment>,
     /// The material whose series it is.
     pub target: Target,
     /// The model that computed the restitutions.
     pub model: CalibrationModel,
-    /// λ, in units of e.
+    /// The regularisation λ, in units of e.
     pub regularisation: f64,
-    /// Level of the ranges.
+    /// Confidence level of the ranges.
     pub confidence: f64,
     /// Relaxation times of the terms, s.
     pub times: Vec<f64>,
@@ -80,7 +80,7 @@ pub struct Calibration {
     pub fit: SpectrumFit,
     /// The single Maxwell term of weight 1 with the measured mean.
     pub maxwell: Maxwell,
-    /// The key of the case's own model that was not looked at.
+    /// The keys of the case's own model that are ignored.
     pub unused_key: Option<String>,
 }
 
@@ -96,11 +96,11 @@ impl Calibration {
         "residual",
     ];
 
-    /// Calibrates, the pairs of bodies side by side.
+    /// Calibrates a material; the pairs of bodies are computed in parallel.
     ///
     /// # Errors
-    /// A material, data or settings that do not fit; bodies without a model at the data's sizes and
-    /// speeds; fewer data than terms without regularisation; a collision that cannot be computed.
+    /// The material, the data or the settings are invalid; no model supports the bodies at the sizes and speeds of the
+    /// data; there are fewer data than terms without regularisation; a collision cannot be computed.
     pub fn of(
         case: &Case,
         measured: MeasuredPairs,
@@ -145,17 +145,17 @@ impl Calibration {
         })
     }
 
-    /// The terms that are not zero.
+    /// Returns the terms that are not zero.
     pub fn terms(&self) -> Vec<PronyTerm> {
         terms(&self.times, &self.fit.weights)
     }
 
-    /// Contact times of the data without relaxation, shortest and longest, s.
+    /// Returns the shortest and the longest contact time of the data without relaxation, s.
     pub fn contact_times(&self) -> (f64, f64) {
         ends(self.experiments.iter().flat_map(|experiment| &experiment.contact_times))
     }
 
-    /// 1 − e ∝ v^p of the data; none where each pair has one speed.
+    /// Returns the exponent p of 1 − e ∝ v^p of the data; `None` if each pair has one speed.
     pub fn loss_exponent(&self) -> Option<SpeedExponent> {
         let points = self.measured.data.points.iter().enumerate();
         let points = points.map(|(k, point)| SpeedPoint {
@@ -166,7 +166,7 @@ impl Calibration {
         speed_exponent(&points.collect::<Vec<_>>())
     }
 
-    /// Data, restitutions of the best series and their differences, one row per point; SI.
+    /// Returns data, restitutions of the best series and their differences, one row per point; SI.
     pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
         let points = self.measured.data.points.iter().zip(&self.fit.restitutions).enumerate();
         points.map(|(k, (point, fitted))| {
@@ -184,7 +184,7 @@ impl Calibration {
     }
 }
 
-/// Refuses what costs time to find out.
+/// Rejects invalid settings before anything is computed.
 fn check(
     measured: &MeasuredPairs,
     settings: &Settings,
@@ -219,7 +219,7 @@ fn unused_key(case: &Case, chosen: CalibrationModel) -> Option<String> {
     case.gives(&key).then_some(key)
 }
 
-/// Restitutions of all points in the order of the data, the pairs side by side.
+/// Computes the restitutions of all points in the order of the data, the pairs in parallel.
 fn restitutions(
     experiments: &[Experiment],
     terms: &[PronyTerm],
@@ -236,13 +236,13 @@ fn restitutions(
     Ok(restitutions)
 }
 
-/// Terms of times and weights; those without weight are left out.
+/// Returns the terms of these times and weights, without those of weight 0.
 fn terms(times: &[f64], weights: &[f64]) -> Vec<PronyTerm> {
     let both = times.iter().zip(weights).filter(|(_, weight)| **weight > LEAST_WEIGHT);
     both.map(|(&relaxation_time, &weight)| PronyTerm { weight, relaxation_time }).collect()
 }
 
-/// Evenly in the logarithm, the ends included; one alone lies in the middle.
+/// Returns values that are evenly spaced in the logarithm, including both ends; a single one lies in the middle.
 fn spaced((first, last): (f64, f64), n: usize) -> Vec<f64> {
     let share = |k: usize| if n == 1 { 0.5 } else { k as f64 / (n - 1) as f64 };
     (0..n).map(|k| first * (last / first).powf(share(k))).collect()

@@ -1,4 +1,4 @@
-//! Restitutions of the series that was found beside the data, to draw.
+//! Curves of restitutions for figures: the data, the best series and the single Maxwell term.
 
 use crate::fit::FitError;
 use fem_material::PronyTerm;
@@ -7,23 +7,23 @@ use super::calibration::Calibration;
 use super::experiment::Experiment;
 use super::speed_span::ends;
 
-/// Points of a curve over the speed.
+/// Number of points of a curve over the speed.
 const N: usize = 33;
-/// Space beside a single speed.
+/// Factor by which the range of a single speed is widened to both sides.
 const BESIDE: f64 = 2.0;
 
 /// The quantity over which restitutions are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Abscissa {
-    /// The approach speed, m/s, of one pair of bodies.
+    /// The approach speed, m/s, for one pair of bodies.
     Speed,
-    /// The elastic contact time, s, of several: in linear bodies nothing else counts but for the
-    /// small ratio of contact to sphere.
+    /// The elastic contact time, s, for several pairs: the restitution of linear bodies depends on nothing else except
+    /// the small ratio of contact radius to sphere radius.
     ContactTime,
 }
 
 impl Abscissa {
-    /// The largest |p| that linear bodies make of 1 − e ∝ x^p: T ∝ v^(−1/5).
+    /// Returns the largest |p| of 1 − e ∝ x^p that linear bodies can have; T ∝ v^(−1/5).
     pub fn steepest_loss(self) -> f64 {
         match self {
             Self::Speed => 0.2,
@@ -37,11 +37,11 @@ impl Abscissa {
 pub struct RestitutionCurves {
     /// The quantity over which they are drawn.
     pub over: Abscissa,
-    /// From, to; around a place that is the only one.
+    /// Smallest and largest value of the abscissa, widened around a single one.
     pub range: (f64, f64),
-    /// In the order of the data.
+    /// The measured restitutions in the order of the data.
     pub data: Vec<(f64, f64)>,
-    /// Restitutions of the best series, ascending: over a range of speeds, or at the data.
+    /// Restitutions of the best series, ascending in the abscissa: over a range of speeds, or at the data.
     pub best: Vec<(f64, f64)>,
     /// Restitutions of the single Maxwell term, at the same places.
     pub maxwell: Vec<(f64, f64)>,
@@ -56,10 +56,10 @@ struct Sample<'a> {
 }
 
 impl Calibration {
-    /// Restitutions of the data, of the best series and of the single Maxwell term.
+    /// Returns the restitutions of the data, of the best series and of the single Maxwell term.
     ///
     /// # Errors
-    /// A collision that cannot be computed.
+    /// A collision cannot be computed.
     pub fn curves(&self) -> Result<RestitutionCurves, FitError> {
         let over =
             if self.experiments.len() == 1 { Abscissa::Speed } else { Abscissa::ContactTime };
@@ -91,7 +91,7 @@ impl Calibration {
         })
     }
 
-    /// The collisions of the data, pair by pair.
+    /// Returns the collisions of the data, pair by pair.
     fn samples(&self, over: Abscissa) -> Vec<Sample<'_>> {
         let of_pair = |experiment| {
             let Experiment { speeds, contact_times, .. }: &Experiment = experiment;
@@ -106,7 +106,7 @@ impl Calibration {
     }
 }
 
-/// From pair by pair to the order of the data.
+/// Reorders values from the order of the pairs to that of the data.
 fn xs_in_order(experiments: &[Experiment], xs: &[f64]) -> Vec<f64> {
     let points = experiments.iter().flat_map(|experiment| &experiment.points);
     let mut ordered = vec![0.0; xs.len()];

@@ -1,8 +1,8 @@
-//! One pair of bodies and its speeds: any series to restitutions.
+//! One pair of bodies and its speeds: the restitutions that a series makes.
 //!
-//! The condensed model factors the pair once, on a mesh for all of its speeds: fine block and
-//! condensed region are those of the largest contact (instantaneous moduli), elements are small
-//! enough for the smallest, unless the case gives their size.
+//! The condensed model factors the pair once, on a mesh for all of its speeds. The refined block and the
+//! condensed region are those of the largest contact (instantaneous moduli); elements are small
+//! enough for the smallest contact, unless the case gives their size.
 
 use crate::fit::FitError;
 use fem_case::engineering::show;
@@ -18,24 +18,24 @@ use crate::measured::{MeasuredPair, MeasuredPairs};
 use fem_simulation::Condensed;
 use fem_simulation::{Model, SharedModels};
 
-/// The key that decides on the element size: it is named in the error if there is no mesh.
+/// The key of the element size, which the error names if no mesh can be made.
 const OF_ELEMENT_SIZE: [&str; 3] =
     ["mesh.contact_element_size", "limits.memory", "output.snapshots"];
 
 /// A pair, its data and its model.
 #[derive(Debug)]
 pub struct Experiment {
-    /// Places of its points in the data.
+    /// Indices of its points in the data.
     pub points: Vec<usize>,
     /// Approach speeds, m/s.
     pub speeds: Vec<f64>,
-    /// Hertz' with instantaneous moduli, s.
+    /// Hertz' contact times with instantaneous moduli, s.
     pub contact_times: Vec<f64>,
     /// Diameters of the bodies, m; a wall has none.
     pub diameters: [Option<f64>; 2],
-    /// Elements across the smallest and the largest contact radius; none without a mesh.
+    /// Elements across the smallest and the largest contact radius; `None` without a mesh.
     pub elements_across: Option<(f64, f64)>,
-    /// Why its fastest point is perhaps a slip.
+    /// The fastest speed, if it is too fast for the quasi-static model.
     pub doubt: Option<SpeedDoubt>,
     /// Warnings on the limits of the model.
     pub warnings: Vec<String>,
@@ -43,10 +43,10 @@ pub struct Experiment {
 }
 
 impl Experiment {
-    /// Gives the case the bodies of the data and its speeds, and makes its model.
+    /// Makes the model of a case with the bodies and the speeds of the data.
     ///
     /// # Errors
-    /// A case that cannot be, a mesh or a factor that cannot be made.
+    /// The case is invalid, or the mesh or the factor cannot be made.
     pub fn new(
         case: &Case,
         measured: &MeasuredPairs,
@@ -91,30 +91,30 @@ impl Experiment {
         })
     }
 
-    /// The restitutions at its speeds with these terms in the calibrated material.
+    /// Returns the restitutions at its speeds with these terms in the calibrated material.
     ///
     /// # Errors
-    /// A collision that cannot be computed.
+    /// A collision cannot be computed.
     pub fn restitutions(&self, terms: &[PronyTerm]) -> Result<Vec<f64>, FitError> {
         self.model.restitutions(terms, &self.speeds)
     }
 
-    /// The restitution at a speed (m/s) with these terms in the calibrated material; 0 where the
-    /// bodies do not part.
+    /// Returns the restitution at a speed (m/s) with these terms in the calibrated material; 0 if the
+    /// bodies do not separate.
     ///
     /// # Errors
-    /// A collision that cannot be computed.
+    /// A collision cannot be computed.
     pub fn restitution(&self, terms: &[PronyTerm], speed: f64) -> Result<f64, FitError> {
         self.model.restitution(terms, speed)
     }
 }
 
-/// The model of a pair and its speeds.
+/// Returns the model of a pair and its speeds.
 struct Made {
     evaluator: Evaluator,
     elements_across: Option<(f64, f64)>,
     warnings: Vec<String>,
-    /// Whether the model itself finds all speeds slow enough.
+    /// Whether the plan of the model accepts all speeds as quasi-static.
     is_quasi_static: bool,
 }
 
@@ -136,7 +136,7 @@ fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
     })?;
     let plan = condensed.setup().elements.as_ref().map(|elements| &elements.plan);
     let made_size = plan.map_or(f64::NAN, |plan| plan.contact_element_size);
-    // Their remedy is a model that calibrates nothing: a doubt takes their place.
+    // Their suggested model cannot be calibrated: the warning about the speed replaces them.
     let of_speed = condensed.speed_warnings();
     let mut warnings = condensed.setup().warnings();
     warnings.retain(|warning| !of_speed.contains(warning));
@@ -148,7 +148,8 @@ fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
     })
 }
 
-/// A mesh whose elements the speeds make too small; what else is wrong with a mesh is the case's.
+/// Returns the error of a mesh whose elements are too small because of the speeds; other errors of a mesh are those of
+/// the case.
 fn no_mesh(error: CaseError, element_size: f64, span: &SpeedSpan) -> CalibrationFault {
     if !error.key().is_some_and(|key| OF_ELEMENT_SIZE.contains(&key)) {
         return error.into();

@@ -10,7 +10,7 @@ use crate::measured::DataError;
 /// An error in the case, data or settings of a calibration, or a collision that fails.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrationFault {
-    /// The case, with the sizes and the speeds of the data in it.
+    /// The case with the sizes and the speeds of the data is invalid.
     #[error(transparent)]
     Case(#[from] CaseError),
     /// The data are faulty.
@@ -19,7 +19,7 @@ pub enum CalibrationFault {
     /// The data and settings do not determine a series, or a collision cannot be computed.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// A material that no body is made of.
+    /// No body is made of the material.
     #[error("no body is made of {name}")]
     OtherMaterial {
         /// The material that was asked for.
@@ -27,13 +27,13 @@ pub enum CalibrationFault {
         /// The materials of the bodies.
         materials: Vec<String>,
     },
-    /// Two materials, and none is named.
+    /// There are two materials and none is named.
     #[error("the bodies are made of {}", materials.join(" and "))]
     TwoMaterials {
         /// The materials of the bodies.
         materials: Vec<String>,
     },
-    /// Elements that are small enough for the slowest collision are too many.
+    /// A mesh with elements that are small enough for the slowest collision has too many.
     #[error(
         "no mesh for all speeds from {} to {}: elements of {} are needed for the smallest contact, \
          {reason}",
@@ -42,16 +42,16 @@ pub enum CalibrationFault {
         show(*element_size, "m")
     )]
     NoMesh {
-        /// Slowest and fastest, m/s.
+        /// Slowest and fastest speed, m/s.
         speeds: (f64, f64),
-        /// That is needed at the contact, m.
+        /// The element size that is needed at the contact, m.
         element_size: f64,
-        /// Why it cannot be.
+        /// The reason why there is no such mesh.
         reason: String,
     },
 }
 
-/// A pair of bodies that no theory takes.
+/// The closed forms reject the pair of bodies.
 impl From<LawError> for CalibrationFault {
     fn from(error: LawError) -> Self {
         Self::Fit(error.into())

@@ -7,37 +7,37 @@ use crate::fit::spectrum::root_mean_square;
 use fem_laws::bisection::falling_zero;
 use fem_material::PronyTerm;
 
-/// Where the search begins and ends, over the shortest and the longest contact time: from a loss
-/// that leaves little to one that nobody sees.
+/// Beginning and end of the search over the shortest and the longest contact time: from a nearly complete loss to one
+/// that is too small to be measured.
 const SEARCH: (f64, f64) = (0.2, 1e4);
-/// Number of further steps down if that is not small enough. There contacts are deeper.
+/// Number of further steps to shorter times if that is not short enough. There contacts are deeper.
 const STEP_DOWN: f64 = 4.0;
 const MOST_STEPS_DOWN: usize = 4;
-/// Means of e this near are the same.
+/// Means of e that differ by less are the same.
 const SAME: f64 = 1e-6;
 
 /// A single Maxwell term of weight 1 whose restitutions have the mean of the measured ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Maxwell {
-    /// Its relaxation time, s.
+    /// The relaxation time of the term, s.
     pub time: f64,
-    /// Whether that is only an end of the search.
+    /// The side on which the time lies if it is only an end of the search.
     pub beyond: Option<Beyond>,
     /// Root mean square error of e.
     pub rms: f64,
 }
 
-/// Which side of the search the time would be on.
+/// The side of the searched range on which the relaxation time would lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
-    /// More is lost than the fastest term that can be computed loses.
+    /// The loss is larger than that of the fastest term that can be computed.
     Faster,
-    /// Less is lost than anybody sees.
+    /// The loss is too small to be measured.
     Slower,
 }
 
 impl Beyond {
-    /// The word for it in a text.
+    /// Returns its name in texts and files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Faster => "faster",
@@ -46,15 +46,15 @@ impl Beyond {
     }
 }
 
-/// Terms to the restitutions of all points.
+/// A function from terms to the restitutions of all points.
 type OfTerms<'a> = dyn Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError> + 'a;
 
 impl Maxwell {
-    /// Searches from a fifth of the shortest contact time, and below while the model can, to ten
+    /// Searches from a fifth of the shortest contact time, and below as far as the model can be computed, to ten
     /// thousand times the longest, s.
     ///
     /// # Errors
-    /// A collision that cannot be computed.
+    /// A collision cannot be computed.
     pub fn of_mean(
         restitutions: &OfTerms<'_>,
         wanted: &[f64],
@@ -98,7 +98,7 @@ impl Maxwell {
         Ok(Self { time, beyond, rms: root_mean_square(&differences(time)?) })
     }
 
-    /// Its one term as a Prony term.
+    /// Returns the Prony term of weight 1.
     pub fn term(&self) -> PronyTerm {
         term(self.time)
     }

@@ -1,4 +1,4 @@
-//! The model of one pair of bodies: any series in the calibrated material to restitutions.
+//! The model of one pair of bodies: the restitutions that a series of the calibrated material makes.
 
 use std::fmt::Display;
 
@@ -12,18 +12,18 @@ use rayon::prelude::*;
 use super::target::Target;
 use fem_simulation::Condensed;
 
-/// Steps over the elastic contact time: restitutions within 2e-5 of 1000 steps'.
+/// Steps per elastic contact time: restitutions are within 2e-5 of those with 1000 steps.
 pub(super) const STEPS: usize = 300;
-/// Accuracy of Ting's restitutions, far below what is measured. Ranges are within 1 % of those of
-/// 1e-7, for a third of the time; weights that the data leave open move by some 3 % of their range.
+/// Accuracy of Ting's restitutions, far below that of measurements. Ranges are within 1 % of those at
+/// 1e-7, in a third of the time; weights that the data do not determine change by about 3 % of their range.
 const TOLERANCE: f64 = 1e-5;
 
-/// Two bodies, one or both of the calibrated material.
+/// Two bodies, one or both of which are made of the calibrated material.
 #[derive(Debug)]
 pub(super) struct PairModel {
     target: Target,
     materials: [Option<Material>; 2],
-    /// m; a wall has none.
+    /// Diameters, m; a wall has none.
     diameters: [Option<f64>; 2],
     evaluator: Evaluator,
 }
@@ -31,9 +31,9 @@ pub(super) struct PairModel {
 /// The model that computes a collision.
 #[derive(Debug)]
 pub(super) enum Evaluator {
-    /// The bodies, factored once.
+    /// Condensed bodies, factored once.
     Condensed(Box<Condensed>),
-    /// With the spheres' finite size.
+    /// Ting's model with the spheres' finite size.
     Ting(Pair),
 }
 
@@ -48,19 +48,19 @@ impl PairModel {
         }
     }
 
-    /// The restitutions at these speeds, m/s.
+    /// Returns the restitutions at these speeds, m/s.
     ///
     /// # Errors
-    /// A collision that cannot be computed.
+    /// A collision cannot be computed.
     pub fn restitutions(&self, terms: &[PronyTerm], speeds: &[f64]) -> Result<Vec<f64>, FitError> {
         let at = |speed: &f64| self.restitution(terms, *speed);
         speeds.par_iter().map(at).collect()
     }
 
-    /// The restitution at a speed, m/s; 0 where the bodies do not part.
+    /// Returns the restitution at a speed, m/s; 0 if the bodies do not separate.
     ///
     /// # Errors
-    /// A collision that cannot be computed.
+    /// A collision cannot be computed.
     pub fn restitution(&self, terms: &[PronyTerm], speed: f64) -> Result<f64, FitError> {
         let acts_on = self.target.acts_on;
         let series = (!terms.is_empty()).then(|| PronySeries::new(terms.to_vec(), acts_on));

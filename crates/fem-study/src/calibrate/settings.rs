@@ -7,24 +7,24 @@ use fem_case::schema::ActsOn;
 pub struct Settings {
     /// The model that computes a collision.
     pub model: CalibrationModel,
-    /// The material that is calibrated, where the bodies' differ; the other keeps its relaxation.
+    /// The material that is calibrated, if the bodies have two; the other one keeps its relaxation.
     pub material: Option<String>,
-    /// The moduli that relax: as in the case, or all.
+    /// The moduli that relax; by default those of the case, or all.
     pub acts_on: Option<ActsOn>,
     /// Terms of the series, at least 1.
     pub n_terms: usize,
-    /// Relaxation times of the first and the last term, s, the others evenly between in the
-    /// logarithm: a tenth of the shortest contact time to ten times the longest.
+    /// Relaxation times of the first and the last term, s; the others are evenly spaced in the logarithm. By default a
+    /// tenth of the shortest contact time and ten times the longest.
     pub times: Option<(f64, f64)>,
-    /// λ, ≥ 0: a weight of 1 costs as much as this error of a restitution. The data's uncertainty,
-    /// or 0.001.
+    /// Regularisation λ ≥ 0: a weight of 1 costs as much as this error of a restitution. By default the uncertainty of
+    /// the data, or 0.001.
     pub regularisation: Option<f64>,
-    /// Level of the ranges, in (0, 1).
+    /// Confidence level of the ranges, in (0, 1).
     pub confidence: f64,
 }
 
 impl Default for Settings {
-    /// Four terms by condensed elements, ranges of 95 %.
+    /// Returns settings for four terms, the condensed model and ranges of 95 %.
     fn default() -> Self {
         Self {
             model: CalibrationModel::Condensed,
@@ -38,7 +38,7 @@ impl Default for Settings {
     }
 }
 
-/// Which model computes the restitutions.
+/// The model that computes the restitutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CalibrationModel {
     /// Finite elements condensed to their contact.
@@ -48,7 +48,7 @@ pub enum CalibrationModel {
 }
 
 impl CalibrationModel {
-    /// Its name: that of a method.
+    /// Returns the name of the model.
     pub fn word(self) -> &'static str {
         match self {
             Self::Condensed => "condensed",
@@ -57,21 +57,21 @@ impl CalibrationModel {
     }
 }
 
-/// The caller's names of the settings that messages advise to change.
+/// The caller's names of the settings that messages suggest to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SettingNames {
     /// Name of [`Settings::n_terms`].
     pub terms: &'static str,
     /// Name of [`Settings::times`].
     pub times: &'static str,
-    /// The uncertainty of all restitutions.
+    /// Name of the uncertainty of all restitutions.
     pub uncertainty: &'static str,
     /// Name of [`Settings::model`].
     pub model: &'static str,
 }
 
 impl Default for SettingNames {
-    /// The names of the fields.
+    /// Returns the names of the fields.
     fn default() -> Self {
         Self { terms: "n_terms", times: "times", uncertainty: "an uncertainty", model: "model" }
     }

@@ -6,32 +6,32 @@ use fem_material::Material;
 
 use fem_simulation::effects::QUASI_STATIC_LIMIT;
 
-/// Elements across the largest and the smallest contact radius, at least.
+/// Fewest elements across the largest and the smallest contact radius.
 const ELEMENTS_ACROSS: (f64, f64) = (8.0, 4.0);
-/// Elements across the radius of the smaller sphere, at least.
+/// Fewest elements across the radius of the smaller sphere.
 const ACROSS_SPHERE: f64 = 12.0;
 
-/// Hertz' impacts with instantaneous moduli at the ends of the speeds.
+/// Hertz' impacts with instantaneous moduli at the slowest and the fastest speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SpeedSpan {
     pub slowest: HertzImpact,
     pub fastest: HertzImpact,
 }
 
-/// A speed at which the inertia of the bodies counts.
+/// A speed at which the inertia of the bodies matters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedDoubt {
     /// Approach speed, m/s.
     pub speed: f64,
-    /// Over the slowest shear wave speed.
+    /// The speed over the slowest shear wave speed.
     pub mach: f64,
 }
 
 impl SpeedSpan {
-    /// Creates it for the bodies of a scene at these speeds, m/s.
+    /// Creates the span for the bodies of a scene at these speeds, m/s.
     ///
     /// # Errors
-    /// Numbers without a Hertz impact.
+    /// The numbers have no Hertz impact.
     pub fn of(scene: &Scene, speeds: &[f64]) -> Result<Self, LawError> {
         let pair = scene.pair()?;
         let (slowest, fastest) = ends(speeds);
@@ -39,17 +39,17 @@ impl SpeedSpan {
         Ok(Self { slowest: at(slowest)?, fastest: at(fastest)? })
     }
 
-    /// Slowest and fastest, m/s.
+    /// Returns the slowest and the fastest speed, m/s.
     pub fn speeds(&self) -> (f64, f64) {
         (self.slowest.approach_speed(), self.fastest.approach_speed())
     }
 
-    /// At a speed, s: T ∝ v^(−1/5).
+    /// Returns the contact time at a speed, s: T ∝ v^(−1/5).
     pub fn contact_time(&self, speed: f64) -> f64 {
         self.fastest.contact_time() * (speed / self.fastest.approach_speed()).powf(-0.2)
     }
 
-    /// The size of elements that follow the smallest contact on a mesh for the largest, m.
+    /// Returns the size of elements that resolve the smallest contact on a mesh for the largest, m.
     pub fn element_size(&self, scene: &Scene) -> f64 {
         let radii = scene.bodies().iter().filter_map(|body| Some(0.5 * body.diameter()?));
         let smallest_radius = radii.fold(f64::INFINITY, f64::min);
@@ -58,12 +58,12 @@ impl SpeedSpan {
             .min(smallest_radius / ACROSS_SPHERE)
     }
 
-    /// Elements of a size (m) across the smallest and the largest contact radius.
+    /// Returns the numbers of elements of a size (m) across the smallest and the largest contact radius.
     pub fn elements_across(&self, size: f64) -> (f64, f64) {
         (self.slowest.max_contact_radius() / size, self.fastest.max_contact_radius() / size)
     }
 
-    /// The fastest speed, if it is too fast for bodies without inertia.
+    /// Returns the fastest speed, if it is too fast for the quasi-static model.
     pub fn doubt(&self, scene: &Scene) -> Option<SpeedDoubt> {
         let materials = scene.bodies().iter().filter_map(|body| body.material());
         let slow = materials.map(Material::shear_wave_speed).fold(f64::INFINITY, f64::min);
@@ -73,7 +73,7 @@ impl SpeedSpan {
     }
 }
 
-/// Least and largest.
+/// Returns the smallest and the largest value.
 pub(super) fn ends<'v>(values: impl IntoIterator<Item = &'v f64>) -> (f64, f64) {
     let start = (f64::INFINITY, 0.0f64);
     values.into_iter().fold(start, |(low, high), value| (low.min(*value), high.max(*value)))

@@ -17,11 +17,11 @@ pub struct Target {
 }
 
 impl Target {
-    /// The material of a name, or the only one; what of it relaxes as asked for, as in the case, or
-    /// all moduli.
+    /// Returns the material of this name, or the only one. The moduli that relax are the given ones, those of the case,
+    /// or all.
     ///
     /// # Errors
-    /// None of that name, or two without a name.
+    /// No body is made of a material of this name, or there are two materials and none is named.
     pub fn of(
         case: &Case,
         name: Option<&str>,

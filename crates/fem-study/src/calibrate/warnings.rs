@@ -1,4 +1,4 @@
-//! Warnings to read before trusting a series.
+//! Warnings about a series.
 
 use crate::fit::spectrum::{SpectrumFit, SpeedExponent};
 use fem_case::engineering::show;
@@ -9,15 +9,15 @@ use super::settings::SettingNames;
 use fem_simulation::effects::QUASI_STATIC_LIMIT;
 use fem_simulation::{WarningKind, WarningKinds};
 
-/// Fewer elements across a contact radius than this do not follow it.
+/// Fewest elements that resolve a contact radius.
 const FEWEST_ELEMENTS: f64 = 3.0;
-/// A misfit of this multiple of the uncertainties is not explained by scatter.
+/// Larger misfits, in multiples of the uncertainties, are not scatter.
 const LARGE_MISFIT: f64 = 2.0;
-/// An rms error of e above this is more than a model's or a mesh's own.
+/// Larger rms errors of e are not those of the model or the mesh.
 const LARGE_ERROR: f64 = 0.02;
 
 impl Calibration {
-    /// Returns the warnings, the most important first; `names` are those of the settings that may help.
+    /// Returns the warnings, the most important first; `names` are those of the settings that they suggest.
     pub fn warnings(&self, names: &SettingNames) -> Vec<String> {
         let mut warnings: Vec<String> = self.doubt(names).into_iter().collect();
         warnings.extend(self.loss_exponent().and_then(|found| falling(&found, &self.fit)));
@@ -31,7 +31,7 @@ impl Calibration {
         warnings
     }
 
-    /// The coarsest of the meshes speaks for all that are too coarse.
+    /// Returns the warning about the coarsest of the meshes that are too coarse.
     fn coarse(&self) -> Option<String> {
         let across = self.experiments.iter().filter_map(|experiment| experiment.elements_across);
         let few: Vec<f64> =
@@ -47,7 +47,8 @@ impl Calibration {
         ))
     }
 
-    /// Those of the pairs; of several that differ in their numbers alone the first, with how many there are.
+    /// Returns the warnings about the pairs. Of several that differ in their numbers only, it returns the first, with
+    /// their count.
     fn of_pairs(&self) -> Vec<String> {
         let mut kinds = WarningKinds::default();
         for (place, experiment) in self.experiments.iter().enumerate() {
@@ -60,7 +61,7 @@ impl Calibration {
         kinds.all().iter().map(told).collect()
     }
 
-    /// Pairs in the same unit are in doubt together.
+    /// Groups the speeds that are too fast by their unit.
     fn doubt(&self, names: &SettingNames) -> Option<String> {
         let doubt = self.experiments.iter().find_map(|experiment| experiment.doubt)?;
         Some(format!(
@@ -84,7 +85,7 @@ impl Calibration {
             return None;
         }
         let none = "no series of these relaxation times makes these data";
-        let flatness = "the ranges tell flatness, no probability";
+        let flatness = "the ranges show flatness, not probability";
         let remedy = format!("try more {} or other {}", names.terms, names.times);
         Some(match self.fit.misfit {
             Some(misfit) if !self.has_uncertainties() => format!(
@@ -136,12 +137,12 @@ impl Calibration {
     }
 }
 
-/// Whether the best series does not make the data.
+/// Whether the best series does not fit the data.
 fn misses(fit: &SpectrumFit) -> bool {
     fit.misfit.map_or(fit.rms > LARGE_ERROR, |misfit| misfit > LARGE_MISFIT)
 }
 
-/// The sentence on restitutions that fall with speed.
+/// Returns the sentence on restitutions that fall with speed.
 fn falling(found: &SpeedExponent, fit: &SpectrumFit) -> Option<String> {
     if !found.is_above(0.0) {
         return None;

@@ -1,7 +1,7 @@
-//! Newton's cradle: angles before and after to velocities and restitution.
+//! Newton's cradle: velocities and restitution from the angles before and after the impact.
 //!
 //! Two balls hang from threads of the length l (pivot to the ball's centre, the same for both); the
-//! first is let go at the angle α, the second was at rest and rises to β.
+//! first is released at the angle α, the second was at rest and rises to β.
 //!
 //! ```math
 //! u = 2\sqrt{gl}\,\sin\tfrac\alpha2, \quad v_2 = 2\sqrt{gl}\,\sin\tfrac\beta2, \quad
@@ -29,7 +29,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// A value that is known exactly.
+    /// Creates a value that is known exactly.
     pub fn exact(value: f64) -> Self {
         Self { value, uncertainty: 0.0 }
     }
@@ -42,11 +42,11 @@ pub struct Cradle {
     pub gravity: Measured,
     /// Length l from the pivot to the centre of a ball, m.
     pub length: Measured,
-    /// m₁ and m₂, in any unit.
+    /// Masses m₁ and m₂, in any unit.
     pub masses: [Measured; 2],
 }
 
-/// One release: α and β, rad.
+/// One release and the rise that follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
     /// Angle of release α, 0 < α ≤ π/2.
@@ -55,7 +55,7 @@ pub struct Trial {
     pub rise: Measured,
 }
 
-/// Velocities along the first ball's motion, and e.
+/// Velocities along the motion of the first ball, and the restitution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
     /// Velocity u of the first ball before, m/s.
@@ -66,14 +66,14 @@ pub struct Swing {
     pub second_after: Measured,
     /// The restitution e.
     pub restitution: Measured,
-    /// Shares of the variance of e that come from α, β, m₁, m₂; 0 if there is none.
+    /// Shares of α, β, m₁ and m₂ in the variance of e; 0 without a variance.
     pub shares: [f64; 4],
 }
 
-/// Threads pull only: beyond a right angle they are slack.
+/// Largest angle: beyond a right angle the threads are slack.
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 
-/// Masses of solid balls of one density, which cancels, by their diameters: d³.
+/// Returns the masses of solid balls by their diameters as d³; their common density cancels.
 pub fn masses_of_balls(diameters: [Measured; 2]) -> [Measured; 2] {
     diameters.map(|Measured { value, uncertainty }| Measured {
         value: value.powi(3),
@@ -85,7 +85,7 @@ impl Cradle {
     /// Returns the result of one trial.
     ///
     /// # Errors
-    /// Values without a meaning.
+    /// A value is out of range.
     pub fn swing(&self, trial: &Trial) -> Result<Swing, FitError> {
         self.check(trial)?;
         let (g, l) = (self.gravity, self.length);
@@ -127,14 +127,14 @@ impl Cradle {
         })
     }
 
-    /// The largest β that the energy allows: e = 1; `None` if every β up to a right angle does.
+    /// Returns the largest β that the energy allows, that of e = 1; `None` if it allows every β up to a right angle.
     pub fn highest_rise(&self, release: f64) -> Option<f64> {
         let ratio = self.masses[1].value / self.masses[0].value;
         let sine = 2.0 / (1.0 + ratio) * (0.5 * release).sin();
         (sine <= (0.5 * RIGHT_ANGLE).sin()).then(|| 2.0 * sine.asin())
     }
 
-    /// Says why energy and momentum forbid a swing.
+    /// Returns the reason why energy or momentum forbid a swing.
     pub fn doubt(&self, trial: &Trial, swing: &Swing) -> Option<String> {
         let e = swing.restitution;
         let by = |excess: f64| match e.uncertainty > 0.0 {
@@ -188,7 +188,7 @@ impl Cradle {
     }
 }
 
-/// (∂f/∂x σ)² of each input.
+/// Returns (∂f/∂x σ)² of each input.
 fn variances(slopes: &[f64; 6], inputs: &[Measured; 6]) -> [f64; 6] {
     std::array::from_fn(|i| (slopes[i] * inputs[i].uncertainty).powi(2))
 }

@@ -4,14 +4,14 @@ use fem_laws::LawError;
 use fem_material::engineering::number;
 use thiserror::Error;
 
-/// Data that do not determine what is asked for, or a collision that cannot be computed.
+/// The data do not determine the result, or a collision cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FitError {
-    /// A collision that cannot happen.
+    /// The collision is impossible.
     #[error(transparent)]
     Law(#[from] LawError),
 
-    /// Fewer data than parameters.
+    /// There are fewer data than parameters.
     #[error(
         "{n_values} measured {} cannot determine {n_free} parameters ({free})",
         if *n_values == 1 { "value" } else { "values" }
@@ -25,26 +25,26 @@ pub enum FitError {
         free: String,
     },
 
-    /// A parameter that changes nothing in the data.
+    /// The data do not depend on a parameter.
     #[error("the data do not depend on {key}: there every value of it fits as well")]
     Insensitive {
         /// Key of the parameter.
         key: &'static str,
     },
 
-    /// Parameters that the data determine only together.
+    /// The data determine some parameters only together.
     #[error(
         "the data do not tell {keys} apart: a change of one is made up for by the others \
          (condition number {condition:.1e})"
     )]
     Degenerate {
-        /// The parameters that take part.
+        /// Keys of these parameters.
         keys: String,
         /// Condition number of the Jacobian with its columns scaled to length 1.
         condition: f64,
     },
 
-    /// Nothing to fit.
+    /// There is nothing to fit.
     #[error("no parameter is free")]
     NothingFree,
 
@@ -67,15 +67,15 @@ pub enum FitError {
         wanted: f64,
         /// Approach speed, m/s.
         speed: f64,
-        /// Values of the parameter that were tried, SI.
+        /// Smallest and largest value of the parameter in the search, SI.
         range: (f64, f64),
-        /// Smallest restitution within.
+        /// Smallest restitution in the search.
         least: f64,
-        /// Largest value that is allowed.
+        /// Largest restitution in the search.
         most: f64,
     },
 
-    /// A number outside the range of its meaning.
+    /// A number is out of range.
     #[error("{quantity} must be {allowed}, found {value:?}")]
     OutOfRange {
         /// Name of the quantity.
@@ -86,21 +86,21 @@ pub enum FitError {
         allowed: &'static str,
     },
 
-    /// Another end than the law's own.
+    /// The law ends contacts by another rule.
     #[error("{law} ends at zero force by its definition")]
     OwnEnd {
         /// Name of the quantity.
         law: &'static str,
     },
 
-    /// A collision of a model outside of this crate.
+    /// Another model cannot compute a collision.
     #[error("a collision cannot be computed: {reason}")]
     Collision {
         /// Message of the model.
         reason: String,
     },
 
-    /// Ting's model of bodies that do not relax.
+    /// No body relaxes, as Ting's model needs.
     #[error("no body relaxes, so there is no decay rate to find")]
     NoRelaxation,
 }

@@ -8,7 +8,7 @@
 //! \qquad \theta_j \pm t_{N-p}\,\sigma_j,
 //! ```
 //!
-//! t the quantile of Student's distribution (Seber & Wild, *Nonlinear Regression*, ch. 5). Data with
+//! with t the quantile of Student's distribution (Seber & Wild, *Nonlinear Regression*, ch. 5). Data with
 //! uncertainties have s = 1 and the normal quantile: their residuals are known to be of order 1. An
 //! interval of a scale factor is symmetric in its logarithm. Limits: first order in the residuals'
 //! curvature ([`crate::fit::Profile`] is not); residuals independent of each other, which the misfit of
@@ -34,7 +34,7 @@ pub struct Fit {
     pub residuals: Vec<f64>,
     /// Sum of the squared residuals, Σ r².
     pub sum_of_squares: f64,
-    /// √(Σ r²/N): of residuals without uncertainties, in units of e.
+    /// Root mean square √(Σ r²/N) of the residuals, without uncertainties in units of e.
     pub rms: f64,
     /// Degrees of freedom, N − p.
     pub degrees_of_freedom: usize,
@@ -47,34 +47,34 @@ pub struct Fit {
     pub condition: f64,
 }
 
-/// A free parameter as the data determine it.
+/// The estimate of a free parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// Its place among the law's parameters.
+    /// Its index among the law's parameters.
     pub index: usize,
     /// Key of the parameter.
     pub key: &'static str,
     /// Best value, SI.
     pub value: f64,
-    /// First order, SI; `None` without degrees of freedom.
+    /// Standard error to first order, SI; `None` without degrees of freedom.
     pub standard_error: Option<f64>,
-    /// Confidence interval, first order, SI.
+    /// Confidence interval to first order, SI.
     pub interval: Option<(f64, f64)>,
-    /// Whether the best value is a bound of the search: then it is no minimum.
+    /// Whether the best value is a bound of the search, and not a minimum.
     pub is_at_bound: bool,
 }
 
-/// Above this the differences' own error, 1e-5 of a column, decides.
+/// Largest condition number: above it the error of the differences, 1e-5 of a column, dominates.
 const WORST_CONDITION: f64 = 1e4;
 
-/// A column of the Jacobian below this is rounding.
+/// Smaller columns of the Jacobian are rounding.
 const INSENSITIVE: f64 = 1e-7;
 
 impl Problem<'_> {
-    /// The best fit, with confidence intervals of this level (such as 0.95).
+    /// Returns the best fit, with confidence intervals of this level (such as 0.95).
     ///
     /// # Errors
-    /// Data that do not determine the free parameters; a level outside (0, 1).
+    /// The data do not determine the free parameters, or the level is outside (0, 1).
     pub fn fit(&self, confidence: f64) -> Result<Fit, FitError> {
         if !(confidence > 0.0 && confidence < 1.0) {
             let (quantity, allowed) = ("confidence", "between 0 and 1");
@@ -144,7 +144,7 @@ impl Problem<'_> {
         Ok(())
     }
 
-    /// (JᵀJ)⁻¹ and the condition number of J with columns of length 1.
+    /// Returns (JᵀJ)⁻¹ and the condition number of J with columns of length 1.
     fn inverse_of_normal(&self, jacobian: &DMatrix<f64>) -> Result<(DMatrix<f64>, f64), FitError> {
         let key = |j: usize| self.parameter(self.free[j].index).key;
         let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
@@ -177,7 +177,7 @@ impl Problem<'_> {
         Ok((inverse, condition))
     }
 
-    /// s² and the quantile of the interval.
+    /// Returns s² and the quantile of the interval.
     fn spread(&self, sum: f64, freedom: usize, confidence: f64) -> (Option<f64>, Option<f64>) {
         let upper = 0.5 * (1.0 + confidence);
         if self.has_uncertainties() {

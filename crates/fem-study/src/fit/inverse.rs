@@ -1,8 +1,8 @@
-//! The value of one parameter at which a collision has a wanted restitution.
+//! The values of one parameter with which a collision has a wanted restitution.
 //!
 //! The parameter is scanned over all decades (a plain number over its limits) around its natural
-//! size and each crossing refined. There may be several: a solid that does not flow loses most at
-//! the rate that fits the contact time, and less beyond it on both sides.
+//! size, and each crossing is refined. There may be several: a solid that does not flow loses most at
+//! the rate that matches the contact time, and less on both sides of it.
 
 use fem_laws::ParameterRole;
 use fem_laws::bisection::falling_zero;
@@ -15,25 +15,25 @@ use crate::fit::model::Model;
 pub struct Inversion {
     /// Values of the parameter, SI, ascending; at least one.
     pub solutions: Vec<f64>,
-    /// Smallest and largest restitution within the scan.
+    /// Smallest and largest restitution in the scan.
     pub reach: (f64, f64),
 }
 
-/// Decades around the natural size that are scanned: from next to no loss to next to nothing left.
+/// Decades around the natural size that are scanned: from a negligible loss to a nearly complete one.
 const DECADES: f64 = 8.0;
-/// Decades of a rate that are searched; the loss of Ting's model falls on both sides.
+/// Decades of a rate that are scanned; the loss of Ting's model falls on both sides.
 const DECADES_OF_A_RATE: f64 = 5.0;
 const STEPS_PER_DECADE: f64 = 4.0;
-/// Restitution that is none.
+/// Smaller restitutions count as 0.
 const NOTHING: f64 = 1e-7;
-/// Steps over the limits of a plain number.
+/// Number of steps over the limits of a plain number.
 const STEPS: f64 = 60.0;
 
-/// All values of the parameter at a place that give `restitution` at `speed`, m/s. The other
-/// parameters are `values`.
+/// Returns all values of the parameter of an index that give `restitution` at `speed`, m/s. The other
+/// parameters have the given `values`.
 ///
 /// # Errors
-/// A restitution outside (0, 1); none that gives it; a speed that is not positive and finite.
+/// The restitution is outside (0, 1), no value gives it, or the speed is not positive and finite.
 pub fn invert(
     model: &Model,
     index: usize,
@@ -65,7 +65,7 @@ pub fn invert(
     let mut previous: Option<(f64, f64)> = None;
     for step in 0..=n_steps as usize {
         let theta = low + (high - low) * step as f64 / n_steps;
-        // Some values may be so extreme that there is no collision; the others count.
+        // Values that are so extreme that there is no collision are skipped.
         let Ok(here) = excess(theta) else {
             previous = None;
             continue;
@@ -79,7 +79,7 @@ pub fn invert(
             solutions.push(value_at(falling_zero(before, theta, signed)));
         }
         previous = Some((theta, here));
-        // More damping leaves less, and its creep takes long to follow.
+        // More damping leaves a smaller restitution, and its creep takes long to compute.
         if parameter.role == ParameterRole::Damping && here + restitution < NOTHING {
             break;
         }

@@ -1,8 +1,7 @@
 //! The minimum of a sum of squares inside bounds.
 //!
-//! By the Levenberg–Marquardt method of MINPACK with bounds (Moré 1978; Markwardt 2009, crate
-//! `rmpfit`, a port of CMPFIT), its derivatives central differences. The crate
-//! `levenberg-marquardt` would bring an older nalgebra beside the workspace's, and has no bounds.
+//! It is found by the Levenberg–Marquardt method of MINPACK with bounds (Moré 1978; Markwardt 2009, crate
+//! `rmpfit`, a port of CMPFIT), with central differences as derivatives.
 
 use nalgebra::DMatrix;
 use rmpfit::{MPError, MPFitter, MPPar, MPResult, MPSide};
@@ -12,7 +11,7 @@ use crate::fit::error::FitError;
 /// Step of the differences: parameters are logarithms or numbers of order 1.
 const STEP: f64 = 1e-4;
 
-/// Residuals as a function of the parameters; `None` where there are none.
+/// Residuals as a function of the parameters; `None` if they cannot be computed.
 pub(crate) type Residuals<'a> = dyn Fn(&[f64]) -> Option<Vec<f64>> + 'a;
 
 struct Fitter<'a> {
@@ -41,8 +40,8 @@ impl MPFitter for Fitter<'_> {
     }
 }
 
-/// The parameters of the minimum next to `start`, and the sum of squares there. `bounds` are those
-/// of each parameter; more residuals than parameters are not needed.
+/// Returns the parameters of the minimum nearest to `start` within the `bounds` of each parameter, and the sum of
+/// squares there. There may be fewer residuals than parameters.
 pub(crate) fn minimise(
     residuals: &Residuals<'_>,
     start: &[f64],
@@ -71,7 +70,7 @@ pub(crate) fn minimise(
     Ok((found, status.best_norm))
 }
 
-/// ∂r_i/∂θ_j at `at` by differences, one-sided next to a bound.
+/// Returns ∂r_i/∂θ_j by differences, one-sided next to a bound.
 pub(crate) fn jacobian(
     residuals: &Residuals<'_>,
     at: &[f64],

@@ -1,4 +1,4 @@
-//! A pair of bodies under a law of a [`LawFamily`]: parameters to restitution and contact time.
+//! A pair of bodies under a law of a [`LawFamily`]: restitution and contact time from the law's parameters.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use statrs::function::gamma::gamma;
 
 use crate::fit::error::FitError;
 
-/// Accuracy of a collision: differences over steps of 1e-4 in a parameter are good to 1e-5.
+/// Relative accuracy of a collision: differences over steps of 1e-4 in a parameter are accurate to 1e-5.
 const TOLERANCE: f64 = 1e-10;
 
-/// Two bodies, a law, and how a contact ends.
+/// Two bodies, a law and the rule by which a contact ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     pair: Pair,
@@ -30,16 +30,16 @@ pub struct Model {
 pub struct Outcome {
     /// The restitution e.
     pub restitution: f64,
-    /// T, s; `None` if the bodies stay together.
+    /// Contact time T, s; `None` if the bodies stay together.
     pub contact_time: Option<f64>,
 }
 
 impl Model {
     /// Creates the model of a pair and the materials of its bodies (`None` is a rigid wall), which only
-    /// [`LawFamily::Ting`] looks at.
+    /// [`LawFamily::Ting`] uses.
     ///
     /// # Errors
-    /// [`LawFamily::Ting`] without a body that relaxes; a law that ends by its definition otherwise.
+    /// No body relaxes under [`LawFamily::Ting`], or the law ends contacts by another rule.
     pub fn new(
         pair: &Pair,
         materials: [Option<Material>; 2],
@@ -56,12 +56,12 @@ impl Model {
         Ok(model)
     }
 
-    /// This model with the spheres' own compliance in series, which only [`LawFamily::Ting`] looks at.
+    /// Returns this model with the spheres' own compliance in series, which only [`LawFamily::Ting`] uses.
     pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
         Self { finite_size: Some(finite_size), ..self }
     }
 
-    /// The same bodies under another law, with its own end if it has one.
+    /// Returns the same bodies under another law, with the end rule of that law if it has one.
     ///
     /// # Errors
     /// Those of [`Model::new`].
@@ -81,24 +81,23 @@ impl Model {
         self.family
     }
 
-    /// How a contact ends.
+    /// Returns the rule by which a contact ends.
     pub fn end_rule(&self) -> EndRule {
         self.end_rule
     }
 
-    /// The law with values for all parameters; `None` for [`LawFamily::Ting`].
+    /// Returns the law with values for all parameters; `None` for [`LawFamily::Ting`].
     ///
     /// # Errors
-    /// Values without a meaning.
+    /// A value is out of range.
     pub fn law(&self, values: &[f64]) -> Option<Result<ContactLaw, LawError>> {
         self.family.law(&self.pair, values)
     }
 
-    /// The whole collision at an approach speed, m/s.
+    /// Computes the whole collision at an approach speed, m/s.
     ///
     /// # Errors
-    /// Values or a speed that the law cannot take, a collision outside of what it describes, or one
-    /// that it cannot follow to its end.
+    /// The law rejects a value or the speed, does not describe the collision, or cannot compute it to its end.
     pub fn impact(&self, values: &[f64], speed: f64) -> Result<Impact, LawError> {
         match (self.family.law(&self.pair, values), values) {
             (Some(law), _) => {
@@ -118,11 +117,11 @@ impl Model {
         }
     }
 
-    /// Restitution and contact time at an approach speed, m/s. A creep too long to follow, which
-    /// leaves a restitution below 1e-8, is one that never ends.
+    /// Returns restitution and contact time at an approach speed, m/s. A creep that is too long to compute, with a
+    /// restitution below 1e-8, counts as a contact without an end.
     ///
     /// # Errors
-    /// Values or a speed that the law cannot take, or a collision outside of what it describes.
+    /// The law rejects a value or the speed, or does not describe the collision.
     pub fn outcome(&self, values: &[f64], speed: f64) -> Result<Outcome, LawError> {
         match self.impact(values, speed) {
             Ok(impact) => {
@@ -135,7 +134,7 @@ impl Model {
         }
     }
 
-    /// Decay rates of the bodies' terms, 1/s, when `decay_rate` is the largest of them.
+    /// Returns the decay rates of the bodies' terms, 1/s, scaled so that `decay_rate` is the largest.
     pub fn decay_rates(&self, decay_rate: f64) -> [Vec<f64>; 2] {
         let factor = self.fastest_rate().map_or(1.0, |fastest| decay_rate / fastest);
         self.materials.each_ref().map(|material| {
@@ -145,7 +144,7 @@ impl Model {
         })
     }
 
-    /// β of the case: the largest decay rate of both bodies, 1/s.
+    /// Returns the β of the case, the largest decay rate of both bodies, 1/s.
     pub fn fastest_rate(&self) -> Option<f64> {
         let series = self.materials.iter().flatten().filter_map(Material::relaxation);
         let terms = series.flat_map(|series| series.terms().iter());
@@ -153,11 +152,11 @@ impl Model {
         relaxing.map(|term| term.relaxation_time.recip()).reduce(f64::max)
     }
 
-    /// The size that a parameter has when it changes a collision at `speed` by the order of 1;
-    /// a plain number's default or, for want of one, the middle of its limits.
+    /// Returns the natural size of a parameter, at which it changes a collision at `speed` by the order of 1; for
+    /// a plain number its default or else the middle of its limits.
     ///
     /// # Errors
-    /// Those of Hertz' impact.
+    /// Hertz' impact has an error.
     pub fn natural_size(
         &self,
         parameter: &LawParameter,
@@ -198,8 +197,8 @@ impl Model {
         }
     }
 
-    /// K, N/m^γ, of a law whose stiffness no theory gives, with which its spring alone makes Hertz' contact
-    /// time at a speed, m/s: of a spring K ξ^γ between masses
+    /// Returns the stiffness K, N/m^γ, of a law whose stiffness no theory gives, with which its spring alone makes Hertz'
+    /// contact time at a speed, m/s. For a spring K ξ^γ between masses
     ///
     /// ```math
     /// T = \frac{2\xi_m}{v}\,\frac{\sqrt\pi\,\Gamma(1+q)}{\Gamma(\frac12+q)}, \qquad q = \frac1{\gamma+1}, \qquad
@@ -209,7 +208,7 @@ impl Model {
     /// (the integral of dξ/√(v² − 2Kξ^(γ+1)/((γ+1)m*)), a beta function).
     ///
     /// # Errors
-    /// Those of Hertz' impact; values without a meaning.
+    /// Hertz' impact has an error, or a value is out of range.
     pub fn stiffness_of_hertz(&self, values: &[f64], speed: f64) -> Result<f64, LawError> {
         let time = HertzImpact::new(&self.pair, speed)?.contact_time();
         let exponent = self.law(values).transpose()?.map_or(1.5, |law| law.elastic_exponent());
@@ -220,7 +219,7 @@ impl Model {
         Ok((exponent + 1.0) * energy / overlap.powf(exponent + 1.0))
     }
 
-    /// Poisson's ratio of the first body that has a material.
+    /// Returns Poisson's ratio of the first body that has a material.
     pub fn poissons_ratio(&self) -> Option<f64> {
         let mut materials = self.materials.iter().flatten();
         materials.next().map(|material| material.instantaneous().poissons_ratio())

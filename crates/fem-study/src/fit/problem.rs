@@ -15,12 +15,12 @@ pub struct Point {
     pub restitution: f64,
     /// Its standard uncertainty.
     pub restitution_uncertainty: Option<f64>,
-    /// T, s, if it is to be fitted too.
+    /// Contact time T, s, if it is fitted too.
     pub contact_time: Option<f64>,
 }
 
 impl Point {
-    /// A restitution at a speed, m/s.
+    /// Creates a point of a restitution at a speed, m/s.
     pub fn new(speed: f64, restitution: f64) -> Self {
         Self { speed, restitution, restitution_uncertainty: None, contact_time: None }
     }
@@ -29,15 +29,15 @@ impl Point {
 /// A free parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Free {
-    /// Its place among the law's parameters.
+    /// Its index among the law's parameters.
     pub index: usize,
-    /// Where to begin; found if absent.
+    /// Starting value; searched for if it is `None`.
     pub start: Option<f64>,
     /// Smallest and largest value allowed.
     pub bounds: (f64, f64),
 }
 
-/// Data, a law, and what of it is free.
+/// Data, a law and its free parameters.
 ///
 /// A residual is e(v) − e_i, over its uncertainty if the data have any; a contact time's is
 /// T(v)/T_i − 1, which weighs as much as an equal difference of e.
@@ -45,11 +45,11 @@ pub struct Free {
 pub struct Problem<'a> {
     /// The bodies and the law.
     pub model: &'a Model,
-    /// Returns the data.
+    /// The data.
     pub points: &'a [Point],
-    /// Values of all parameters; of the free ones only a guess.
+    /// Values of all parameters; those of the free ones are only guesses.
     pub values: Vec<f64>,
-    /// Which of them are free.
+    /// The free parameters.
     pub free: Vec<Free>,
 }
 
@@ -57,10 +57,10 @@ pub struct Problem<'a> {
 const WIDEST: f64 = 1e8;
 
 impl<'a> Problem<'a> {
-    /// With these parameters free and all others at their defaults.
+    /// Creates the problem with these parameters free and all others at their defaults.
     ///
     /// # Errors
-    /// A key that the law does not have; a speed without a Hertz impact.
+    /// The law does not have a key, or a speed has no Hertz impact.
     pub fn new(model: &'a Model, points: &'a [Point], free: &[&str]) -> Result<Self, FitError> {
         let parameters = model.family().parameters();
         let mut problem = Self { model, points, values: Vec::new(), free: Vec::new() };
@@ -77,23 +77,23 @@ impl<'a> Problem<'a> {
         Ok(problem)
     }
 
-    /// The geometric mean of the speeds, m/s.
+    /// Returns the geometric mean of the speeds, m/s.
     pub fn middle_speed(&self) -> f64 {
         let sum: f64 = self.points.iter().map(|point| point.speed.ln()).sum();
         (sum / self.points.len().max(1) as f64).exp()
     }
 
-    /// The parameter at a place.
+    /// Returns the parameter of an index.
     pub fn parameter(&self, index: usize) -> &'static LawParameter {
         &self.model.family().parameters()[index]
     }
 
-    /// Whether each restitution has an uncertainty, so that residuals have one of 1.
+    /// Whether each restitution has an uncertainty, so that residuals are of order 1.
     pub fn has_uncertainties(&self) -> bool {
         self.points.iter().all(|point| point.restitution_uncertainty.is_some())
     }
 
-    /// Differences of the data from the law; `None` where it cannot be computed.
+    /// Returns the differences of the law from the data; `None` if the law cannot be computed.
     pub fn residuals(&self, values: &[f64]) -> Option<Vec<f64>> {
         let weighted = self.has_uncertainties();
         let mut residuals = Vec::with_capacity(self.points.len());
@@ -102,7 +102,7 @@ impl<'a> Problem<'a> {
             let scale = point.restitution_uncertainty.filter(|_| weighted).unwrap_or(1.0);
             residuals.push((outcome.restitution - point.restitution) / scale);
             if let Some(measured) = point.contact_time {
-                // A contact that never ends is as far off as can be told.
+                // A contact without an end has the largest difference.
                 let time = outcome.contact_time.map_or(1.0, |time| time / measured - 1.0);
                 residuals.push(time / scale);
             }
@@ -110,7 +110,7 @@ impl<'a> Problem<'a> {
         residuals.iter().all(|residual| residual.is_finite()).then_some(residuals)
     }
 
-    /// The same with one parameter less free, held at a value; the others begin at `start`.
+    /// Returns the problem with one free parameter held at a value; the others begin at `start`.
     pub(crate) fn holding(&self, index: usize, value: f64, start: &[f64]) -> Self {
         let mut held = self.clone();
         held.values[index] = value;
@@ -121,7 +121,7 @@ impl<'a> Problem<'a> {
         held
     }
 
-    /// Values of all parameters at a point θ of the free ones.
+    /// Returns the values of all parameters at a point θ of the free ones.
     pub(crate) fn values_at(&self, theta: &[f64]) -> Vec<f64> {
         let mut values = self.values.clone();
         for (free, theta) in self.free.iter().zip(theta) {
@@ -130,7 +130,7 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// θ of the free parameters at values of all.
+    /// Returns θ of the free parameters at values of all.
     pub(crate) fn theta_of(&self, values: &[f64]) -> Vec<f64> {
         let theta = |free: &Free| self.theta(free, values[free.index]);
         self.free.iter().map(theta).collect()
@@ -145,7 +145,7 @@ impl<'a> Problem<'a> {
         self.parameter(free.index).role != ParameterRole::Number
     }
 
-    /// Values of all parameters at the least sum of squares, and that sum.
+    /// Returns the values of all parameters at the least sum of squares, and that sum.
     pub(crate) fn solve(&self) -> Result<(Vec<f64>, f64), FitError> {
         let residuals = |theta: &[f64]| self.residuals(&self.values_at(theta));
         if self.free.is_empty() {
@@ -172,13 +172,13 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Σ r²; `None` where the law cannot be computed.
+    /// Returns Σ r²; `None` if the law cannot be computed.
     pub(crate) fn sum_of_squares(&self, values: &[f64]) -> Option<f64> {
         Some(self.residuals(values)?.iter().map(|residual| residual * residual).sum())
     }
 
-    /// Where to begin: the given starts, or one for each of some values of the first free plain
-    /// number, with the first logarithmic parameter where it fits best.
+    /// Returns the starting points: the given one, or one for each of some values of the first free plain
+    /// number, with the first logarithmic parameter at its best fit.
     fn starts(&self) -> Vec<Vec<f64>> {
         let mut values = self.values.clone();
         for free in &self.free {
@@ -207,7 +207,7 @@ impl<'a> Problem<'a> {
         starts
     }
 
-    /// The best of some decades of one parameter around its natural size.
+    /// Returns the best of some decades of one parameter around its natural size.
     fn scan(&self, free: &Free, mut values: Vec<f64>) -> Vec<f64> {
         let (parameter, speed) = (self.parameter(free.index), self.middle_speed());
         let size = self.model.natural_size(parameter, &values, speed);

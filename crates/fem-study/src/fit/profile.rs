@@ -1,8 +1,8 @@
-//! The least error at each value of one parameter, the others fitted anew: how flat an optimum is.
+//! The least error at each value of one parameter with the others refitted, which shows how flat an optimum is.
 //!
-//! Its interval is where Σ r² stays below Σ r²_min + s² t², the level at which the first-order
-//! interval of a linear model ends (Bates & Watts, *Nonlinear Regression Analysis*, ch. 6). It needs
-//! no linearity; the residuals are independent here as well.
+//! The interval of a profile is where Σ r² stays below Σ r²_min + s² t², the level at which the first-order
+//! interval of a linear model ends (Bates & Watts, *Nonlinear Regression Analysis*, ch. 6). It assumes
+//! independent residuals, but no linearity.
 
 use fem_laws::bisection::falling_zero;
 
@@ -13,12 +13,12 @@ use crate::fit::problem::{Free, Problem};
 /// A profile over one parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// The parameter's place among the law's.
+    /// Index of the parameter.
     pub index: usize,
-    /// In the order of the grid.
+    /// The fits in the order of the grid.
     pub points: Vec<ProfilePoint>,
-    /// Where the error stays below the level of the fit's confidence; an end is `None` where it
-    /// does so up to the bound. `None` as a whole without degrees of freedom.
+    /// Interval of the fit's confidence level; an end is `None` if it lies beyond the bound of the parameter. `None` as a
+    /// whole without degrees of freedom.
     pub interval: Option<(Option<f64>, Option<f64>)>,
 }
 
@@ -34,10 +34,10 @@ pub struct ProfilePoint {
 }
 
 impl Problem<'_> {
-    /// The profile of a free parameter over a grid, and its interval at the level of `fit`.
+    /// Returns the profile of a free parameter over a grid, and its interval at the level of `fit`.
     ///
     /// # Errors
-    /// A value at which the others cannot be fitted.
+    /// At some value the others cannot be fitted.
     pub fn profile(&self, fit: &Fit, free: &Free, grid: &[f64]) -> Result<Profile, FitError> {
         let n_values = fit.residuals.len() as f64;
         let mut points = Vec::with_capacity(grid.len());
@@ -63,7 +63,7 @@ impl Problem<'_> {
     }
 }
 
-/// Where `below` becomes negative on the way from `best` to `bound`, if it does.
+/// Returns the value at which `below` becomes negative on the way from `best` to `bound`, if it does.
 fn find_end(best: f64, bound: f64, error: f64, below: impl Fn(f64) -> f64) -> Option<f64> {
     let whole = bound - best;
     if whole == 0.0 || !whole.is_finite() {
@@ -74,7 +74,7 @@ fn find_end(best: f64, bound: f64, error: f64, below: impl Fn(f64) -> f64) -> Op
     loop {
         if below(best + share * whole) <= 0.0 {
             let value = |share: f64| below(best + share * whole).max(-1e30);
-            // A tenth of a per cent of the way is more than an interval is worth.
+            // A tenth of a per cent of the way is accurate enough for an interval.
             return Some(best + whole * coarse_zero(inside, share, value));
         }
         if share >= 1.0 {

@@ -1,5 +1,4 @@
-//! From a case to a law of its bodies: which one, with which numbers, from `[model]` and from what
-//! is given.
+//! The contact law of a case's bodies, and its values from `[model]` and from the caller.
 
 use crate::fit::{FitError, Model, Point, Problem};
 use fem_case::{Case, ModelChoice, Scene};
@@ -9,11 +8,10 @@ use super::law_fault::LawFault;
 use super::parameter::{check_value, find_parameter, loss_parameter};
 use fem_simulation::Reduced;
 
-/// The bodies of a scene under a law.
+/// Returns the model of a scene's bodies under a law.
 ///
 /// # Errors
-/// Numbers so extreme that they leave the range of f64; Ting's model of bodies that do not relax; a
-/// law with another end of its own.
+/// The numbers leave the range of f64; no body relaxes under Ting's law; the law ends contacts by another rule.
 pub fn model_of(scene: &Scene, family: LawFamily, end_rule: EndRule) -> Result<Model, FitError> {
     let pair = scene.pair()?;
     let materials = scene.bodies().each_ref().map(|body| body.material().cloned());
@@ -24,7 +22,7 @@ pub fn model_of(scene: &Scene, family: LawFamily, end_rule: EndRule) -> Result<M
     })
 }
 
-/// The law that `[model]` names, if it names one.
+/// Returns the law that `[model]` names, if it names one.
 pub fn family_of(scene: &Scene) -> Option<LawFamily> {
     match scene.model() {
         ModelChoice::Ting { .. } => Some(LawFamily::Ting),
@@ -33,7 +31,7 @@ pub fn family_of(scene: &Scene) -> Option<LawFamily> {
     }
 }
 
-/// A law of a case, and what is known of its parameters.
+/// A law of a case and the known values of its parameters.
 ///
 /// ```
 /// # use std::path::Path;
@@ -69,7 +67,7 @@ pub enum StandIn {
     HertzTime,
     /// The middle speed of the data, at which the law's loss is stated.
     MiddleSpeed,
-    /// Poisson's ratio: the material dissipates in the form of its elasticity.
+    /// Poisson's ratio: the material dissipates in the same form as it deforms elastically.
     PoissonsRatio,
 }
 
@@ -84,7 +82,7 @@ impl StandIn {
     }
 }
 
-/// Where a parameter's value comes from, SI.
+/// Values of the parameters by their origin, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Known {
     Nowhere,
@@ -93,11 +91,11 @@ enum Known {
 }
 
 impl ChosenLaw {
-    /// The law with the case's numbers and end if the case has the same one, and what is given by key
-    /// (SI) before them.
+    /// Creates the law. Values that are given by key (SI) take precedence over those of the case, which count if the
+    /// case has the same law.
     ///
     /// # Errors
-    /// Keys that the law does not have, values without a meaning; see [`model_of`].
+    /// The law does not have a key, or a value is out of range; see [`model_of`].
     pub fn of(
         case: &Case,
         family: LawFamily,
@@ -123,7 +121,7 @@ impl ChosenLaw {
         Ok(Self { model, known })
     }
 
-    /// The bodies under the law.
+    /// Returns the bodies under the law.
     pub fn model(&self) -> &Model {
         &self.model
     }
@@ -133,13 +131,13 @@ impl ChosenLaw {
         self.model.family()
     }
 
-    /// The search for the parameters with these keys; if there are none, for the one that stands for the loss
-    /// and, where there are contact times, for a stiffness that no theory gives. All others have their
-    /// values, or what [`StandIn`] says.
+    /// Returns the least-squares problem for the parameters with these keys. Without keys these are the parameter of the
+    /// loss and, if there are contact times, a stiffness that no theory gives. All others keep their
+    /// values, or those of [`StandIn`].
     ///
     /// # Errors
-    /// A law without a loss; keys that it does not have; a stiffness where there are no contact times; a
-    /// parameter without a value.
+    /// The law has no loss, or does not have a key; a stiffness is searched for without contact times; a
+    /// parameter has no value.
     pub fn problem<'a>(
         &'a self,
         points: &'a [Point],
@@ -200,7 +198,7 @@ impl ChosenLaw {
         }
     }
 
-    /// Substitute values for `guesses`, in the order of the parameters.
+    /// Replaces `guesses` by substitute values, in the order of the parameters.
     pub(super) fn values(&self, guesses: &[f64]) -> Vec<f64> {
         let value = |(known, guess): (&Known, &f64)| match known {
             Known::Nowhere => *guess,
@@ -209,7 +207,7 @@ impl ChosenLaw {
         self.known.iter().zip(guesses).map(value).collect()
     }
 
-    /// The key of a parameter that has neither a value nor a default and is not known `otherwise`.
+    /// Returns the key of a parameter that has neither a value nor a default and is not known `otherwise`.
     pub(super) fn missing(&self, otherwise: impl Fn(usize) -> bool) -> Option<&'static str> {
         let parameters = self.family().parameters().iter().enumerate();
         let mut missing = parameters.filter(|(index, parameter)| {
@@ -219,8 +217,7 @@ impl ChosenLaw {
         missing.next().map(|(_, parameter)| parameter.key)
     }
 
-    /// Where to begin with a parameter that is searched for: what is given; a case's value is that of
-    /// another run.
+    /// Returns the starting value of a free parameter: the given one. The case's value may be that of another run.
     fn start(&self, index: usize) -> Option<f64> {
         match self.known[index] {
             Known::Given(value) => Some(value),

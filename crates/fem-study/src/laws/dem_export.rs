@@ -1,4 +1,4 @@
-//! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
+//! The laws of DEM codes that fit e(v) and T(v), and their ranges of validity.
 
 use crate::fit::dem::{Dashpot, Elastic, Export, Sphere, fit_dissipation, restitution_of};
 use crate::fit::{FitError, Model, Outcome, Point, Problem};
@@ -9,24 +9,24 @@ use fem_laws::{EndRule, LawFamily};
 use super::chosen_law::model_of;
 use super::impact_curve::ImpactCurve;
 
-/// Level of the intervals of the fit, which nobody reads.
+/// Confidence level of the fit's intervals, which are not used.
 const CONFIDENCE: f64 = 0.95;
 
-/// Restitutions nearer to 0 or 1 show no loss, or nothing but loss.
+/// Restitutions nearer to 0 or 1 do not determine a law.
 const LOSSLESS: f64 = 1e-7;
 
-/// The laws of DEM codes on one curve.
+/// The laws of DEM codes, fitted to one curve.
 #[derive(Clone, Debug)]
 pub struct DemExport {
     /// The computed collisions that the laws are fitted to.
     pub curve: ImpactCurve,
     /// The content of the snippets.
     pub export: Export,
-    /// One e at all speeds on Hertz' spring, viscoelastic damping, linear.
+    /// The law with one e at all speeds on Hertz' spring, the viscoelastic law and the linear law.
     pub laws: [FittedLaw; 3],
 }
 
-/// A law and its values.
+/// A law and the values of its parameters.
 #[derive(Clone, Debug)]
 pub struct FittedLaw {
     /// The name of the law as text.
@@ -35,22 +35,22 @@ pub struct FittedLaw {
     pub model: Model,
     /// Values of its parameters, SI.
     pub values: Vec<f64>,
-    /// From, to (m/s), largest error of e; see [`ImpactCurve::validity`].
+    /// First and last speed of validity (m/s) and the largest error of e; see [`ImpactCurve::validity`].
     pub validity: [f64; 3],
 }
 
 impl FittedLaw {
-    /// Restitution and contact time at a speed, m/s.
+    /// Returns restitution and contact time at a speed, m/s.
     pub fn outcome(&self, speed: f64) -> Option<Outcome> {
         self.model.outcome(&self.values, speed).ok()
     }
 }
 
 impl DemExport {
-    /// Fits all laws to a curve; `tolerance` is the error of e up to which a law is called good.
+    /// Fits all laws to a curve; `tolerance` is the largest error of e within a range of validity.
     ///
     /// # Errors
-    /// Data that do not determine them.
+    /// The data do not determine a law.
     ///
     /// ```
     /// # use std::path::Path;
@@ -77,7 +77,7 @@ impl DemExport {
     pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, FitError> {
         let scene = case.scene();
         let n = curve.points.len() as f64;
-        // Of laws that make one e the mean is the best one.
+        // The mean is the best constant e.
         let e = curve.points.iter().map(|point| point.restitution).sum::<f64>() / n;
         if !(LOSSLESS..1.0 - LOSSLESS).contains(&e) {
             return Err(FitError::Insensitive { key: "alpha" });
@@ -121,13 +121,13 @@ impl DemExport {
     }
 }
 
-/// T, s, that makes Σ (T/T_i − 1)² least.
+/// Returns the contact time T, s, with the least Σ (T/T_i − 1)².
 fn one_contact_time(points: &[Point]) -> f64 {
     let inverse = || points.iter().filter_map(|point| point.contact_time).map(f64::recip);
     inverse().sum::<f64>() / inverse().map(|rate| rate * rate).sum::<f64>()
 }
 
-/// Kuwabara & Kono's law, of restitutions alone.
+/// Fits Kuwabara & Kono's law to the restitutions, without the contact times.
 fn viscoelastic(
     scene: &Scene,
     curve: &ImpactCurve,
@@ -143,7 +143,7 @@ fn viscoelastic(
     Ok(FittedLaw { name: "viscoelastic (Kuwabara-Kono)", model, values, validity })
 }
 
-/// The spheres of a scene: two, or one and a wall.
+/// Returns the spheres of a scene: two, or the one that strikes a wall.
 fn spheres(scene: &Scene) -> Vec<Sphere> {
     let sphere = |body: &Body| Some(Sphere::new(body.diameter()?, body.material()?));
     scene.bodies().iter().filter_map(sphere).collect()

@@ -1,4 +1,4 @@
-//! Restitution and contact time over speed: what laws of other codes are fitted to.
+//! Restitution and contact time over speed, to which the laws of other codes are fitted.
 
 use crate::fit::{FitError, Point};
 use fem_case::schema::{ModelTable, TingTable};
@@ -10,25 +10,26 @@ use super::law_fault::LawFault;
 use crate::measured::{DataError, Restitutions};
 use fem_simulation::Reduced;
 
-/// Speeds at which a reduced model is computed.
+/// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
 
-/// e(v) and T(v), in the order of the speed, with a contact time each.
+/// Restitutions and contact times, ascending in speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImpactCurve {
-    /// Points of the curve, two or more.
+    /// The points of the curve, at least two.
     pub points: Vec<Point>,
-    /// Whether the times are Hertz', for want of data.
+    /// Whether Hertz' contact times replace missing ones.
     pub has_hertz_times: bool,
-    /// Materials whose loss counts as nothing, since it is not published; none of measured data.
+    /// Materials whose loss is taken as 0 because none is published; empty for measured data.
     pub unpublished_loss: Vec<String>,
 }
 
 impl ImpactCurve {
-    /// The curve of data; without all contact times, Hertz' with instantaneous moduli stand in.
+    /// Returns the curve of data. If a contact time is missing, Hertz' contact times with instantaneous moduli replace
+    /// all.
     ///
     /// # Errors
-    /// One speed only; speeds without a Hertz impact.
+    /// The data have one speed only, or a speed has no Hertz impact.
     pub fn measured(scene: &Scene, data: &Restitutions) -> Result<Self, LawFault> {
         if data.points.len() < 2 {
             let error = DataError::new(&data.name, "one speed only");
@@ -37,11 +38,11 @@ impl ImpactCurve {
         Ok(Self::of(&scene.pair()?, data.points.clone())?)
     }
 
-    /// Computed by the case's reduced model, Ting's in place of one with elements, from one speed to
-    /// another, m/s, or over a decade around the case's.
+    /// Computes the curve with the case's reduced model, or Ting's model for a case with elements, from one speed to
+    /// another, m/s, or over a decade around that of the case.
     ///
     /// # Errors
-    /// A case that has no such model; collisions that cannot be computed.
+    /// The case has no such model, or a collision cannot be computed.
     pub fn computed(case: &Case, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
         let reduced = reduced(case)?;
         let (middle, decade) = (case.scene().approach_speed(), 10f64.sqrt());
@@ -70,16 +71,17 @@ impl ImpactCurve {
         Ok(Self { points, has_hertz_times, unpublished_loss: Vec::new() })
     }
 
-    /// Slowest and fastest speed, m/s.
+    /// Returns the slowest and the fastest speed, m/s.
     pub fn speeds(&self) -> (f64, f64) {
         (self.points[0].speed, self.points[self.points.len() - 1].speed)
     }
 
-    /// From, to (m/s), and the largest error of a law's e, which is given at a speed: the longest run of neighbouring speeds at
-    /// which it is within the tolerance. From is above to where there is none.
+    /// Returns the range of validity of a law, whose restitution is given by speed: first speed, last speed (m/s) and
+    /// the largest error of e. The range is the longest run of neighbouring speeds with errors within the tolerance; its
+    /// first speed is above its last if there is none.
     ///
     /// # Errors
-    /// Collisions that cannot be computed.
+    /// A collision cannot be computed.
     pub fn validity(
         &self,
         tolerance: f64,
@@ -106,7 +108,7 @@ impl ImpactCurve {
     }
 }
 
-/// The case's own model; Ting's in place of one with elements.
+/// Returns the case's own model, or Ting's in place of one with elements.
 fn reduced(case: &Case) -> Result<Reduced, LawFault> {
     let of = |case: &Case| Reduced::new(case.scene()).map_err(|refusal| refusal.in_case(case));
     if !matches!(case.scene().model(), ModelChoice::Fem | ModelChoice::Condensed(_)) {

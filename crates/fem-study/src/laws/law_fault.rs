@@ -10,10 +10,10 @@ use crate::measured::DataError;
 /// An error in a law, in its data, or in a request.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LawFault {
-    /// The law of the case itself, at its place.
+    /// The law of the case is invalid.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// A parameter that is named or given.
+    /// A named or given parameter is invalid.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// The data are faulty.
@@ -22,7 +22,7 @@ pub enum LawFault {
     /// The data do not determine the law.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// A parameter that has neither a value nor a default.
+    /// A parameter has neither a value nor a default.
     #[error("{law} needs a value of {key}")]
     Missing {
         /// Name of the law.
@@ -32,15 +32,15 @@ pub enum LawFault {
         /// The values that were searched for; empty if nothing more can be searched.
         free: Vec<&'static str>,
     },
-    /// A law that is compared with another one.
+    /// A law that is compared cannot be fitted.
     #[error("{law}: {error}")]
     Compared {
         /// The name of the law.
         law: &'static str,
-        /// Why it cannot be fitted.
+        /// The reason.
         error: FitError,
     },
-    /// A stiffness that is searched for in restitutions alone.
+    /// A stiffness is searched for in restitutions without contact times.
     #[error("restitutions do not depend on {key} of {law}: only contact times determine it")]
     NeedsTimes {
         /// Name of the law.
@@ -48,15 +48,15 @@ pub enum LawFault {
         /// Key of the parameter.
         key: &'static str,
     },
-    /// Materials or sizes that are no spheres: what was found, and what is allowed.
+    /// Materials or sizes are no spheres: the message and the allowed values.
     #[error("{0}")]
     Grains(String, String),
-    /// A case of finite elements in whose place no reduced model can stand.
+    /// No reduced model can replace the finite elements of the case.
     #[error(transparent)]
     NoStandIn(FitError),
 }
 
-/// A collision that cannot happen.
+/// The collision is impossible.
 impl From<LawError> for LawFault {
     fn from(error: LawError) -> Self {
         Self::Fit(error.into())

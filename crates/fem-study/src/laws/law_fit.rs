@@ -1,4 +1,4 @@
-//! A law that is fitted to restitutions, and how far the fit can be trusted.
+//! A law that is fitted to restitutions, and how well the data determine it.
 
 use crate::fit::{Fit, FitError, Free, Model, Problem, Profile};
 use fem_laws::{LawFamily, ParameterRole};
@@ -8,29 +8,29 @@ use super::law_ranking::LawRanking;
 use super::parameter::loss_parameter;
 use crate::measured::Restitutions;
 
-/// Values of a profile.
+/// Number of values of a profile.
 const GRID: usize = 25;
-/// Half the width of that grid, in widths of the parameter's interval, where that is known.
+/// Half the width of that grid, in widths of the parameter's interval if that is known.
 const GRID_REACH: f64 = 2.5;
-/// A plain number's grid reaches at least over these: damping exponents of all laws.
+/// The grid of a plain number spans at least the damping exponents of all laws.
 const EXPONENTS: (f64, f64) = (0.4, 1.1);
-/// A misfit of this multiple of the variances is not explained by scatter.
+/// Larger misfits, in multiples of the variances, are not scatter.
 const LARGE_CHI_SQUARE: f64 = 2.0;
 
 /// A fitted law, its data, and the laws that are compared with it.
 #[derive(Clone, Debug)]
 pub struct LawFit<'a> {
-    /// The data.
+    /// The restitutions that the law is fitted to.
     pub data: &'a Restitutions,
     /// The law that was fitted.
     pub problem: Problem<'a>,
     /// The best values.
     pub fit: Fit,
-    /// The error over one parameter, all others fitted anew.
+    /// The error over one parameter, with all others refitted.
     pub profile: Option<Profile>,
     /// Other laws on the same data.
     pub compared: Vec<(Model, Fit)>,
-    /// Level of the intervals.
+    /// Confidence level of the intervals.
     pub confidence: f64,
 }
 
@@ -49,7 +49,7 @@ impl<'a> LawFit<'a> {
     /// Fits a law to measured restitutions.
     ///
     /// # Errors
-    /// Data that do not determine the free parameters.
+    /// The data do not determine the free parameters.
     pub fn of(
         data: &'a Restitutions,
         problem: Problem<'a>,
@@ -59,20 +59,19 @@ impl<'a> LawFit<'a> {
         Ok(Self { data, problem, fit, profile: None, compared: Vec::new(), confidence })
     }
 
-    /// Adds the error over a free parameter.
+    /// Adds the profile of a free parameter.
     ///
     /// # Errors
-    /// A value at which the others cannot be fitted.
+    /// At some value the others cannot be fitted.
     pub fn with_profile(mut self, free: &Free) -> Result<Self, LawFault> {
         self.profile = Some(self.problem.profile(&self.fit, free, &grid(free, &self.fit))?);
         Ok(self)
     }
 
-    /// Adds another law, its loss free, and a stiffness that no theory gives where there are contact
-    /// times to determine it.
+    /// Adds another law. Its loss is free, and if there are contact times, so is a stiffness that no theory gives.
     ///
     /// # Errors
-    /// A law without a loss, or that cannot be fitted.
+    /// The law has no loss, or cannot be fitted.
     pub fn compared_with(mut self, family: LawFamily) -> Result<Self, LawFault> {
         let model = self.problem.model.with_family(family)?;
         let mut free = vec![family.parameters()[loss_parameter(family)?].key];
@@ -90,14 +89,14 @@ impl<'a> LawFit<'a> {
         Ok(self)
     }
 
-    /// Adds all laws of a ranking but the best, which this is, in their order.
+    /// Adds all laws of a ranking in their order, without the best, which is this one.
     pub fn compared_with_ranked(mut self, ranking: &LawRanking) -> Self {
         let others = ranking.laws.iter().skip(1);
         self.compared.extend(others.map(|law| (law.model.clone(), law.fit.clone())));
         self
     }
 
-    /// Data, fitted values and their differences, one row per point; SI.
+    /// Returns data, fitted values and their differences, one row per point; SI.
     pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
         self.problem.points.iter().map(|point| {
             let fitted = self.problem.model.outcome(&self.fit.values, point.speed).ok();
@@ -114,7 +113,7 @@ impl<'a> LawFit<'a> {
         })
     }
 
-    /// Returns warnings to read before trusting the numbers.
+    /// Returns warnings about the fit.
     pub fn warnings(&self) -> Vec<String> {
         let (fit, problem) = (&self.fit, &self.problem);
         let mut warnings = self.data.warnings();
@@ -144,13 +143,13 @@ impl<'a> LawFit<'a> {
     }
 }
 
-/// Neighbouring residuals of scatter have opposite signs half of the time; of a misfit, rarely.
+/// Whether neighbouring residuals have opposite signs much less often than in half of the cases, as scatter has.
 fn has_trend(residuals: &[f64]) -> bool {
     let changes = residuals.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count();
     residuals.len() >= 6 && 4 * changes < residuals.len()
 }
 
-/// Values around the best one; a logarithmic parameter's in equal ratios.
+/// Returns values around the best one, in equal ratios for a logarithmic parameter.
 fn grid(free: &Free, fit: &Fit) -> Vec<f64> {
     let best = fit.values[free.index];
     let estimate = fit.estimates.iter().find(|estimate| estimate.index == free.index);
@@ -180,7 +179,7 @@ mod tests {
     fn a_trend_is_told_from_scatter() {
         assert!(has_trend(&[-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]));
         assert!(!has_trend(&[-1.0, 1.0, -1.0, 1.0, -1.0, 1.0]));
-        // Five say nothing.
+        // Five residuals are too few.
         assert!(!has_trend(&[1.0; 5]));
     }
 

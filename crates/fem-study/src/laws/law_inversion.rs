@@ -12,23 +12,22 @@ use super::parameter::{find_parameter, loss_parameter};
 pub struct LawInversion {
     /// The bodies under the law.
     pub model: Model,
-    /// The place of the parameter that is found.
+    /// Index of the parameter that is found.
     pub index: usize,
     /// The parameter values that give the restitution.
     pub inversion: Inversion,
     /// Approach speed, m/s.
     pub speed: f64,
-    /// Values of all parameters; of the one that is found only a guess.
+    /// Values of all parameters; that of the wanted one is only a guess.
     values: Vec<f64>,
 }
 
 impl LawInversion {
-    /// Finds a parameter, or the one that stands for the loss, so that a collision at `speed` (m/s)
+    /// Finds the values of a parameter, by default that of the loss, with which a collision at `speed` (m/s)
     /// has a restitution.
     ///
     /// # Errors
-    /// A key that the law does not have; a law without a loss; a parameter without a value; a
-    /// restitution that no value gives.
+    /// The law does not have the key or has no loss; a parameter has no value; no value gives the restitution.
     ///
     /// ```
     /// # use std::path::Path;
@@ -77,12 +76,12 @@ impl LawInversion {
         Ok(Self { model, index, inversion, speed, values })
     }
 
-    /// The parameter that is found.
+    /// Returns the parameter that is found.
     pub fn parameter(&self) -> &'static LawParameter {
         &self.model.family().parameters()[self.index]
     }
 
-    /// Its values, SI, each with the contact time that it makes, s; none if the bodies stay together.
+    /// Returns its values, SI, each with its contact time, s; `None` if the bodies stay together.
     pub fn solutions(&self) -> Vec<(f64, Option<f64>)> {
         let contact_time = |value: f64| {
             let mut values = self.values.clone();
@@ -93,7 +92,7 @@ impl LawInversion {
     }
 }
 
-/// Whether a law has numbers beside its loss that no theory gives.
+/// Whether a law has parameters other than its loss that no theory gives.
 pub fn needs_more(family: LawFamily) -> bool {
     let Some(loss) = family.loss_parameter() else { return true };
     let mut parameters = family.parameters().iter().enumerate();

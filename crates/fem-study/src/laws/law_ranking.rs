@@ -1,16 +1,16 @@
-//! Which law explains data best: all laws fitted, in the order of their evidence.
+//! The ranking of all contact laws by their evidence in the data.
 //!
-//! Akaike's criterion with its correction for few data (Hurvich & Tsai 1989, *Biometrika* **76**, 297),
-//! of N data and p free parameters,
+//! The evidence follows Akaike's criterion with its correction for few data (Hurvich & Tsai 1989, *Biometrika* **76**,
+//! 297), for N data and p free parameters,
 //!
 //! ```math
 //! \mathrm{AIC}_c = -2\ln L + 2q + \frac{2q(q+1)}{N-q-1}, \qquad
 //! w_i \propto \mathrm{e}^{-\mathrm{AIC}_{c,i}/2},
 //! ```
 //!
-//! with −2 ln L = Σ r² and q = p where the data have uncertainties, and −2 ln L = N ln(Σ r²/N) and
-//! q = p + 1, the scatter counting as a parameter, where they have none. Weights w are shares of the
-//! evidence among the laws that were fitted; none of them need be right.
+//! with −2 ln L = Σ r² and q = p if the data have uncertainties, and −2 ln L = N ln(Σ r²/N) and
+//! q = p + 1 otherwise, where the scatter counts as a parameter. Weights w are shares of the
+//! evidence among the laws that were fitted; none of them needs to be right.
 
 use crate::fit::{Fit, Model};
 use fem_case::Case;
@@ -21,22 +21,22 @@ use super::law_fault::LawFault;
 use super::parameter::loss_parameter;
 use crate::measured::Restitutions;
 
-/// Level of the intervals of the fits, which nobody reads.
+/// Confidence level of the fits' intervals, which are not used.
 const CONFIDENCE: f64 = 0.95;
 
-/// Misfits that differ by less are of one curve under two names.
+/// Laws whose misfits differ by less make the same curve.
 const SAME: f64 = 1e-6;
 
 /// A law that was fitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedLaw {
-    /// Which, for the bodies of the case.
+    /// The law, for the bodies of the case.
     pub model: Model,
     /// Its free parameters.
     pub free: Vec<&'static str>,
-    /// Values of all of its parameters, and what they leave.
+    /// Values of all of its parameters, and the residuals.
     pub fit: Fit,
-    /// AICc less that of the best law; none where there are too few data for so many parameters.
+    /// AICc less that of the best law; `None` if there are too few data for the number of parameters.
     pub difference: Option<f64>,
     /// Share of the evidence.
     pub weight: Option<f64>,
@@ -49,23 +49,24 @@ impl RankedLaw {
     }
 }
 
-/// All laws on the same data.
+/// All laws, fitted to the same data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LawRanking {
-    /// The best first; laws without evidence last, those of fewer parameters first, then by their rms.
+    /// The laws, the best first. Laws without evidence come last, by the number of their parameters and then by their
+    /// rms.
     pub laws: Vec<RankedLaw>,
-    /// Those that make the curve of another one, and of which.
+    /// Laws that make the curve of another one, with its name.
     pub twins: Vec<(String, &'static str)>,
-    /// Those that could not be fitted, and why.
+    /// Laws that could not be fitted, with the reason.
     pub others: Vec<(&'static str, String)>,
 }
 
 impl LawRanking {
-    /// Fits every law that loses energy: its damping free, and stiffnesses that no theory gives where there are
-    /// contact times; see [`ChosenLaw::problem`].
+    /// Fits every law that loses energy. Its damping is free and, if there are contact times, stiffnesses that no theory
+    /// gives; see [`ChosenLaw::problem`].
     ///
     /// # Errors
-    /// No law that can be fitted: the reason of the last.
+    /// No law can be fitted; the error is that of the last.
     pub fn of(
         case: &Case,
         data: &Restitutions,
@@ -125,7 +126,7 @@ impl LawRanking {
     }
 }
 
-/// Laws that lose energy, with their damping free, and with an exponent that has a default free, too.
+/// Returns the laws that lose energy with their damping free, and again with an exponent free that has a default.
 fn candidates() -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
     // The general law last: what it makes at its defaults has a name of its own.
     let named = LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Power);
@@ -140,7 +141,7 @@ fn candidates() -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
     })
 }
 
-/// A law on the data, without its place.
+/// Fits a law to the data, without its rank.
 fn fitted(
     case: &Case,
     data: &Restitutions,
@@ -168,7 +169,7 @@ fn fitted(
     Ok(RankedLaw { model: law.model().clone(), free, fit, difference: None, weight: None })
 }
 
-/// A law by its name, and by its exponent where that is held and could be free.
+/// Returns the name of a law, with its exponent if that is held but could be free.
 fn name(family: LawFamily, exponent: Option<&str>) -> String {
     let exponents = family.parameters().iter().filter(|parameter| parameter.key == "n");
     match exponents.filter_map(|n| n.default).next() {
@@ -178,7 +179,7 @@ fn name(family: LawFamily, exponent: Option<&str>) -> String {
     }
 }
 
-/// AICc; none of too few data.
+/// Returns AICc; `None` for too few data.
 fn criterion(fit: &Fit, is_weighted: bool) -> Option<f64> {
     let n = fit.residuals.len() as f64;
     let p = fit.estimates.len() as f64;

@@ -1,4 +1,4 @@
-//! From materials and sizes to the laws of DEM codes for every pair of them.
+//! The laws of DEM codes for every pair of some materials and sizes.
 
 use std::collections::BTreeMap;
 
@@ -13,33 +13,33 @@ use super::dem_export::DemExport;
 use super::impact_curve::ImpactCurve;
 use super::law_fault::LawFault;
 
-/// Pairs that are more than a table should hold: 45 grains.
+/// Largest number of pairs in a table: that of 45 grains.
 const MOST_GRAINS: usize = 45;
 
-/// A cell of the table; `None` is empty.
+/// A cell of the table; `None` stands for an empty one.
 type Cell = Option<f64>;
 
-/// All pairs of some grains, each with laws of its own.
+/// All pairs of some grains, each with its own laws.
 #[derive(Clone, Debug)]
 pub struct PairExport {
-    /// Materials at their sizes, in the order of the codes' types.
+    /// The grains, in the order of the codes' types.
     pub grains: Vec<Grain>,
-    /// 1 with 1, 1 with 2, …, 2 with 2, ….
+    /// The pairs in the order 1 with 1, 1 with 2, …, 2 with 2, ….
     pub pairs: Vec<FittedPair>,
-    /// Error of e up to which one e for all speeds is called good.
+    /// Largest error of a constant e within its range of validity.
     pub tolerance: f64,
 }
 
 /// Two grains and their laws.
 #[derive(Clone, Debug)]
 pub struct FittedPair {
-    /// Places of the grains.
+    /// Indices of the grains.
     pub grains: [usize; 2],
     /// The two bodies.
     pub pair: Pair,
-    /// Its laws; none of a pair that loses nothing.
+    /// The laws of the pair; `None` if it loses no energy.
     pub export: Option<DemExport>,
-    /// Materials whose loss counts as nothing, since none is known.
+    /// Materials whose loss is taken as 0 because none is known.
     pub unpublished_loss: Vec<String>,
 }
 
@@ -54,30 +54,30 @@ pub struct PairNumbers {
     pub second_material: String,
     /// Diameter of the second sphere.
     pub second_diameter_m: f64,
-    /// Slowest speed of the fit; none where nothing is lost.
+    /// Slowest speed of the fit; `None` if no energy is lost.
     pub slowest_m_s: Cell,
     /// Fastest speed of the fit.
     pub fastest_m_s: Cell,
-    /// One e for all speeds.
+    /// The constant restitution.
     pub restitution: f64,
-    /// Where it is good, from; none if nowhere.
+    /// First speed of its range of validity; `None` if it is valid nowhere.
     pub good_from_m_s: Cell,
-    /// Where it is good, to.
+    /// Last speed of its range of validity.
     pub good_to_m_s: Cell,
-    /// Largest error of it over the speeds of the fit; none where what is lost is not known.
+    /// Its largest error over the speeds of the fit; `None` if the loss is not known.
     pub worst_error: Cell,
-    /// Materials whose loss counts as nothing, since none is known: the restitution is too high.
+    /// Materials whose loss is taken as 0 because none is known: the restitution is too high.
     pub unpublished_loss: Vec<String>,
     /// The entries of each code: `lammps_viscoelastic_eta`, ….
     pub entries: BTreeMap<String, f64>,
 }
 
 impl PairExport {
-    /// Spheres of all materials at all diameters, m, against each other, at the case's speed and with its
-    /// model. Without materials or diameters, those of the case's own spheres.
+    /// Computes all pairs of spheres of these materials and diameters (m) at the case's speed with its
+    /// model. Without materials or diameters, those of the case's spheres are used.
     ///
     /// # Errors
-    /// Unknown materials; diameters that are not positive; too many of both; see [`DemExport::of`].
+    /// A material is unknown, a diameter is not positive, or there are too many of both; see [`DemExport::of`].
     ///
     /// ```
     /// # use std::path::Path;
@@ -135,7 +135,7 @@ impl PairExport {
         Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
     }
 
-    /// Warnings: the materials of which no loss is known.
+    /// Returns the warnings about materials whose loss is not known.
     pub fn warnings(&self) -> Vec<String> {
         let mut names: Vec<&str> = Vec::new();
         for name in self.pairs.iter().flat_map(|pair| &pair.unpublished_loss) {
@@ -155,7 +155,7 @@ impl PairExport {
         }
     }
 
-    /// The pairs as codes' inputs are made of them.
+    /// Returns the pairs for the input of the codes.
     pub fn of_codes(&self) -> Vec<PairOfGrains> {
         let of = |fitted: &FittedPair| PairOfGrains {
             grains: fitted.grains,
@@ -195,7 +195,7 @@ impl PairExport {
     }
 }
 
-/// `lammps_viscoelastic_eta`, …: the file's stem and the entry's name.
+/// Returns the entries by the file's stem and their name, such as `lammps_viscoelastic_eta`.
 fn entries(of: &DemExport) -> BTreeMap<String, f64> {
     let snippets = of.export.snippets().unwrap_or_default();
     let named = snippets.iter().flat_map(|snippet| {
@@ -205,12 +205,12 @@ fn entries(of: &DemExport) -> BTreeMap<String, f64> {
     named.map(|(key, value)| (key.replace(' ', "_"), value)).collect()
 }
 
-/// 1 with 1, 1 with 2, …, 2 with 2, ….
+/// Returns the pairs in the order 1 with 1, 1 with 2, …, 2 with 2, ….
 fn all_pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |first| (first..n).map(move |second| (first, second)))
 }
 
-/// Materials at their diameters.
+/// Returns the grains of all materials and diameters.
 fn kinds(
     case: &Case,
     materials: &[String],
@@ -282,7 +282,7 @@ fn check_material(case: &Case, name: &str) -> Result<(), LawFault> {
     Err(LawFault::Grains(format!("there is no material {name}"), help))
 }
 
-/// The case with spheres of two kinds.
+/// Returns the case with spheres of two kinds.
 fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFault> {
     let edited = case.edited(|file| {
         for (body, (material, diameter)) in file.body.iter_mut().zip(kinds) {
@@ -295,7 +295,7 @@ fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFaul
     Ok(edited?)
 }
 
-/// The laws of a pair; none of one that loses nothing.
+/// Returns the laws of a pair; `None` if it loses no energy.
 fn fitted(
     case: &Case,
     speeds: Option<(f64, f64)>,

@@ -6,33 +6,33 @@ use fem_laws::{LawFamily, LawParameter, ParameterRole};
 /// An error in the name or the value of a parameter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ParameterError {
-    /// The law has no such key.
+    /// The law has no parameter with this key.
     #[error("{law} has no parameter {key:?}")]
     Unknown {
         /// Name of the law.
         law: &'static str,
         /// The key as it was written.
         key: String,
-        /// The keys that there are.
+        /// The keys of the law.
         known: Vec<&'static str>,
     },
-    /// A law without a loss.
+    /// The law has no loss.
     #[error("{law} loses nothing: it has no parameter to find")]
     Lossless {
         /// Name of the law.
         law: &'static str,
     },
-    /// A text that is no number with a unit.
+    /// The text is no number with a unit.
     #[error("{key}: {text:?}: {error}")]
     NotANumber {
         /// Key of the parameter.
         key: &'static str,
         /// The value as it was written.
         text: String,
-        /// The fault.
+        /// Description of the error.
         error: UnitError,
     },
-    /// A unit of another dimension.
+    /// The unit has another dimension.
     #[error("{key}: {text:?} is of another dimension")]
     OtherDimension {
         /// Key of the parameter.
@@ -42,7 +42,7 @@ pub enum ParameterError {
         /// SI unit of the parameter; empty for a plain number.
         unit: &'static str,
     },
-    /// A value without a meaning.
+    /// The value is out of range.
     #[error("{key}: the value is {value:?}")]
     OutOfRange {
         /// Key of the parameter.
@@ -71,10 +71,10 @@ impl ParameterError {
     }
 }
 
-/// The place of a law's parameter.
+/// Returns the index of a law's parameter.
 ///
 /// # Errors
-/// No such key.
+/// The law has no parameter with this key.
 pub fn find_parameter(family: LawFamily, key: &str) -> Result<usize, ParameterError> {
     let key = key.trim();
     let known = || family.parameters().iter().map(|parameter| parameter.key);
@@ -85,7 +85,7 @@ pub fn find_parameter(family: LawFamily, key: &str) -> Result<usize, ParameterEr
     })
 }
 
-/// The place of the parameter that stands for a law's loss.
+/// Returns the index of the parameter that determines a law's loss.
 ///
 /// # Errors
 /// A law without a loss.
@@ -93,10 +93,10 @@ pub fn loss_parameter(family: LawFamily) -> Result<usize, ParameterError> {
     family.loss_parameter().ok_or(ParameterError::Lossless { law: family.name() })
 }
 
-/// A value with or without its unit, SI.
+/// Parses a value with or without its unit; returns it in SI.
 ///
 /// # Errors
-/// No number, another dimension, a value without a meaning.
+/// The text is no number, has another dimension, or is out of range.
 ///
 /// ```
 /// use fem_study::laws::{LawFamily, parse_value};
@@ -123,10 +123,10 @@ pub fn parse_value(parameter: &LawParameter, text: &str) -> Result<f64, Paramete
     Ok(value)
 }
 
-/// Refuses a value without a meaning, SI.
+/// Checks the range of a value, SI.
 ///
 /// # Errors
-/// Which values have one.
+/// The value is out of range; the error says what is allowed.
 pub fn check_value(parameter: &LawParameter, value: f64) -> Result<(), ParameterError> {
     let LawParameter { key, role, limits: (low, high), .. } = *parameter;
     let is_allowed = value >= low && value <= high && value.is_finite();

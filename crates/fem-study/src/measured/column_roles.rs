@@ -35,12 +35,12 @@ const ENDINGS: [Ending; 14] = [
     ending("_m", 1.0, [1, 0, 0]),
 ];
 
-/// The unit in which a column's name ends.
+/// Returns the unit in which a column's name ends.
 pub(super) fn ending_of(header: &str) -> Option<Ending> {
     ENDINGS.into_iter().find(|ending| header.ends_with(ending.text))
 }
 
-/// The ending that stands for so many SI units of a dimension (metre, kilogram, second, byte).
+/// Returns the ending of a unit, given by its factor to SI and its dimension (metre, kilogram, second, byte).
 pub(super) fn ending_like(scale: f64, dimension: [i32; 4]) -> Option<Ending> {
     let [m, kg, s, bytes] = dimension;
     ENDINGS.into_iter().find(|ending| {
@@ -49,12 +49,12 @@ pub(super) fn ending_like(scale: f64, dimension: [i32; 4]) -> Option<Ending> {
     })
 }
 
-/// A name without the ending of its unit.
+/// Returns a name without the ending of its unit.
 pub(super) fn bare(header: &str) -> &str {
     ENDINGS.iter().find_map(|ending| header.strip_suffix(ending.text)).unwrap_or(header)
 }
 
-/// A name, and all that it could be without a unit at its end: `speed_m_s` is `speed` in m/s, or
+/// Returns a name and all names that it may be without a unit at its end: `speed_m_s` is `speed` in m/s, or
 /// `speed_m` in s.
 pub(super) fn readings(header: &str) -> impl Iterator<Item = &str> {
     let bare = ENDINGS.iter().filter_map(|ending| header.strip_suffix(ending.text));

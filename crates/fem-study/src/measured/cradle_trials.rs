@@ -1,15 +1,15 @@
-//! Trials of a Newton's cradle from a table of angles.
+//! Reads the trials of a Newton's cradle from a table of angles.
 
 use crate::fit::cradle::{Measured, Trial};
 
 use super::data_error::DataError;
 use super::table::Table;
 
-/// The trials of a table with the columns `alpha_deg` and `beta_deg` (or `_rad`), and perhaps
-/// `alpha_uncertainty_deg` and `beta_uncertainty_deg`; one a row.
+/// Returns the trials of a table, one per row. Its columns are `alpha_deg` and `beta_deg` (or `_rad`) and optionally
+/// `alpha_uncertainty_deg` and `beta_uncertainty_deg`.
 ///
 /// # Errors
-/// The first thing that is wrong with the table; columns that do not name their unit.
+/// The table has an error, or a column does not name its unit.
 ///
 /// ```
 /// use fem_study::measured::{Table, cradle_trials};
@@ -37,7 +37,7 @@ pub fn cradle_trials(table: &Table) -> Result<Vec<Trial>, DataError> {
     (0..table.n_rows()).map(trial).collect()
 }
 
-/// A bare number may be degrees or radians.
+/// Reads an angle; its column must name the unit, since a bare number may be in degrees or in radians.
 fn angle(
     table: &Table,
     row: usize,

@@ -1,4 +1,4 @@
-//! How tables of measurements are written: encodings, separators, decimal commas, cells without a value.
+//! The dialects of measured tables: encodings, separators, decimal commas, units and cells without a value.
 
 use std::borrow::Cow;
 
@@ -6,8 +6,7 @@ use fem_case::parse_quantity;
 
 use super::column_roles::ending_like;
 
-/// The text of a file: UTF-16 by its mark or by its zeros, UTF-8, or else Latin-1, of which every byte is a
-/// letter.
+/// Returns the text of a file: UTF-16, recognised by its byte order mark or its zeros, UTF-8, or else Latin-1.
 pub fn decode(bytes: &[u8]) -> String {
     let of_pairs = |bytes: &[u8], read: fn([u8; 2]) -> u16| {
         let units = bytes.chunks_exact(2).map(|pair| read([pair[0], pair[1]]));
@@ -16,7 +15,7 @@ pub fn decode(bytes: &[u8]) -> String {
     match bytes {
         [0xff, 0xfe, rest @ ..] => return of_pairs(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => return of_pairs(rest, u16::from_be_bytes),
-        // A text begins with two letters that ASCII has.
+        // A text begins with two ASCII letters.
         [a, 0, b, 0, ..] if *a > 0 && *b > 0 => return of_pairs(bytes, u16::from_le_bytes),
         [0, a, 0, b, ..] if *a > 0 && *b > 0 => return of_pairs(bytes, u16::from_be_bytes),
         _ => {}
@@ -27,7 +26,7 @@ pub fn decode(bytes: &[u8]) -> String {
     }
 }
 
-/// A text whose columns are parted by blanks alone, with tabs in their place; all else as it is.
+/// Returns a text whose columns are separated by blanks only with tabs instead; any other text is unchanged.
 pub(super) fn tabs_for_blanks(text: &str) -> Cow<'_, str> {
     let is_row = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
     let mut rows = text.lines().filter(is_row);
@@ -58,13 +57,13 @@ pub(super) fn separator(text: &str) -> (u8, &str) {
     let is_header = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
     let header = text.lines().find(is_header).unwrap_or("");
     let count = |separator: &u8| header.bytes().filter(|byte| byte == separator).count();
-    // Of equal ones `max_by_key` takes the last.
+    // If counts are equal, `max_by_key` takes the last.
     let separator = [b',', b'\t', b';'].into_iter().max_by_key(count).unwrap_or(b',');
     (separator, text)
 }
 
-/// A name of a column as it is looked for: in lower case, `_` for spaces, and a unit in brackets as
-/// an ending: `Impact speed [cm/s]` is `impact_speed_cm_s`.
+/// Returns the name of a column in the spelling of lookups: in lower case, with `_` for spaces and a unit in brackets as
+/// an ending. `Impact speed [cm/s]` is `impact_speed_cm_s`.
 pub(super) fn column_name(header: &str) -> String {
     let header = header.trim();
     let bracketed = ['[', '('].iter().find_map(|open| {
@@ -82,14 +81,14 @@ pub(super) fn column_name(header: &str) -> String {
     }
 }
 
-/// The ending of a name that stands for a unit.
+/// Returns the ending of a name that stands for a unit.
 fn ending_of_unit(unit: &str) -> Option<&'static str> {
     let (scale, dimension) = parse_quantity(&format!("1 {unit}")).ok()?;
     ending_like(scale, dimension.0).map(|ending| ending.text)
 }
 
-/// The names of columns with the units that a row below them has, `speed` above `mm/s`, if it is such a row:
-/// units or no value above numbers, and at least one unit.
+/// Returns the names of columns with the units of the row below them, `speed` above `mm/s`, if that is a row of units:
+/// each cell is a unit above a number or has no value, and at least one is a unit.
 pub(super) fn with_units(
     header: &[String],
     row: &[String],
@@ -118,13 +117,13 @@ pub(super) fn with_units(
     is_row.then(|| header.iter().zip(&units).map(named).collect())
 }
 
-/// Whether a cell says that there is no value.
+/// Whether a cell has no value.
 pub(super) fn is_missing(cell: &str) -> bool {
     const WORDS: [&str; 9] = ["", "nan", "na", "n/a", "n.a.", "#n/a", "null", "-", "--"];
     WORDS.contains(&cell.to_lowercase().as_str())
 }
 
-/// A number with a decimal comma, `0,92` or `5,5 cm/s`, with a point; all else as it is.
+/// Returns a number with a decimal comma, such as `0,92` or `5,5 cm/s`, with a point; any other text is unchanged.
 pub(super) fn with_point(cell: &str) -> Cow<'_, str> {
     let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
     let Some((before, after)) = cell.split_once(',') else { return Cow::Borrowed(cell) };
@@ -155,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn blanks_part_columns_where_nothing_else_does() {
+    fn blanks_separate_columns_without_another_separator() {
         for (text, expected) in [
             ("# v  e\nv  e\n\n 0,1   0,9\n", "# v  e\nv\te\n\n0,1\t0,9\n"),
             ("impact speed,e\n1,2\n", "impact speed,e\n1,2\n"),
@@ -167,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_looked_for_in_one_spelling() {
+    fn names_have_one_spelling() {
         for (header, expected) in [
             ("Speed_cm_s", "speed_cm_s"),
             ("Impact speed [cm/s]", "impact_speed_cm_s"),
@@ -180,9 +179,8 @@ mod tests {
         }
     }
 
-    /// Whoever writes the units below the names does not mean SI.
     #[test]
-    fn a_row_of_units_is_that_of_the_names() {
+    fn a_row_of_units_belongs_to_the_names() {
         let cells = |text: &str| text.split(',').map(String::from).collect::<Vec<_>>();
         let read = |header: &str, row: &str, next: &str| {
             with_units(&cells(header), &cells(row), &cells(next)).map(|names| names.join(","))
@@ -203,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn commas_are_points_where_they_can_be_nothing_else() {
+    fn decimal_commas_become_points() {
         assert_eq!(with_point("0,92"), "0.92");
         assert_eq!(with_point("-5,5 cm/s"), "-5.5 cm/s");
         for other in ["1.234,5", "1,234,567", "a,b", "1,", "0.92"] {
@@ -212,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_that_are_no_utf_8_are_latin_1() {
+    fn encodings_are_recognised() {
         assert_eq!(decode("µ".as_bytes()), "µ");
         assert_eq!(decode(b"t [\xb5s]"), "t [µs]");
         let units: Vec<u16> = "v;µ\n".encode_utf16().collect();

@@ -1,6 +1,6 @@
 //! An error in measured data, with its place.
 
-/// A fault of data: what was found, in which line of which text, and what is allowed.
+/// An error in data: what was found, in which line of which text, and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}: {message}", self.place())]
 pub struct DataError {
@@ -10,14 +10,14 @@ pub struct DataError {
     pub line: Option<u64>,
     /// Name of the column.
     pub column: Option<String>,
-    /// The fault that was found.
+    /// Description of the error.
     pub message: String,
     /// The allowed values, or the suggested fix.
     pub help: Option<String>,
 }
 
 impl DataError {
-    /// An error about the data as a whole.
+    /// Creates an error about the data as a whole.
     pub fn new(source_name: &str, message: impl std::fmt::Display) -> Self {
         Self {
             source_name: one_line(source_name),
@@ -28,13 +28,13 @@ impl DataError {
         }
     }
 
-    /// Says in which line.
+    /// Adds the line.
     #[must_use]
     pub fn in_line(self, line: u64) -> Self {
         Self { line: Some(line), ..self }
     }
 
-    /// Says in which column.
+    /// Adds the column.
     #[must_use]
     pub fn in_column(self, column: &str) -> Self {
         Self { column: Some(one_line(column)), ..self }
@@ -46,7 +46,7 @@ impl DataError {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// `e.csv:3`, or the name alone.
+    /// Returns the place as `e.csv:3`, or the name alone.
     pub fn place(&self) -> String {
         match self.line {
             Some(line) => format!("{}:{line}", self.source_name),
@@ -55,7 +55,7 @@ impl DataError {
     }
 }
 
-/// Data may hold anything; a terminal must not obey them.
+/// Replaces control characters, which a terminal would obey.
 pub(super) fn one_line(text: &str) -> String {
     text.replace(char::is_control, "\u{fffd}")
 }
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_tells_its_place_and_tames_what_it_quotes() {
+    fn it_has_its_place_and_no_control_characters() {
         let error = DataError::new("e.csv", "speed is \"\u{1b}[2J\"");
         assert_eq!(error.to_string(), "e.csv: speed is \"\u{fffd}[2J\"");
         assert_eq!(error.in_line(3).to_string(), "e.csv:3: speed is \"\u{fffd}[2J\"");

@@ -1,4 +1,4 @@
-//! Measured data: from text with names and units to restitutions, with the place of every fault.
+//! Measured data: restitutions from text with names and units, with the place of every error.
 //!
 //! ```text
 //! quantity          20 cm ± 1 mm
@@ -8,8 +8,7 @@
 //!                speed_cm_s     CSV    └────── cradle_trials
 //! ```
 //!
-//! Texts are handed in, nothing is opened here; a name stands for where a text is from. Tables are
-//! the feature `csv`.
+//! Callers pass texts and their names; nothing is opened here. Tables need the feature `csv`.
 
 #[cfg(feature = "csv")]
 mod column_roles;

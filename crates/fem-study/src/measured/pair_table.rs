@@ -12,11 +12,11 @@ const SIDES: [&str; 2] = ["first", "second"];
 const LENGTH: [i32; 3] = [1, 0, 0];
 
 impl MeasuredPairs {
-    /// As [`Restitutions::read`](super::Restitutions::read); columns like `diameter_1_mm` and
-    /// `diameter_2_mm` make several pairs. The scene says which body is a wall.
+    /// Reads a table as [`Restitutions::read`](super::Restitutions::read) does; columns like `diameter_1_mm` and
+    /// `diameter_2_mm` distinguish several pairs. The scene shows which body is a wall.
     ///
     /// # Errors
-    /// The first thing that is wrong with the table.
+    /// The table has an error; the first one is returned.
     pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
         let columns = diameter_columns(table, scene)?;
         let others: Vec<usize> = columns.iter().flatten().copied().collect();
@@ -35,7 +35,7 @@ fn diameter_columns(table: &Table, scene: &Scene) -> Result<[Option<usize>; 2], 
     for ((column, body), side) in columns.iter().zip(scene.bodies()).zip(SIDES) {
         if let (Some(column), None) = (column, body.diameter()) {
             let (header, name) = (&table.header()[*column], &body.name());
-            let message = format!("{header} is of the {side} body, and \"{name}\" is a wall");
+            let message = format!("{header} belongs to the {side} body, and \"{name}\" is a wall");
             let error = table.header_fault(message).in_column(header);
             return Err(error.with_help("leave the column out, or take a case of two spheres"));
         }
@@ -53,9 +53,7 @@ fn diameters(
         let Some(column) = column else { continue };
         let value = table.number(row, column, LENGTH)?;
         if value <= 0.0 {
-            let header = &table.header()[column];
-            let error = table.fault(row, format!("{header} is {value:?}")).in_column(header);
-            return Err(error.with_help("it must be greater than 0"));
+            return Err(table.cell_fault(row, column, value, "it must be greater than 0"));
         }
         *diameter = Some(value);
     }

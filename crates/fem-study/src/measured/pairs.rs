@@ -1,4 +1,4 @@
-//! Restitutions sorted by the pair of bodies they are of.
+//! Restitutions by their pair of bodies.
 
 use fem_case::CaseFile;
 
@@ -9,16 +9,16 @@ use super::restitutions::Restitutions;
 pub struct MeasuredPairs {
     /// All points, in the order of the data.
     pub data: Restitutions,
-    /// In the order of their first points.
+    /// The pairs, in the order of their first points.
     pub pairs: Vec<MeasuredPair>,
 }
 
 /// The points of one pair.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredPair {
-    /// Diameters in place of the case's, m.
+    /// Diameters that replace those of the case, m.
     pub diameters: [Option<f64>; 2],
-    /// Places in the data.
+    /// Indices of its points in the data.
     pub points: Vec<usize>,
 }
 
@@ -33,7 +33,7 @@ impl MeasuredPair {
     }
 }
 
-/// All of the case's own pair.
+/// All points belong to the case's own pair.
 impl From<Restitutions> for MeasuredPairs {
     fn from(data: Restitutions) -> Self {
         Self::sorted(data, |_| [None, None])
@@ -41,7 +41,7 @@ impl From<Restitutions> for MeasuredPairs {
 }
 
 impl MeasuredPairs {
-    /// Sorts points by the diameters (m) that they have in place of the case's.
+    /// Sorts points by the diameters (m) that replace those of the case.
     pub fn sorted(data: Restitutions, diameters: impl Fn(usize) -> [Option<f64>; 2]) -> Self {
         let mut pairs: Vec<MeasuredPair> = Vec::new();
         for point in 0..data.points.len() {
@@ -54,28 +54,28 @@ impl MeasuredPairs {
         Self { data, pairs }
     }
 
-    /// Restitutions of all points.
+    /// Returns the restitutions of all points.
     pub fn restitutions(&self) -> Vec<f64> {
         self.data.points.iter().map(|point| point.restitution).collect()
     }
 
-    /// Standard uncertainties of all points, if all have one.
+    /// Returns the standard uncertainties of all points, if all have one.
     pub fn uncertainties(&self) -> Option<Vec<f64>> {
         self.data.points.iter().map(|point| point.restitution_uncertainty).collect()
     }
 
-    /// For each point the first that is of the same collision: the same pair and speed.
+    /// Returns for each point the first point of the same collision, with the same pair and speed.
     pub fn collisions(&self) -> Vec<usize> {
         let points = &self.data.points;
         let is_same = |a: usize, b: usize| {
             let (first, second) = (points[a].speed, points[b].speed);
-            // Units round.
+            // Conversions of units are rounded.
             (first - second).abs() <= 1e-12 * first && self.pair_of(a) == self.pair_of(b)
         };
         (0..points.len()).map(|k| (0..k).find(|j| is_same(*j, k)).unwrap_or(k)).collect()
     }
 
-    /// The pair of a point.
+    /// Returns the pair of a point.
     pub fn pair_of(&self, point: usize) -> usize {
         self.pairs.iter().position(|pair| pair.points.contains(&point)).unwrap_or(0)
     }

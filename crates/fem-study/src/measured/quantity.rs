@@ -1,11 +1,11 @@
-//! Numbers with their uncertainty as text: `20 cm ± 1 mm`, `30 +- 0.5 deg`, `13.7 g ± 1 %`.
+//! Parses numbers with their uncertainty: `20 cm ± 1 mm`, `30 +- 0.5 deg`, `13.7 g ± 1 %`.
 
 use std::f64::consts::PI;
 
 use crate::fit::cradle::Measured;
 use fem_case::parse_quantity;
 
-/// Kinds of quantity that a cradle takes.
+/// Kinds of quantity of a Newton's cradle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A length, m.
@@ -18,10 +18,10 @@ pub enum Kind {
     Angle,
 }
 
-/// Why a text is no measured quantity.
+/// The reason why a text is no measured quantity.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotMeasured {
-    /// No number of this kind.
+    /// The text is no number of this kind.
     #[error("{text:?} is not {}", kind.words())]
     OtherKind {
         /// The text as it was found.
@@ -29,10 +29,10 @@ pub enum NotMeasured {
         /// The kind of quantity that is expected.
         kind: Kind,
     },
-    /// More than half a turn, if it is in radians.
+    /// In radians the angle would be more than half a turn.
     #[error("{0:?} without a unit is in radians; write '{0} deg' for degrees")]
     BareDegrees(String),
-    /// Less than nothing.
+    /// The uncertainty is negative.
     #[error("an uncertainty is at least 0")]
     NegativeUncertainty,
 }
@@ -57,15 +57,14 @@ impl Kind {
     }
 }
 
-/// Units of angles and how many radians they are. They are no units of a case file: there a bare
-/// number would do for any of them.
+/// Units of angles in radians. Case files do not have them.
 const ANGLES: [(&str, f64); 5] =
     [("deg", PI / 180.0), ("°", PI / 180.0), ("mrad", 1e-3), ("rad", 1.0), ("′", PI / 10_800.0)];
 
-/// A value with or without its uncertainty, SI.
+/// Parses a value with or without its uncertainty, SI.
 ///
 /// # Errors
-/// A text that is no quantity of the wanted kind.
+/// The text is no quantity of this kind.
 ///
 /// ```
 /// use fem_study::measured::{Kind, parse_measured};
@@ -101,7 +100,7 @@ pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
     if uncertainty < 0.0 {
         return Err(NotMeasured::NegativeUncertainty);
     }
-    // Of a share; a quantity is never one.
+    // A share of a large value may overflow.
     if !uncertainty.is_finite() {
         return Err(wrong(kind, text));
     }
@@ -118,8 +117,7 @@ fn parse(kind: Kind, text: &str) -> Result<f64, NotMeasured> {
         return if dimension.0 == [0; 4] { Ok(number * scale) } else { Err(wrong(kind, text)) };
     }
     let (value, dimension) = parse_quantity(text).map_err(|_| wrong(kind, text))?;
-    let is_angle = kind == Kind::Angle;
-    if is_angle && value > PI {
+    if kind == Kind::Angle && value > PI {
         return Err(NotMeasured::BareDegrees(text.to_string()));
     }
     let is_bare = dimension.0 == [0; 4] && !text.ends_with('%');
@@ -157,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_none_is_refused() {
+    fn other_quantities_are_rejected() {
         for (kind, text) in [
             (Kind::Length, "20 g"),
             (Kind::Length, "20 cm ± 1 g"),

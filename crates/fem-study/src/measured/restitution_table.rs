@@ -1,4 +1,4 @@
-//! Restitutions over speeds from a table, measured or that of a sweep.
+//! Reads restitutions over speeds from a table of a measurement or a sweep.
 
 use super::column_roles::{CONTACT_TIMES, RESTITUTIONS, SPEEDS, UNCERTAINTIES};
 use super::data_error::DataError;
@@ -9,10 +9,10 @@ use crate::fit::Point;
 use crate::sweep::COLUMNS;
 use fem_case::Scene;
 
-/// Names that need not be there, of which a near miss is no other name.
+/// Optional columns; a name that nearly equals one of them is an error.
 const OPTIONAL: [&str; 5] =
     ["restitution_uncertainty", "uncertainty", "standard_error", "sigma", "contact_time"];
-/// Columns that tables of trials, fits and sweeps have beside them.
+/// Other columns that tables of trials, fits and sweeps have.
 const WRITTEN: [&str; 9] = [
     "speed_uncertainty",
     "first_after",
@@ -24,12 +24,13 @@ const WRITTEN: [&str; 9] = [
     "fitted_contact_time",
     "member",
 ];
+
 impl Restitutions {
-    /// Reads a table with columns like `speed_m_s` and `restitution`, perhaps `restitution_uncertainty`, or
-    /// of a sweep over speeds. The scene has the speed of a body that the sweep does not vary.
+    /// Reads a table with columns like `speed_m_s`, `restitution` and optionally `restitution_uncertainty`, or
+    /// that of a sweep over speeds. The scene has the speed of a body that the sweep does not vary.
     ///
     /// # Errors
-    /// The first thing that is wrong with the table.
+    /// The table has an error; the first one is returned.
     ///
     /// ```
     /// # use std::path::Path;
@@ -59,20 +60,20 @@ impl Restitutions {
         Ok(read_rows(table, scene, Wanted::default())?.0)
     }
 
-    /// Restitutions, and contact times if the table has them.
+    /// Reads restitutions, and contact times if the table has them.
     ///
     /// # Errors
-    /// Those of [`Restitutions::read`].
+    /// As [`Restitutions::read`].
     pub fn read_with_contact_times(table: &Table, scene: &Scene) -> Result<Self, DataError> {
         let wanted = Wanted { contact_times: true, ..Wanted::default() };
         Ok(read_rows(table, scene, wanted)?.0)
     }
 }
 
-/// The restitutions of a table, and the row that each is from.
+/// Returns the restitutions of a table and the row of each.
 ///
 /// # Errors
-/// Those of [`Restitutions::read`].
+/// As [`Restitutions::read`].
 pub(super) fn read_rows(
     table: &Table,
     scene: &Scene,
@@ -83,7 +84,7 @@ pub(super) fn read_rows(
         &[&columns.read()[..], wanted.others].concat(),
         &[&OPTIONAL[..], wanted.names].concat(),
         |name| {
-            // A sweep's keys have points in their names; they are the same in all rows here.
+            // A sweep's keys have dots in their names; their values are the same in all rows here.
             name.contains('.')
                 || COLUMNS.iter().any(|known| known == name)
                 || [&WRITTEN[..], &CONTACT_TIMES].iter().any(|known| known.contains(&name))
@@ -112,8 +113,8 @@ pub(super) fn read_rows(
     Ok((restitutions, rows))
 }
 
-/// Data are weighed all or none: of rows of which most have an uncertainty the others are left out, else
-/// nobody's is looked at.
+/// Uncertainties weight all rows or none: if most rows have one, the others are left out; otherwise no uncertainty is
+/// used.
 fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUncertainties> {
     let has = |point: &Point| point.restitution_uncertainty.is_some();
     let n_with = points.iter().filter(|point| has(point)).count();
@@ -129,36 +130,36 @@ fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUnce
     let (mut of_points, mut of_rows) = (is_kept.iter(), is_kept.iter());
     points.retain(|_| of_points.next().is_some_and(|kept| *kept));
     rows.retain(|_| of_rows.next().is_some_and(|kept| *kept));
-    Some(UnevenUncertainties::NeglectError { n_without })
+    Some(UnevenUncertainties::RowsLeftOut { n_without })
 }
 
 const SPEED: [i32; 3] = [1, 0, -1];
 const TIME: [i32; 3] = [0, 0, 1];
 const NUMBER: [i32; 3] = [0; 3];
-/// Restitutions above it are no scatter of a measurement.
+/// Larger restitutions are not the scatter of a measurement.
 const LARGEST: f64 = 1.2;
 
-/// The columns that are read beside speeds and restitutions.
+/// The columns that are read in addition to speeds and restitutions.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Wanted<'a> {
-    /// Contact times, if there are any.
+    /// Whether contact times are read.
     pub contact_times: bool,
-    /// Columns that are read by someone else, and may differ from row to row.
+    /// Columns that the caller reads; they may differ from row to row.
     pub others: &'a [usize],
-    /// How those may be called.
+    /// Names of those columns.
     pub names: &'a [&'a str],
 }
 
-/// Columns of a table.
+/// The columns of a table that are read.
 pub(super) struct Columns {
-    /// Speeds that add up.
+    /// Speeds whose sum is the approach speed.
     speeds: Vec<usize>,
     /// Speeds of bodies that have no column, m/s.
     other_speed: f64,
     restitution: usize,
     uncertainty: Option<usize>,
     contact_time: Option<usize>,
-    /// Whether a sweep's member came to its end.
+    /// Whether the collision of a sweep's member is complete.
     complete: Option<usize>,
 }
 
@@ -195,9 +196,9 @@ impl Columns {
         required.chain(optional.into_iter().flatten()).collect()
     }
 
-    /// A sweep has rows of members that failed, a measurement rows without a speed or a restitution.
+    /// Whether a row has a result: a sweep has rows of failed members, a measurement rows without a speed or a restitution.
     pub fn has_result(&self, table: &Table, row: usize) -> bool {
-        // What stands first and is no number would be the unit of all that follows.
+        // A first cell that is no number may be the unit of the column: it is an error.
         if row == 0 && self.speeds.iter().any(|speed| is_text(table, *speed)) {
             return true;
         }
@@ -223,8 +224,8 @@ impl Columns {
                 .fault(row, format!("the restitution is {restitution:?}"))
                 .in_column(&table.header()[self.restitution])
                 .with_help(
-                    "it must be from 0 to 1, and scatter takes it to 1.2 at the most; name the \
-                     column restitution_percent for per cents",
+                    "it must be from 0 to 1, or to 1.2 with scatter; name the column \
+                     restitution_percent for per cents",
                 ));
         }
         let restitution_uncertainty = match self.uncertainty {
@@ -239,16 +240,16 @@ impl Columns {
     }
 }
 
-/// Whether the first cell of a column of speeds is neither a speed nor left out.
+/// Whether the first cell of a column of speeds has a text that is no speed.
 fn is_text(table: &Table, column: usize) -> bool {
     !table.is_missing(0, column) && table.number(0, column, SPEED).is_err()
 }
 
-/// Refuses a sweep that varies more than `may_vary`.
+/// Rejects a sweep that varies columns other than `may_vary`.
 fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError> {
     for (column, header) in table.header().iter().enumerate() {
         let is_same = |row: usize| table.text(row, column) == table.text(0, column);
-        // A sweep has its keys twice, as written and in SI.
+        // A sweep has each key twice, as written and in SI.
         let is_twin = |other: &String| {
             let ending = header.strip_prefix(other.as_str());
             other.contains('.') && ending.is_some_and(|ending| ending.starts_with('_'))
@@ -258,7 +259,7 @@ fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError>
             && !table.header().iter().any(is_twin)
             && let Some(row) = (1..table.n_rows()).find(|row| !is_same(*row))
         {
-            let error = table.fault(row, format!("the sweep varies {header}, too"));
+            let error = table.fault(row, format!("the sweep varies {header} as well"));
             return Err(error.in_column(header).with_help(
                 "a law is fitted to one pair of bodies: keep the rows of one, with their values in \
                  the case or in an override of it",
@@ -270,18 +271,17 @@ fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError>
 
 fn uncertainty(table: &Table, row: usize, column: usize) -> Result<Option<f64>, DataError> {
     let found = positive(table, row, column, NUMBER)?;
-    if let Some(uncertainty) = found.filter(|found| *found > LARGEST_UNCERTAINTY) {
-        let header = &table.header()[column];
-        let error = table.fault(row, format!("{header} is {uncertainty:?}"));
-        return Err(error.in_column(header).with_help(
-            "the uncertainty of a restitution is at most 1; name the column \
-             restitution_uncertainty_percent for per cents",
-        ));
+    let help = "the uncertainty of a restitution is at most 1; name the column \
+                restitution_uncertainty_percent for per cents";
+    match found {
+        Some(found) if found > LARGEST_UNCERTAINTY => {
+            Err(table.cell_fault(row, column, found, help))
+        }
+        found => Ok(found),
     }
-    Ok(found)
 }
 
-/// A cell that may be empty.
+/// Returns the positive number of a cell; `None` for a cell without a value.
 fn positive(
     table: &Table,
     row: usize,
@@ -293,11 +293,8 @@ fn positive(
     }
     let value = table.number(row, column, dimension)?;
     if value <= 0.0 {
-        let header = &table.header()[column];
-        return Err(table
-            .fault(row, format!("{header} is {value:?}"))
-            .in_column(header)
-            .with_help("it must be greater than 0; leave the cell empty if there is none"));
+        let help = "it must be greater than 0; leave the cell empty if there is none";
+        return Err(table.cell_fault(row, column, value, help));
     }
     Ok(Some(value))
 }

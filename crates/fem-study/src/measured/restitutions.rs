@@ -1,4 +1,4 @@
-//! Restitutions over approach speeds: measured, or those of a sweep.
+//! Restitutions over approach speeds, from a measurement or a sweep.
 
 use crate::fit::Point;
 
@@ -7,7 +7,7 @@ use super::data_error::DataError;
 /// Larger uncertainties carry no information about a number between 0 and 1.
 pub const LARGEST_UNCERTAINTY: f64 = 1.0;
 
-/// Restitutions over speeds, each with where it is from.
+/// Restitutions over speeds, each with its place in the data.
 ///
 /// ```
 /// use fem_study::measured::Restitutions;
@@ -20,15 +20,15 @@ pub const LARGEST_UNCERTAINTY: f64 = 1.0;
 pub struct Restitutions {
     /// The name of the data, such as their file's name.
     pub name: String,
-    /// Speed, m/s, and restitution, in the order of the data.
+    /// The points, in the order of the data.
     pub points: Vec<Point>,
-    /// The line of the text that each point is from; none if they are from code.
+    /// The line of each point in the text; empty for points from code.
     pub lines: Vec<u64>,
-    /// Rows of a sweep's members that failed, and rows without a speed or a restitution.
+    /// Number of rows of failed members, or without a speed or a restitution.
     pub n_left_out: usize,
     /// The treatment of an uncertainty that only some rows have.
     pub uneven: Option<UnevenUncertainties>,
-    /// Columns that nobody reads.
+    /// Columns that are not read.
     pub unread: Vec<String>,
 }
 
@@ -36,7 +36,7 @@ pub struct Restitutions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnevenUncertainties {
     /// So few rows lacked it that they were left out.
-    NeglectError {
+    RowsLeftOut {
         /// Number of rows without an uncertainty.
         n_without: usize,
     },
@@ -47,19 +47,19 @@ pub enum UnevenUncertainties {
     },
 }
 
-/// Why data do not take an uncertainty.
+/// The reason why an uncertainty cannot be set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UncertaintyError {
-    /// Not greater than 0, or above [`LARGEST_UNCERTAINTY`].
+    /// The uncertainty is not greater than 0, or above [`LARGEST_UNCERTAINTY`].
     #[error("the uncertainty of a restitution is {0:?}")]
     OutOfRange(f64),
-    /// They have uncertainties of their own.
+    /// The data have their own uncertainties.
     #[error("{0} has uncertainties of its own")]
     Known(String),
 }
 
 impl Restitutions {
-    /// From speeds, m/s, with their restitutions.
+    /// Creates restitutions from speeds (m/s) and their restitutions.
     pub fn of(name: &str, points: &[(f64, f64)]) -> Self {
         let points = points.iter().map(|(speed, e)| Point::new(*speed, *e)).collect();
         let name = name.to_string();
@@ -69,7 +69,7 @@ impl Restitutions {
     /// Gives all points the same standard uncertainty.
     ///
     /// # Errors
-    /// One without a meaning; data that have their own.
+    /// The uncertainty is out of range, or the data have their own.
     pub fn set_uncertainty(&mut self, uncertainty: f64) -> Result<(), UncertaintyError> {
         if !(uncertainty > 0.0 && uncertainty <= LARGEST_UNCERTAINTY) {
             return Err(UncertaintyError::OutOfRange(uncertainty));
@@ -83,13 +83,13 @@ impl Restitutions {
         Ok(())
     }
 
-    /// Slowest and fastest, m/s.
+    /// Returns the slowest and the fastest speed, m/s.
     pub fn speeds(&self) -> (f64, f64) {
         let speeds = || self.points.iter().map(|point| point.speed);
         (speeds().fold(f64::INFINITY, f64::min), speeds().fold(0.0, f64::max))
     }
 
-    /// The columns that were ignored.
+    /// Returns warnings about rows and columns that are not used.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         let rows = |n: usize| if n == 1 { "1 row".to_string() } else { format!("{n} rows") };
@@ -98,7 +98,7 @@ impl Restitutions {
             warnings.push(format!("{rows} without a speed or a restitution left out"));
         }
         match self.uneven {
-            Some(UnevenUncertainties::NeglectError { n_without }) => {
+            Some(UnevenUncertainties::RowsLeftOut { n_without }) => {
                 warnings.push(format!("{} without an uncertainty left out", rows(n_without)));
             }
             Some(UnevenUncertainties::NotUsed { n_with }) => warnings.push(format!(
@@ -114,7 +114,7 @@ impl Restitutions {
         warnings
     }
 
-    /// A fault of a point, in its line; one from code is counted from 0.
+    /// Returns an error about a point with its line, or its index for a point from code.
     pub fn fault(&self, point: usize, message: impl std::fmt::Display) -> DataError {
         match self.lines.get(point) {
             Some(line) => DataError::new(&self.name, message).in_line(*line),
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_uncertainty_is_given_once_and_has_a_meaning() {
+    fn an_uncertainty_is_set_once_and_within_its_range() {
         let mut measured = Restitutions::of("e", &[(0.5, 0.9)]);
         for bad in [0.0, -1.0, 1.1, f64::NAN] {
             let refused = measured.set_uncertainty(bad);

@@ -1,8 +1,8 @@
-//! The values of a sweep that stand in a table, read as measured data are.
+//! The values of a sweep in a table, which is read like measured data.
 
 use fem_case::RowsFault;
 
-use super::column_roles::{bare, ending_of};
+use super::column_roles::ending_of;
 use super::csv_dialect::{column_name, decode, with_point};
 use super::data_error::DataError;
 use super::table::Table;
@@ -27,21 +27,13 @@ pub fn rows_below(
 
 fn read(source: &str, bytes: &[u8], names: &[String]) -> Result<Vec<Vec<String>>, DataError> {
     let table = Table::parse(source, &decode(bytes))?;
-    let column = |name: &String| {
-        let wanted = column_name(name);
-        let header = table.header();
-        let exact = header.iter().position(|known| *known == wanted);
-        exact.or_else(|| {
-            let mut alike = (0..header.len()).filter(|k| bare(&header[*k]) == wanted);
-            alike.next().filter(|_| alike.next().is_none())
-        })
-    };
     let columns = names.iter().map(|name| {
-        column(name).map(|column| (column, column_name(name))).ok_or_else(|| {
+        let wanted = column_name(name);
+        table.position(&wanted).map(|column| (column, wanted)).ok_or_else(|| {
             let found = table.header().join(", ");
             let message = format!("there is no column {name}; found are {found}");
             let help =
-                "name columns like the keys, or say which are theirs: columns = [\"d1\", \"d2\"]";
+                "name columns like the keys, or name their columns: columns = [\"d1\", \"d2\"]";
             table.header_fault(message).with_help(help)
         })
     });
@@ -72,9 +64,9 @@ mod tests {
         rows_below("pairs.csv", text, &names.map(String::from))
     }
 
-    /// Whatever parts the cells, and wherever the units are, the values are those.
+    /// The values do not depend on the separator and the place of the units.
     #[test]
-    fn tables_are_read_as_people_have_them() {
+    fn tables_are_read_in_all_dialects() {
         let names = ["d1", "body.0.approach_speed"];
         for (text, expected) in [
             (&b"body.0.approach_speed,d1\n0.5 m/s,10 mm\n"[..], ["10 mm", "0.5 m/s"]),
@@ -88,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_says_where_it_is() {
+    fn an_error_has_its_place() {
         let names = ["d1", "d2"];
         for (text, expected) in [
             ("d1;d2\n1;2\n1\n", "pairs.csv:3"),

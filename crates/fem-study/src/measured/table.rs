@@ -1,8 +1,9 @@
-//! CSV tables with a header: cells as numbers, faults with their line.
+//! CSV tables with a header: cells as numbers, and errors with their line.
 //!
 //! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`, or have it in
-//! brackets, `speed [cm/s]`, or in a row of units below the names; without one a cell is a bare SI number or has its unit, `5 cm/s`. Cells are
-//! parted by commas, semicolons, tabs or blanks; with the latter three numbers may have decimal commas.
+//! brackets, `speed [cm/s]`, or in a row of units below the names. Without one a cell is a bare SI number or has its own
+//! unit, `5 cm/s`. Cells are separated by commas, semicolons, tabs or blanks; with the latter three numbers may have
+//! decimal commas.
 
 use std::fmt::Display;
 
@@ -14,7 +15,7 @@ use super::csv_dialect::{
 };
 use super::data_error::{DataError, one_line};
 
-/// A table in memory, its cells as they are written.
+/// A table in memory with its cells as text.
 ///
 /// ```
 /// use fem_study::measured::Table;
@@ -34,22 +35,22 @@ pub struct Table {
     header_line: u64,
     rows: Vec<(u64, Vec<String>)>,
     has_decimal_commas: bool,
-    /// Columns that the user has named.
+    /// Columns that the user has renamed.
     named: Vec<usize>,
 }
 
-/// With what `.xlsx`, `.ods` and other packed files begin, and `.xls`, read as Latin-1.
+/// The beginnings of `.xlsx`, `.ods` and other packed files, and of `.xls`, read as Latin-1.
 const PACKED: [&str; 2] = ["PK\u{3}\u{4}", "\u{d0}\u{cf}\u{11}\u{e0}"];
 
-/// Similarity of names above which one is the other misspelt: `diameter1`, `uncertanty` are, and
-/// `contact_radius` for `contact_time` is not.
+/// Similarity of names above which one is the other misspelt, such as `diameter1` and `uncertanty`, but not
+/// `contact_radius` for `contact_time`.
 const MISSPELT: f64 = 0.9;
 
 impl Table {
-    /// Reads a text; `name` stands for it in messages.
+    /// Parses a text; messages refer to it by `name`.
     ///
     /// # Errors
-    /// A text that is no CSV, or has no row.
+    /// The text is no CSV, or has no row.
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
         let name = one_line(name);
         let text = text.trim_start_matches('\u{feff}');
@@ -115,11 +116,10 @@ impl Table {
         Ok(Self { name, header, header_line, rows, has_decimal_commas, named: Vec::new() })
     }
 
-    /// The same table with other names for columns: `speed` for what its header calls `v`. A name that
-    /// has no unit takes that of the header.
+    /// Returns the table with columns renamed: `speed` for a column `v`. A name without a unit keeps that of the header.
     ///
     /// # Errors
-    /// A column that the header does not have; a name that nothing is read by.
+    /// The header does not have a column, or no column is read by a name.
     ///
     /// ```
     /// use fem_study::measured::Table;
@@ -133,11 +133,7 @@ impl Table {
         let found = self.header.clone();
         for (name, old) in names {
             let wanted = column_name(old);
-            let column = found.iter().position(|header| *header == wanted).or_else(|| {
-                let mut alike = (0..found.len()).filter(|k| bare(&found[*k]) == wanted);
-                alike.next().filter(|_| alike.next().is_none())
-            });
-            let Some(column) = column else {
+            let Some(column) = position(&found, &wanted) else {
                 let message = format!("there is no column {old}; found are {}", found.join(", "));
                 let near = nearest(&wanted, &found, 0.8);
                 let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
@@ -160,6 +156,11 @@ impl Table {
         Ok(self)
     }
 
+    /// Returns the column of a name, which may lack the unit if only one column fits.
+    pub(super) fn position(&self, name: &str) -> Option<usize> {
+        position(&self.header, name)
+    }
+
     /// Returns the name of the table, in one line.
     pub fn name(&self) -> &str {
         &self.name
@@ -170,15 +171,15 @@ impl Table {
         self.rows.len()
     }
 
-    /// The names of the columns, in lower case.
+    /// Returns the names of the columns, in lower case.
     pub fn header(&self) -> &[String] {
         &self.header
     }
 
-    /// The column that has one of these names, with or without the ending of a unit.
+    /// Returns the column that has one of these names, with or without the ending of a unit.
     ///
     /// # Errors
-    /// Two that have.
+    /// Two columns have one.
     pub fn find(&self, names: &[&str]) -> Result<Option<usize>, DataError> {
         let is_it = |column: &usize| {
             readings(&self.header[*column]).any(|reading| names.contains(&reading))
@@ -197,15 +198,15 @@ impl Table {
         }
     }
 
-    /// As [`Table::find`]; a column that must be there, in messages under the first of its names.
+    /// Returns the column that has one of these names; messages use the first of them.
     ///
     /// # Errors
-    /// None that has one of the names.
+    /// No column has one of the names, or two have.
     pub fn require(&self, names: &[&str], example: &str) -> Result<usize, DataError> {
         self.find(names)?.ok_or_else(|| {
             let (name, found) = (names[0], self.header.join(", "));
             let one_cell = match self.header.len() {
-                1 => "; cells are parted by commas, semicolons, tabs or blanks",
+                1 => "; cells are separated by commas, semicolons, tabs or blanks",
                 _ => "",
             };
             self.header_fault(format!("there is no column {name}; found are {found}")).with_help(
@@ -216,10 +217,10 @@ impl Table {
         })
     }
 
-    /// Names of the columns that are neither read nor known otherwise.
+    /// Returns the names of the columns that are neither read nor known.
     ///
     /// # Errors
-    /// One whose name is nearly that of a column that would be read.
+    /// The name of a column is nearly that of one that would be read.
     pub fn unread(
         &self,
         read: &[usize],
@@ -252,12 +253,12 @@ impl Table {
         Ok(unread)
     }
 
-    /// A cell as it is.
+    /// Returns the text of a cell.
     pub fn text(&self, row: usize, column: usize) -> &str {
         self.rows[row].1.get(column).map_or("", String::as_str)
     }
 
-    /// Whether a cell says that there is no value: empty, `nan`, `n/a`, `-`, ….
+    /// Whether a cell has no value: it is empty, `nan`, `n/a`, `-`, ….
     pub fn is_missing(&self, row: usize, column: usize) -> bool {
         is_missing(self.text(row, column))
     }
@@ -267,15 +268,15 @@ impl Table {
         self.has_decimal_commas
     }
 
-    /// The line of a row.
+    /// Returns the line of a row in the text.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0
     }
 
-    /// A cell as a number of a dimension (exponents of metre, kilogram, second), SI.
+    /// Returns a cell as a number of a dimension (exponents of metre, kilogram, second), SI.
     ///
     /// # Errors
-    /// Any other text.
+    /// The cell has another text.
     pub fn number(&self, row: usize, column: usize, dimension: [i32; 3]) -> Result<f64, DataError> {
         let (text, header) = (self.text(row, column), &self.header[column]);
         let fault = |found: String| {
@@ -285,9 +286,9 @@ impl Table {
         let (value, found) = parse_quantity(&cell).map_err(|_| {
             let fault = fault("which is not a number".to_string());
             match (text.contains('.'), text.contains(',')) {
-                (true, true) => fault.with_help("take out what parts the thousands: 1000,5 or 1000.5"),
+                (true, true) => fault.with_help("remove the separator of thousands: 1000,5 or 1000.5"),
                 (false, true) if !self.has_decimal_commas => fault.with_help(
-                    "cells that are parted by commas have decimal points, 0.5; part them by semicolons or tabs \
+                    "cells that are separated by commas have decimal points, 0.5; separate them by semicolons or tabs \
                      to write 0,5",
                 ),
                 _ => fault,
@@ -307,13 +308,33 @@ impl Table {
         }
     }
 
-    /// A fault of a row.
+    /// Returns an error about a row.
     pub fn fault(&self, row: usize, message: impl Display) -> DataError {
         DataError::new(&self.name, message).in_line(self.line(row))
     }
 
-    /// A fault of the names of columns.
+    /// Returns an error about a cell, whose value is not allowed.
+    pub(super) fn cell_fault(
+        &self,
+        row: usize,
+        column: usize,
+        value: f64,
+        help: &str,
+    ) -> DataError {
+        let header = &self.header[column];
+        self.fault(row, format!("{header} is {value:?}")).in_column(header).with_help(help)
+    }
+
+    /// Returns an error about the names of columns.
     pub fn header_fault(&self, message: impl Display) -> DataError {
         DataError::new(&self.name, message).in_line(self.header_line)
     }
+}
+
+/// Returns the column of a name, which may lack the unit if only one column fits.
+fn position(header: &[String], name: &str) -> Option<usize> {
+    header.iter().position(|known| known == name).or_else(|| {
+        let mut alike = (0..header.len()).filter(|k| bare(&header[*k]) == name);
+        alike.next().filter(|_| alike.next().is_none())
+    })
 }

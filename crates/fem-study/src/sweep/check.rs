@@ -1,8 +1,8 @@
-//! Looks at every member before the first one runs: what it is known by, whether it could run, what is
-//! left to do and in which order.
+//! Checks every member before the first one runs: its identity, whether it can run, and the order of the members that
+//! are left.
 //!
-//! A member is made, looked at and let go, some at a time on all threads: what is kept of a sweep is three
-//! numbers a member.
+//! Members are made, checked and dropped, some at a time on all threads; a sweep keeps three numbers per
+//! member.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashSet};
@@ -15,27 +15,27 @@ use super::identity::Member;
 use super::members::Members;
 use fem_simulation::Simulation;
 
-/// Members that are made at the same time.
+/// Number of members that are made at the same time.
 const AT_ONCE: usize = 64;
 
 /// The members of a sweep as far as they are known before the first one runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// Those that were looked at, in order.
+    /// The members that were checked, in order.
     pub members: Vec<Member>,
-    /// Places of the members to run, each identity once, the most expensive first, so that no long run is
+    /// Indices of the members to run, each identity once, the most expensive first, so that no long run is
     /// left at the end.
     pub left: Vec<usize>,
     /// Estimated cost of each of those by its element updates alone, s on one core of 3 GHz; an order of
     /// magnitude.
     pub seconds: Vec<f64>,
-    /// Implausible values of the scenes, such as a size that no ball has; each once.
+    /// Implausible values of the scenes, such as a ball of 1 km; each once.
     pub oddities: BTreeSet<String>,
     /// Suggestions that make the sweep cheaper.
     pub advice: Option<&'static str>,
 }
 
-/// A member that was made.
+/// A member that was checked.
 struct Seen {
     member: Member,
     case: CaseFile,
@@ -44,11 +44,11 @@ struct Seen {
     oddities: Vec<String>,
 }
 
-/// Checks all members. To run are those that `is_own` and not `is_done`; `see` is called for each member in
+/// Checks all members. Those that are `is_own` and not `is_done` are left to run; `see` is called for each member in
 /// order.
 ///
 /// # Errors
-/// The first member that is no valid case, or that is refused before its model is made.
+/// A member is no valid case, or its model rejects it; the error of the first such member.
 pub fn check(
     members: &(impl Members + ?Sized),
     is_own: impl Fn(usize) -> bool + Sync,
@@ -59,10 +59,10 @@ pub fn check(
     check_some(members, &all, is_own, is_done, see)
 }
 
-/// As [`check`], of the members at these places alone, in this order.
+/// Checks only the members of these indices, in this order; see [`check`].
 ///
 /// # Errors
-/// Those of [`check`].
+/// As [`check`].
 pub fn check_some(
     members: &(impl Members + ?Sized),
     places: &[usize],
@@ -106,8 +106,8 @@ pub fn check_some(
     Ok(checked)
 }
 
-/// Whether condensed members have meshes of their own: one that a case leaves open goes by the contact that
-/// is expected, another one for each speed.
+/// Whether condensed members have different meshes: a mesh that the case leaves open depends on the expected contact,
+/// and so on the speed.
 #[derive(Default)]
 struct Meshes {
     first: Option<Option<MeshTable>>,

@@ -1,4 +1,4 @@
-//! The columns of `sweep.csv` that come from a member's summary, and what is in them.
+//! The columns of `sweep.csv` that come from a member's summary, and their values.
 
 use std::sync::LazyLock;
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use fem_simulation::results::energy_key;
 
-/// Before the accounts of energy.
+/// Columns before the accounts of energy.
 const FIRST: [&str; 14] = [
     "restitution",
     "contact_time_s",
@@ -24,7 +24,7 @@ const FIRST: [&str; 14] = [
     "hertz_max_contact_radius_m",
     "hertz_peak_pressure_pa",
 ];
-/// After the accounts of energy.
+/// Columns after the accounts of energy.
 const LAST: [&str; 10] = [
     "energy_residual_relative",
     "momentum_residual_relative",
@@ -38,7 +38,7 @@ const LAST: [&str; 10] = [
     "warnings",
 ];
 
-/// Before a key of the summary's `uncertainty`, and its part.
+/// Prefix of a column of the summary's `uncertainty`, and its part.
 const UNCERTAINTIES: [(&str, &str); 2] =
     [("uncertainty_discretisation_", "discretisation"), ("uncertainty_model_", "model")];
 
@@ -57,18 +57,18 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     own(&FIRST).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
 });
 
-/// The columns of a table of these summaries, as JSON: all but those of energies that none of them
-/// knows of.
+/// Returns the columns of a table of these summaries, given as JSON: all except those of energies that no summary
+/// has.
 pub fn columns<'s>(summaries: impl IntoIterator<Item = &'s Value>) -> Vec<&'static str> {
     let mut columns = Columns::default();
     summaries.into_iter().for_each(|summary| columns.see(summary));
     columns.names()
 }
 
-/// As [`columns`], of summaries that are seen one after the other.
+/// The columns of a table of summaries that are seen one after the other; see [`columns`].
 #[derive(Clone, Debug)]
 pub struct Columns {
-    /// Keys of the energies that no summary has had so far, of those that are shown where there are any.
+    /// Keys of the optional energies that no summary has had so far.
     absent: Vec<String>,
 }
 
@@ -84,24 +84,24 @@ impl Columns {
         Self { absent: optional.map(energy_key).collect() }
     }
 
-    /// Takes the next summary, as JSON.
+    /// Takes the next summary, given as JSON.
     pub fn see(&mut self, summary: &Value) {
         self.absent.retain(|key| summary["energy"].get(key).is_none());
     }
 
-    /// The columns of a table of what was seen.
+    /// Returns the columns of a table of the summaries so far.
     pub fn names(&self) -> Vec<&'static str> {
         let absent: Vec<String> = self.absent.iter().map(|key| column_of(key)).collect();
         COLUMNS.iter().filter(|column| !absent.contains(column)).map(String::as_str).collect()
     }
 }
 
-/// The column of a key of the summary's energies.
+/// Returns the column of a key of the summary's energies.
 fn column_of(energy_key: &str) -> String {
     format!("energy_{energy_key}")
 }
 
-/// Endings of column names and their units; of two that end the same name the longer one is first.
+/// Endings of column names and their units; if two end the same name, the longer one comes first.
 const ENDINGS: [(&str, &str); 14] = [
     ("_m_s2", "m/s^2"),
     ("_m_s", "m/s"),
@@ -119,13 +119,13 @@ const ENDINGS: [(&str, &str); 14] = [
     ("_number", ""),
 ];
 
-/// The column of a varied key in SI: `body.0.approach_speed_m_s`.
+/// Returns the column of a varied key in SI, such as `body.0.approach_speed_m_s`.
 pub fn key_column(key: &str, unit: &str) -> String {
     let ending = ENDINGS.into_iter().find(|(_, known)| *known == unit);
     format!("{key}{}", ending.map_or("_si", |(ending, _)| ending))
 }
 
-/// The value of a column in a summary; `null` if it has none.
+/// Returns the value of a column in a summary; `null` if it has none.
 pub(super) fn value_of(summary: &Value, column: &str) -> Value {
     let table =
         |name: &str| column.strip_prefix(name).map(|key| &summary[name.trim_end_matches('_')][key]);
@@ -145,7 +145,7 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
     }
 }
 
-/// The SI unit of a column; empty if it has none.
+/// Returns the SI unit of a column; empty if it has none.
 pub fn column_unit(column: &str) -> &'static str {
     ending(column).map_or("", |(_, unit)| unit)
 }

@@ -1,4 +1,4 @@
-//! The identity of a member: equal for members that compute the same.
+//! The identity of a member, which is equal for members that compute the same.
 
 use fem_case::{Case, CaseError, CaseFile};
 
@@ -7,14 +7,14 @@ use fem_simulation::{identified, name_of};
 /// A member of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Member {
-    /// Its place in the sweep.
+    /// Its index in the sweep.
     pub index: usize,
     /// Its identity as a number.
     pub(super) digest: u64,
 }
 
 impl Member {
-    /// The member of a sweep that is this case.
+    /// Creates the member of a sweep that is this case.
     ///
     /// # Errors
     /// The case's method does not support the case, or a mesh file cannot be read.
@@ -22,10 +22,10 @@ impl Member {
         Ok(Self::resolved(index, case)?.0)
     }
 
-    /// With the resolved case.
+    /// Creates the member and its resolved case.
     ///
     /// # Errors
-    /// Those of [`Member::of`].
+    /// As [`Member::of`].
     pub(super) fn resolved(index: usize, case: &Case) -> Result<(Self, CaseFile), CaseError> {
         let (digest, case) = identified(case)?;
         Ok((Self { index, digest }, case))
@@ -41,7 +41,7 @@ impl Member {
 mod tests {
     use super::*;
 
-    /// A sweep keeps one of each of a million members.
+    /// A sweep may keep a million members.
     #[test]
     fn a_member_is_two_numbers() {
         assert_eq!(size_of::<Member>(), 16);

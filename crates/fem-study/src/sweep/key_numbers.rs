@@ -12,15 +12,15 @@ pub struct KeyNumbers(Vec<OfKey>);
 struct OfKey {
     axis: usize,
     unit: Option<&'static str>,
-    /// By the elements of the axis.
+    /// The number of each element of the axis.
     numbers: Vec<Found>,
-    /// Whether each of its texts is its number.
+    /// Whether each value is written as its number in SI.
     is_written: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Found {
-    /// No member with this element has been seen.
+    /// No member with this element has been checked.
     NotYet,
     Number(f64),
     Other,
@@ -65,7 +65,7 @@ impl KeyNumbers {
         }
     }
 
-    /// The values of a key by the elements of its axis, if all of them are numbers.
+    /// Returns the values of a key by the elements of its axis, if all of them are numbers.
     pub fn of_key(&self, key: usize) -> Option<Vec<f64>> {
         let number = |found: &Found| match found {
             Found::Number(number) => Some(*number),
@@ -74,12 +74,12 @@ impl KeyNumbers {
         self.0[key].numbers.iter().map(number).collect()
     }
 
-    /// The SI unit of a key, empty of a plain number; none where no value is a number.
+    /// Returns the SI unit of a key, empty for a plain number; `None` if no value is a number.
     pub fn unit(&self, key: usize) -> Option<&'static str> {
         self.0[key].unit
     }
 
-    /// The columns of keys that are quantities. A plain number that is written as such needs none.
+    /// Returns the columns of keys that are quantities. A plain number that is written as such needs none.
     pub fn columns(&self, sweep: &Sweep) -> Vec<NumberColumn> {
         let column = |((key, of_key), swept): ((usize, &OfKey), &fem_case::SweptKey)| {
             let unit = of_key.unit.filter(|unit| !unit.is_empty() || !of_key.is_written)?;

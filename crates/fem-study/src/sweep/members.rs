@@ -1,11 +1,10 @@
-//! Where the cases of a sweep come from.
+//! Sources of the cases of a sweep.
 
 use fem_case::{Case, CaseError, Sweep};
 
-/// A number of cases, each made when it is needed.
+/// A source of cases, each made when it is needed.
 ///
-/// A sweep file is one such source, [`Variations`](super::Variations) made in code another, and
-/// cases at hand are a third.
+/// A sweep file is such a source, and so are [`Variations`](super::Variations) and a slice of cases.
 pub trait Members: Sync {
     /// Returns the number of members.
     fn n_members(&self) -> usize;
@@ -13,16 +12,15 @@ pub trait Members: Sync {
     /// Returns the result of `make` for a member's case.
     ///
     /// # Errors
-    /// A member that is no valid case, or of which `make` can make nothing. A sweep file points at
-    /// the value that is to blame, for which it may make other cases.
+    /// The member is no valid case, or `make` fails. A sweep file names the value that causes the error, for which it
+    /// may make other cases.
     fn build<T>(
         &self,
         index: usize,
         make: impl Fn(Case) -> Result<T, CaseError>,
     ) -> Result<T, CaseError>;
 
-    /// The first fault of the members with what else is wrong with their source, where that is text; `make` is
-    /// what was to be made of each.
+    /// Adds the other errors of the source, if that is text, to the first error; `make` is applied to each member.
     fn with_other_faults<T>(
         &self,
         first: CaseError,
@@ -31,10 +29,10 @@ pub trait Members: Sync {
         first
     }
 
-    /// A member's case.
+    /// Returns the case of a member.
     ///
     /// # Errors
-    /// A member that is no valid case.
+    /// The member is no valid case.
     fn case(&self, index: usize) -> Result<Case, CaseError> {
         self.build(index, Ok)
     }
@@ -79,7 +77,7 @@ impl Members for [Case] {
 /// Reads a sweep file, the tables that it names and its base case; `overrides` are those of the base case.
 ///
 /// # Errors
-/// Those of [`Sweep::load`].
+/// As [`Sweep::load`].
 #[cfg(feature = "csv")]
 pub fn load(path: &std::path::Path, overrides: &[String]) -> Result<Sweep, CaseError> {
     Sweep::load(path, overrides, &crate::measured::rows_below)

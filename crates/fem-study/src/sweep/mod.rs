@@ -7,9 +7,9 @@
 //! code             in which order    reports, stops them
 //! ```
 //!
-//! [`sweep()`] is all of it for a case and values in code. A member is a place in a source of
-//! [`Members`] and what is known of the case that the source makes there; [`Runner::run_one`] runs one, for whoever
-//! has workers of their own, and [`Runner::run`] runs many. Nothing here reads a clock or prints.
+//! [`sweep()`] does all of it for a case and values in code. [`Members`] are a source of cases, and a [`Member`] is the
+//! index and the identity of one of them. [`Runner::run_one`] runs one member, for callers with their own workers, and
+//! [`Runner::run`] runs many. Nothing here reads a clock or prints.
 
 mod check;
 mod columns;

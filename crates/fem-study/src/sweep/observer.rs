@@ -1,14 +1,14 @@
-//! Who looks on while the members of a sweep run.
+//! The observer of the members of a sweep while they run.
 
 use fem_case::CaseError;
 use fem_collision::Monitor;
 
 use fem_simulation::ComputedCollision;
 
-/// Looks on from the threads that run the members, several of them at a time.
+/// Observes the members of a sweep, from several threads at the same time.
 ///
-/// Who wants all of them to end says so to each: `admits` leaves out those that have not begun,
-/// [`Monitor::report`] interrupts those that have.
+/// To end a sweep, `admits` leaves out the members that have not begun, and [`Monitor::report`] interrupts those that
+/// have.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
@@ -50,18 +50,18 @@ use fem_simulation::ComputedCollision;
 /// }
 /// ```
 pub trait Observer: Sync {
-    /// Looks on one member from its beginning to its end.
+    /// Observes one member from its beginning to its end.
     type Watch: Monitor;
 
-    /// Whether the member whose turn it is shall run.
+    /// Whether the next member shall run.
     fn admits(&self, _index: usize) -> bool {
         true
     }
 
-    /// A member begins: its case is read next and its model made.
+    /// Is called when a member begins, before its case is read.
     fn begin(&self, index: usize) -> Self::Watch;
 
-    /// A member has ended, its collision perhaps interrupted; or it is no valid case, or was refused.
+    /// Is called when a member has ended. Its collision may be interrupted, or the case may be invalid or rejected.
     fn end(
         &self,
         _index: usize,
@@ -71,7 +71,7 @@ pub trait Observer: Sync {
     }
 }
 
-/// Nobody looks on.
+/// No observer.
 impl Observer for () {
     type Watch = ();
 

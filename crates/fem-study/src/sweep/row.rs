@@ -9,7 +9,7 @@ use fem_simulation::results::Summary;
 /// A member that has been computed.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Its place in the sweep.
+    /// Its index in the sweep.
     pub index: usize,
     /// Value of each varied key, as written.
     pub values: Vec<String>,
@@ -23,7 +23,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// The row of a member with these values, and this summary as JSON.
+    /// Creates the row of a member with these values and this summary, given as JSON.
     pub fn new<V: ToString>(
         member: &Member,
         values: impl IntoIterator<Item = V>,
@@ -34,13 +34,13 @@ impl Row {
         Self { index, values, numbers: Vec::new(), identity, summary }
     }
 
-    /// This row with its values in SI.
+    /// Returns this row with its values in SI.
     #[must_use]
     pub fn with_numbers(self, numbers: Vec<Option<f64>>) -> Self {
         Self { numbers, ..self }
     }
 
-    /// A row of a summary as it comes out of a run.
+    /// Creates the row of a member with the summary of its run.
     pub fn of<V: ToString>(
         member: &Member,
         values: impl IntoIterator<Item = V>,
@@ -50,7 +50,7 @@ impl Row {
         Self::new(member, values, serde_json::to_value(summary).unwrap_or_default())
     }
 
-    /// The value of one of the [`COLUMNS`](super::COLUMNS); `null` if it has none.
+    /// Returns the value of one of the [`COLUMNS`](super::COLUMNS); `null` if it has none.
     pub fn value(&self, column: &str) -> Value {
         value_of(&self.summary, column)
     }
@@ -61,13 +61,13 @@ impl Row {
     }
 }
 
-/// The name of the file.
+/// The name of the table's file.
 #[cfg(feature = "files")]
 pub const SWEEP_FILE: &str = "sweep.csv";
 
 /// Writes a table of these columns, one row per member, after those of the swept `keys`, as written and in
-/// SI; numbers are the shortest that read back as the same, a cell without a value is empty. A row is let
-/// go when it is written.
+/// SI. Numbers are the shortest that read back as the same, and cells without a value are empty. A row is dropped
+/// when it is written.
 ///
 /// # Errors
 /// `to` cannot be written to.

@@ -1,4 +1,4 @@
-//! Runs one member, or many side by side.
+//! Runs one member, or many in parallel.
 
 use std::cmp::Reverse;
 
@@ -11,7 +11,7 @@ use fem_simulation::SharedModels;
 use fem_simulation::Simulation;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
-/// Members and what they are run with.
+/// Runs members with shared models.
 #[derive(Clone, Copy, Debug)]
 pub struct Runner<'a, M: ?Sized> {
     members: &'a M,
@@ -20,12 +20,12 @@ pub struct Runner<'a, M: ?Sized> {
 }
 
 impl<'a, M: Members + ?Sized> Runner<'a, M> {
-    /// Runs members that take from `shared` what others have made already.
+    /// Creates a runner whose members share models and factors through `shared`.
     pub fn new(members: &'a M, shared: &'a SharedModels) -> Self {
         Self { members, shared, has_fields: true }
     }
 
-    /// This runner without the fields that the members ask for; all else keeps its bits.
+    /// Returns this runner without the fields that the members ask for; all other results keep their bits.
     #[must_use]
     pub fn without_fields(self) -> Self {
         Self { has_fields: false, ..self }
@@ -34,7 +34,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
     /// Runs a member on this thread.
     ///
     /// # Errors
-    /// A member that is no valid case or that its model refuses.
+    /// The member is no valid case, or its model rejects it.
     pub fn run_one(
         &self,
         index: usize,
@@ -51,8 +51,8 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
     /// Runs these members, begun in this order, on the threads of the current rayon pool, each
     /// member on one.
     ///
-    /// Returns what `keep` keeps of each and its place in the sweep, in the order of the sweep; `observer`
-    /// may leave members out. Where there are no threads, as in a browser, one runs after the other.
+    /// Returns the index of each member and what `keep` makes of its result, in the order of the sweep; `observer`
+    /// may leave members out. Without threads, as in a browser, one runs after the other.
     pub fn run<T: Send>(
         &self,
         order: &[usize],
@@ -66,7 +66,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         kept
     }
 
-    /// As [`Runner::run`], of members that `observer` alone keeps.
+    /// Runs these members as [`Runner::run`] does, for results that only `observer` uses.
     pub fn run_all(&self, order: &[usize], observer: &impl Observer) {
         let run = |&index: &usize| drop(self.observed(index, observer));
         order.iter().par_bridge().for_each(run);

@@ -1,4 +1,4 @@
-//! Members that are made in code: a case, values, and what each of them changes.
+//! Members that are made in code: a case, values, and a function that puts a value into the case.
 
 use super::members::Members;
 use super::runner::{Runner, most_expensive_first};
@@ -6,7 +6,7 @@ use fem_case::{Case, CaseError, CaseFile};
 use fem_simulation::SharedModels;
 use fem_simulation::results::Summary;
 
-/// A case with one value after the other put in.
+/// Variations of a case, one per value.
 ///
 /// ```
 /// use fem_case::schema::{BodyTable, MaterialTable};
@@ -18,7 +18,7 @@ use fem_simulation::results::Summary;
 /// let case =
 ///     Case::of(CaseFile::of_bodies(BodyTable::wall("floor"), ball).with_material("ice", ice))?;
 ///
-/// // Two keys, all with all; the last runs fastest.
+/// // All combinations of two keys; the last key varies fastest.
 /// let values = [0.1, 1.0].into_iter().flat_map(|speed| [0.31, 0.33].map(|ratio| (speed, ratio)));
 /// let members = Variations::of(&case, values, |file, (speed, ratio)| {
 ///     file.body[1].approach_speed = Some(speed.into());
@@ -37,12 +37,12 @@ pub struct Variations<'c, V, F> {
 }
 
 impl<'c, V: Clone, F: Fn(&mut CaseFile, V)> Variations<'c, V, F> {
-    /// The members in which `edit` has put a value into the case, one a value, in their order.
+    /// Creates one member per value, in order; `edit` puts the value into the case.
     pub fn of(case: &'c Case, values: impl IntoIterator<Item = V>, edit: F) -> Self {
         Self { case, values: values.into_iter().collect(), edit }
     }
 
-    /// The value of each member.
+    /// Returns the value of each member.
     pub fn values(&self) -> &[V] {
         &self.values
     }
@@ -66,14 +66,13 @@ where
     }
 }
 
-/// Returns the summaries of a case with one value after the other put in, in the order of the values.
+/// Returns the summaries of a case for each value, in their order; `edit` puts a value into the case.
 ///
 /// The members run on all threads of the current rayon pool, and equal bodies share their factors.
-/// Fields are not computed. Who wants histories or fields, or to look on and end all of it, uses a
-/// [`Runner`].
+/// Fields are not computed. For histories, fields or an observer use a [`Runner`].
 ///
 /// # Errors
-/// Each value on its own may make no valid case, or one that its model does not support.
+/// Each value may make an invalid case, or one that its model does not support.
 ///
 /// ```
 /// use fem_case::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};

@@ -98,7 +98,7 @@ fn faults_have_name_line_and_column() {
     }
     let wall = case(BodyTable::wall("floor"));
     let error = fault(&wall, "diameter_1_mm,speed_m_s,e\n10,1,0.9\n").unwrap_err();
-    assert_eq!(error.message, "diameter_1_mm is of the first body, and \"floor\" is a wall");
+    assert_eq!(error.message, "diameter_1_mm belongs to the first body, and \"floor\" is a wall");
 }
 
 /// What spreadsheets and instruments write: one set of data in eight spellings.

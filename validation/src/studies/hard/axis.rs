@@ -1,4 +1,4 @@
-//! An axis of hard scenes as it is written.
+//! The file of an axis of hard scenes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -52,7 +52,7 @@ pub(super) enum Against {
     Ting,
     /// Another scene of the axis with the same model, in numbers without unit.
     Scene(String),
-    /// A restitution of a source.
+    /// A published restitution.
     Restitution(f64),
 }
 
@@ -60,14 +60,14 @@ pub(super) enum Against {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Expected {
-    /// |Δe|, and the largest share of contact time and peak force that it may be off.
+    /// Allowed differences: |Δe|, and relative ones of contact time and peak force.
     pub restitution: Option<f64>,
     pub contact_time: Option<f64>,
     pub peak_force: Option<f64>,
     /// Texts that its warnings must contain.
     #[serde(default)]
     pub says: Vec<String>,
-    /// Allowed relative gain of energy, of which the run must warn; absent: none.
+    /// Allowed relative gain of energy, of which the run must warn; `None` allows no gain.
     pub gains: Option<f64>,
     /// Text that the message of its rejection or stop must contain.
     pub refuses: Option<String>,
@@ -80,7 +80,7 @@ impl Axis {
     /// Reads an axis.
     ///
     /// # Errors
-    /// A file that is not there, or no axis.
+    /// The file cannot be read or is invalid.
     pub fn read(folder: &Path, name: &str) -> Result<Self, StudyError> {
         let path = folder.join(format!("{name}.toml"));
         let wrong = |error: String| StudyError::parameters(format!("{}: {error}", path.display()));

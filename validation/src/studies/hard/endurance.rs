@@ -1,4 +1,4 @@
-//! A body that flies and rings for a million steps.
+//! A body that flies and vibrates for a million steps.
 
 use fem_explicit::FreeMotion;
 use fem_material::{ElasticModuli, Material};
@@ -6,15 +6,14 @@ use fem_mesh::HalfDisc;
 
 use crate::error::StudyError;
 
-/// Between two looks.
+/// Number of steps between two measurements.
 const STEPS: usize = 100;
 
-/// The largest drift of a sphere's velocity that flies and rings, over that, and of its energy, over that;
-/// and the element updates that it took.
+/// Returns the largest relative drifts of velocity and energy of a sphere that flies and vibrates, and the number of
+/// element updates.
 ///
-/// It flies along the axis at a hundred times the speed with which it rings: in the mode that is
-/// started by a stretch along the axis, of which every other mode has a little. Its frequencies are those of
-/// the claim on free vibration.
+/// It flies along the axis at a hundred times the speed of its vibration, which begins with a stretch along the axis and
+/// so excites every mode. The claim on free vibration tests the frequencies.
 pub(super) fn endure(n_steps: usize) -> Result<([f64; 2], u64), StudyError> {
     const FLIGHT: f64 = 1.0;
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.488, 0.244)?;
@@ -23,7 +22,7 @@ pub(super) fn endure(n_steps: usize) -> Result<([f64; 2], u64), StudyError> {
     let material = Material::new(1.0, moduli, None)?;
     let mut sphere = FreeMotion::new(disc.build()?, &material, 0.9)?;
     let ringing = |[r, y]: [f64; 2]| [-0.5e-2 * r, 1e-2 * (y - 1.0)];
-    // Flight is not in what the springs of a body at rest would feel; its energy hides that of ringing.
+    // The energy of flight would hide that of the vibration: a body at rest vibrates alike.
     let mut still = sphere.clone();
     still.set_velocity(ringing);
     sphere.set_velocity(|place| {
@@ -44,7 +43,7 @@ pub(super) fn endure(n_steps: usize) -> Result<([f64; 2], u64), StudyError> {
     Ok((worst, (n_steps * elements) as u64))
 }
 
-/// Velocity of the mass centre along the axis, m/s.
+/// Returns the velocity of the mass centre along the axis, m/s.
 fn velocity(sphere: &FreeMotion) -> f64 {
     let mass = sphere.body().nodal_mass();
     let momentum: f64 = mass.iter().zip(sphere.velocity()).map(|(m, v)| m * v[1]).sum();

@@ -1,5 +1,5 @@
-//! Mesh files for hard scenes: a sphere's mesh as it is made here, and what becomes of such a mesh in other
-//! hands.
+//! Mesh files for hard scenes: a sphere's mesh of this program, unchanged or modified as by other
+//! programs and users.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -8,14 +8,14 @@ use std::path::Path;
 use fem_mesh::{HalfDisc, SphereMesh};
 use serde::Deserialize;
 
-use super::scenes::Random;
 use crate::error::StudyError;
+use crate::studies::random_scenes::Random;
 
 /// A mesh file of one of the bodies.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Imported {
-    /// 0 or 1.
+    /// Index of the body, 0 or 1.
     body: usize,
     /// Radius of the sphere, m.
     radius: f64,
@@ -34,35 +34,35 @@ enum Change {
     /// No modification.
     #[default]
     Plain,
-    /// Elements under the contact lean over, by half of their height.
+    /// Elements under the contact are sheared by half of their height.
     Sheared,
-    /// Elements along the surface three times as wide at the edge of the block as at the pole.
+    /// Elements along the surface are three times as wide at the edge of the block as at the pole.
     Graded,
-    /// The sphere's far side is the contact.
+    /// The contact is on the sphere's far side.
     Turned,
-    /// Nodes and elements in any order, which begin at any corner and wind either way.
+    /// Nodes and elements have any order; elements begin at any corner and have either orientation.
     Shuffled,
-    /// A node that is moved most of the way to the diagonal of an element.
+    /// A node is moved most of the way to the diagonal of an element.
     Thin,
-    /// A node that is moved across it.
+    /// A node is moved across the diagonal.
     Inverted,
-    /// A node that is nowhere.
+    /// A node has NaN coordinates.
     Nowhere,
-    /// The row of nodes under the surface twice: elements that touch and do not hang together.
+    /// The row of nodes under the surface is duplicated, so that elements touch but are not connected.
     Cracked,
-    /// A node twice at one place, in different elements.
+    /// A node is duplicated in another element.
     Doubled,
-    /// A second body.
+    /// There is a second body.
     Disconnected,
-    /// A node of no element.
+    /// A node belongs to no element.
     Loose,
 }
 
 impl Imported {
-    /// Writes the mesh; the override that names it.
+    /// Writes the mesh and returns the override that names it.
     ///
     /// # Errors
-    /// A mesh that cannot be made, a file that cannot be written.
+    /// The mesh cannot be made, or the file cannot be written.
     pub fn write(&self, folder: &Path, name: &str) -> Result<String, StudyError> {
         let Self { radius, element_size, refined_radius, .. } = *self;
         let half_disc =
@@ -96,7 +96,7 @@ impl Imported {
                 nodes[k] = [f64::NAN; 2];
             }
             Change::Cracked | Change::Doubled => {
-                // Of the one element alone: its neighbours keep the old ones.
+                // Only one element changes; its neighbours keep the old nodes.
                 let element = inner(&nodes, &quads, radius);
                 let n_torn = if let Change::Cracked = self.change { 2 } else { 1 };
                 for corner in 0..n_torn {
@@ -116,12 +116,12 @@ impl Imported {
     }
 }
 
-/// 1 at the pole, 0 from twice the width on.
+/// Returns a weight that is 1 at the pole and 0 beyond twice the width.
 fn near(r: f64, width: f64) -> f64 {
     (1.0 - (r / (2.0 * width)).powi(2)).max(0.0).powi(2)
 }
 
-/// Pole, axis and surface stay.
+/// Shears the mesh; pole, axis and surface stay.
 fn shear([r, y]: &mut [f64; 2], radius: f64, width: f64) {
     let surface = radius - (radius * radius - *r * *r).max(0.0).sqrt();
     let depth = (*y - surface).max(0.0);
@@ -129,8 +129,8 @@ fn shear([r, y]: &mut [f64; 2], radius: f64, width: f64) {
     *r += 0.5 * depth * share;
 }
 
-/// Turned about the centre, so that elements are half as wide at the pole, and half as wide again at twice
-/// the width; the surface stays one.
+/// Rotates nodes about the centre so that elements are half as wide at the pole and 1.5 times as wide at twice
+/// the width; the surface stays the same.
 fn grade(node: &mut [f64; 2], radius: f64, width: f64) {
     let [r, y] = [node[0], radius - node[1]];
     let (angle, distance) = (r.atan2(y), r.hypot(y));
@@ -141,7 +141,7 @@ fn grade(node: &mut [f64; 2], radius: f64, width: f64) {
     }
 }
 
-/// The element nearest to a point under the pole, off axis and surface.
+/// Returns the element nearest to a point under the pole, away from axis and surface.
 fn inner(nodes: &[[f64; 2]], quads: &[[u32; 4]], radius: f64) -> usize {
     let to = |quad: &[u32; 4]| {
         let at = quad.map(|k| nodes.get(k as usize).copied().unwrap_or_default());
@@ -169,7 +169,7 @@ fn shuffle(nodes: &mut Vec<[f64; 2]>, quads: &mut [[u32; 4]]) {
     }
 }
 
-/// A file in letters: its writer takes what a reader has to refuse.
+/// Writes a mesh as text, including errors that a reader has to reject.
 fn vtu(nodes: &[[f64; 2]], quads: &[[u32; 4]]) -> String {
     let array = |kind: &str, name: &str, n: usize, values: Vec<String>| {
         format!(

@@ -1,20 +1,17 @@
 //! Hard scenes: each axis of `validation/hard` goes from one extreme to the other, with every model that
-//! takes the scene.
+//! supports the scene.
 //!
 //! An axis is a file beside the claim, [`Axis`]. The invariants of every run are measured, the worst of all runs
 //! as `growth`, `momentum`, `excess`, `no_number` and `cost` ([`Trial`]); a run that may gain energy must
-//! warn of it. `endurance.flight` and `endurance.vibration` concern one body ([`endurance`]). `AXIS.difference` is the worst
-//! deviation of a run from its reference, over the tolerance that its scene states; `AXIS.unexpected` counts
-//! the runs that ended otherwise than the scene says, or did not say what it asks for.
+//! warn of it. `endurance.flight` and `endurance.vibration` concern one body ([`endurance`]). `AXIS.difference` is the largest
+//! difference of a run from its reference, over the tolerance of its scene; `AXIS.unexpected` counts
+//! the runs that did not end as the scene expects, or lack an expected warning.
 
 mod axis;
 mod endurance;
-mod fed;
 mod imported;
-mod random;
 mod reference;
-pub(in crate::studies) mod scenes;
-mod seen;
+mod tables;
 mod trial;
 
 use std::path::Path;
@@ -23,8 +20,6 @@ use fem_case::CaseError;
 use rayon::prelude::*;
 use serde::Deserialize;
 
-pub use random::study as random_study;
-
 use crate::claim::RunFile;
 use crate::error::StudyError;
 use crate::findings::Findings;
@@ -32,7 +27,7 @@ use crate::laboratory::Laboratory;
 use axis::{Axis, Expected, Scene};
 use endurance::endure;
 use reference::Reference;
-use seen::Now;
+use tables::SceneResult;
 use trial::{Outcome, Trial};
 
 #[derive(Deserialize)]
@@ -40,7 +35,7 @@ use trial::{Outcome, Trial};
 struct Parameters {
     /// Names of the files beside the claim, without their ending.
     axes: Vec<String>,
-    /// Whether only what takes milliseconds is run.
+    /// Whether only runs of milliseconds are made.
     #[serde(default)]
     quick: bool,
 }
@@ -53,7 +48,7 @@ struct Entry<'a> {
     expected: &'a Expected,
 }
 
-/// Steps of a body that flies and rings.
+/// Number of steps of the body that flies and vibrates.
 const ENDURANCE: usize = 1_000_000;
 
 /// Outcome of an entry, and its reference.
@@ -90,15 +85,20 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let now = entries.iter().zip(&tried).map(|(entry, tried)| {
         let axis = parameters.axes[entry.axis].clone();
         let row = entry.row(tried, folder.path());
-        Now {
+        SceneResult {
             key: [axis, entry.scene.name.clone(), entry.model.to_string()],
             restitution: row[3].clone(),
             outcome: row[10].clone(),
         }
     });
-    let now: Vec<Now> = now.collect();
-    seen::tabulate(&laboratory.claim().folder, &now, parameters.quick, &mut findings)?;
-    fed::tabulate(&laboratory.claim().folder, &mut findings)?;
+    let now: Vec<SceneResult> = now.collect();
+    tables::tabulate_earlier_faults(
+        &laboratory.claim().folder,
+        &now,
+        parameters.quick,
+        &mut findings,
+    )?;
+    tables::tabulate_hostile_inputs(&laboratory.claim().folder, &mut findings)?;
     for (name, (axis, file)) in parameters.axes.iter().zip(axes.iter().enumerate()) {
         let own = || entries.iter().zip(&tried).filter(|(entry, _)| entry.axis == axis);
         findings.measure(format!("{name}.unexpected"), 0.0);
@@ -137,7 +137,7 @@ impl Entry<'_> {
             let mut set = axis.set.clone();
             set.extend(scene.set.iter().cloned());
             for (k, imported) in scene.imported.iter().enumerate() {
-                // A file of its own for each run: others are read meanwhile.
+                // Runs are parallel, so each has its own file.
                 let run = [&self.scene.name, self.model, &scene.name, model].map(str::as_bytes);
                 let name = format!("{}_{k}", &fem::digest_of(run)[..16]);
                 let written = imported.write(folder, &name);
@@ -162,11 +162,11 @@ impl Entry<'_> {
         Ok(Tried { trial, reference })
     }
 
-    /// Differences from the reference, over what the scene allows.
+    /// Returns the differences from the reference over the allowed ones.
     fn differences(&self, tried: &Tried) -> Option<[Option<(f64, f64)>; 4]> {
         let (ours, reference) = (tried.trial.numbers()?, tried.reference?);
         let expected = self.expected;
-        // Of the peak pressure, which mesh and edge decide more than all else, no scene asks anything.
+        // No scene restricts the peak pressure, which depends mostly on the mesh at the edge.
         let allowed = [expected.restitution, expected.contact_time, expected.peak_force, None];
         Some([0, 1, 2, 3].map(|k| {
             let off = reference.difference(&ours, k)?;
@@ -210,7 +210,7 @@ impl Entry<'_> {
         Ok(())
     }
 
-    /// Whether the run ended as the scene says, and said what it should.
+    /// Whether the run ended as expected and has the expected warnings.
     fn is_as_expected(&self, tried: &Tried) -> bool {
         match (&tried.trial.outcome, &self.expected.refuses) {
             (Outcome::Ran { .. }, Some(_)) => false,

@@ -15,10 +15,10 @@ const TING: &str = "ting={finite_size=true}";
 pub(super) struct Reference(Numbers);
 
 impl Reference {
-    /// That of a scene with a model.
+    /// Returns the reference of a scene with a model.
     ///
     /// # Errors
-    /// A reference that cannot be computed; an interrupt.
+    /// The reference cannot be computed, or the user interrupts it.
     pub fn of<'a>(
         against: &Against,
         scene: &Scene,

@@ -10,14 +10,14 @@ use fem_laws::HertzImpact;
 use crate::error::StudyError;
 use crate::laboratory::Laboratory;
 
-/// A run, or why there is none.
+/// The outcome of a run.
 pub(super) struct Trial {
     pub outcome: Outcome,
-    /// Element updates that were announced, those of explicit elements.
+    /// Estimated element updates of explicit elements.
     announced: Option<u64>,
 }
 
-/// How a run ended.
+/// The end of a run.
 pub(super) enum Outcome {
     /// The run ended by itself.
     Ran { collision: Box<Collision>, warnings: Vec<String>, hertz: HertzImpact },
@@ -29,7 +29,7 @@ pub(super) enum Outcome {
 pub(super) type Numbers = [Option<f64>; 4];
 
 impl Trial {
-    /// Runs a case, if it is one.
+    /// Runs a case if it is valid.
     ///
     /// # Errors
     /// The user interrupted the study.
@@ -44,7 +44,7 @@ impl Trial {
         Ok(outcome)
     }
 
-    /// Element updates over those that were announced, of a run that ended by itself.
+    /// Returns the element updates over the estimated ones, for a run that ended by itself.
     pub fn cost(&self) -> Option<f64> {
         let collision = self.collision().filter(|collision| collision.bounces.is_empty())?;
         Some(collision.element_updates? as f64 / self.announced? as f64)
@@ -57,7 +57,7 @@ impl Trial {
         }
     }
 
-    /// Numbers without unit.
+    /// Returns the dimensionless numbers.
     pub fn numbers(&self) -> Option<Numbers> {
         let Outcome::Ran { collision, hertz, .. } = &self.outcome else { return None };
         Some([
@@ -90,7 +90,7 @@ impl Trial {
         collision.history.iter().filter_map(held).reduce(largest)
     }
 
-    /// Worst drift of momentum over Σ m|v|.
+    /// Returns the largest drift of momentum over Σ m|v|.
     pub fn momentum(&self) -> Option<f64> {
         self.collision()?.momentum_residual_relative
     }
@@ -132,10 +132,10 @@ impl Trial {
     }
 }
 
-/// Words up to so many letters.
+/// Largest number of characters of a shortened text.
 const LONGEST: usize = 100;
 
-/// The first words of a text.
+/// Returns the first words of a text.
 fn beginning(text: &str) -> String {
     let words = text.split_whitespace();
     let mut short = words.fold(String::new(), |mut short, word| {
@@ -151,7 +151,7 @@ fn beginning(text: &str) -> String {
     short
 }
 
-/// The larger one, signs counted; NaN stays.
+/// Returns the larger of two signed numbers, or NaN if one is.
 fn largest(so_far: f64, value: f64) -> f64 {
     if value > so_far || value.is_nan() { value } else { so_far }
 }

@@ -1,10 +1,10 @@
-//! Hertz' field in units of the contact radius a and the pressure p₀.
+//! Hertz' stress field in units of the contact radius a and the pressure p₀.
 
 use fem_laws::HertzPressure;
 
 const UNIT: HertzPressure = HertzPressure { contact_radius: 1.0, peak_pressure: 1.0 };
 
-/// Field that is compared along a curve.
+/// A field that is compared along a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Profile {
     /// Contact pressure against the distance from the axis.
@@ -20,11 +20,11 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// All, in the order of their declaration.
+    /// All profiles, in the order of their declaration.
     pub const ALL: [Self; 5] =
         [Self::Pressure, Self::Axial, Self::Radial, Self::Surface, Self::Hoop];
 
-    /// Its name in claims.
+    /// Returns its name in claims.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pressure => "pressure",
@@ -35,7 +35,7 @@ impl Profile {
         }
     }
 
-    /// Its name for readers.
+    /// Returns its name for readers.
     pub fn label(self) -> &'static str {
         match self {
             Self::Pressure => "contact pressure",
@@ -58,12 +58,12 @@ pub fn closed_form(profile: Profile, place: f64, poissons_ratio: f64) -> f64 {
     }
 }
 
-/// ½|σ_rr − σ_yy| on the axis.
+/// Returns ½|σ_rr − σ_yy| on the axis.
 pub fn shear(depth: f64, poissons_ratio: f64) -> f64 {
     UNIT.axis_stress(depth, poissons_ratio).max_shear()
 }
 
-/// σ_rr and σ_θθ on the surface (Johnson, *Contact Mechanics*, eqs. 3.42 and 3.44), inside and
+/// Returns σ_rr and σ_θθ on the surface (Johnson, *Contact Mechanics*, eqs. 3.42 and 3.44), inside and
 /// outside of the contact:
 ///
 /// ```math
@@ -85,7 +85,7 @@ fn surface_stress(r: f64, poissons_ratio: f64) -> [f64; 2] {
     [radial, -(1.0 + 2.0 * poissons_ratio) * UNIT.pressure(r) - radial]
 }
 
-/// σ_rz below the surface, z into the body.
+/// Returns σ_rz below the surface, with z into the body.
 pub fn shear_below(r: f64, z: f64) -> f64 {
     // It does not depend on Poisson's ratio.
     UNIT.stress(r, z, 0.0)[3]
@@ -95,8 +95,8 @@ pub fn shear_below(r: f64, z: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Surface and axis meet in one point, the rim has Hertz' largest tension, and far away it is
-    /// Boussinesq's point force: σ_rr = (1−2ν)F/2πr².
+    /// Surface and axis meet in one point, the rim has Hertz' largest tension, and far away the field is that of
+    /// Boussinesq's point force, σ_rr = (1−2ν)F/2πr².
     #[test]
     fn the_surface_fits_what_is_around_it() {
         for nu in [0.0, 0.244, 0.3, 0.5] {

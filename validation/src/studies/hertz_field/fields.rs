@@ -11,7 +11,7 @@ use super::closed_form::{Profile, closed_form, shear_below};
 use crate::error::StudyError;
 use crate::run::ExplicitRun;
 
-/// A value at a place, and the share of the place in an integral.
+/// A value at a place with its weight in an integral.
 #[derive(Clone, Copy)]
 pub struct Sample {
     /// Distance from the axis or depth, over a.
@@ -35,7 +35,7 @@ pub struct Fields {
 }
 
 impl Fields {
-    /// Out to the given depth and distance over a.
+    /// Samples the fields out to the given depth and distance over a.
     pub fn of(run: &ExplicitRun, depth: f64, distance: f64) -> Result<Self, StudyError> {
         let missing = || StudyError::parameters("the run has no snapshot of its largest approach");
         let is_maximum = |snapshot: &&Snapshot| snapshot.label == Some(SnapshotInstant::Maximum);
@@ -88,12 +88,12 @@ impl Fields {
         })
     }
 
-    /// Along its curve, from the axis or the surface.
+    /// Returns the samples of a profile along its curve, from the axis or the surface.
     pub fn profile(&self, profile: Profile) -> &[Sample] {
         &self.profiles[profile as usize]
     }
 
-    /// ½|σ_rr − σ_yy| along the axis: (depth, value).
+    /// Returns (depth, ½|σ_rr − σ_yy|) along the axis.
     pub fn shear(&self) -> Vec<(f64, f64)> {
         let both = self.profile(Profile::Axial).iter().zip(self.profile(Profile::Radial));
         both.map(|(axial, radial)| (axial.place, 0.5 * (radial.value - axial.value).abs()))
@@ -109,7 +109,7 @@ fn displacements(run: &ExplicitRun, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
     })
 }
 
-/// a and p₀ of the contact force: a³ = 3FR*/4E*, p₀ = 3F/2πa².
+/// Returns a and p₀ of the contact force: a³ = 3FR*/4E*, p₀ = 3F/2πa².
 fn hertz_at_force(run: &ExplicitRun, u: &[Vec<[f64; 2]>; 2]) -> Result<HertzPressure, StudyError> {
     let mut forces = u.each_ref().map(|u| vec![[0.0; 2]; u.len()]);
     let [lower, upper] = &mut forces;
@@ -119,7 +119,7 @@ fn hertz_at_force(run: &ExplicitRun, u: &[Vec<[f64; 2]>; 2]) -> Result<HertzPres
     Ok(hertz.pressure(approach))
 }
 
-/// Contact pressure at the nodes of the first sphere, out to a tenth beyond the contact.
+/// Returns the contact pressure at the nodes of the first sphere, out to a tenth beyond the contact.
 fn pressure(
     springs: &ContactInterface,
     u: &[Vec<[f64; 2]>; 2],
@@ -131,7 +131,7 @@ fn pressure(
         .take_while(|(place, _)| *place < 1.1)
         .unzip();
     let mut all = samples(&places, |k| values[k], Profile::Pressure, f64::NAN);
-    // Over the area instead of the length.
+    // The weight is an area instead of a length.
     let n = places.len();
     for k in 0..n {
         let share = |inner: usize, which: usize| {
@@ -143,7 +143,7 @@ fn pressure(
     all
 }
 
-/// Values at rising places with what the closed form says there, weighted with the length around.
+/// Returns values at ascending places with those of the closed form, weighted by the length around each.
 fn samples(
     places: &[f64],
     value: impl Fn(usize) -> f64,
@@ -161,7 +161,7 @@ fn samples(
         .collect()
 }
 
-/// √(Σ w (x − exact)² / Σ w exact²).
+/// Returns √(Σ w (x − exact)² / Σ w exact²).
 pub fn relative_error(samples: &[Sample]) -> f64 {
     let sum = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(|s| s.weight * of(s)).sum::<f64>();
     (sum(&|s| (s.value - s.exact).powi(2)) / sum(&|s| s.exact * s.exact)).sqrt()

@@ -2,8 +2,8 @@
 //!
 //! The case of the claim is run with several numbers of elements over Hertz' contact radius. For each
 //! profile (`pressure`, `axial`, `radial`, `surface`,
-//! `hoop`) and of σ_rz in the body, `inner_shear`: `.error` on the finest mesh, relative L2,
-//! and `.order`. Of the finest mesh besides: `max_shear` and `max_shear_depth` over their closed
+//! `hoop`) and for σ_rz in the body, `inner_shear`, it measures `.error`, the relative L2 error on the finest mesh,
+//! and `.order`; on the finest mesh also `max_shear` and `max_shear_depth` over their closed
 //! forms, `rim_tension` over (1−2ν)p₀/3, and `size`, a/R.
 
 mod closed_form;
@@ -18,20 +18,20 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::order::fitted_order;
+use crate::studies::order::fitted_order;
 use closed_form::{Profile, closed_form, shear};
 use fields::{Fields, relative_error};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Elements over Hertz' contact radius, rising.
+    /// Elements over Hertz' contact radius, ascending.
     elements: Vec<f64>,
     /// Depth over the contact radius out to which the axis is compared.
     depth: f64,
     /// Distance from the axis over the contact radius out to which the surface is compared.
     distance: f64,
-    /// From which on the tension outside of the contact is fitted.
+    /// Distance over the contact radius from which the tension outside of the contact is fitted.
     rim: f64,
 }
 
@@ -104,7 +104,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Largest shear on the axis, its depth, and the tension at the rim, over Hertz'.
+/// Measures the largest shear on the axis, its depth, and the tension at the rim, over Hertz' values.
 fn marks(fields: &Fields, rim: f64) -> [f64; 3] {
     let (found, depth) = largest(&fields.shear());
     let exact: Vec<_> = places(2.0).map(|z| (z, shear(z, fields.poissons_ratio))).collect();
@@ -112,13 +112,13 @@ fn marks(fields: &Fields, rim: f64) -> [f64; 3] {
     [found / exact, depth / exact_depth, rim_tension(fields, rim)]
 }
 
-/// Finely from 0.
+/// Returns a fine grid from 0.
 fn places(end: f64) -> impl Iterator<Item = f64> {
     let step = 2e-3;
     (0..=(end / step) as usize).map(move |k| k as f64 * step)
 }
 
-/// The largest value and its place, from the parabola through the largest point and its two
+/// Returns the largest value and its place, from the parabola through the largest point and its two
 /// neighbours.
 fn largest(points: &[(f64, f64)]) -> (f64, f64) {
     let best = (1..points.len().saturating_sub(1))
@@ -136,8 +136,8 @@ fn largest(points: &[(f64, f64)]) -> (f64, f64) {
     (y1 + 0.5 * slope * shift, x1 + shift)
 }
 
-/// The tension at the rim that the field outside of it belongs to, over (1−2ν)p₀/3: C of
-/// σ_rr = C a²/r², by least squares from `rim` contact radii on.
+/// Returns the tension at the rim over (1−2ν)p₀/3, from the field outside: C of
+/// σ_rr = C a²/r², by least squares beyond `rim` contact radii.
 fn rim_tension(fields: &Fields, rim: f64) -> f64 {
     let outside = fields.profile(Profile::Surface).iter().filter(|sample| sample.place >= rim);
     let (product, square) = outside.fold((0.0, 0.0), |(product, square), s| {

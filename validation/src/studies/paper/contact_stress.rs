@@ -59,7 +59,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Pressure on the axis, Pa.
+/// Returns the pressure on the axis, Pa.
 fn pressure(row: &HistoryRow) -> f64 {
     row.centre_pressure.unwrap_or(f64::NAN)
 }
@@ -69,7 +69,7 @@ fn pressure_by_hertz(run: &Run, time: f64) -> f64 {
     hertz.pressure(hertz.at(time).approach).peak_pressure
 }
 
-/// Root mean square of the difference from Hertz over the contact, of the peak.
+/// Returns the root mean square difference from Hertz' force over the contact, relative to the peak.
 fn history_difference(run: &Run) -> f64 {
     let hertz = run.hertz;
     let rows = run.collision.history.iter().filter(|row| row.time <= hertz.contact_time());

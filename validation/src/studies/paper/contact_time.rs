@@ -58,7 +58,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Condensed bodies, whose contact time has no noise of its own.
+/// Returns the contact times of condensed bodies, which have no noise.
 fn measure_condensed(laboratory: &Laboratory, findings: &mut Findings) -> Result<(), StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let elements = parameters.condensed_elements_per_contact_radius;

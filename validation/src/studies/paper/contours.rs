@@ -14,9 +14,9 @@ use crate::studies::sections;
 const MILLI: f64 = 1e3;
 const GIGA: f64 = 1e-9;
 const GIGA_PASCAL: f64 = 1e9;
-/// Bands over the largest stress, about.
+/// Approximate number of colour bands over the largest stress.
 const N_BANDS: usize = 11;
-/// The stressed region ends where the compression falls to this share of Hertz' p₀.
+/// Share of Hertz' p₀ at which the stressed region ends.
 const STRESSED: f64 = 0.1;
 
 #[derive(Deserialize)]
@@ -49,7 +49,7 @@ struct Instant {
     label: SnapshotInstant,
     time: f64,
     halves: [Section; 2],
-    /// On the contact's pole of each body, GPa.
+    /// Stress at the contact pole of each body, GPa.
     poles: [f64; 2],
 }
 
@@ -60,7 +60,7 @@ impl Instant {
         let poles = [0, 1].map(|k: usize| {
             bodies[k].mesh().map_or(f64::NAN, |mesh| halves[k].values[mesh.surface()[0] as usize])
         });
-        // Height is measured from the middle between the poles.
+        // Heights are measured from the middle between the poles.
         let pole = |k: usize| {
             let section: &Section = &halves[k];
             section.outline.first().map_or(0.0, |point| section.points[*point as usize][1])
@@ -107,7 +107,7 @@ fn measure(run: &ExplicitRun, instants: &[Instant], findings: &mut Findings) {
     findings.measure("mirror_difference", difference(compression, separation));
 }
 
-/// Root mean square of the difference of two fields over that of the first.
+/// Returns the root mean square difference of two fields over that of the first.
 fn difference(first: &Instant, second: &Instant) -> f64 {
     let values = |instant: &Instant| instant.halves.clone().map(|half| half.values).concat();
     let (first, second) = (values(first), values(second));

@@ -1,4 +1,4 @@
-//! The figures and numbers of Bordbar & Hyppänen (2007), and what they have in common.
+//! The figures and numbers of Bordbar & Hyppänen (2007), and the functions that their studies share.
 
 pub(super) mod contact_stress;
 pub(super) mod contact_time;
@@ -37,7 +37,7 @@ impl Speeds {
     }
 }
 
-/// The case at an approach speed (m/s) of its first body, with so many elements across its largest
+/// Returns the case at an approach speed (m/s) of its first body, with a number of elements across its largest
 /// contact radius.
 fn case_at(case: &Case, speed: f64, elements: f64) -> Result<Case, StudyError> {
     let case = case.edited(|file| file.body[0].approach_speed = Some(speed.into()))?;
@@ -47,7 +47,7 @@ fn case_at(case: &Case, speed: f64, elements: f64) -> Result<Case, StudyError> {
     })?)
 }
 
-/// The exponent p of the least-squares fit y ∝ xᵖ; NaN if a number is not positive.
+/// Returns the exponent p of the least-squares fit y ∝ xᵖ; NaN if a number is not positive.
 fn exponent(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let logarithms = || points.iter().map(|(x, y)| (x.ln(), y.ln()));
@@ -60,7 +60,7 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
     xy / xx
 }
 
-/// Where a function falls through a value between two positive numbers, to rounding; NaN if it
+/// Returns the place between two positive numbers at which a function falls through a value, to rounding; NaN if it
 /// does not.
 fn falls_through(
     target: f64,

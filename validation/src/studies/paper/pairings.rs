@@ -1,5 +1,5 @@
-//! Figs. 2 and 3: the pairings of three spheres over speed, finite elements with one Maxwell
-//! branch beside the paper's reduced law.
+//! Figs. 2 and 3: the pairings of three spheres over speed, by finite elements with one Maxwell
+//! branch and by the paper's reduced law.
 
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ struct Fit {
 /// One pairing over the speeds.
 struct Pairing {
     diameters: [f64; 2],
-    /// Speed, restitution of the finite elements, of the reduced law.
+    /// Speed, restitution of the finite elements, and that of the reduced law.
     points: Vec<(f64, f64, f64)>,
 }
 
@@ -57,7 +57,7 @@ impl Pairing {
         self.diameters[0] == self.diameters[1]
     }
 
-    /// Exponents of the losses 1 − e in the speed: finite elements, reduced law.
+    /// Returns the exponents of the losses 1 − e in the speed, of finite elements and of the reduced law.
     fn exponents(&self) -> [f64; 2] {
         let of = |loss: &dyn Fn(&(f64, f64, f64)) -> f64| {
             exponent(&self.points.iter().map(|point| (point.0, loss(point))).collect::<Vec<_>>())

@@ -1,4 +1,4 @@
-//! The restitution at 0.5 m/s: both readings of the bulk modulus, both decay rates of the paper.
+//! The restitution at 0.5 m/s for both readings of the bulk modulus and both decay rates of the paper.
 
 use std::sync::Arc;
 
@@ -91,7 +91,7 @@ fn reading(run: &Run) -> String {
     .into()
 }
 
-/// Formats 1/τ of the first term.
+/// Formats the decay rate 1/τ of the first term.
 fn rate(run: &Run) -> String {
     decay_rate(run).map_or(String::new(), |rate| format!("{rate:.1}"))
 }

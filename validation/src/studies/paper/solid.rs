@@ -1,7 +1,7 @@
 //! Fig. 5: a spring in series with a Kelvin element is one Prony term of weight below 1.
 //!
-//! The dashpot and the series spring stay the same, the spring beside the dashpot grows: from
-//! Maxwell's fluid, which the paper's finite elements use, to stiffer and stiffer solids.
+//! The dashpot and the series spring stay the same. The stiffness of the spring parallel to the dashpot grows, from
+//! Maxwell's fluid, which the paper's finite elements use, to stiffer solids.
 
 use fem::{Plan, ting_impact};
 use fem_case::Case;
@@ -21,13 +21,13 @@ const N_STEPS: u32 = 600;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// k₁, Pa: the instantaneous shear modulus.
+    /// Stiffness k₁ of the series spring, the instantaneous shear modulus, Pa.
     series_stiffness: f64,
-    /// k₁/η, 1/s: how fast the modulus falls at first.
+    /// Initial decay rate k₁/η of the modulus, 1/s.
     first_decay: f64,
-    /// k₂/k₁ of the runs.
+    /// Ratios k₂/k₁ of the runs.
     ratios: Vec<f64>,
-    /// k₂/k₁ up to which Ting is drawn.
+    /// Largest k₂/k₁ of the curve of Ting's model.
     largest_ratio: f64,
 }
 
@@ -38,7 +38,7 @@ impl Parameters {
             .map_err(|error| StudyError::parameters(error.to_string()))
     }
 
-    /// The case with the solid as its Prony term.
+    /// Returns the case with the solid as its Prony term.
     fn case(&self, glass: &Case, ratio: f64) -> Result<Case, StudyError> {
         let term = self.series(ratio)?.terms()[0];
         let term = TermTable::with_relaxation_time(term.weight, term.relaxation_time);
@@ -104,7 +104,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Stress over time, of the first, while springs and dashpot are held at a strain of 1: the
+/// Returns the stress over time, relative to the first, while springs and dashpot are held at a strain of 1; the
 /// dashpot's creep ε̇₂ = (k₁ − (k₁+k₂) ε₂)/η by Runge and Kutta's fourth order.
 fn hold(ratio: f64, first_decay: f64, end: f64) -> Vec<(f64, f64)> {
     let rate = |creep: f64| first_decay * (1.0 - (1.0 + ratio) * creep);

@@ -1,4 +1,4 @@
-//! Fig. 11: velocities of both spheres over an elastic collision, beside Hertz.
+//! Fig. 11: velocities of both spheres during an elastic collision, compared with Hertz.
 //!
 //! Hertz gives the approach rate; with the velocity of the centre of mass it gives both bodies':
 //!
@@ -41,7 +41,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Two points of mass: what does not depend on their contact.
+/// Two point masses, whose velocities follow from the approach rate.
 struct RigidPair {
     masses: [f64; 2],
     before: [f64; 2],
@@ -56,7 +56,7 @@ impl RigidPair {
         Self { masses, before: scene.bodies().each_ref().map(|body| body.velocity()) }
     }
 
-    /// Velocities, m/s, at an approach rate.
+    /// Returns the velocities, m/s, at an approach rate.
     fn velocities(&self, approach_rate: f64) -> [f64; 2] {
         let [m1, m2] = self.masses;
         let [v1, v2] = self.before;
@@ -64,7 +64,7 @@ impl RigidPair {
         [centre + m2 / (m1 + m2) * approach_rate, centre - m1 / (m1 + m2) * approach_rate]
     }
 
-    /// Velocities after a collision that loses nothing.
+    /// Returns the velocities after a collision without loss.
     fn after(&self) -> [f64; 2] {
         self.velocities(self.before[1] - self.before[0])
     }
@@ -85,7 +85,7 @@ fn measure(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
             findings.measure_worst("worst_velocity_difference", difference);
         }
     }
-    // The circle in which the undeformed spheres would cut each other.
+    // The radius of the circle in which the undeformed spheres intersect.
     let overlap = (2.0 * run.max_approach() * hertz.pair().effective_radius()).sqrt();
     findings.measure("overlap_radius", overlap);
 }

@@ -1,11 +1,11 @@
-//! A sphere's mesh that is its own mirror image at the equator and as fine at either pole.
+//! A sphere's mesh that is symmetric about the equator and equally fine at both poles.
 
 use fem_mesh::{MeshError, SphereMesh};
 
 /// Corners of the inner block, in ζ: on the axis and on the diagonal.
 const CORNERS: [f64; 2] = [0.5, 0.4];
 
-/// A unit sphere above its contact pole, of 6 m² elements.
+/// Returns a unit sphere above its contact pole, with 6 m² elements.
 ///
 /// The near half is the image of the quarter disc |ζ| ≤ 1 under z = 2ζ/(1 + ζ): a block of m × m cells
 /// at the pole and m rings of 2m cells around it, out to the equator.
@@ -44,19 +44,19 @@ pub fn sphere(m: usize) -> Result<SphereMesh, MeshError> {
     SphereMesh::import(1.0, nodes, quads)
 }
 
-/// The size of the elements at the poles.
+/// Returns the size of the elements at the poles.
 pub fn contact_element_size(m: usize) -> f64 {
     2.0 * CORNERS[0] / m as f64
 }
 
-/// ζ of the inner block, bilinear between its corners.
+/// Returns ζ in the inner block, bilinear between its corners.
 fn inner(s: f64, t: f64) -> [f64; 2] {
     let [side, diagonal] = CORNERS;
     let reach = |s: f64, t: f64| s * (side + (diagonal - side) * t);
     [reach(s, t), reach(t, s)]
 }
 
-/// (r, y) of 2ζ/(1 + ζ).
+/// Returns (r, y) of 2ζ/(1 + ζ).
 fn image([x, y]: [f64; 2]) -> [f64; 2] {
     let square = (1.0 + x) * (1.0 + x) + y * y;
     [2.0 * y / square, 2.0 * (x * (1.0 + x) + y * y) / square]

@@ -2,7 +2,7 @@
 //!
 //! R = E = ρ = 1. One plate is the wall of the model, the other a force on the nodes of the far half
 //! ([`plate`]); both come at the same speed, so that the sphere's centre stays in the middle. For each
-//! Poisson's ratio and each depth d of a plate, over the radius:
+//! Poisson's ratio and each depth d of a plate, over the radius, it measures
 //!
 //! * `nuNN.forceDD`, the mean force over the approaches within 2 % of d, over Hertz' force of d,
 //!   4/3 d^(3/2)/(1 − ν²): NN and DD are hundredths;
@@ -34,7 +34,7 @@ const PENALTY_FACTOR: f64 = 60.0;
 #[serde(deny_unknown_fields)]
 struct Parameters {
     poissons_ratios: Vec<f64>,
-    /// Over the radius, ascending.
+    /// Depths over the radius, ascending.
     depths: Vec<f64>,
     /// Cells along an eighth of the meridian.
     cells: usize,
@@ -68,7 +68,7 @@ fn hundredths(x: f64) -> u32 {
     (100.0 * x).round() as u32
 }
 
-/// Rows of a run until the plates have come a little further than the largest depth.
+/// Returns the rows of a run until the plates are slightly beyond the largest depth.
 fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<HistoryRow>, u64), StudyError> {
     let Parameters { cells, speed, ref depths, .. } = *parameters;
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(1.0, nu)?;
@@ -110,14 +110,14 @@ fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<HistoryRow>, u64), Stu
     Ok((collision.history, steps * n_elements))
 }
 
-/// Mean of force over Hertz' at approaches near a depth.
+/// Returns the mean ratio of the force to Hertz' force at approaches near a depth.
 fn mean_force_ratio(rows: &[HistoryRow], depth: f64, hertz: impl Fn(f64) -> f64) -> f64 {
     let near = rows.iter().filter(|row| (row.approach / depth - 1.0).abs() < 0.02);
     let ratios: Vec<f64> = near.map(|row| row.contact_force / hertz(row.approach)).collect();
     ratios.iter().sum::<f64>() / ratios.len() as f64
 }
 
-/// The worst residual over the work of the plates in the end.
+/// Returns the largest energy residual over the final work of the plates.
 fn residual(rows: &[HistoryRow]) -> f64 {
     let work = rows.last().and_then(|row| row.energy(Account::WallWork)).unwrap_or(f64::NAN);
     rows.iter().map(|row| row.residual.unwrap_or(f64::NAN).abs()).fold(0.0, nan_aware_max_abs)

@@ -1,11 +1,11 @@
-//! The plate that comes from the far side: a force on the nodes of the far half of the surface.
+//! The plate on the far side, as a force on the nodes of the far half of the surface.
 //!
 //! ```math
 //! f_a = -k A_a \langle Y_a + u_a - y \rangle, \qquad y = 2 - 2 v t
 //! ```
 //!
-//! along y, with the share A_a of the undeformed surface; the near plate is at rest and the sphere's
-//! centre comes at v. It has springs, and the plate does work on them.
+//! along y, with the area A_a of each node on the undeformed surface. The near plate is at rest, and the sphere's
+//! centre approaches at v.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ use fem_mesh::SphereMesh;
 #[derive(Debug)]
 pub struct FarPlate {
     springs: Vec<Spring>,
-    /// Along −y, twice that of the centre.
+    /// Speed along −y, twice that of the centre.
     speed: f64,
 }
 
@@ -30,7 +30,7 @@ struct Spring {
 }
 
 impl FarPlate {
-    /// Against the far half of a unit sphere that moves at `speed` along −y; `penalty` is per area.
+    /// Creates the plate for the far half of a unit sphere; it moves at `speed` along −y, and `penalty` is per area.
     pub fn new(mesh: &SphereMesh, penalty: f64, speed: f64) -> Self {
         let place = |node: u32| mesh.nodes()[node as usize];
         let mut areas = vec![0.0; mesh.nodes().len()];
@@ -49,7 +49,7 @@ impl FarPlate {
         Self { springs: far.map(spring).collect(), speed: 2.0 * speed }
     }
 
-    /// Springs and by how much they are pressed.
+    /// Returns the compressed springs and their compressions.
     fn pressed<'a>(&'a self, motion: &Motion<'a>) -> impl Iterator<Item = (&'a Spring, f64)> {
         let (come, displacement) = (self.speed * motion.time, motion.displacement);
         self.springs.iter().filter_map(move |spring| {
@@ -64,7 +64,7 @@ impl FarPlate {
 }
 
 impl Part for FarPlate {
-    /// Work of the plate and its force, as the pair of the first node.
+    /// Returns the work of the plate and its force.
     fn n_history(&self) -> usize {
         1
     }

@@ -1,9 +1,9 @@
 //! Spherical Bessel functions and Legendre polynomials.
 
-/// Where a downward recurrence is scaled back.
+/// Size at which a downward recurrence is scaled back.
 const LARGE: f64 = 1e200;
 
-/// j_0(x), …, j_L(x) for x > 0.
+/// Returns j_0(x), …, j_L(x) for x > 0.
 ///
 /// Downward recurrence f_{n−1} = (2n+1)/x f_n − f_{n+1} from far above max(L, x), where any start
 /// decays into j_n (Miller), normalised by Σ (2n+1) j_n² = 1 (Abramowitz & Stegun, 10.1.19,
@@ -25,7 +25,7 @@ pub(super) fn spherical_bessel(degree: usize, x: f64) -> Vec<f64> {
     values
 }
 
-/// P_l and its derivative at a cosine.
+/// Returns P_l and its derivative at a cosine.
 pub(super) fn legendre(degree: usize, cosine: f64) -> (f64, f64) {
     let (mut value, mut slope) = ([1.0, cosine], [0.0, 1.0]);
     if degree == 0 {
@@ -34,7 +34,7 @@ pub(super) fn legendre(degree: usize, cosine: f64) -> (f64, f64) {
     for n in 1..degree {
         let (k, m) = (n as f64, (2 * n + 1) as f64);
         value = [value[1], (m * cosine * value[1] - k * value[0]) / (k + 1.0)];
-        // P'_{n+1} = P'_{n−1} + (2n+1) P_n; the value has moved on already.
+        // P'_{n+1} = P'_{n−1} + (2n+1) P_n; the value has been updated already.
         slope = [slope[1], slope[0] + m * value[0]];
     }
     (value[1], slope[1])

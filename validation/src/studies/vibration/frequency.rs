@@ -9,16 +9,16 @@ use fem_mesh::{HalfDisc, Side};
 use super::spheroidal::Vibration;
 use crate::error::StudyError;
 
-/// Half-width of the window of the spectrum in which the peak is looked for, as a share of the
-/// exact frequency; the discrete mode is nearer by far.
+/// Half-width of the window of the spectrum in which the peak is searched, as a share of the
+/// exact frequency; the discrete mode is much nearer.
 const SEARCH: f64 = 0.04;
-/// To which the peak is found, as a share of the frequency.
+/// Accuracy of the peak, as a share of the frequency.
 const RESOLUTION: f64 = 1e-8;
 
-/// ω R/c_s with which the unit sphere vibrates that is started in the velocities of a vibration,
-/// and the element updates that it took.
+/// Returns the frequency ω R/c_s of a unit sphere that starts with the velocities of a vibration,
+/// and the number of element updates.
 ///
-/// Where the spectrum of Σ m v₀·u over so many periods, seen through Hann's window, has its peak.
+/// It is the peak of the spectrum of Σ m v₀·u over a number of periods with Hann's window.
 pub fn frequency(
     exact: &Vibration,
     poissons_ratio: f64,
@@ -50,7 +50,7 @@ pub fn frequency(
     Ok((peak, (n_steps * sphere.body().n_elements()) as u64))
 }
 
-/// G = ρ = R = 1, and so c_s = 1.
+/// Returns the material with G = ρ = R = 1, so that c_s = 1.
 fn unit_sphere(poissons_ratio: f64, elements_over_radius: f64) -> Result<FreeMotion, StudyError> {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(
         2.0 * (1.0 + poissons_ratio),
@@ -66,14 +66,14 @@ fn unit_sphere(poissons_ratio: f64, elements_over_radius: f64) -> Result<FreeMot
     Ok(FreeMotion::new(disc.build()?.on_side(Side::Above), &material, 0.9)?)
 }
 
-/// Σ m a·u.
+/// Returns Σ m a·u.
 fn projection(sphere: &FreeMotion, a: &[[f64; 2]]) -> f64 {
     let moved = a.iter().zip(sphere.displacement());
     let mass = sphere.body().nodal_mass().iter();
     mass.zip(moved).map(|(m, (a, u))| m * (a[0] * u[0] + a[1] * u[1])).sum()
 }
 
-/// The largest value of a function with one peak between two places, by golden sections.
+/// Returns the place of the largest value of a function with one peak between two places, by golden sections.
 fn peak(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let golden = (5f64.sqrt() - 1.0) / 2.0;
     let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));

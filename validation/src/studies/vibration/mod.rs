@@ -16,20 +16,20 @@ pub(crate) use spheroidal::{ElasticSphere, Vibration};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::order::fitted_order;
+use crate::studies::order::fitted_order;
 
-/// Beyond every mode that a mesh of some dozen elements can show.
+/// Frequency beyond every mode that a mesh of a dozen elements can resolve.
 const HIGHEST_FREQUENCY: f64 = 12.0;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
     poissons_ratios: Vec<f64>,
-    /// Overtone and degree: `1S2`.
+    /// Names of the modes by overtone and degree, such as `1S2`.
     modes: Vec<String>,
-    /// Elements over the radius of each mesh, rising.
+    /// Elements over the radius of each mesh, ascending.
     elements: Vec<f64>,
-    /// For which each vibration is listened to.
+    /// Number of periods of each vibration.
     periods: f64,
 }
 
@@ -41,7 +41,7 @@ struct Ringing {
     errors: Vec<f64>,
 }
 
-/// Lets every mode ring on every mesh.
+/// Computes every mode on every mesh.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let (ratios, modes) = (&parameters.poissons_ratios, &parameters.modes);
@@ -74,7 +74,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// The exact vibration that a mode's name stands for.
+/// Returns the exact vibration of a mode's name.
 fn vibration(poissons_ratio: f64, mode: &str) -> Result<Vibration, StudyError> {
     let unknown = || {
         StudyError::parameters(format!(

@@ -25,11 +25,11 @@
 
 use super::bessel::{legendre, spherical_bessel};
 
-/// Scan for sign changes of the frequency equation.
+/// Step of the scan for sign changes of the frequency equation.
 const SCAN_STEP: f64 = 0.005;
-/// Below the lowest root of the degrees 0 to 2; rigid motion makes the equation vanish at 0.
+/// Start of the scan, below the lowest root of the degrees 0 to 2; the equation vanishes at 0 for rigid motion.
 const SCAN_START: f64 = 1.0;
-/// Below the lowest root of a higher degree, over the degree: surface waves are no slower than
+/// Start of the scan for a higher degree, over the degree, below the lowest root: surface waves are no slower than
 /// 0.87 of shear waves. Far below, the equation is smaller than its rounding.
 const SCAN_START_OVER_DEGREE: f64 = 0.8;
 
@@ -58,7 +58,7 @@ impl ElasticSphere {
         Self { slowness }
     }
 
-    /// The vibrations of a degree up to a frequency ω R/c_s, rising.
+    /// Returns the vibrations of a degree up to a frequency ω R/c_s in ascending order.
     pub fn vibrations(&self, degree: usize, up_to: f64) -> Vec<Vibration> {
         let start = SCAN_START.max(SCAN_START_OVER_DEGREE * degree as f64);
         let n = ((up_to - start) / SCAN_STEP).ceil().max(0.0) as usize;
@@ -75,7 +75,7 @@ impl ElasticSphere {
         found
     }
 
-    /// By bisection, to rounding.
+    /// Returns the root between two frequencies by bisection, to rounding.
     fn root(&self, degree: usize, left: (f64, f64), right: (f64, f64)) -> f64 {
         let (mut low, mut high) = (left.0, right.0);
         loop {
@@ -88,13 +88,13 @@ impl ElasticSphere {
         }
     }
 
-    /// Zero at a frequency of free vibration.
+    /// Returns the value of the frequency equation, which is zero at a free vibration.
     fn equation(&self, degree: usize, k: f64) -> f64 {
         let [[rr_a, rr_b], [rt_a, rt_b]] = self.tractions(degree, k);
         if degree == 0 { rr_a } else { rr_a * rt_b - rr_b * rt_a }
     }
 
-    /// σ_rr and σ_rθ at the surface, over 2G, of A = 1 and of B = 1.
+    /// Returns σ_rr and σ_rθ at the surface, over 2G, for A = 1 and for B = 1.
     fn tractions(&self, degree: usize, k: f64) -> [[f64; 2]; 2] {
         let (l, h) = (degree as f64, self.slowness * k);
         let [jh, jk] = [h, k].map(|x| spherical_bessel(degree + 1, x));
@@ -109,7 +109,7 @@ impl ElasticSphere {
 
     fn vibration(&self, degree: usize, frequency: f64) -> Vibration {
         let [normal, tangential] = self.tractions(degree, frequency);
-        // The row that says more.
+        // The row with the larger coefficients is better conditioned.
         let size = |row: [f64; 2]| row[0].hypot(row[1]);
         let [a, b] = match degree {
             0 => [0.0, 1.0],
@@ -122,7 +122,7 @@ impl ElasticSphere {
 }
 
 impl Vibration {
-    /// Factors of P_l in u_r and of dP_l/dθ in u_θ, at a radius r > 0.
+    /// Returns the factors of P_l in u_r and of dP_l/dθ in u_θ at a radius r > 0.
     pub fn radial_parts(&self, r: f64) -> [f64; 2] {
         let (l, [a, b]) = (self.degree as f64, self.amplitudes);
         let [h, k] = [self.sphere.slowness * self.frequency, self.frequency];
@@ -134,7 +134,7 @@ impl Vibration {
         [(a * sh + b * l * (l + 1.0) * jk) / r, (a * jh + b * (jk + sk)) / r]
     }
 
-    /// (u_r, u_y) at the place (r, y) of a sphere about the origin.
+    /// Returns (u_r, u_y) at the place (r, y) of a sphere about the origin.
     pub fn displacement(&self, [r, y]: [f64; 2]) -> [f64; 2] {
         // The factors tend to constants at the centre.
         let distance = r.hypot(y).max(1e-6);

@@ -1,8 +1,8 @@
 //! Energy that an elastic collision leaves in vibrations, against the sum over the modes of both
 //! spheres under Hertz' pulse.
 //!
-//! Measures for each run: `NAME.loss`, 1 − e²; `NAME.modes`, the sum over modes, both over the energy of
-//! approach ½ m* v²; `NAME.ratio`, their quotient.
+//! Measures for each run `NAME.loss`, 1 − e², and `NAME.modes`, the sum over modes, both over the energy of
+//! approach ½ m* v², and `NAME.ratio`, their quotient.
 
 mod modes;
 
@@ -81,7 +81,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Modes of both spheres, by rising frequency.
+/// Returns the modes of both spheres in ascending frequency.
 fn modes_of(run: &Run, highest_frequency: f64) -> Vec<Excited> {
     let pulse = Pulse::new(&run.hertz);
     let mut modes = Vec::new();
@@ -94,13 +94,13 @@ fn modes_of(run: &Run, highest_frequency: f64) -> Vec<Excited> {
     modes
 }
 
-/// ½ m* v², J.
+/// Returns ½ m* v², J.
 fn energy_of_approach(run: &Run) -> f64 {
     let hertz = run.hertz;
     0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2)
 }
 
-/// The running sum against the frequency.
+/// Returns the chart of the running sum over the frequency.
 fn summed(modes: &[Excited], energy: f64) -> Vec<(f64, f64)> {
     let mut sum = 0.0;
     let add = |mode: &Excited| {
@@ -110,7 +110,7 @@ fn summed(modes: &[Excited], energy: f64) -> Vec<(f64, f64)> {
     modes.iter().map(add).collect()
 }
 
-/// The three that take most.
+/// Returns the three modes with the largest energies.
 fn strongest(modes: &[Excited], energy: f64) -> String {
     let mut order: Vec<&Excited> = modes.iter().collect();
     order.sort_by(|a, b| b.energy.total_cmp(&a.energy));

@@ -17,15 +17,15 @@ use fem_material::Material;
 
 use crate::studies::vibration::{ElasticSphere, Vibration};
 
-/// Points over half of a pulse.
+/// Number of points over half of a pulse.
 const N_TIMES: usize = 4000;
-/// Intervals over the radius (Simpson).
+/// Number of intervals over the radius for Simpson's rule.
 const N_RADII: usize = 200;
 
 /// A Hertz pulse, even about its middle.
 pub struct Pulse {
     interval: f64,
-    /// At the middles of the intervals from the largest force to separation, N.
+    /// Forces at the middles of the intervals from the largest force to separation, N.
     forces: Vec<f64>,
 }
 
@@ -37,7 +37,7 @@ impl Pulse {
         Self { interval, forces: (0..N_TIMES).map(force).collect() }
     }
 
-    /// |∫ F e^{iωt} dt|, N s.
+    /// Returns |∫ F e^{iωt} dt|, N s.
     fn spectrum(&self, omega: f64) -> f64 {
         let phase = omega * self.interval;
         let sum: f64 = (self.forces.iter().enumerate())
@@ -56,7 +56,7 @@ pub struct Excited {
     pub energy: f64,
 }
 
-/// All modes of a sphere (radius in m) up to a frequency ω R/c_s.
+/// Returns all modes of a sphere (radius in m) up to a frequency ω R/c_s.
 pub fn excite(material: &Material, radius: f64, pulse: &Pulse, up_to: f64) -> Vec<Excited> {
     let sphere = ElasticSphere::new(material.instantaneous().poissons_ratio());
     // The lowest frequency of a degree l is above l, that of surface waves 0.9 (l + 1/2).
@@ -73,7 +73,7 @@ pub fn excite(material: &Material, radius: f64, pulse: &Pulse, up_to: f64) -> Ve
     all
 }
 
-/// U(1)²/∫|u|² dV of the unit sphere.
+/// Returns U(1)²/∫|u|² dV of the unit sphere.
 fn compliance(mode: &Vibration, degree: usize) -> f64 {
     let l = degree as f64;
     let density = |r: f64| {
@@ -86,7 +86,7 @@ fn compliance(mode: &Vibration, degree: usize) -> f64 {
         _ if k % 2 == 1 => 4.0,
         _ => 2.0,
     };
-    // Nothing at the centre: the first term of Simpson's rule is zero.
+    // The first term of Simpson's rule, at the centre, is zero.
     let integral: f64 =
         (1..=N_RADII).map(|k| weight(k) * density(k as f64 * step)).sum::<f64>() * step / 3.0;
     let volume = 4.0 * std::f64::consts::PI / (2.0 * l + 1.0) * integral;

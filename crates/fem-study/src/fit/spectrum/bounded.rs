@@ -1,13 +1,13 @@
 //! Linear least squares over the weights of a series: w ≥ 0, Σ w ≤ 1.
 //!
-//! The spare weight g∞ = 1 − Σ w joins as an unknown of its own, so all unknowns are non-negative
-//! and sum to 1; that sum, and a combination that is held, are rows a thousand times as heavy as
-//! the data (exact to 1e-6 of a multiplier). Non-negative least squares after Lawson & Hanson,
+//! The remaining weight g∞ = 1 − Σ w is an additional unknown, so all unknowns are non-negative
+//! and sum to 1. That sum, and a combination that is held, are rows with a thousand times the weight of
+//! the data (exact to 1e-6 of a multiplier). Non-negative least squares follow Lawson & Hanson,
 //! *Solving Least Squares Problems*, ch. 23.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Weight of rows that must hold, over the norm of the data's.
+/// Weight of the constraints, over the norm of the data's rows.
 const HEAVY: f64 = 1e3;
 /// Ridge over that norm that makes every set of columns independent.
 const LEAST_RIDGE: f64 = 1e-8;
@@ -15,19 +15,19 @@ const LEAST_RIDGE: f64 = 1e-8;
 /// Residuals a w − b of restitutions, linear in the weights.
 #[derive(Debug, Clone)]
 pub(super) struct Linear {
-    /// ∂e_i/∂w_k / ρ_i.
+    /// Matrix a: ∂e_i/∂w_k / ρ_i.
     pub a: DMatrix<f64>,
     /// Right-hand side b of the linear problem.
     pub b: DVector<f64>,
 }
 
 impl Linear {
-    /// Σ (a w − b)².
+    /// Returns Σ (a w − b)².
     pub fn misfit(&self, weights: &[f64]) -> f64 {
         (&self.a * DVector::from_row_slice(weights) - &self.b).norm_squared()
     }
 
-    /// The same misfit but for a constant, in as many rows as weights (and one).
+    /// Returns the same misfit up to a constant, with at most one row more than weights.
     pub fn compressed(&self) -> Self {
         let n = self.a.ncols();
         if self.a.nrows() <= n + 1 {
@@ -39,7 +39,7 @@ impl Linear {
         Self { a: r.columns(0, n).into_owned(), b: r.column(n).into_owned() }
     }
 
-    /// The weights of least misfit and λ² Σ w², a combination c·w held at a value if wanted.
+    /// Returns the weights with the least misfit plus λ² Σ w²; a combination c·w may be held at a value.
     pub fn solve(&self, ridge: f64, held: Option<(&[f64], f64)>) -> Vec<f64> {
         let (m, n) = self.a.shape();
         let scale = self.a.norm().max(f64::MIN_POSITIVE);
@@ -69,7 +69,7 @@ impl Linear {
     }
 }
 
-/// The x ≥ 0 of least |a x − b|.
+/// Returns the x ≥ 0 with the least |a x − b|.
 fn non_negative(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     let n = a.ncols();
     let tolerance: Vec<f64> =

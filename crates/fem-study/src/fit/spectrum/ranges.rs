@@ -1,30 +1,30 @@
 //! Range of a combination of weights with all others free.
 //!
-//! An end of c·w is where Σ r², least over all admissible weights with c·w held there, has risen by
-//! (tσ)² (a profile: Bates & Watts, *Nonlinear Regression Analysis*, ch. 6), or where the weights end:
-//! w ≥ 0, Σ w ≤ 1. The collision is linear about the best weights at first and then, by chords, about
-//! the end that was found. No ridge: that is the user's wish and no knowledge.
+//! At an end of the range of c·w the least Σ r² over all admissible weights with this c·w has risen by
+//! (tσ)² (a profile: Bates & Watts, *Nonlinear Regression Analysis*, ch. 6), or the weights reach their limits
+//! w ≥ 0, Σ w ≤ 1. The collision is linearised about the best weights first and then, by chords, about
+//! the end that was found. The ridge is left out, because it is no information from the data.
 
 use super::bounded::Linear;
 use crate::fit::error::FitError;
 
-/// Corrections of an end by a collision computed there.
+/// Number of corrections of an end by a collision that is computed there.
 const CHORDS: usize = 4;
-/// Halvings of the way to an end.
+/// Number of bisections on the way to an end.
 const HALVINGS: usize = 26;
 
-/// Where a combination of weights can lie.
+/// The range of a combination of weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// Value at the best weights.
+    /// The value at the best weights.
     pub value: f64,
-    /// Least value that the data allow.
+    /// The smallest value that the data allow.
     pub low: f64,
-    /// The largest value.
+    /// The largest value that the data allow.
     pub high: f64,
 }
 
-/// Coefficients of Σ w, Σ w/τ (1/s) and Σ w τ (s).
+/// Returns the coefficients of Σ w, Σ w/τ (1/s) and Σ w τ (s).
 pub(super) fn moments(times: &[f64]) -> [Vec<f64>; 3] {
     let of = |moment: fn(f64) -> f64| times.iter().map(|time| moment(*time)).collect();
     [of(|_| 1.0), of(f64::recip), of(|time| time)]
@@ -33,22 +33,22 @@ pub(super) fn moments(times: &[f64]) -> [Vec<f64>; 3] {
 type Evaluate<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;
 type Linearise<'a> = dyn Fn(&[f64], &[f64]) -> Linear + 'a;
 
-/// Looks for ends.
+/// Searches the ends of ranges.
 pub(super) struct Seeker<'a> {
-    /// Weights to restitutions.
+    /// A function from weights to restitutions.
     pub restitutions: &'a Evaluate<'a>,
-    /// Weights and restitutions to the problem linear about them.
+    /// A function from weights and restitutions to the problem that is linearised about them.
     pub linear: &'a Linearise<'a>,
     /// The best weights.
     pub best: &'a [f64],
-    /// Σ r² of them.
+    /// Σ r² at the best weights.
     pub best_misfit: f64,
-    /// Rise of Σ r² that is allowed.
+    /// Allowed rise of Σ r².
     pub rise: f64,
 }
 
 impl Seeker<'_> {
-    /// The range of c·w.
+    /// Returns the range of c·w.
     pub fn range(&self, combination: &[f64]) -> Result<Range, FitError> {
         let value = dot(combination, self.best);
         let least = combination.iter().copied().fold(0.0, f64::min);
@@ -58,7 +58,7 @@ impl Seeker<'_> {
         Ok(Range { value, low: low.min(value), high: high.max(value) })
     }
 
-    /// The end on the way from the best value to `limit`.
+    /// Returns the end on the way from the best value to `limit`.
     fn end(&self, combination: &[f64], value: f64, limit: f64) -> Result<f64, FitError> {
         let mut at = self.best.to_vec();
         let mut end = value;
@@ -66,7 +66,7 @@ impl Seeker<'_> {
             let linear = (self.linear)(&at, &(self.restitutions)(&at)?);
             let small = linear.compressed();
             let reachable = linear.misfit(&linear.solve(0.0, None));
-            // The ridge may have led the best weights off the least misfit: they are admissible.
+            // Because of the ridge the best weights may not have the least misfit; they are admissible.
             let level = self.best_misfit.max(reachable + self.rise);
             let offset = reachable - small.misfit(&small.solve(0.0, None));
             let weights = |share: f64| {

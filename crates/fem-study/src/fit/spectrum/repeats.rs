@@ -1,22 +1,22 @@
-//! The scatter of measurements that repeat the same collision: what no model can explain.
+//! The scatter of measurements that repeat the same collision, which no model can explain.
 //!
-//! The pure error of Box & Draper, *Empirical Model-Building and Response Surfaces*, ch. 3: the sum
+//! It is the pure error of Box & Draper, *Empirical Model-Building and Response Surfaces*, ch. 3: the sum
 //! of squares about the means of repeats, over the number of measurements less that of collisions.
 
 /// With fewer degrees of freedom than this a misfit cannot be distinguished from chance.
 const FEWEST: usize = 3;
 
-/// How repeats scatter.
+/// The scatter of repeats.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PureError {
     /// Standard deviation of one measurement.
     pub error: f64,
-    /// Measurements less collisions, at least 1.
+    /// Number of measurements less that of collisions, at least 1.
     pub degrees_of_freedom: usize,
 }
 
 impl PureError {
-    /// Creates it from measurements and the collision that each belongs to; `None` if none is repeated.
+    /// Computes the scatter from measurements and the collision that each belongs to; `None` if none is repeated.
     pub(super) fn of(measured: &[f64], collisions: &[usize]) -> Option<Self> {
         let degrees_of_freedom = measured.len().checked_sub(n_distinct(collisions))?;
         let mean = |collision: usize| {
@@ -30,8 +30,8 @@ impl PureError {
         (degrees_of_freedom > 0).then_some(Self { error, degrees_of_freedom })
     }
 
-    /// Returns the misfit of a fit relative to the repeats' scatter; `None` if there are too few repeats.
-    /// The fit's sum of squares, and how many collisions it has more than free weights.
+    /// Returns the misfit of a fit relative to the scatter of repeats, from the fit's sum of squares and the number of
+    /// its collisions less that of its free weights; `None` if there are too few repeats.
     pub(super) fn misfit(&self, sum: f64, freedom: usize) -> Option<f64> {
         let own = self.error.powi(2) * self.degrees_of_freedom as f64;
         let lack = ((sum - own).max(0.0) / freedom.max(1) as f64).sqrt();
@@ -39,7 +39,7 @@ impl PureError {
     }
 }
 
-/// Number of collisions.
+/// Returns the number of collisions.
 pub(super) fn n_distinct(collisions: &[usize]) -> usize {
     let mut known = collisions.to_vec();
     known.sort_unstable();

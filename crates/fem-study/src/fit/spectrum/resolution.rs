@@ -1,31 +1,29 @@
-//! Which combinations of weights the data determine.
+//! The combinations of weights that the data determine.
 //!
 //! With the singular values of the Jacobian, J/ρ = U S Vᵀ, the combination v_i·w is known to σ/s_i. Weights
 //! are at least 0 and their sum is at most 1 for any data, so v_i·w is between its least and its largest
-//! coefficient, 0 among them. It is determined where two standard errors on either side are less than half
-//! of that. The ridge keeps s²/(s² + λ²) of it, and R = V S²/(S² + λ²) Vᵀ says how much of each weight is
-//! the data's (its diagonal) and how many weights' worth in all (its trace; Menke, *Geophysical Data
-//! Analysis*, ch. 4).
+//! coefficient or 0. It is determined if two standard errors on either side are less than half
+//! of that range. The ridge keeps s²/(s² + λ²) of it. The diagonal of R = V S²/(S² + λ²) Vᵀ is the share of each weight
+//! that the data determine, and its trace their number in all (Menke, *Geophysical Data Analysis*, ch. 4).
 
 use nalgebra::{DMatrix, DVector};
 
-/// A combination is determined whose standard error is less than this share of what it can be: ±2 σ leave
-/// half of it.
+/// Largest standard error of a determined combination over its range: ±2 σ are half of it.
 const WORTH: f64 = 1.0 / 8.0;
 
 /// A combination v·w, |v| = 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
-    /// s: the change of all restitutions, root of the sum of squares, for a change of 1; 0 if
-    /// rounding.
+    /// Singular value s: the root of the sum of squares of the changes of all restitutions for a change of 1; 0 if
+    /// that is rounding.
     pub singular_value: f64,
-    /// v; its largest coefficient is positive.
+    /// The coefficients v; the largest is positive.
     pub coefficients: Vec<f64>,
-    /// v·w of the best weights.
+    /// The value v·w at the best weights.
     pub value: f64,
     /// Standard error σ/s of the combination.
     pub standard_error: f64,
-    /// Whether the data leave less than half of what weights can make of it, with 95 % confidence.
+    /// Whether the data restrict it to less than half of its range, with 95 % confidence.
     pub is_determined: bool,
 }
 
@@ -39,7 +37,7 @@ impl Combination {
 /// The combinations of weights that the data determine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolution {
-    /// Best determined first; as many as weights.
+    /// The combinations, the best determined first; as many as weights.
     pub combinations: Vec<Combination>,
     /// Share of each weight that the data determine and not the regularisation, 0 to 1.
     pub shares: Vec<f64>,
@@ -78,7 +76,7 @@ impl Resolution {
         Self { combinations, shares }
     }
 
-    /// Number of determined combinations.
+    /// Returns the number of determined combinations.
     pub fn n_determined(&self) -> usize {
         self.combinations.iter().filter(|combination| combination.is_determined).count()
     }

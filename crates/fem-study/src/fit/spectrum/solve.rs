@@ -13,19 +13,19 @@ use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
 use crate::fit::error::FitError;
 
-/// Step of the differences: weights are of order 1, collisions smooth to 1e-7.
+/// Step of the differences: weights are of order 1, and collisions are smooth to 1e-7.
 const STEP: f64 = 1e-3;
-/// Weights that move less than this stand.
+/// The search ends when weights change by less.
 const STANDS: f64 = 1e-6;
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
 
 impl SpectrumProblem<'_> {
-    /// The best weights and their intervals at this level of confidence (such as 0.95).
+    /// Returns the best weights and their intervals at this level of confidence (such as 0.95).
     ///
     /// # Errors
-    /// Fewer data than weights without regularisation; a level outside (0, 1); a λ that is negative
-    /// or not finite; a collision that cannot be computed.
+    /// There are fewer data than weights without regularisation, the level is outside (0, 1), λ is negative or not
+    /// finite, or a collision cannot be computed.
     pub fn fit(&self, confidence: f64) -> Result<SpectrumFit, FitError> {
         let range = |quantity, value, allowed, is_good: bool| {
             let error = FitError::OutOfRange { quantity, value, allowed };
@@ -49,7 +49,7 @@ struct Solver<'a> {
     n_evaluations: Cell<usize>,
 }
 
-/// Weights with their restitutions.
+/// Weights and their restitutions.
 struct State {
     weights: Vec<f64>,
     restitutions: Vec<f64>,
@@ -118,13 +118,13 @@ impl<'a> Solver<'a> {
         (self.problem.restitutions)(weights)
     }
 
-    /// Σ ((e − ê)/ρ)².
+    /// Returns Σ ((e − ê)/ρ)².
     fn misfit(&self, restitutions: &[f64]) -> f64 {
         let measured = self.problem.measured.iter().zip(restitutions).enumerate();
         measured.map(|(i, (m, e))| ((e - m) / self.problem.ratio(i)).powi(2)).sum()
     }
 
-    /// From a body that does not relax to the minimum; its state and ∂e_i/∂w_k there.
+    /// Searches the minimum, beginning at a body that does not relax; returns its state and ∂e_i/∂w_k there.
     fn minimise(&self) -> Result<(State, DMatrix<f64>), FitError> {
         let ridge = self.problem.regularisation;
         let cost = |state: &State| {
@@ -162,7 +162,7 @@ impl<'a> Solver<'a> {
         Err(FitError::NotConverged { reason })
     }
 
-    /// ∂e_i/∂w_k by differences that keep Σ w ≤ 1: where the sum leaves no room, a weight grows at
+    /// Returns ∂e_i/∂w_k by differences that keep Σ w ≤ 1: if the sum leaves no room, a weight grows at
     /// the cost of the largest.
     fn jacobian(&self, state: &State) -> Result<DMatrix<f64>, FitError> {
         let weights = &state.weights;
@@ -194,7 +194,7 @@ impl<'a> Solver<'a> {
         Ok(DMatrix::from_columns(&columns))
     }
 
-    /// e(w) + J (w' − w) as residuals in w'.
+    /// Returns e(w) + J (w' − w) as residuals in w'.
     fn linear(&self, at: &State, jacobian: &DMatrix<f64>) -> Linear {
         let own = jacobian * DVector::from_row_slice(&at.weights);
         let n_values = self.problem.measured.len();
@@ -207,7 +207,8 @@ impl<'a> Solver<'a> {
     }
 }
 
-/// Student's if the error is the fit's own scatter of so many degrees of freedom.
+/// Returns the quantile, that of Student's distribution if the error is the scatter of the fit with these degrees of
+/// freedom.
 fn quantile(confidence: f64, freedom: Option<usize>) -> f64 {
     let upper = 0.5 * (1.0 + confidence);
     let student = freedom.and_then(|freedom| StudentsT::new(0.0, 1.0, freedom as f64).ok());

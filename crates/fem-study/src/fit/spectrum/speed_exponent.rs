@@ -3,14 +3,14 @@
 //!
 //! A quasi-static collision of given bodies depends on speed by its duration alone, T ∝ v^(−1/5) (Hertz). A
 //! mild loss is 1 − e = Σ w_k φ(T/τ_k), and φ(x) rises no faster than x and falls no faster than 1/x: p
-//! lies within ±1/5 for any spectrum. −1/5 is that of terms slower than the collision (the loss is β T, a
-//! Maxwell fluid's), +1/5 of faster ones (a Kelvin solid's, Ramírez et al., *Phys. Rev. E* 60 (1999) 4465).
+//! lies within ±1/5 for any spectrum. p = −1/5 for terms slower than the collision (the loss β T of a
+//! Maxwell fluid), and +1/5 for faster ones (a Kelvin solid, Ramírez et al., *Phys. Rev. E* 60 (1999) 4465).
 //! A strong loss saturates and its |p| is smaller.
 
 /// One measured collision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedPoint {
-    /// Which pair of bodies.
+    /// Index of the pair of bodies.
     pub pair: usize,
     /// Approach speed, m/s.
     pub speed: f64,
@@ -18,14 +18,14 @@ pub struct SpeedPoint {
     pub restitution: f64,
 }
 
-/// p and its standard error.
+/// The exponent p and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedExponent {
-    /// p: positive where e falls with speed.
+    /// The exponent p, which is positive if e falls with speed.
     pub value: f64,
-    /// From the scatter about the line; `None` without degrees of freedom.
+    /// Standard error from the scatter about the line; `None` without degrees of freedom.
     pub standard_error: Option<f64>,
-    /// Ends of the range of speeds, m/s.
+    /// Slowest and fastest speed, m/s.
     pub speeds: (f64, f64),
 }
 
@@ -33,13 +33,13 @@ impl SpeedExponent {
     /// Largest |p| of a linear viscoelastic spectrum.
     pub const LIMIT: f64 = 0.2;
 
-    /// Whether p is above `value` by more than twice its error.
+    /// Whether p is above `value` by more than twice its standard error.
     pub fn is_above(&self, value: f64) -> bool {
         self.standard_error.is_some_and(|error| self.value - 2.0 * error > value)
     }
 }
 
-/// The line through (ln v, ln(1 − e)) of each pair, one slope for all; `None` if no pair has two
+/// Fits lines through (ln v, ln(1 − e)) of each pair with one slope for all; `None` if no pair has two
 /// speeds. Points with e ≥ 1 are left out.
 pub fn speed_exponent(points: &[SpeedPoint]) -> Option<SpeedExponent> {
     let lossy: Vec<&SpeedPoint> = points.iter().filter(|point| point.restitution < 1.0).collect();

@@ -1,11 +1,11 @@
-//! The critical time step against the true largest eigenvalue.
+//! The critical time step against the exact largest eigenvalue.
 //!
 //! Small pairs of spheres are assembled from the element matrices, with the springs of a contact that
 //! is closed over all candidates; the largest ω² of K x = ω² M x comes from a dense solver. The ratio
 //! is the critical step that a model assumes over 2/ω_max. `free.largest` and `free.smallest` are its
 //! extremes over single bodies without contact, `closed.largest` and `closed.smallest` over pairs in
-//! contact, `counted.largest` and `counted.smallest` over pairs whose springs are as many times as
-//! stiff as the bound counts them; `rigid_motions` is the largest number of motions of a single body
+//! contact, and `counted.largest` and `counted.smallest` over pairs whose springs are stiffer by the number of times that
+//! the bound counts them. `rigid_motions` is the largest number of motions of a single body
 //! without energy.
 
 use faer::{Mat, Side as Triangle};
@@ -23,7 +23,7 @@ use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::run::no_springs;
 
-/// Two elements along a block, so that few elements reach any size.
+/// Half-width of the block in elements, so that few elements reach any size.
 const BLOCK: f64 = 2.0;
 /// Eigenvalues below this share of the largest belong to motions without energy.
 const NO_ENERGY: f64 = 1e-10;
@@ -105,7 +105,7 @@ fn sphere(size: f64, side: Side) -> Result<SphereMesh, StudyError> {
     Ok(disc.build()?.on_side(side))
 }
 
-/// The ratio of one body without contact, and how many motions store no energy.
+/// Returns the ratio of one body without contact, and the number of motions without energy.
 fn alone(material: &Material, size: f64) -> Result<(f64, usize), StudyError> {
     let motion = FreeMotion::new(sphere(size, Side::Above)?, material, 1.0)?;
     let eigenvalues = eigenvalues(&Assembly::of(&[motion.body()], material))?;
@@ -207,7 +207,7 @@ impl Assembly {
             springs.add_forces([&u[0], &u[1]], [lower, upper]);
             forces
         };
-        // A radius deep, and a hundredth of it to and fro.
+        // A penetration of one radius is varied by a hundredth.
         let mut u = [deep(n_nodes[0], 0.0), deep(n_nodes[1], -1.0)];
         let before = forces(&u);
         let step = 0.01;

@@ -2,13 +2,13 @@
 //! finite strain is right.
 //!
 //! A ball strikes a rigid wall, or one time in three a ball of another size and stiffness. Poisson's ratios are 0 to
-//! 0.495, laws all but St Venant and Kirchhoff's, which collapses; half of the scenes relax; the speed is that at which
-//! Hertz' contact radius is 0.1 to 0.7 of the effective radius. Each is run as a user runs it, with nothing set, and on
+//! 0.495. Laws are all but that of St Venant and Kirchhoff, which collapses. Half of the scenes relax. At the speed of a
+//! scene Hertz' contact radius is 0.1 to 0.7 of the effective radius. Each is run with the default settings, and on
 //! elements [`FINER`] times smaller, from which its error is estimated with second order. A scene is `covered` if
-//! all six numbers are within their bars, and `met` if restitution, contact time, peak force and pressure are within the
+//! all six quantities are within their bars, and `met` if restitution, contact time, peak force and pressure are within the
 //! default tolerance or its warnings say that one of them may not be; `bar` is the median of a bar over the error, or over
-//! a tenth of the tolerance where that is more. A scene is `foretold` if contact time and force at small strain differ by at most
-//! [`FORETOLD_WITHIN`] times the estimate of the plan, plus [`NOISE`] of two meshes.
+//! a tenth of the tolerance if that is larger. A scene is `foretold` if contact time and force at small strain differ by at
+//! most [`FORETOLD_WITHIN`] times the estimate of the plan, plus [`NOISE`] of two meshes.
 
 use std::f64::consts::PI;
 
@@ -17,11 +17,9 @@ use fem::accuracy::Setting;
 use fem::effects::{EFFECTS, FiniteStrain};
 use fem_case::{Accuracy, Case, CaseError};
 use fem_collision::{Collision, QuantityOfInterest};
-use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::hard::scenes::Random;
-use crate::claim::RunFile;
+use super::{NumberTrial, Random, Trial, computed, load, quantile, tabulate};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
@@ -44,11 +42,9 @@ struct Parameters {
     element_updates: f64,
 }
 
-/// One scene.
-struct Trial {
-    scene: String,
-    /// Errors and bars over the value, of the restitution as they are.
-    numbers: Vec<(QuantityOfInterest, f64, f64)>,
+/// The result of one scene.
+struct SoftTrial {
+    trial: Trial,
     has_warned: bool,
     is_foretold: bool,
 }
@@ -56,58 +52,32 @@ struct Trial {
 /// Runs the study.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { seed, scenes, element_updates } = laboratory.parameters()?;
-    let base = laboratory.claim().runs.get("base").ok_or_else(|| {
-        StudyError::parameters("the claim has no [run.base], which the study needs")
-    })?;
     let mut random = Random::new(seed);
-    let sets: Vec<Vec<String>> = (0..MOST_DRAWN * scenes).map(|_| overrides(&mut random)).collect();
-    let mut trials: Vec<Trial> = Vec::new();
-    for sets in sets.chunks(scenes) {
-        let tried = sets.par_iter().map(|set| {
-            let file = RunFile { case: base.case.clone(), set: [&base.set[..], set].concat() };
-            let case = laboratory.claim().load_case(&file)?;
-            laboratory.work(|| Ok((compute(&case, element_updates)?, 0)))
-        });
-        let tried = tried.collect::<Result<Vec<_>, StudyError>>()?;
-        let tried = tried.into_iter().zip(sets);
-        trials.extend(
-            tried.filter_map(|(trial, set)| {
-                trial.map(|trial| Trial { scene: set.join(" "), ..trial })
-            }),
-        );
-        trials.truncate(scenes);
-        if trials.len() == scenes {
-            break;
-        }
-    }
+    let trials = computed(
+        scenes,
+        MOST_DRAWN,
+        || overrides(&mut random),
+        |set| {
+            let case = load(laboratory, set)??;
+            laboratory.work(|| Ok((compute(&case, set.join(" "), element_updates)?, 0)))
+        },
+    )?;
     let mut findings = Findings::new();
-    let count = |is: fn(&Trial) -> bool| trials.iter().filter(|trial| is(trial)).count() as f64;
+    let count = |is: fn(&SoftTrial) -> bool| trials.iter().filter(|one| is(one)).count() as f64;
     findings.measure("scenes", trials.len() as f64);
-    findings.measure("covered", count(|trial| trial.share() <= 1.0));
-    findings.measure("met", count(Trial::is_met));
-    findings.measure("foretold", count(|trial| trial.is_foretold));
-    let mut ratios: Vec<f64> = trials.iter().flat_map(Trial::ratios).collect();
-    ratios.sort_by(f64::total_cmp);
-    findings.measure("bar", ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN));
-    trials.sort_by(|a, b| b.share().total_cmp(&a.share()));
-    let rows = trials.iter().map(|trial| {
-        let cell =
-            |(_, error, bar): &(QuantityOfInterest, f64, f64)| format!("{error:+.1e} ± {bar:.1e}");
-        let cells: Vec<String> = trial.numbers.iter().map(cell).collect();
-        let mut row = vec![trial.scene.clone(), format!("{:.2}", trial.share())];
-        row.extend(cells);
-        row
-    });
-    let header = ["scene", "over the bar", "e", "T", "F", "approach", "a", "p0"];
-    findings.tables.push(crate::findings::Table {
-        caption: format!("Errors and bars of soft scenes, seed {seed}."),
-        header: header.map(String::from).to_vec(),
-        rows: rows.collect(),
-    });
+    findings.measure("covered", count(|one| one.trial.share() <= 1.0));
+    findings.measure("met", count(|one| one.has_warned || one.trial.is_met()));
+    findings.measure("foretold", count(|one| one.is_foretold));
+    let least = 0.1 * Accuracy::DEFAULT_TOLERANCE;
+    let all = trials.iter().flat_map(|one| &one.trial.numbers);
+    let ratios = all.map(|NumberTrial { error, bar, .. }| bar / error.abs().max(least));
+    findings.measure("bar", quantile(ratios, 0.5));
+    let caption = format!("Errors and bars of soft scenes, seed {seed}.");
+    tabulate(&mut findings, caption, trials.iter().map(|one| &one.trial).collect(), scenes);
     Ok(findings)
 }
 
-/// A scene's keys.
+/// Returns the overrides that make a random scene.
 fn overrides(random: &mut Random) -> Vec<String> {
     const RADIUS: f64 = 0.01;
     const DENSITY: f64 = 1000.0;
@@ -121,7 +91,7 @@ fn overrides(random: &mut Random) -> Vec<String> {
     let (ratio, harder) = (random.within(0.5, 2.0), random.within(1.0, 3.0));
     let weight = random.within(0.05, 0.5);
     let decades = random.within(-1.0, 0.5);
-    // Of the pair: radius, mass and modulus, the other ball beside the first.
+    // Effective radius, mass and modulus of the pair.
     let ball = 4.0 / 3.0 * PI * DENSITY * RADIUS.powi(3);
     let plane = modulus / (1.0 - nu * nu);
     let [radius, mass, stiffness] = match is_pair {
@@ -137,7 +107,7 @@ fn overrides(random: &mut Random) -> Vec<String> {
     };
     // (a/R*)⁵ = 15 m* v²/(16 E* R*³).
     let speed = (strain.powi(5) * 16.0 * stiffness * radius.powi(3) / (15.0 * mass)).sqrt();
-    // Hertz: 2.94 δ/v, δ = a²/R*.
+    // Hertz' contact time is 2.94 δ/v, with δ = a²/R*.
     let time = decades.exp2() * 2.94 * strain * strain * radius / speed;
     let relaxation = match relaxes {
         true => format!(
@@ -168,8 +138,12 @@ fn overrides(random: &mut Random) -> Vec<String> {
     set
 }
 
-/// Returns nothing for a scene that is too expensive or whose run is stopped.
-fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyError> {
+/// Returns the trial of a scene; `None` if it is too expensive, its run is stopped or its contact has no end.
+fn compute(
+    case: &Case,
+    scene: String,
+    element_updates: f64,
+) -> Result<Option<SoftTrial>, StudyError> {
     if Simulation::price(case)? as f64 > element_updates {
         return Ok(None);
     }
@@ -193,25 +167,23 @@ fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyErro
         return Ok(None);
     }
     let errors = &computed.errors;
-    let numbers = QuantityOfInterest::ALL.into_iter().filter_map(|headline| {
-        let (value, fine) = (headline.of(collision)?, headline.of(&fine)?);
-        let bar = errors.discretisation(headline)?;
-        let scale = headline.scale(fine);
+    let numbers = QuantityOfInterest::ALL.into_iter().filter_map(|quantity| {
+        let (value, fine) = (quantity.of(collision)?, quantity.of(&fine)?);
+        let bar = errors.discretisation(quantity)?;
+        let scale = quantity.scale(fine);
         let error = (value - fine) / (1.0 - FINER.powi(-2));
-        Some((headline, error / scale, bar / scale))
+        let (error, bar) = (error / scale, bar / scale);
+        Some(NumberTrial { quantity, error, bar, reference_uncertainty: 0.0 })
     });
-    let numbers: Vec<_> = numbers.collect();
+    let trial = Trial { scene, numbers: numbers.collect() };
     let has_warned =
         computed.warnings().iter().any(|warning| warning.contains("above the tolerance"));
     let is_foretold = is_foretold(simulation, collision, &small).unwrap_or(true);
-    // A contact without an end has neither time nor bars.
-    let is_whole = numbers.len() == QuantityOfInterest::ALL.len();
-    let scene = String::new();
-    Ok(is_whole.then_some(Trial { scene, numbers, has_warned, is_foretold }))
+    Ok(trial.is_whole().then_some(SoftTrial { trial, has_warned, is_foretold }))
 }
 
-/// Whether time and force of a run without finite strain are as far from those with it as the plan says; nothing where
-/// that run has none.
+/// Whether contact time and peak force without finite strain differ from those with it by as much as the plan
+/// estimates; `None` if that run has none.
 fn is_foretold(simulation: &Simulation, with: &Collision, without: &Collision) -> Option<bool> {
     let effect = EFFECTS.iter().find(|effect| effect.name() == FiniteStrain::NAME)?;
     let estimate = &simulation.setup().estimate;
@@ -224,36 +196,4 @@ fn is_foretold(simulation: &Simulation, with: &Collision, without: &Collision) -
     let time = is_within(|it| it.contact_time, foretold.contact_time_s, hertz.contact_time())?;
     let force = is_within(|it| it.peak_force, foretold.peak_force_n, hertz.peak_force())?;
     Some(time && force)
-}
-
-/// Returns the default tolerance of a quantity; approach and contact radius have none.
-fn tolerance(headline: QuantityOfInterest) -> Option<f64> {
-    let accuracy = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
-    match headline {
-        QuantityOfInterest::Restitution => Some(accuracy.restitution),
-        QuantityOfInterest::ContactTime => Some(accuracy.contact_time),
-        QuantityOfInterest::PeakForce => Some(accuracy.peak_force),
-        QuantityOfInterest::PeakPressure => Some(accuracy.peak_pressure),
-        QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => None,
-    }
-}
-
-impl Trial {
-    fn is_met(&self) -> bool {
-        let is_within = |(headline, error, _): &(QuantityOfInterest, f64, f64)| {
-            tolerance(*headline).is_none_or(|tolerance| error.abs() <= tolerance)
-        };
-        self.has_warned || self.numbers.iter().all(is_within)
-    }
-
-    /// The worst error over its bar.
-    fn share(&self) -> f64 {
-        let shares = self.numbers.iter().map(|(_, error, bar)| error.abs() / bar);
-        shares.fold(0.0, fem_collision::nan_aware_max_abs)
-    }
-
-    fn ratios(&self) -> impl Iterator<Item = f64> {
-        let least = 0.1 * Accuracy::DEFAULT_TOLERANCE;
-        self.numbers.iter().map(move |(_, error, bar)| bar / error.abs().max(least))
-    }
 }

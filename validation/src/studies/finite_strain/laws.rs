@@ -1,11 +1,11 @@
 //! Effect of finite strain: runs compared with the same collision at small strain, and with their finer meshes.
 //!
-//! Measures for each run all that the study `summary` measures, and `NAME.pulse_time` and `NAME.pulse_force` of its
+//! Measures for each run all quantities of the study `summary`, and `NAME.pulse_time` and `NAME.pulse_force` of its
 //! [`Pulse`]; `NAME.printed_force` is the excess of the printed peak force. For comparison with other codes it measures the
 //! width at a tenth of the largest force, `NAME.width_at_tenth`, and the largest mean over a hundredth of that width,
 //! `NAME.mean_force`.
 //!
-//! For each pair of `against` what changes from the partner to the run: `NAME.time_change` (first to
+//! For each pair of `against` it measures the changes from the partner to the run: `NAME.time_change` (first to
 //! last contact), `NAME.width_change` (of `pulse_time`), `NAME.force_change` and `NAME.printed_change` as shares,
 //! `NAME.restitution_change`, and `NAME.width_slope` and `NAME.force_slope` over the partner's largest
 //! contact radius over R\*.
@@ -14,24 +14,24 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::summary;
 use crate::error::StudyError;
 use crate::findings::{Findings, Table};
 use crate::laboratory::Laboratory;
 use crate::pulse::{Pulse, largest_mean, width_at_tenth};
 use crate::run::Run;
+use crate::studies::summary;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Runs and the runs that they are held against.
+    /// Runs and the runs that they are compared with.
     against: BTreeMap<String, String>,
 }
 
 /// The pulse of a run.
 #[derive(Clone, Copy)]
 struct Measured {
-    /// First to last contact, s.
+    /// Contact time, s.
     contact_time: f64,
     pulse: Pulse,
     restitution: f64,

@@ -1,7 +1,7 @@
 //! Energy and momentum balance of whole collisions.
 //!
-//! `energy` and `momentum`, the worst imbalance of any run at any instant (over the energy of
-//! approach, over Σ m|v|), and `NAME.energy`, `NAME.momentum` of each run.
+//! Measures `energy` and `momentum`, the largest residual of any run at any instant (over the energy of
+//! approach and over Σ m|v|), and `NAME.energy` and `NAME.momentum` of each run.
 
 use fem_collision::{Account, HistoryRow};
 use fem_figure::{Axis, Chart, Curve, GREY, Mark};
@@ -51,7 +51,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Energies of one run over that of approach, ½ m* v².
+/// Returns the chart of the energies of one run over that of approach, ½ m* v².
 fn energies(run: &Run, name: &str) -> Chart {
     let hertz = run.hertz;
     let scale = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
@@ -75,7 +75,7 @@ fn energies(run: &Run, name: &str) -> Chart {
     .with(curve("account", Mark::Dashed, account).coloured(GREY))
 }
 
-/// J; 0 where nothing fills the account.
+/// Returns an account's energy, J; 0 if no effect fills it.
 fn energy(row: &HistoryRow, account: Account) -> f64 {
     row.energy(account).unwrap_or(0.0)
 }

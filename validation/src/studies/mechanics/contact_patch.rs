@@ -1,11 +1,11 @@
-//! The contact patch test: two elastic bodies whose meshes do not match, pressed flat upon each
-//! other, pass a uniform pressure on exactly.
+//! The contact patch test: two elastic bodies with non-matching meshes, pressed flat onto each
+//! other, transfer a uniform pressure exactly.
 //!
 //! Spheres so large that their surface is flat over the patch are in the uniform state σ_yy = −p,
 //! all other stresses 0, and overlap by the depth at which the penalty makes the pressure p.
 //! Within the patch, each relative to p times the node's area ∫ N 2πr dr:
 //! `node_force`, the largest difference of a nodal contact force from that load; `equilibrium`, the
-//! largest sum of contact and internal force. Besides: `balance`, the sum of all contact forces of
+//! largest sum of contact and internal force. It also measures `balance`, the sum of all contact forces of
 //! both bodies over that of one; `pressure`, the largest difference of the recovered nodal pressure
 //! from p, over p. Each is the worst of all pairs of meshes.
 
@@ -32,7 +32,7 @@ struct Parameters {
     element_sizes: Vec<[f64; 2]>,
 }
 
-/// Presses each pair.
+/// Tests each pair.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut findings = Findings::new();
@@ -42,7 +42,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// One pair, overlapping by 1; E = 1.
+/// Tests one pair that overlaps by 1, with E = 1.
 fn press(findings: &mut Findings, sizes: [f64; 2]) -> Result<(), StudyError> {
     let mut lower = body(sizes[0], Side::Below)?;
     let mut upper = body(sizes[1], Side::Above)?;
@@ -85,7 +85,7 @@ fn body(size: f64, side: Side) -> Result<FreeMotion, StudyError> {
     let disc = HalfDisc {
         radius: SPHERE_RADIUS,
         contact_element_size: size,
-        // The elements beyond are another size, and with it the penalty.
+        // Elements farther out have another size and so another penalty.
         refined_radius: 1.0 + 3.0 * size,
         growth: None,
     };
@@ -93,7 +93,7 @@ fn body(size: f64, side: Side) -> Result<FreeMotion, StudyError> {
     Ok(FreeMotion::new(disc.build()?.on_side(side), &Material::new(1.0, moduli, None)?, 1.0)?)
 }
 
-/// Nodes whose segments are all loaded, from the axis outward, with ∫ N 2πr dr.
+/// Returns the nodes whose segments are all loaded, from the axis outward, with ∫ N 2πr dr.
 fn loaded_nodes(mesh: &SphereMesh, radius: f64) -> Vec<(usize, f64)> {
     let surface = mesh.surface();
     let r = |k: usize| mesh.nodes()[surface[k] as usize][0];

@@ -1,4 +1,5 @@
-//! Faults of earlier versions, and the present results of the scenes that guard against them.
+//! Tables from files beside the claim: faults of earlier versions with the present results of the scenes that guard
+//! against them (`seen.toml`), and counts of hostile inputs (`fed.toml`).
 
 use std::fs;
 use std::path::Path;
@@ -10,46 +11,46 @@ use crate::findings::Findings;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Seen {
-    class: Vec<Class>,
+struct EarlierFaults {
+    class: Vec<FaultClass>,
 }
 
 /// A class of fault.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Class {
+struct FaultClass {
     lie: String,
     /// Cases of it in an early version.
     seen: String,
     /// Axis, scene and model.
     #[serde(default)]
     now: Vec<[String; 3]>,
-    /// Tests that hold what no scene can.
+    /// Tests of faults that no scene shows.
     #[serde(default)]
     held: Vec<String>,
 }
 
 /// Result of a scene with a model: restitution, differences, outcome.
-pub(super) struct Now {
+pub(super) struct SceneResult {
     pub key: [String; 3],
     pub restitution: String,
     pub outcome: String,
 }
 
-/// Adds the table, if the claim has the file.
+/// Adds the table of earlier faults, if the claim has `seen.toml`.
 ///
 /// # Errors
-/// A file that is none, a scene that is not there.
-pub(super) fn tabulate(
+/// The file is invalid, or names a scene that does not exist.
+pub(super) fn tabulate_earlier_faults(
     folder: &Path,
-    results: &[Now],
+    results: &[SceneResult],
     is_quick: bool,
     findings: &mut Findings,
 ) -> Result<(), StudyError> {
     let path = folder.join("seen.toml");
     let Ok(text) = fs::read_to_string(&path) else { return Ok(()) };
     let wrong = |error: String| StudyError::parameters(format!("{}: {error}", path.display()));
-    let seen: Seen = toml::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+    let seen: EarlierFaults = toml::from_str(&text).map_err(|error| wrong(error.to_string()))?;
     let mut rows = Vec::new();
     for class in &seen.class {
         let mut heading = [class.lie.clone(), class.seen.clone()];
@@ -57,7 +58,7 @@ pub(super) fn tabulate(
             let [axis, scene, model] = key;
             let found = results.iter().find(|now| now.key == *key);
             let Some(found) = found else {
-                // Half of the scenes are not there.
+                // A quick study has only some of the scenes.
                 if is_quick {
                     continue;
                 }
@@ -78,6 +79,54 @@ pub(super) fn tabulate(
     findings.tabulate(
         "What an early version got wrong without a word, and what it does now.",
         ["fault", "seen then", "held now by", "model", "e", "outcome"],
+        rows,
+    );
+    Ok(())
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FuzzFile {
+    /// The command that repeats it.
+    command: String,
+    fed: Vec<FuzzTarget>,
+}
+
+/// Counts of one fuzz target.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FuzzTarget {
+    target: String,
+    accepted: u64,
+    refused: u64,
+    /// Panics, hangs, too much memory, bad messages, wrong exit codes.
+    findings: u64,
+    /// Descriptions of the findings.
+    #[serde(default)]
+    what: String,
+}
+
+/// Adds the table of hostile inputs.
+///
+/// # Errors
+/// `fed.toml` is missing or invalid.
+pub(super) fn tabulate_hostile_inputs(
+    folder: &Path,
+    findings: &mut Findings,
+) -> Result<(), StudyError> {
+    let path = folder.join("fed.toml");
+    let wrong = |error: String| StudyError::parameters(format!("{}: {error}", path.display()));
+    let text = fs::read_to_string(&path).map_err(|error| wrong(error.to_string()))?;
+    let FuzzFile { command, fed } =
+        toml::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+    let rows = fed.into_iter().map(|FuzzTarget { target, accepted, refused, findings, what }| {
+        [target, accepted.to_string(), refused.to_string(), findings.to_string(), what]
+    });
+    findings.tabulate(
+        format!(
+            "Hostile inputs, by {command}: none may panic, hang or take more than it is given."
+        ),
+        ["what reads", "accepted", "refused with a message", "findings", ""],
         rows,
     );
     Ok(())

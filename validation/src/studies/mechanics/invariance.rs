@@ -1,7 +1,7 @@
 //! Invariance of results under exchange of the bodies, a common velocity and the choice of units.
 //!
-//! Each run of the claim is compared with the run `plain` in numbers without unit: restitution, and
-//! all else over Hertz' values of the run itself. `NAME.difference` is the largest relative
+//! Each run of the claim is compared with the run `plain` in dimensionless numbers: the restitution, and
+//! all other quantities over Hertz' values of the run itself. `NAME.difference` is the largest relative
 //! difference of results, and of the contact force in any row of the history over the peak;
 //! `NAME.pressure` that of the largest pressure, which is read at the nodes of one body.
 
@@ -45,15 +45,15 @@ fn results(run: &Run) -> [f64; 6] {
     ]
 }
 
-/// Contact forces over the peak, from the first to the last contact. After it, a tie of rounding
-/// may decide whether the run goes on for a step.
+/// Returns the contact forces over the peak, from the first to the last contact. After it, rounding
+/// may decide whether the run continues for another step.
 fn forces(run: &Run) -> Vec<f64> {
     let last = run.collision.last_contact.unwrap_or(f64::NAN);
     let rows = run.collision.history.iter().take_while(|row| row.time <= last);
     rows.map(|row| row.contact_force / run.peak_force()).collect()
 }
 
-/// NaN if the histories have not the same rows.
+/// Returns the largest difference of the histories; NaN if their numbers of rows differ.
 fn difference(run: &Run, plain: &Run) -> f64 {
     let (ours, theirs) = (forces(run), forces(plain));
     if ours.len() != theirs.len() || ours.is_empty() {

@@ -1,4 +1,4 @@
-//! Random scenes: explicit elements, condensed bodies and Ting's impact of finite spheres side by side.
+//! Differences of explicit elements, condensed bodies and Ting's model of finite spheres in random scenes.
 //!
 //! Two models may differ by the tolerances of the claim, plus three times the estimated changes by effects that one
 //! model has and the other lacks (closed forms that are good within a factor of three), plus a share of the energy of waves that
@@ -14,17 +14,17 @@ use fem_collision::{Collision, QuantityOfInterest};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::scenes::{Random, Ratios, overrides_of};
-use crate::claim::RunFile;
+use super::linear_scenes::{Ratios, overrides};
+use super::{Random, load};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Factor within which the closed forms of neglected effects are good.
+/// Factor within which the closed forms of neglected effects are accurate.
 const FORETOLD_WITHIN: f64 = 3.0;
 /// Relative accuracy of the terms for waves that do not return (docs/theory.md).
 const RADIATION_WITHIN: f64 = 0.15;
-/// From the most complete to the cheapest.
+/// The models, from the most complete to the cheapest.
 const MODELS: [&str; 3] = ["fem={}", "condensed={}", "ting={finite_size=true}"];
 /// Number of worst scenes in the table of each pair.
 const N_SHOWN: usize = 5;
@@ -96,11 +96,11 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     ] {
         for &seed in seeds {
             let mut random = Random::new(seed);
-            scenes.extend((0..n).map(|_| (settings, overrides_of(&mut random, ratios))));
+            scenes.extend((0..n).map(|_| (settings, overrides(&mut random, ratios))));
         }
     }
     let pairs = [("explicit", [0, 1], parameters.explicit), ("ting", [1, 2], parameters.ting)];
-    // What a scene takes, its bars too, is done at once, and its models and fields are not kept.
+    // The models and fields of a scene are not kept.
     let compared = scenes.par_iter().map(|(settings, set)| {
         let [fem, condensed, ting] = MODELS.map(|model| run(laboratory, *settings, set, model));
         let runs = [fem?, condensed?, ting?];
@@ -119,7 +119,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let mut differences: Vec<&Difference> =
             differences.iter().filter_map(|pairs| pairs[k].as_ref()).collect();
         findings.measure(format!("{name}.compared"), differences.len() as f64);
-        // A share that is no number is beyond every limit.
+        // A NaN is beyond every limit.
         let is_within = |one: &&Difference| one.share <= 1.0;
         let beyond = differences.iter().copied().filter(|one| !is_within(one));
         let (warned, beyond): (Vec<&Difference>, Vec<&Difference>) =
@@ -165,17 +165,13 @@ fn run(
     set: &[String],
     model: &str,
 ) -> Result<Result<Ran, String>, StudyError> {
-    let base = laboratory.claim().runs.get("base").ok_or_else(|| {
-        StudyError::parameters("the claim has no [run.base], which the study needs")
-    })?;
-    let mut all = base.set.clone();
+    let mut all = Vec::new();
     if let Settings::Default = settings {
         all.push("accuracy={}".to_string());
     }
     all.extend_from_slice(set);
     all.push(format!("model={{{model}}}"));
-    let file = RunFile { case: base.case.clone(), set: all };
-    let case = laboratory.claim().load_case(&file);
+    let case = load(laboratory, &all)?;
     laboratory.work(|| {
         let ran = case.and_then(collide).unwrap_or_else(|error| Err(error.to_string()));
         let updates = ran.as_ref().ok().and_then(|ran| ran.collision.element_updates);
@@ -215,13 +211,13 @@ fn difference(
     let (explained, waves) = (explained(ours, theirs), waves(theirs));
     let off = [0, 1, 2].map(|k| match (a[k], b[k]) {
         (Some(ours), Some(theirs)) => theirs - ours,
-        // A contact without an end has none; whether it has one the restitution tells.
+        // The restitution shows whether a contact has no end.
         _ => 0.0,
     });
     let share =
         [0, 1, 2].map(|k| off[k].abs() / (base[k] + FORETOLD_WITHIN * explained[k] + waves[k]));
     let share = share.into_iter().fold(0.0, fem_collision::nan_aware_max_abs);
-    // What warnings need to know, companions tell, which take longer than the collision.
+    // Warnings need reference runs, which take longer than the collision: they are not computed if not needed.
     let is_within = share <= 1.0;
     let warns = !is_within && theirs.warns();
     Difference { scene: set.join(" "), settings, off, share, warns }
@@ -233,12 +229,13 @@ fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     let of = |ran: &Ran| {
         let bars = ran.simulation.summary(&ran.collision).uncertainty;
         let scales = [1.0, hertz.contact_time(), hertz.peak_force()];
-        let headlines = [
+        let quantities = [
             QuantityOfInterest::Restitution,
             QuantityOfInterest::ContactTime,
             QuantityOfInterest::PeakForce,
         ];
-        [0, 1, 2].map(|k: usize| bars.parts(headlines[k]).discretisation.unwrap_or(0.0) / scales[k])
+        [0, 1, 2]
+            .map(|k: usize| bars.parts(quantities[k]).discretisation.unwrap_or(0.0) / scales[k])
     };
     let (ours, theirs) = (of(ours), of(theirs));
     [0, 1, 2].map(|k: usize| ours[k] + theirs[k])

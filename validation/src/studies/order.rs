@@ -1,7 +1,7 @@
 //! Orders of convergence.
 
-/// The power p of error ∝ sizeᵖ, by least squares through the logarithms of (size, error); the
-/// sign of an error does not count. NaN with fewer than two pairs or with an error of 0.
+/// Returns the power p of |error| ∝ sizeᵖ, by least squares through the logarithms of (size, error). NaN for fewer
+/// than two pairs or with an error of 0.
 pub(crate) fn fitted_order(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let logarithms: Vec<(f64, f64)> =
         pairs.into_iter().map(|(size, error)| (size.ln(), error.abs().ln())).collect();

@@ -1,44 +1,11 @@
-//! Random scenes that every model takes: linear, of finite spheres, within small strain.
+//! Random scenes within small strain, which every model supports: linear materials and finite spheres.
 //!
 //! Sizes span two decades and their ratio three, moduli four and three, densities one and three;
 //! Poisson's ratios are −0.3 to 0.48, speeds 1e-6 to 5e-4 of the slower wave speed. A body has up to three
-//! terms of relaxation with rates of 0.01 to 10 over a guess of the contact time. A tenth of the scenes is
-//! against a wall, a tenth of identical bodies, a tenth on a half-space.
+//! Prony terms with rates of 0.01 to 10 over an estimate of the contact time. A tenth of the scenes has a
+//! wall, a tenth identical bodies, a tenth a half-space.
 
-/// A generator of numbers in [0, 1): SplitMix64, Steele et al. 2014.
-pub(in crate::studies) struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 * 2f64.powi(-53)
-    }
-
-    pub fn within(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * self.next()
-    }
-
-    /// The numbers below `n`, shuffled (Fisher & Yates).
-    pub fn order(&mut self, n: usize) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..n).collect();
-        for k in (1..n).rev() {
-            order.swap(k, (self.next() * (k + 1) as f64) as usize);
-        }
-        order
-    }
-
-    /// Ten to the power of what lies between.
-    fn decades(&mut self, from: f64, to: f64) -> f64 {
-        10f64.powf(self.within(from, to))
-    }
-}
+use super::Random;
 
 /// A material and its wave speed.
 struct Drawn {
@@ -46,7 +13,7 @@ struct Drawn {
     wave_speed: f64,
 }
 
-/// `contact_time` is a guess, s.
+/// Draws a material; `contact_time` is an estimate, s.
 fn material(random: &mut Random, contact_time: f64, stiffness: f64, density: f64) -> Drawn {
     let poissons_ratio = random.within(-0.3, 0.48);
     let acts_on = if random.next() < 0.5 { "all" } else { "shear" };
@@ -72,10 +39,10 @@ fn material(random: &mut Random, contact_time: f64, stiffness: f64, density: f64
 
 /// Range of the ratios of the bodies' sizes and stiffnesses.
 #[derive(Clone, Copy, PartialEq)]
-pub(in crate::studies) enum Ratios {
+pub(super) enum Ratios {
     /// Up to thirty.
     Usual,
-    /// Thirty to two hundred in size, up to 1e4 in stiffness: one of them is often as good as rigid.
+    /// Thirty to two hundred in size, up to 1e4 in stiffness: one of the bodies is often nearly rigid.
     Extreme,
 }
 
@@ -96,13 +63,8 @@ impl Ratios {
     }
 }
 
-/// Returns random overrides of a case of two spheres.
-pub(in crate::studies) fn overrides(random: &mut Random) -> Vec<String> {
-    overrides_of(random, Ratios::Usual)
-}
-
-/// Returns random overrides with the given ranges of ratios.
-pub(in crate::studies) fn overrides_of(random: &mut Random, ratios: Ratios) -> Vec<String> {
+/// Returns the overrides that make a random scene of a case of two spheres.
+pub(super) fn overrides(random: &mut Random, ratios: Ratios) -> Vec<String> {
     let diameters = {
         let first = random.decades(-3.0, -1.0);
         [first, first * ratios.size(random)]
@@ -114,7 +76,7 @@ pub(in crate::studies) fn overrides_of(random: &mut Random, ratios: Ratios) -> V
     let slowest = slowest[0].min(slowest[1]);
     let mach = random.decades(-6.0, -3.3);
     let smallest = diameters[0].min(diameters[1]);
-    // Hertz', of equal spheres.
+    // Hertz' contact time of equal spheres.
     let contact_time = 2.0 * smallest / slowest * mach.powf(-0.2);
     let partner = random.next();
     let mut set = Vec::new();

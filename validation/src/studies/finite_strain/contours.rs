@@ -1,31 +1,31 @@
-//! σ_yy in section of soft bodies on a wall at four instants, labelled or times, on the deformed bodies.
+//! Sections of soft bodies on a wall with σ_yy at four instants, which are labels or times.
 //!
 //! Measures for each run and instant, from the upper body's σ_yy where it touches the wall on the axis, the contact
 //! pressure there and the deformed surface:
 //!
 //! - `RUN.INSTANT.smallest`: the largest compression, Pa;
-//! - `RUN.INSTANT.into_wall`: how far the surface is beyond the wall, over the largest approach;
+//! - `RUN.INSTANT.into_wall`: the penetration of the surface into the wall, over the largest approach;
 //! - `RUN.pole_over_pressure`: −σ_yy at the pole over the contact pressure on the axis at the largest approach;
 //! - `RUN.last_over_maximum`: the largest compression at the last contact over that at the largest approach;
-//! - `RUN.height`: what is left of the height on the axis at the largest approach, over the diameter;
-//! - of times `RUN.front_speed`: how fast the place on the axis where −σ_yy is a tenth of its largest there moves
-//!   through the undeformed body, from the first instant to the last, m/s.
+//! - `RUN.height`: the remaining height on the axis at the largest approach, over the diameter;
+//! - `RUN.front_speed`, if the instants are times: the speed in the undeformed body, from the first instant to the last,
+//!   of the place on the axis where −σ_yy is a tenth of its largest value there, m/s.
 
 use fem_case::engineering::Unit;
 use fem_collision::{Snapshot, SnapshotInstant};
 use fem_figure::contour::{Contour, Levels, Panel, Section, Window};
 
-use super::sections;
 use crate::error::StudyError;
 use crate::findings::{Figure, Findings};
 use crate::laboratory::Laboratory;
 use crate::run::ExplicitRun;
+use crate::studies::sections;
 
 const MILLI: f64 = 1e3;
 const MEGA: f64 = 1e6;
-/// Bands over the largest stress, about.
+/// Approximate number of colour bands over the largest stress.
 const N_BANDS: usize = 11;
-/// The upper body: the wall is the lower one.
+/// Index of the upper body; the wall is the lower one.
 const UPPER: usize = 1;
 /// Extent of the picture in radii of the ball: to each side, below the wall, above it.
 const WIDTH: f64 = 1.45;

@@ -1,7 +1,7 @@
 //! Patch tests of a meshed sphere: a rigid motion causes no strain, and a uniform pressure on its surface is balanced
 //! by a uniform stress.
 //!
-//! `translation`, the largest nodal force of a rigid translation by the radius over that of a strain
+//! Measures `translation`, the largest nodal force of a rigid translation by the radius over that of a strain
 //! of 1; `load`, the largest difference of the nodal forces of u = −p x/3K from the consistent loads
 //! ∫ N p n dA of the boundary, over the largest of these; `stress` and `recovered`, the largest
 //! difference of element and nodal stress from −p I, over p. Each is the worst of all meshes and
@@ -34,7 +34,7 @@ struct Graded {
     refined_radius: f64,
 }
 
-/// Deforms spheres and looks at their forces.
+/// Deforms spheres and measures their forces.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut findings = Findings::new();
@@ -67,7 +67,7 @@ fn look(findings: &mut Findings, mut sphere: FreeMotion) {
     sphere.set_displacement(|[r, y]| [-r / 3.0, -(y - 0.3) / 3.0]);
     let loads = sphere.body().mesh().map(pressure_loads).unwrap_or_default();
     let largest_load = largest(&loads);
-    // What pulls the nodes back balances the load.
+    // The internal forces balance the load.
     let rest: Vec<[f64; 2]> = (sphere.internal_forces().iter().zip(&loads))
         .map(|(force, load)| [force[0] + load[0], force[1] + load[1]])
         .collect();
@@ -86,8 +86,8 @@ fn look(findings: &mut Findings, mut sphere: FreeMotion) {
     findings.measure_worst("translation", largest(sphere.internal_forces()) / largest_load);
 }
 
-/// Consistent loads of a unit pressure: over a straight piece of boundary from (r₁, y₁) to
-/// (r₂, y₂), body to its left as seen from outside, ∫ N n 2πr ds = 2π (2r₁+r₂)/6 (∓Δy, ±Δr).
+/// Returns the consistent loads of a unit pressure: over a straight piece of boundary from (r₁, y₁) to
+/// (r₂, y₂), with the body to its left as seen from outside, ∫ N n 2πr ds = 2π (2r₁+r₂)/6 (∓Δy, ±Δr).
 fn pressure_loads(mesh: &SphereMesh) -> Vec<[f64; 2]> {
     let mut loads = vec![[0.0; 2]; mesh.nodes().len()];
     let inward = if mesh.side() == Side::Above { 1.0 } else { -1.0 };
@@ -103,7 +103,7 @@ fn pressure_loads(mesh: &SphereMesh) -> Vec<[f64; 2]> {
     loads
 }
 
-/// Without the radial forces on the axis, where symmetry holds the nodes.
+/// Removes the radial forces on the axis, where symmetry holds the nodes.
 fn inside_of_axis(sphere: &FreeMotion, mut forces: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     for &node in sphere.body().mesh().map_or(&[][..], SphereMesh::axis) {
         forces[node as usize][0] = 0.0;

@@ -1,0 +1,206 @@
+//! Whether the limit of a model is within the error bars of its results, and within the default tolerance.
+//!
+//! Half of the scenes are the same each time, half are drawn anew. The limit is that of condensed bodies over the
+//! element size. For explicit elements it includes their difference to condensed bodies on a mesh that is finer than
+//! the one under test ([`Limit`]); its uncertainty is allowed. The result under test has the mesh and the mass scaling
+//! of the default tolerance. A scene is `covered` if all six quantities are within their bars, and `met` if
+//! restitution, contact time, peak force and pressure are within the tolerance. `MODEL.bar` is the median of a bar over
+//! the error, or over the uncertainty of the limit if that is larger.
+
+use std::collections::hash_map::RandomState;
+use std::hash::{BuildHasher, Hasher};
+
+use fem::accuracy::{BarParts, Limit, Setting};
+use fem_case::{Case, CaseError};
+use fem_collision::QuantityOfInterest;
+use serde::Deserialize;
+
+use super::linear_scenes::{Ratios, overrides};
+use super::{NumberTrial, Random, Trial, computed, load, quantile, tabulate};
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::Laboratory;
+
+/// Mass scaling of the explicit elements that a limit is computed from, and elements across the contact.
+const LITTLE_MASS: f64 = 2e-4;
+const EXPLICIT: [f64; 2] = [8.0, 11.0];
+const CONDENSED: [f64; 5] = [8.0, 11.0, 16.0, 23.0, 32.0];
+/// Number of scenes in each table.
+const N_SHOWN: usize = 8;
+/// Largest number of scenes drawn per scene that is computed.
+const MOST_DRAWN: usize = 8;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// Seed of the scenes that are the same each time.
+    seed: u64,
+    /// Number of scenes of each half.
+    scenes: usize,
+    /// Scenes that need more element updates on the finest mesh are skipped.
+    element_updates: f64,
+}
+
+/// A trial and the parts of its error bars.
+type Parted = (Trial, Vec<BarParts>);
+type Numbers = [Option<f64>; 6];
+
+/// Tests the error bars of explicit elements and of condensed bodies.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let Parameters { seed, scenes, element_updates } = laboratory.parameters()?;
+    // The only random number that is available without a clock: the seed of hash tables.
+    let drawn = RandomState::new().build_hasher().finish();
+    let (mut explicit, mut condensed): (Vec<Parted>, Vec<Parted>) = Default::default();
+    for seed in [seed, drawn] {
+        let mut random = Random::new(seed);
+        let draw = || overrides(&mut random, Ratios::Usual);
+        let both = computed(scenes, MOST_DRAWN, draw, |set| {
+            let Ok(case) = load(laboratory, set)? else { return Ok(None) };
+            let compute = || compute(&case, &set.join(" "), element_updates).ok().flatten();
+            laboratory.work(|| Ok((compute(), 0)))
+        })?;
+        for [first, second] in both {
+            explicit.push(first);
+            condensed.push(second);
+        }
+    }
+    let mut findings = Findings::new();
+    findings.tabulate(
+        "Constants of the error estimate (crates/fem-simulation/src/error/calibration.rs). The edge constant needed is that \
+         with which the bars of 98 % of these scenes hold.",
+        ["constants", "quantity", "covered", "median bar", "bar over error", "edge constant", "edge constant needed"],
+        calibration_rows(&[&explicit, &condensed]),
+    );
+    for (name, trials) in [("explicit", explicit), ("condensed", condensed)] {
+        let count = |is: fn(&Trial) -> bool| trials.iter().filter(|one| is(&one.0)).count() as f64;
+        findings.measure(format!("{name}.scenes"), trials.len() as f64);
+        findings.measure(format!("{name}.covered"), count(|trial| trial.share() <= 1.0));
+        findings.measure(format!("{name}.met"), count(Trial::is_met));
+        let all = trials.iter().flat_map(|(trial, _)| &trial.numbers);
+        findings.measure(format!("{name}.bar"), quantile(all.map(width), 0.5));
+        let caption = format!(
+            "{name}: errors and bars of the scenes that come nearest to their bars; seed of the second half {drawn}."
+        );
+        tabulate(&mut findings, caption, trials.iter().map(|one| &one.0).collect(), N_SHOWN);
+    }
+    Ok(findings)
+}
+
+/// Returns a bar over the error, or over the uncertainty of the limit if that is larger.
+fn width(number: &NumberTrial) -> f64 {
+    number.bar / number.error.abs().max(number.reference_uncertainty)
+}
+
+/// Returns the edge constant, times (a/h)², with which a bar would hold.
+fn edge_needed(number: &NumberTrial, parts: &BarParts) -> f64 {
+    let BarParts { reference_error, safety_factor, across, floor, .. } = *parts;
+    let known = safety_factor * reference_error + floor + number.reference_uncertainty;
+    (number.error.abs() - known).max(0.0) * across * across
+}
+
+/// Returns, for each row of constants and each quantity, how often the bars hold, how wide they are, the edge constant and
+/// the one that is needed.
+fn calibration_rows(trials: &[&[Parted]]) -> Vec<[String; 7]> {
+    let all = trials.iter().copied().flatten();
+    let all: Vec<(&NumberTrial, &BarParts)> =
+        all.flat_map(|(trial, parts)| trial.numbers.iter().zip(parts)).collect();
+    let mut names: Vec<&str> = all.iter().map(|(_, parts)| parts.constants).collect();
+    names.sort_unstable();
+    names.dedup();
+    let keys = names.into_iter().flat_map(|name| QuantityOfInterest::ALL.map(|key| (name, key)));
+    let row = |(name, quantity): (&str, QuantityOfInterest)| {
+        let of = |of: fn(&NumberTrial, &BarParts) -> f64| {
+            let same = all.iter().filter(|(number, parts)| {
+                parts.constants == name && number.quantity == quantity
+            });
+            same.map(|(number, parts)| of(number, parts)).collect::<Vec<f64>>()
+        };
+        let shares = of(|number, _| number.share());
+        let edges = of(|_, parts| parts.edge * parts.across.max(1.0).powi(2));
+        [
+            name.to_string(),
+            quantity.key().to_string(),
+            format!("{} of {}", shares.iter().filter(|it| **it <= 1.0).count(), shares.len()),
+            format!("{:.1e}", quantile(of(|number, _| number.bar), 0.5)),
+            format!("{:.1}", quantile(of(|number, _| width(number)), 0.5)),
+            format!("{:.3}", quantile(edges, 0.5)),
+            format!("{:.3}", quantile(of(edge_needed), 0.98)),
+        ]
+    };
+    keys.map(row).collect()
+}
+
+/// Returns the errors and the bars of explicit elements and of condensed bodies; `None` for a scene that is too
+/// expensive or whose contact has no end.
+fn compute(
+    case: &Case,
+    scene: &str,
+    element_updates: f64,
+) -> Result<Option<[Parted; 2]>, CaseError> {
+    let Ok(estimate) = fem::Estimate::of(case.scene()) else { return Ok(None) };
+    let radius = estimate.contact_radius;
+    let run = |settings: &[Setting], across: Option<f64>| {
+        let case = case.edited(|file| {
+            for setting in settings {
+                setting.apply(file);
+            }
+            if let Some(across) = across {
+                Setting::ElementSize(radius / across).apply(file);
+            }
+        })?;
+        let simulation = fem::Simulation::new(case)?;
+        let mut collision = simulation.run(&mut ());
+        collision.snapshots.clear();
+        Ok::<_, CaseError>((simulation, collision))
+    };
+    let finest = case.edited(|file| {
+        Setting::Explicit.apply(file);
+        Setting::MassScaling(LITTLE_MASS).apply(file);
+        Setting::ElementSize(radius / EXPLICIT[1]).apply(file);
+    })?;
+    if fem::Simulation::price(&finest)? as f64 > element_updates {
+        return Ok(None);
+    }
+    let levels = |settings: &[Setting], across: &[f64]| {
+        let level = |across: &f64| {
+            let (_, collision) = run(settings, Some(*across))?;
+            let values: Numbers = QuantityOfInterest::ALL.map(|quantity| quantity.of(&collision));
+            Ok::<_, CaseError>((radius / across, values))
+        };
+        across.iter().map(level).collect::<Result<Vec<_>, _>>()
+    };
+    let condensed = |penalty_springs| Setting::Condensed { vibration_modes: 0, penalty_springs };
+    let bodies = levels(&[condensed(false)], &CONDENSED)?;
+    let springs = levels(&[condensed(true)], &EXPLICIT)?;
+    let little = [Setting::Explicit, Setting::MassScaling(LITTLE_MASS)];
+    let explicit = levels(&little, &EXPLICIT)?;
+    let judge = |settings: &[Setting], has_inertia: bool| {
+        let (simulation, collision) = run(settings, None)?;
+        let errors = simulation.estimate_errors(&collision);
+        let measured = QuantityOfInterest::ALL.into_iter().filter_map(|quantity| {
+            let pick = |levels: &[(f64, Numbers)]| -> Vec<(f64, f64)> {
+                let level =
+                    |(size, values): &(f64, Numbers)| Some((*size, values[quantity as usize]?));
+                levels.iter().filter_map(level).collect()
+            };
+            let none: &[(f64, Numbers)] = &[];
+            let (springs, explicit) =
+                if has_inertia { (&springs[..], &explicit[..]) } else { (none, none) };
+            let limit = Limit::of(&pick(&bodies), &pick(springs), &pick(explicit))?;
+            let value = quantity.of(&collision)?;
+            let bar = errors.discretisation(quantity)?;
+            let scale = quantity.scale(limit.value);
+            let number = NumberTrial {
+                quantity,
+                error: (value - limit.value) / scale,
+                bar: bar / scale,
+                reference_uncertainty: limit.uncertainty / scale,
+            };
+            Some((number, errors.parts(quantity)?))
+        });
+        let (numbers, parts) = measured.unzip();
+        Ok::<_, CaseError>((Trial { scene: scene.to_string(), numbers }, parts))
+    };
+    let judged = [judge(&[Setting::Explicit], true)?, judge(&[condensed(false)], false)?];
+    Ok(judged.iter().all(|(trial, _)| trial.is_whole()).then_some(judged))
+}

@@ -1,0 +1,176 @@
+//! Random scenes: the comparison of models, and whether results are within their error bars and tolerances.
+//!
+//! ```text
+//! linear_scenes ─┬─ model_differences   explicit elements, condensed bodies and Ting's model
+//!                └─ error_bars          errors against extrapolated limits
+//! soft_scenes                           errors at finite strain against finer meshes
+//! ```
+//!
+//! A scene consists of overrides of the claim's `[run.base]`, drawn by [`Random`].
+
+mod error_bars;
+mod linear_scenes;
+mod model_differences;
+mod soft_scenes;
+
+use fem_case::{Accuracy, Case, CaseError};
+use fem_collision::QuantityOfInterest;
+use rayon::prelude::*;
+
+use crate::claim::RunFile;
+use crate::error::StudyError;
+use crate::findings::{Findings, Table};
+use crate::laboratory::Laboratory;
+
+pub use error_bars::study as error_bars_study;
+pub use model_differences::study as model_differences_study;
+pub use soft_scenes::study as soft_scenes_study;
+
+/// A generator of random numbers: SplitMix64, Steele et al. 2014.
+pub(in crate::studies) struct Random(u64);
+
+impl Random {
+    /// Creates the generator of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Returns a number in [0, 1).
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 * 2f64.powi(-53)
+    }
+
+    /// Returns a number of a range.
+    pub fn within(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * self.next()
+    }
+
+    /// Returns the numbers below `n`, shuffled (Fisher & Yates).
+    pub fn order(&mut self, n: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..n).collect();
+        for k in (1..n).rev() {
+            order.swap(k, (self.next() * (k + 1) as f64) as usize);
+        }
+        order
+    }
+
+    /// Returns a power of ten whose exponent lies in a range.
+    fn decades(&mut self, from: f64, to: f64) -> f64 {
+        10f64.powf(self.within(from, to))
+    }
+}
+
+/// Loads the case of a scene: the claim's `[run.base]` with these overrides.
+///
+/// # Errors
+/// The claim has no such run; the outer error. The scene is no valid case; the inner error.
+fn load(laboratory: &Laboratory, set: &[String]) -> Result<Result<Case, CaseError>, StudyError> {
+    let claim = laboratory.claim();
+    let base = claim.runs.get("base").ok_or_else(|| {
+        StudyError::parameters("the claim has no [run.base], which the study needs")
+    })?;
+    let file = RunFile { case: base.case.clone(), set: [&base.set[..], set].concat() };
+    Ok(claim.load_case(&file))
+}
+
+/// Computes `n` scenes in the order in which they are drawn. Scenes without a result are skipped; at most
+/// `most_rounds` times `n` scenes are drawn.
+fn computed<T: Send>(
+    n: usize,
+    most_rounds: usize,
+    mut draw: impl FnMut() -> Vec<String>,
+    compute: impl Fn(&[String]) -> Result<Option<T>, StudyError> + Sync,
+) -> Result<Vec<T>, StudyError> {
+    let mut all = Vec::new();
+    for _ in 0..most_rounds {
+        let sets: Vec<Vec<String>> = (0..n).map(|_| draw()).collect();
+        let results = sets.par_iter().map(|set| compute(set));
+        all.extend(results.collect::<Result<Vec<_>, _>>()?.into_iter().flatten());
+        all.truncate(n);
+        if all.len() == n {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+/// The errors of a result and their error bars.
+struct Trial {
+    scene: String,
+    numbers: Vec<NumberTrial>,
+}
+
+/// The error of a quantity of interest and its error bar: of the restitution absolute, of all others relative.
+#[derive(Clone, Copy)]
+struct NumberTrial {
+    quantity: QuantityOfInterest,
+    /// With its sign.
+    error: f64,
+    bar: f64,
+    /// Uncertainty of the reference that the error is measured from.
+    reference_uncertainty: f64,
+}
+
+impl NumberTrial {
+    /// Returns the error over the bar and the uncertainty of the reference.
+    fn share(&self) -> f64 {
+        self.error.abs() / (self.bar + self.reference_uncertainty)
+    }
+
+    /// Whether the error is within the default tolerance; approach and contact radius have none.
+    fn is_met(&self) -> bool {
+        let accuracy = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
+        let tolerance = match self.quantity {
+            QuantityOfInterest::Restitution => accuracy.restitution,
+            QuantityOfInterest::ContactTime => accuracy.contact_time,
+            QuantityOfInterest::PeakForce => accuracy.peak_force,
+            QuantityOfInterest::PeakPressure => accuracy.peak_pressure,
+            QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => return true,
+        };
+        self.error.abs() <= tolerance + self.reference_uncertainty
+    }
+}
+
+impl Trial {
+    /// Whether all quantities are there; a contact without an end has neither time nor bars.
+    fn is_whole(&self) -> bool {
+        self.numbers.len() == QuantityOfInterest::ALL.len()
+    }
+
+    /// Returns the largest error over its bar and the uncertainty of the reference.
+    fn share(&self) -> f64 {
+        let shares = self.numbers.iter().map(NumberTrial::share);
+        shares.fold(0.0, fem_collision::nan_aware_max_abs)
+    }
+
+    fn is_met(&self) -> bool {
+        self.numbers.iter().all(NumberTrial::is_met)
+    }
+}
+
+/// Adds the table of the scenes with the largest errors over their bars, at most `n`.
+fn tabulate(findings: &mut Findings, caption: String, mut trials: Vec<&Trial>, n: usize) {
+    trials.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    let rows = trials.iter().take(n).map(|trial| {
+        let numbers = trial.numbers.iter();
+        let cells =
+            numbers.map(|NumberTrial { error, bar, .. }| format!("{error:+.1e} ± {bar:.1e}"));
+        let first = [trial.scene.clone(), format!("{:.2}", trial.share())];
+        first.into_iter().chain(cells).collect()
+    });
+    let header = ["scene", "over the bar", "e", "T", "F", "approach", "a", "p0"];
+    let header = header.map(String::from).to_vec();
+    findings.tables.push(Table { caption, header, rows: rows.collect() });
+}
+
+/// Returns the value below which a share of the values lies; NaN without values.
+fn quantile(values: impl IntoIterator<Item = f64>, share: f64) -> f64 {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    let k = (share * values.len() as f64) as usize;
+    values.get(k.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
+}
