@@ -59,9 +59,10 @@ fn panel(
         runs.iter().filter(|run| run.variant.series == series).filter_map(point).collect()
     };
     let axis = |label: &str| Axis::new(label).logarithmic();
-    let lines = LINES.into_iter().enumerate().map(|(k, series)| {
-        Curve::points_on_line(series.name(), of(series)).like_curve(k)
-    });
+    let lines = LINES
+        .into_iter()
+        .enumerate()
+        .map(|(k, series)| Curve::points_on_line(series.name(), of(series)).like_curve(k));
     let points = POINTS.into_iter().enumerate().map(|(k, series)| {
         // In the last colour, with markers that no line has.
         Curve::points(series.name(), of(series)).like_curve((k + 2) * COLOURS.len() - 1)

@@ -7,7 +7,9 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::accuracy::{Measurement, Study, Variant, Variants};
 use fem::{CaseError, Identity, Monitor, Progress, Simulation};
 use fem_case::engineering::show;
-use fem_report::accuracy::{AccuracyResult, csv, figure, json, markdown, sentences, terminal_tables};
+use fem_report::accuracy::{
+    AccuracyResult, csv, figure, json, markdown, sentences, terminal_tables,
+};
 use indicatif::HumanCount;
 
 use crate::arguments::case::{CaseArguments, ToleranceArguments};
@@ -132,8 +134,7 @@ fn measure(
     for index in variants.cheapest_first() {
         let variant = &variants.all[index];
         let left = deadline.end.saturating_duration_since(Instant::now()).as_secs_f64();
-        let fits =
-            left > 0.0 && !interrupt.is_requested() && forecast.seconds(variant) <= left;
+        let fits = left > 0.0 && !interrupt.is_requested() && forecast.seconds(variant) <= left;
         let ran = fits.then(|| run(variant, variants.contact_radius, deadline)).transpose()?;
         let took =
             ran.as_ref().map_or("no time left".to_string(), |(_, seconds)| show(*seconds, "s"));
@@ -141,9 +142,8 @@ fn measure(
         progress.finish_item(&format!("{took:>12}  {series}  {describe}"));
         if let Some(ran) = ran {
             forecast.learn(variant, &ran);
-            measured[index] = Some(ran).filter(|(result, _)| {
-                result.is_complete || Instant::now() < deadline.end
-            });
+            measured[index] =
+                Some(ran).filter(|(result, _)| result.is_complete || Instant::now() < deadline.end);
         }
     }
     progress.finish();

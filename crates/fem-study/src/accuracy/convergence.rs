@@ -177,7 +177,10 @@ impl Convergence {
         };
         let law = law.filter(is_sound);
         let (limit, uncertainty) = match law {
-            Some(law) => (law.limit, law.uncertainty.max(EXTRAPOLATION_UNCERTAINTY * (law.limit - finest).abs())),
+            Some(law) => (
+                law.limit,
+                law.uncertainty.max(EXTRAPOLATION_UNCERTAINTY * (law.limit - finest).abs()),
+            ),
             None => (finest, step),
         };
         let is_extrapolated = law.is_some();
@@ -219,4 +222,3 @@ impl ObservedOrder {
         is_seen.then_some(Self { order, standard_error, factor })
     }
 }
-

@@ -52,9 +52,8 @@ impl Measurement {
             Cost::Little { .. } => (0, None),
         };
         let complete = collision.is_complete().then_some(&collision);
-        let value = |quantity: QuantityOfInterest| {
-            quantity.of(complete?).filter(|value| value.is_finite())
-        };
+        let value =
+            |quantity: QuantityOfInterest| quantity.of(complete?).filter(|value| value.is_finite());
         let snapshot = complete.and_then(|it| it.snapshot(SnapshotInstant::Maximum));
         Ok(Self {
             values: QuantityOfInterest::ALL.map(value),

@@ -213,9 +213,8 @@ fn finest_field(runs: &[VariantRun<'_>], limits: &[Option<Limit>; 6]) -> Option<
         is_clear && limit.added.is_some_and(|added| added.abs() > SEEN * scale)
     });
     let finest = |series| {
-        let has_field = |run: &VariantRun<'_>| {
-            run.variant.series == series && run.measurement.stress.is_some()
-        };
+        let has_field =
+            |run: &VariantRun<'_>| run.variant.series == series && run.measurement.stress.is_some();
         let fields = (0..runs.len()).filter(|index| has_field(&runs[*index]));
         fields.max_by_key(|index| runs[*index].measurement.elements)
     };

@@ -202,7 +202,8 @@ impl Base {
                 let share = multiple * MeshRule::mass_scaling_beside(across);
                 settings.push(Setting::MassScaling(rounded(share)));
             }
-            let is_nodal = |one: &_| matches!(one, Setting::Condensed { penalty_springs: false, .. });
+            let is_nodal =
+                |one: &_| matches!(one, Setting::Condensed { penalty_springs: false, .. });
             if is_staggered && !has(is_nodal) {
                 settings.push(Setting::Staggered(true));
             }

@@ -12,9 +12,7 @@ impl LawFit<'_> {
     pub fn numbers(&self, case: &str) -> Value {
         let (fit, problem) = (&self.fit, &self.problem);
         let family = problem.model.family();
-        let compared = |(model, fit): &(Model, Fit)| {
-            json!({ "law": model.family().name(), "values": fit.values, "rms": fit.rms })
-        };
+        let compared = |(model, fit): &(Model, Fit)| json!({ "law": model.family().name(), "values": fit.values, "rms": fit.rms });
         let parameters = family.parameters().iter().enumerate();
         json!({
             "case": case,
@@ -52,9 +50,7 @@ impl LawFit<'_> {
     }
 
     fn profile_numbers(&self, profile: &Profile) -> Value {
-        let point = |point: &ProfilePoint| {
-            json!({ "value": point.value, "rms": point.rms, "values": point.values })
-        };
+        let point = |point: &ProfilePoint| json!({ "value": point.value, "rms": point.rms, "values": point.values });
         json!({
             "key": self.problem.parameter(profile.index).key,
             "points": profile.points.iter().map(point).collect::<Value>(),

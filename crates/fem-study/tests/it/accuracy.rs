@@ -2,7 +2,6 @@
 
 use fem_study::accuracy::{Convergence, Limit, PowerLaw};
 
-
 #[test]
 fn order_and_limit_of_a_power_law_are_found() {
     for (order, limit, factor) in [(1.0, 62.8, 0.3), (2.0, -3.0, -0.7), (0.5, 1.0, 0.01)] {
@@ -37,7 +36,6 @@ fn levels_come_in_any_order() {
     assert!(spoilt.limit.is_nan() && spoilt.factor.is_nan());
 }
 
-
 #[test]
 fn a_sequence_without_order_is_not_extrapolated() {
     let noise = [(4.0, 1.0), (3.0, 1.2), (2.0, 0.9), (1.5, 1.15), (1.0, 1.05)];
@@ -58,7 +56,6 @@ fn the_observed_order_is_that_of_the_sequence() {
         assert!((seen.factor - 0.1).abs() < 1e-3 && seen.standard_error < 1e-3, "{seen:?}");
     }
 }
-
 
 fn levels(sizes: &[f64], value: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     sizes.iter().map(|size| (*size, value(*size))).collect()

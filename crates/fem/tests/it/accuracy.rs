@@ -68,8 +68,7 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
         assert!(condensed[0][k].unwrap() > 2.5 * condensed[4][k].unwrap(), "{quantity:?}");
     }
     for series in [Series::Condensed, Series::Explicit] {
-        let stress: Vec<f64> =
-            errors(series).filter_map(|errors| errors.monotone_stress).collect();
+        let stress: Vec<f64> = errors(series).filter_map(|errors| errors.monotone_stress).collect();
         let is_falling = stress.is_sorted_by(|coarse, fine| coarse >= fine);
         assert!(stress.len() >= 3 && is_falling, "{stress:?}");
     }

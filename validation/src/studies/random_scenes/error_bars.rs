@@ -110,9 +110,9 @@ fn calibration_rows(trials: &[&[Parted]]) -> Vec<[String; 7]> {
     let keys = names.into_iter().flat_map(|name| QuantityOfInterest::ALL.map(|key| (name, key)));
     let row = |(name, quantity): (&str, QuantityOfInterest)| {
         let of = |of: fn(&NumberTrial, &BarParts) -> f64| {
-            let same = all.iter().filter(|(number, parts)| {
-                parts.constants == name && number.quantity == quantity
-            });
+            let same = all
+                .iter()
+                .filter(|(number, parts)| parts.constants == name && number.quantity == quantity);
             same.map(|(number, parts)| of(number, parts)).collect::<Vec<f64>>()
         };
         let shares = of(|number, _| number.share());
