@@ -175,6 +175,14 @@ impl Case {
         stem: &str,
         folder: &Path,
     ) -> Result<Case, CaseError> {
+        // Without a key to repair, this is the only fault that is reported.
+        let of_sweep = |key: &&str| tree.get_ref().get_key_value(*key);
+        if let Some((key, _)) = ["vary", "combine"].iter().find_map(of_sweep) {
+            let message = format!("unknown key `{}`", key.get_ref());
+            return Err(document.error_on(key.span(), message).labelled("unknown key").with_help(
+                "a file that varies keys of a case is a sweep: fem-run sweep FILE",
+            ));
+        }
         let file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;
         if let Some(path) = document.arrays().iter().find(|path| !is_list(path)) {
@@ -271,11 +279,7 @@ pub(crate) fn bytes_at(path: &Path, name: &str) -> Result<Vec<u8>, CaseError> {
 }
 
 fn open(path: &Path, name: &str) -> Result<fs::File, CaseError> {
-    fs::File::open(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => CaseError::new(name, "there is no such file")
-            .with_help("name a case file: fem-run cases/glass_0.5ms.toml"),
-        _ => unreadable(name, &error),
-    })
+    fs::File::open(path).map_err(|error| unreadable(name, &error))
 }
 
 fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {
@@ -297,6 +301,8 @@ fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {
 
 fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
     match error.kind() {
+        ErrorKind::NotFound => CaseError::new(name, "there is no such file")
+            .with_help("give the path of a case file: fem-run cases/glass_0.5ms.toml"),
         ErrorKind::IsADirectory => CaseError::new(name, "this is a folder")
             .with_help("give the path of a case file in it, FOLDER/CASE.toml"),
         ErrorKind::PermissionDenied => CaseError::new(name, "no permission to read this file"),

@@ -193,7 +193,7 @@ impl<K: QuantityKind> Quantity<K> {
                     [0, 0, 0, 0] => "has no unit".to_string(),
                     _ => format!("is {}", name_dimension(*found)),
                 };
-                let message = format!("{self} {found}; {key} must be {name}, such as {example}");
+                let message = format!("{key} must be {name}, such as {example}; {self} {found}");
                 (message, bare)
             }
             QuantityError::Unit(UnitError::UnknownUnit { symbol, suggestion }) => {
@@ -321,15 +321,15 @@ mod tests {
         let is = |found: String, expected: &str| assert_eq!(found, expected);
         is(
             explained::<Length>("'22.2 kg'", "diameter"),
-            "\"22.2 kg\" is a mass; diameter must be a length, such as \"22.2 mm\"",
+            "diameter must be a length, such as \"22.2 mm\"; \"22.2 kg\" is a mass",
         );
         is(
             explained::<Length>("'22.2'", "diameter"),
-            "\"22.2\" has no unit; diameter must be a length, such as \"22.2 mm\"",
+            "diameter must be a length, such as \"22.2 mm\"; \"22.2\" has no unit",
         );
         is(
             explained::<Stress>("'3 kg^2 m'", "youngs_modulus"),
-            "\"3 kg^2 m\" is in m kg^2; youngs_modulus must be a pressure, such as \"63 GPa\"",
+            "youngs_modulus must be a pressure, such as \"63 GPa\"; \"3 kg^2 m\" is in m kg^2",
         );
         is(explained::<Length>("nan", "diameter"), "diameter is NaN m, which is not finite");
         is(explained::<Length>("-inf", "diameter"), "diameter is -inf m, which is not finite");

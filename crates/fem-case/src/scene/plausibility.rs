@@ -42,7 +42,7 @@ impl Scene {
             let names = names.join(" and ");
             format!(
                 "the loss of {names} in an impact is not published: the restitution does not include it, and \
-                 the error is not known; give the material a relaxation, which `fem-run calibrate` fits to \
+                 the error is not known; give the material a relaxation; `fem-run calibrate` finds it from \
                  measured restitutions"
             )
         })

@@ -49,9 +49,6 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
         let help = match (table, found) {
             _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
-            ("", "vary" | "combine") if allowed.contains(&"material") => {
-                "a file that varies keys of a case is a sweep: fem-run sweep FILE".to_string()
-            }
             ("", "body" | "material") if allowed.contains(&"vary") => {
                 "a file with bodies is a case: fem-run FILE; a sweep names it, case = \"FILE\""
                     .to_string()
@@ -89,7 +86,8 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
             found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
         if let (Some(names), Some(word)) = (names_at(path), found.strip_prefix("string ")) {
             let word = word.trim_matches('"');
-            return at(format!("{path} is \"{word}\", which is not allowed")).with_help(format!(
+            let key = path.rsplit('.').next().unwrap_or(path);
+            return at(format!("unknown {key} \"{word}\"")).with_help(format!(
                 "{}write one of {}, or a table",
                 near(word, names),
                 names.join(", ")

@@ -38,7 +38,7 @@ impl Check<'_> {
                 _ => format!("the case has {count} [[body]] tables"),
             };
             return Err(self.error(path, message).with_help(
-                "write exactly two [[body]] tables, the lower body first; wall = {} makes a rigid plane, \
+                "write exactly two [[body]] tables, the lower one first; wall = {} is a rigid plane, \
                  half_space = {} a semi-infinite body",
             ));
         };
@@ -67,12 +67,12 @@ impl Check<'_> {
             let is_first_at_fault = lower_speed <= upper_speed && self.document.has(keys[0]);
             let culprit = keys[usize::from(!is_first_at_fault)];
             let message = format!(
-                "both bodies receding or at rest: the approach speeds {lower_speed:?} and \
-                 {upper_speed:?} m/s add up to {:?}",
+                "the bodies do not approach: their approach speeds, {lower_speed:?} and \
+                 {upper_speed:?} m/s, add up to {:?} m/s",
                 lower_speed + upper_speed
             );
             return Err(self.conflict(culprit, &keys, message).with_help(
-                "approach_speed is toward the other body; the sum must be greater than 0",
+                "approach_speed is positive toward the other body; the sum must be greater than 0",
             ));
         }
         // Adding to 0 gives a body at rest the velocity 0, never -0.

@@ -102,8 +102,8 @@ fn other_than_two_approaching_bodies_are_refused() {
     let second = &CASE[CASE.rfind("[[body]]").unwrap()..CASE.find("[mesh]").unwrap()];
     check(second, "", "one");
     check(second, &format!("{second}{}", second.replace("target", "third")), "3");
-    check("\"0.5 m/s\"", "\"0 m/s\"", "at rest");
-    check("\"0.5 m/s\"", "\"-0.5 m/s\"", "receding");
+    check("\"0.5 m/s\"", "\"0 m/s\"", "do not approach");
+    check("\"0.5 m/s\"", "\"-0.5 m/s\"", "do not approach");
     check("name = \"target\"", "name = \"striker\"", "striker");
 }
 

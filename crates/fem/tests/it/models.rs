@@ -125,7 +125,7 @@ fn every_model_and_law_is_read() {
 #[test]
 fn faults_point_at_their_key() {
     fault("law = { kuwabara_kono = { a = «\"1 um\"» } }", "a must be a time", "10 us");
-    fault("law = { linear = { k = «\"1 Pa\"» } }", "is a pressure; k must be a stiffness", "N/m");
+    fault("law = { linear = { k = «\"1 Pa\"» } }", "k must be a stiffness", "N/m");
     fault("law = { power = { k = «\"1 N/m\"», gamma = 1 } }", "k must be a plain number", "");
     fault("law = { kuwabara_kono = { «b» = 1 } }", "unknown key `b`", "a, eta_1, eta_2, end");
     fault("law = { «kuwabara» = {} }", "unknown key `kuwabara`", "did you mean `kuwabara_kono`");

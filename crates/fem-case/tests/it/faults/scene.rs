@@ -78,9 +78,9 @@ fn bodies() {
             "wall = {}\n«[[body]]»\nname = \"c\"\nwall = {}\n",
             "the case has 3 [[body]]",
         ),
-        ("speed = 1", "speed = «0»", "receding or at rest"),
-        ("speed = 1", "speed = «-1»", "receding or at rest"),
-        ("approach_speed = 1\n[[body]]", "«[[body]]»", "receding or at rest"),
+        ("speed = 1", "speed = «0»", "the bodies do not approach"),
+        ("speed = 1", "speed = «-1»", "the bodies do not approach"),
+        ("approach_speed = 1\n[[body]]", "«[[body]]»", "the bodies do not approach"),
         (
             "wall = {}",
             "sphere.diameter = 1\nmaterial = 'glass'\napproach_speed = «-1.0»",
@@ -142,7 +142,7 @@ fn snapshots() {
     fault(list, "[\"maximum\", «\"maximum\"»]", "twice", "");
     fault(list, "[\"maximum\", «1e-6»]", "mixes", "");
     fault(list, "[\"1 us\", «\"maximum\"»]", "mixes", "");
-    fault(list, "[«\"1 um\"»]", "is a length; snapshots must be a time", "");
+    fault(list, "[«\"1 um\"»]", "snapshots must be a time", "");
     fault(list, "[«-1e-6»]", "snapshots is -1e-6 s", "");
     fault(list, "[«[]»]", "snapshots.0 is an array", "");
     fault(list, "«0»", "snapshots is 0", "a whole number");

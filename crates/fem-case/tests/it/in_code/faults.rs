@@ -13,7 +13,7 @@ const FAULTS: &[(Change, &str, &str)] = &[
     (
         |file| sphere(file).diameter = "22.2 kg".into(),
         "body.0.sphere.diameter",
-        "\"22.2 kg\" is a mass; diameter must be a length",
+        "diameter must be a length, such as \"22.2 mm\"; \"22.2 kg\" is a mass",
     ),
     (
         |file| relaxation(file).terms[1].relaxation_time = Some(f64::INFINITY.into()),

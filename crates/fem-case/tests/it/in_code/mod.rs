@@ -1,5 +1,5 @@
-//! Cases made and changed in code: the same scenes as from text, faults named by their key, no
-//! panic whatever the case file holds.
+//! Cases that are made and changed in code: the same scenes as from text, faults that name their key, and no panic for any
+//! case file.
 
 mod any_case_file;
 mod edited;
