@@ -179,9 +179,10 @@ impl Case {
         let of_sweep = |key: &&str| tree.get_ref().get_key_value(*key);
         if let Some((key, _)) = ["vary", "combine"].iter().find_map(of_sweep) {
             let message = format!("unknown key `{}`", key.get_ref());
-            return Err(document.error_on(key.span(), message).labelled("unknown key").with_help(
-                "a file that varies keys of a case is a sweep: fem-run sweep FILE",
-            ));
+            return Err(document
+                .error_on(key.span(), message)
+                .labelled("unknown key")
+                .with_help("a file that varies keys of a case is a sweep: fem-run sweep FILE"));
         }
         let file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;

@@ -14,12 +14,7 @@ fn wrong_units() {
     fault("\"63 GPa\"", "«\"63 GN\"»", "youngs_modulus must be a pressure", "");
     fault("\"2708 1/s\"", "«\"2708 s\"»", "decay_rate must be a rate", "\"2708 1/s\"");
     fault("1e-3", "«\"1e3 1/s\"»", "relaxation_time must be a time", "");
-    fault(
-        "\"0.5 m/s\"",
-        "«\"0.5\"»",
-        "has no unit",
-        "a bare number in m/s",
-    );
+    fault("\"0.5 m/s\"", "«\"0.5\"»", "has no unit", "a bare number in m/s");
     fault("\"0.5 m/s\"", "«\"0,5 m/s\"»", "decimal comma", "");
     fault("\"0.5 m/s\"", "«\"fast\"»", "does not begin with a number", "\"0.5 m/s\"");
     fault("0.244", "«\"0.244 m\"»", "poissons_ratio must be a plain number", "");
