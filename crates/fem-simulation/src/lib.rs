@@ -18,15 +18,12 @@ mod rejection;
 pub mod results;
 mod simulation;
 
-pub use error::{
-    ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound, RefinementLevel,
-};
+pub use error::{ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound};
 pub use estimate::Estimate;
 pub use estimate::approach::approach_of;
 pub use estimate::quasi_static::ting_impact;
 pub use models::method::{Cost, ElementSetup, ForceLaw, Method, Model, ModelSetup, SharedModels};
-pub use models::restart_state::RestartState;
-pub use models::stepper::Stepper;
+pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
     AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, HertzMethod,
     LawMethod, METHODS, ModelCandidate, Reduced, TingMethod, chosen, method_of, model_of,

@@ -59,10 +59,10 @@ impl Run {
         let case = Case::parse("case.toml", text, Path::new("."), overrides).expect("a case");
         let simulation = Simulation::new(case).expect("a simulation");
         let mut course = simulation.start();
-        let mut memories: Vec<RestartState> = course.memory().into_iter().collect();
+        let mut memories: Vec<RestartState> = course.restart_state().into_iter().collect();
         for share in [0.1, 0.5, 0.9] {
             while course.progress().fraction < share && course.advance(&mut ()) {}
-            memories.extend(course.memory());
+            memories.extend(course.restart_state());
         }
         let identity = Identity::of(simulation.case()).expect("an identity");
         Self { simulation, identity, memories }

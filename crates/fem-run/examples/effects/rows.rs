@@ -195,6 +195,6 @@ impl Side {
 
 /// Returns the bytes of the restart state.
 pub fn n_bytes(course: &dyn Stepper) -> usize {
-    let memory = course.memory().expect("explicit elements have a memory");
+    let memory = course.restart_state().expect("explicit elements have a memory");
     postcard::to_stdvec(memory.contact()).expect("a memory is bytes").len()
 }

@@ -91,7 +91,7 @@ impl<'a> RestartWriter<'a> {
 
     /// Warns if the model has no restart state.
     pub fn begin(&self, course: &dyn Stepper) {
-        if self.arguments.checkpoint_every.is_some() && course.memory().is_none() {
+        if self.arguments.checkpoint_every.is_some() && course.restart_state().is_none() {
             let text = "this model computes its result at once: it leaves no restart file";
             let _ = writeln!(stderr(), "warning: {text}");
         }

@@ -45,7 +45,7 @@ fn every_effect_that_is_computed_has_a_row() {
         let estimate = &simulation.setup().estimate;
         let has = |name: &str| {
             let effect = EFFECTS.into_iter().find(|effect| effect.name() == name)?;
-            simulation.model().has(effect, estimate).filter(|answer| *answer != Support::Lacks)
+            simulation.model().support(effect, estimate).filter(|answer| *answer != Support::Lacks)
         };
         computed
             .extend(EFFECTS.iter().map(|effect| effect.name()).filter(|name| has(name).is_some()));

@@ -25,39 +25,19 @@ use serde::Serialize;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
-pub use bodies::{FiniteSizeEffect, Gravity, PartnerWaves, RigidPartner, SurfaceSlip, Vibration};
-pub use effect::Effect;
 pub(crate) use effect::computed_scene::ComputedScene;
 pub use effect::computed_scene::TransformedScene;
 pub use effect::model_form_error::{EffectStatus, ModelFormError};
 pub use effect::neglect_error::NeglectError;
 pub use effect::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
 pub use effect::support::Support;
-pub use material::{FiniteStrain, PlasticYield, Viscoelasticity};
-pub use numerics::{
-    BulkViscosity, ContactSearch, DashpotEffect, HourglassControl, MassScaling, MirrorSymmetry,
-    PenaltySprings,
+pub use effect::{
+    BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, FiniteSizeEffect, FiniteStrain,
+    Gravity, HourglassControl, MassScaling, MirrorSymmetry, NamedEffect, PartnerWaves,
+    PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
-
-/// All effects, in the order in which results show them.
-pub const EFFECTS: [&dyn Effect; 16] = [
-    &Viscoelasticity,
-    &DashpotEffect,
-    &FiniteSizeEffect,
-    &FiniteStrain,
-    &SurfaceSlip,
-    &PlasticYield,
-    &PartnerWaves,
-    &MirrorSymmetry,
-    &RigidPartner,
-    &Vibration,
-    &HourglassControl,
-    &BulkViscosity,
-    &PenaltySprings,
-    &Gravity,
-    &ContactSearch,
-    &MassScaling,
-];
+pub(crate) use effect::{effect_named, is_called_for};
+pub(crate) use numerics::contact_method_of_case;
 
 /// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -91,8 +71,8 @@ impl EffectDecisions {
     /// Replaces decisions by what the finished collision shows.
     pub(crate) fn take_what_was_found(&mut self, scene: &Scene, collision: &Collision) {
         for verdict in &mut self.verdicts {
-            let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name);
-            let found = effect.and_then(|effect| effect.found(scene, collision));
+            let found = effect_named(verdict.name)
+                .and_then(|effect| effect.support_in_result(scene, collision));
             if let Some(Support::Is { active, reason, .. }) = found {
                 (verdict.active, verdict.reason) = (active, reason);
             }
@@ -100,18 +80,19 @@ impl EffectDecisions {
     }
 }
 
-/// Decides on all effects of a scene. `has` returns the model's answer for an effect, if it has one.
+/// Decides on all effects of a scene. `support` returns the model's support for an effect, if
+/// it has a use for it.
 ///
 /// # Errors
 /// An effect that the case forces on and the model lacks, or forces off and the model cannot leave out.
 pub fn decide(
     scene: &Scene,
     estimate: &Estimate,
-    has: impl Fn(&dyn Effect) -> Option<Support>,
+    support: impl Fn(&dyn Effect) -> Option<Support>,
 ) -> Result<EffectDecisions, Rejection> {
     let mut decisions = EffectDecisions::default();
     for effect in EFFECTS {
-        let answer = has(effect);
+        let answer = support(effect);
         let switch = effect.switch(scene.effects());
         if switch == Some(Switch::On) && matches!(answer, None | Some(Support::Lacks)) {
             return Err(lacking(scene, effect));

@@ -1,11 +1,13 @@
 //! Ting's prediction of restitution, contact time and peak force, with and without effects.
 
-use fem_case::{Body, ModelChoice, Scene};
+use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use crate::effects::{PartnerWaves, SurfaceSlip};
+use crate::effects::effect::computed_scene::ComputedScene;
+use crate::effects::effect::neglect_error::NeglectError;
+use crate::effects::effect::{NamedEffect, PartnerWaves};
 use crate::estimate::Estimate;
-use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::estimate::quasi_static::{known_impact, surfaces_slip, ting_of};
 use crate::estimate::semi_infinite_partner::radiating_impact;
 
 /// Relative accuracy of the predictions.
@@ -15,7 +17,7 @@ const TOLERANCE: f64 = 1e-4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TingPrediction {
     pub restitution: f64,
-    /// s; none of bodies that stay together.
+    /// Contact time, in seconds; `None` for bodies that stay together.
     pub contact_time: Option<f64>,
     /// Peak force, in newtons.
     pub peak_force: f64,
@@ -35,7 +37,7 @@ impl TingPrediction {
             false => PartnerWaves::radiating(scene, &estimate),
         };
         let radiates = radiating != [None, None];
-        if !radiates && !relaxes(scene) && !finite_size && !SurfaceSlip::is_on(scene) {
+        if !radiates && !relaxes(scene) && !finite_size && !surfaces_slip(scene) {
             return Ok(Self::from(&estimate.hertz));
         }
         let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(TOLERANCE);
@@ -48,9 +50,65 @@ impl TingPrediction {
         let ting = ting.with_radiation(radiating.iter().flatten())?;
         Ok(Self::from(&*known_impact(ting, speed)?))
     }
+
+    /// Returns the difference from another impact. Bodies that stay together have no contact time. A loss of more
+    /// than the whole energy counts as unknown.
+    pub fn change_from(&self, without: &Self) -> NeglectError {
+        let restitution = self.restitution - without.restitution;
+        if restitution.abs() > 1.0 {
+            return NeglectError::default();
+        }
+        let times = self.contact_time.zip(without.contact_time);
+        NeglectError::of([
+            Some(restitution),
+            times.map(|(with, without)| with - without),
+            Some(self.peak_force - without.peak_force),
+        ])
+    }
 }
 
-fn relaxes(scene: &Scene) -> bool {
+/// Returns the difference between two scenes at the same approach speed (m/s), after all transformations. Waves are
+/// left out where they are more than a correction; all is `None` where Ting's model has no solution.
+pub(super) fn change_between(with: &Scene, without: &Scene, speed: f64) -> NeglectError {
+    let [with, without] = [with, without].map(ComputedScene::quiet);
+    let Some((with, without)) = with.zip(without) else { return NeglectError::default() };
+    let change = |with: &Scene, without: &Scene, size: bool| {
+        let [with, without] = [with, without].map(|scene| TingPrediction::of(scene, speed, size));
+        Some(with.ok()?.change_from(&without.ok()?))
+    };
+    let without_waves = |scene: &Scene| PartnerWaves.switched(scene, Some(Switch::Off));
+    let size = has_finite_size(&with);
+    change(&with, &without, size)
+        .or_else(|| change(&with, &without, false).filter(|_| size))
+        .or_else(|| change(&without_waves(&with), &without_waves(&without), false))
+        .unwrap_or_default()
+}
+
+/// Returns the loss of restitution by relaxation at small strain.
+pub(super) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
+    if !relaxes(scene) {
+        return 0.0;
+    }
+    let speed = estimate.hertz.approach_speed();
+    // Compliance of finite spheres changes the relaxation, too.
+    let size = has_finite_size(scene);
+    let sized = size.then(|| TingPrediction::of(scene, speed, true).ok()).flatten();
+    let impact = sized.or_else(|| TingPrediction::of(scene, speed, false).ok());
+    let loss = impact.map_or(0.0, |impact| 1.0 - impact.restitution);
+    (loss - PartnerWaves::loss(scene, estimate)).max(0.0)
+}
+
+/// Returns whether the scene's model includes the spheres' finite size.
+fn has_finite_size(scene: &Scene) -> bool {
+    match scene.model() {
+        ModelChoice::Fem | ModelChoice::Condensed(_) => true,
+        ModelChoice::Ting { finite_size, .. } => *finite_size,
+        _ => false,
+    }
+}
+
+/// Returns whether a material of the scene relaxes.
+pub(super) fn relaxes(scene: &Scene) -> bool {
     let mut materials = scene.bodies().iter().filter_map(Body::material);
     materials.any(|material| material.relaxation().is_some())
 }

@@ -49,8 +49,8 @@ pub(crate) use noise_floor::{
     LARGEST_NOISE, excess_of_restitution, is_unresolved, noise, unbalanced_energy, widest_contact,
 };
 pub use reference_runs::{CONDENSED_REFERENCE_TIME, first_contact};
+pub use refinement::RefinedBeforeRun;
 pub(crate) use refinement::refined_because;
-pub use refinement::{RefinedBeforeRun, RefinementLevel};
 pub use refinement_cost_bound::RefinementBound;
 pub(crate) use refinement_cost_bound::refinement_bound;
 pub use setting::Setting;

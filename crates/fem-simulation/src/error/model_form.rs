@@ -9,7 +9,7 @@
 use fem_collision::Collision;
 
 use super::estimator::ErrorEstimate;
-use crate::effects::{EFFECTS, EffectStatus, ModelFormError};
+use crate::effects::{EffectStatus, ModelFormError, effect_named};
 use crate::results::{EffectSummary, Parts, Quantities, UncertaintySummary};
 use crate::simulation::Simulation;
 
@@ -47,10 +47,9 @@ fn model_form_errors(
     let estimate = estimate.with_computed(collision);
     let scene = simulation.scene_of_model();
     let error = |EffectSummary { verdict, error_if_left_out }: &EffectSummary| {
-        let standing =
+        let status =
             EffectStatus { is_lacking: verdict.is_lacking, neglect_error: *error_if_left_out };
-        let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
-        Some(effect.model_form_error(&scene, &estimate, &standing))
+        Some(effect_named(verdict.name)?.model_form_error(&scene, &estimate, &status))
     };
     let loss = simulation.case().scene().unpublished_loss().map(|_| ModelFormError::of_loss());
     effects.iter().filter_map(error).chain(loss).collect()

@@ -17,7 +17,6 @@
 use fem_case::{Body, CaseError, Shape};
 use fem_collision::{Collision, QuantityOfInterest, Stop};
 use fem_material::engineering::Unit;
-use serde::{Deserialize, Serialize};
 
 use super::calibration::ADDED_MASS;
 use super::estimator::{ErrorEstimate, ErrorEstimator};
@@ -25,6 +24,7 @@ use super::noise_floor::of_chatter;
 use super::reference_runs::Subject;
 use super::tolerance_check::{ToleranceMiss, missed, misses};
 use crate::models::method::Cost;
+use crate::models::stepper::RefinementLevel;
 use crate::simulation::{ComputedCollision, Simulation};
 
 /// Safety factor on the estimated error.
@@ -41,21 +41,6 @@ pub(super) const MOST_UPDATES: u64 = 150_000_000;
 pub(super) const MOST_ELEMENTS: u64 = 60_000;
 /// Refinements that differ by a smaller share make the same mesh.
 const SAME_REFINEMENT: f64 = 0.01;
-
-/// A mesh that was too coarse.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RefinementLevel {
-    /// Edge length of its elements at the contact.
-    pub contact_element_size_m: f64,
-    /// Element updates of its collision; `None` if the collision was not computed on it or takes none.
-    pub element_updates: Option<u64>,
-    /// Key of the quantity that exceeds its tolerance by the largest factor.
-    pub quantity: String,
-    /// Its estimated error: the restitution's absolute, others relative.
-    pub error: f64,
-    /// The tolerance of that quantity in the case.
-    pub tolerance: f64,
-}
 
 /// A simulation on the mesh that its tolerance needs, as far as that is known before the run.
 #[derive(Debug)]

@@ -3,11 +3,10 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use fem_case::{Body, Scene};
+use fem_case::{Body, Scene, Shape, Switch};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
-use crate::effects::SurfaceSlip;
 use crate::estimate::Estimate;
 
 /// Returns Ting's impact of a scene between half-spaces, or with the compliance of finite spheres in series, however large
@@ -85,6 +84,36 @@ pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawErro
     impact
 }
 
+/// Effective radius times mismatch below which surfaces slip only by the rounding of their moduli.
+const LARGEST_ROUNDING: f64 = 1e-9;
+
+/// Returns whether the surfaces slip on each other, at any speed, in a model that has surface slip.
+pub(crate) fn surfaces_slip(scene: &Scene) -> bool {
+    match scene.effects().surface_slip {
+        Some(Switch::On) => !has_wall(scene),
+        Some(Switch::Off) => false,
+        None | Some(Switch::Auto) => materials_mismatch(scene),
+    }
+}
+
+/// Returns whether surface slip changes the collision: no body is a rigid wall, and the materials have a mismatch
+/// or relax differently.
+pub(crate) fn materials_mismatch(scene: &Scene) -> bool {
+    if has_wall(scene) {
+        return false;
+    }
+    let radii = scene.bodies().each_ref().map(|body| body.diameter().map_or(0.0, f64::recip));
+    let effective_radius = 0.5 / (radii[0] + radii[1]);
+    let [first, second] =
+        scene.bodies().each_ref().map(|body| body.material().and_then(Material::relaxation));
+    let differs = scene.surface_slip().mismatch().abs() * effective_radius > LARGEST_ROUNDING;
+    differs || first != second
+}
+
+fn has_wall(scene: &Scene) -> bool {
+    scene.bodies().iter().any(|body| *body.shape() == Shape::Wall)
+}
+
 /// Returns Ting's model of a scene and its pair, with surface slip if the scene has it, and without relaxation if `relaxes`
 /// is false.
 ///
@@ -104,7 +133,7 @@ pub(crate) fn ting_of(
         PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())?
     };
     let mut ting = Ting::new(pair, relaxation);
-    if SurfaceSlip::is_on(scene) {
+    if surfaces_slip(scene) {
         ting = ting.with_surface_slip(scene.surface_slip());
     }
     Ok(match size {

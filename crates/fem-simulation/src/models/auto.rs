@@ -1,30 +1,25 @@
-//! The cheapest model that serves, `[model] auto = {}`.
+//! Automatic choice of the model, `[model] auto = {}`: the cheapest one that is expected to be within the tolerance.
 //!
-//! What a case asks for is in `[output]` (fields, or none) and in `[accuracy]`. What a model is off by
-//! is estimated before anything is computed: what the effects are worth that the scene calls for and
-//! the model lacks ([`Effect::neglect_error`]), and what its own approximations are known to cost. Effects
-//! that no model has choose none; the plan warns of them.
-//! One that lacks what nothing foretells the worth of does not serve, nor one whose result would itself advise another.
+//! The error of a model is estimated before the run. It is the sum of the errors of its own approximations and of the
+//! effects that it lacks ([`Method::support`], [`Effect::neglect_error`]). A model is skipped if it lacks an effect
+//! whose size cannot be estimated, or if its result would come with the advice to use another model.
 
-use fem_case::{
-    Accuracy, CaseFile, CondensedOptions, EffectsTable, ModelChoice, Scene, Snapshots, Switch,
-};
+use fem_case::{Accuracy, CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots, Switch};
 use fem_collision::QuantityOfInterest;
 use fem_laws::Ting;
 use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, ModelFormError, PartnerWaves, Support,
-    Vibration, Viscoelasticity,
+    EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, ModelFormError, PartnerWaves,
+    Support, Vibration, Viscoelasticity, is_called_for,
 };
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
-use crate::estimate::viscous_flow::widest_contact;
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
-/// The cheapest that serves, `[model] auto = {}`.
+/// The automatic choice of the model.
 #[derive(Clone, Copy, Debug)]
 pub struct AutoMethod;
 
@@ -34,24 +29,27 @@ impl Method for AutoMethod {
     }
 
     fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        let chosen = left_open(scene)?;
+        let chosen = with_chosen_model(scene)?;
         method_of(&chosen).build(&chosen, shared)
     }
 
+    fn support(&self, _: &dyn Effect, _: &Scene, _: &Estimate) -> Option<Support> {
+        None
+    }
+
     fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
-        let chosen = left_open(scene)?;
+        let chosen = with_chosen_model(scene)?;
         method_of(&chosen).price(&chosen)
     }
 
-    /// The case names the model that was chosen.
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let chosen = left_open(scene)?;
+        let chosen = with_chosen_model(scene)?;
         method_of(&chosen).resolve(&chosen, file)
     }
 }
 
-/// A scene that leaves its model open, with the one that serves.
-fn left_open(scene: &Scene) -> Result<Scene, Rejection> {
+/// Returns a scene that leaves its model open with the chosen model.
+fn with_chosen_model(scene: &Scene) -> Result<Scene, Rejection> {
     match scene.model() {
         ModelChoice::Auto => Ok(SelectedModel::of(scene)?.scene),
         _ => Err(Rejection::chose_another(scene, "auto")),
@@ -72,42 +70,39 @@ pub struct ExpectedError {
 }
 
 impl From<&ModelFormError> for ExpectedError {
-    fn from(model_form_error: &ModelFormError) -> Self {
-        Self {
-            restitution: model_form_error.size(QuantityOfInterest::Restitution),
-            contact_time_s: model_form_error.size(QuantityOfInterest::ContactTime),
-            peak_force_n: model_form_error.size(QuantityOfInterest::PeakForce),
-            peak_pressure_pa: model_form_error.size(QuantityOfInterest::PeakPressure),
-        }
+    fn from(error: &ModelFormError) -> Self {
+        let [restitution, contact_time_s, peak_force_n, peak_pressure_pa] =
+            JUDGED.map(|quantity| error.size(quantity));
+        Self { restitution, contact_time_s, peak_force_n, peak_pressure_pa }
     }
 }
 
 /// A model that was considered for a case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModelCandidate {
-    /// The model, as `[model]` would say it.
+    /// The model, as written in `[model]`.
     pub model: &'static str,
-    /// Whether it computes the collision.
+    /// Whether the model computes the collision.
     pub chosen: bool,
-    /// Expected error.
+    /// Its expected error.
     pub error: ExpectedError,
-    /// Why it serves or does not.
+    /// Why the model is suitable or not.
     pub reason: String,
 }
 
 /// A scene with the model that computes it.
 #[derive(Clone, Debug)]
 pub struct SelectedModel {
-    /// The scene, of which the model is no longer open.
+    /// The scene with the chosen model.
     pub scene: Scene,
     /// All models, from the cheapest to the most expensive; empty if the case names its own.
     pub considered: Vec<ModelCandidate>,
-    /// That none serves.
+    /// A warning if no model is suitable.
     pub warning: Option<String>,
 }
 
 impl SelectedModel {
-    /// Chooses, where the case leaves it open.
+    /// Chooses the model if the case leaves it open.
     ///
     /// # Errors
     /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
@@ -117,11 +112,11 @@ impl SelectedModel {
         }
         let estimate = Estimate::checked(scene)?;
         viscous_flow::check(scene, &estimate)?;
-        let judged = CANDIDATES.map(|candidate| candidate.judge(scene, &estimate));
+        let judged = CANDIDATES.each_ref().map(|candidate| candidate.judge(scene, &estimate));
         let serves = judged.iter().position(|judged| judged.unfit.is_none());
         let best = serves.unwrap_or_else(|| closest(&judged));
         let excess = judged[best].excess;
-        let considered = judged.into_iter().zip(CANDIDATES).enumerate();
+        let considered = judged.into_iter().zip(&CANDIDATES).enumerate();
         let considered: Vec<ModelCandidate> = considered
             .map(|(k, (judged, candidate))| ModelCandidate {
                 model: candidate.name,
@@ -135,7 +130,7 @@ impl SelectedModel {
                 },
             })
             .collect();
-        let scene = scene.clone().with_model(CANDIDATES[best].choice());
+        let scene = scene.clone().with_model((CANDIDATES[best].choice)());
         let warning = serves.is_none().then(|| {
             format!(
                 "no model is known to be within the tolerance of the case: {} comes closest, with {:.1} times it",
@@ -146,54 +141,46 @@ impl SelectedModel {
     }
 }
 
-/// A model as it could compute a scene.
-#[derive(Clone, Copy)]
+/// A model that may compute the scene.
 struct Candidate {
     name: &'static str,
     choice: fn() -> ModelChoice,
-    /// Effects that it lacks and others have.
-    lacks: &'static [&'static dyn Effect],
-    /// Whether it has fields.
-    has_fields: bool,
-    /// Whether it has the spheres' own compliance to first order in the contact's size.
-    is_first_order: bool,
-    /// Known errors of the model's approximations at default settings: restitution, contact time, peak
-    /// force, peak pressure.
+    /// Errors of the model's approximations at default settings, of the quantities in [`JUDGED`].
     own: [f64; 4],
 }
+
+/// The quantities that a tolerance is given for.
+const JUDGED: [QuantityOfInterest; 4] = [
+    QuantityOfInterest::Restitution,
+    QuantityOfInterest::ContactTime,
+    QuantityOfInterest::PeakForce,
+    QuantityOfInterest::PeakPressure,
+];
+
+/// The effects by which models differ. Effects that no model has decide nothing; the plan warns of them.
+const DECIDING: [&dyn Effect; 5] =
+    [&Viscoelasticity, &FiniteSizeEffect, &FiniteStrain, &PartnerWaves, &Vibration];
 
 /// The candidates, from the cheapest to the most expensive.
 const CANDIDATES: [Candidate; 6] = [
     Candidate {
         name: "hertz = {}",
         choice: || ModelChoice::Hertz { finite_size: false },
-        lacks: &[&Viscoelasticity, &FiniteSizeEffect, &FiniteStrain, &PartnerWaves, &Vibration],
-        has_fields: false,
-        is_first_order: false,
         own: [0.0; 4],
     },
     Candidate {
         name: "hertz = { finite_size = true }",
         choice: || ModelChoice::Hertz { finite_size: true },
-        lacks: &[&Viscoelasticity, &FiniteStrain, &PartnerWaves, &Vibration],
-        has_fields: false,
-        is_first_order: true,
         own: [0.0; 4],
     },
     Candidate {
         name: "ting = { finite_size = true }",
         choice: || ModelChoice::Ting { finite_size: true, tolerance: Ting::DEFAULT_TOLERANCE },
-        lacks: &[&FiniteStrain, &PartnerWaves, &Vibration],
-        has_fields: false,
-        is_first_order: true,
         own: [2e-4, 2e-4, 2e-4, 1e-3],
     },
     Candidate {
         name: "condensed = {}",
         choice: || ModelChoice::Condensed(CondensedOptions::default()),
-        lacks: &[&FiniteStrain, &PartnerWaves, &Vibration],
-        has_fields: true,
-        is_first_order: false,
         own: [1e-4, 5e-4, 2e-3, 1e-2],
     },
     Candidate {
@@ -202,36 +189,26 @@ const CANDIDATES: [Candidate; 6] = [
             let options = CondensedOptions { vibration_modes: 12, ..CondensedOptions::default() };
             ModelChoice::Condensed(options)
         },
-        lacks: &[&FiniteStrain, &PartnerWaves],
-        has_fields: true,
-        is_first_order: false,
         own: [1e-4, 5e-4, 3e-3, 1e-2],
     },
-    Candidate {
-        name: "fem = {}",
-        choice: || ModelChoice::Fem,
-        lacks: &[],
-        has_fields: true,
-        is_first_order: false,
-        own: [2e-4, 1.5e-3, 3e-3, 1e-2],
-    },
+    Candidate { name: "fem = {}", choice: || ModelChoice::Fem, own: [2e-4, 1.5e-3, 3e-3, 1e-2] },
 ];
 
 /// Share of the default tolerances down to which meshes are made as fine as a case asks.
 const FINEST: f64 = 0.05;
 
-/// Returns the expected error of a candidate.
+/// The expected error of a candidate.
 struct Judged {
     error: ExpectedError,
-    /// The worst of it, in tolerances; infinite where it is not known.
+    /// Largest error over its tolerance; infinite if the error is unknown.
     excess: f64,
-    /// Whether it can be had at all.
+    /// Whether the model can compute the scene at any tolerance.
     is_possible: bool,
-    /// Why it does not serve.
+    /// Why the model is not suitable.
     unfit: Option<String>,
 }
 
-/// Returns the most accurate candidate that is available.
+/// Returns the index of the most accurate candidate that is possible.
 fn closest(judged: &[Judged]) -> usize {
     let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
     let closest = possible.min_by(|(_, a), (_, b)| a.excess.total_cmp(&b.excess));
@@ -239,209 +216,180 @@ fn closest(judged: &[Judged]) -> usize {
 }
 
 impl Candidate {
-    fn choice(&self) -> ModelChoice {
-        (self.choice)()
-    }
-
+    /// Judges the model by the tolerance of the case.
     fn judge(&self, scene: &Scene, estimate: &Estimate) -> Judged {
-        let accuracy = scene.accuracy();
-        let mut error = self.own_error(scene, estimate);
+        let own_scene = scene.clone().with_model((self.choice)());
+        let support =
+            |effect: &dyn Effect| method_of(&own_scene).support(effect, &own_scene, estimate);
+        let is_fem = *own_scene.model() == ModelChoice::Fem;
+        let has_fields = is_fem || matches!(own_scene.model(), ModelChoice::Condensed(_));
+        let is_first_order =
+            matches!(support(&FiniteSizeEffect), Some(Support::Is { active: true, .. }));
+        let mut error = self.own_error(scene, estimate, has_fields);
+        if is_first_order {
+            let status = EffectStatus::default();
+            error = error.and(FiniteSizeEffect.model_form_error(scene, estimate, &status));
+        }
         let mut worst: Option<(&str, f64)> = None;
         let mut unknown: Option<&str> = None;
-        for effect in self.lacks {
-            // What elements leave out, too, tells none from another.
+        for effect in DECIDING {
+            let lacks = lacks(support(effect).as_ref());
+            let is_term = effect.name() == PartnerWaves::NAME && !lacks && !is_fem;
+            // Small strain is no difference between models where elements use it, too.
             let is_small = effect.name() == FiniteStrain::NAME
                 && FiniteStrain::laws(scene, estimate) == [None; 2];
-            if is_small {
+            if is_small || !(lacks || is_term) {
                 continue;
             }
-            let Some(change) = self.without(*effect, scene, estimate) else {
+            let Some(change) = error_without(effect, scene, estimate) else {
                 unknown = unknown.or(Some(effect.name()));
                 continue;
             };
+            let share = if is_term { PartnerWaves::error_of_term(scene, estimate) } else { 1.0 };
+            let change = change.times(share);
             error = error.and(change);
-            let part = excess(&change, estimate, &accuracy);
+            let part = excess(&change, scene, estimate);
             if worst.is_none_or(|(_, most)| part > most) {
                 worst = Some((effect.name(), part));
             }
         }
-        let told = excess(&error, estimate, &accuracy);
-        let impossible = self.impossible(scene, estimate);
-        let off = || format!("{told:.2} times the tolerance");
-        let unfit = match (&impossible, unknown, told > 1.0, worst) {
-            (Some(why), ..) => Some(why.clone()),
-            (None, Some(name), ..) => {
+        let total = excess(&error, scene, estimate);
+        let impossible = disobeyed(scene, estimate, is_fem, support)
+            .map(|name| format!("cannot obey the switch of {name}"))
+            .or_else(|| {
+                (!has_fields && asks_for_fields(scene)).then(|| "has no fields to draw".to_string())
+            })
+            .or_else(|| {
+                let size = is_first_order.then(|| scene.finite_size().ok()).flatten()?;
+                let radius = viscous_flow::widest_contact(scene, estimate);
+                size.check(radius).err().map(|error| error.to_string())
+            });
+        let is_possible = impossible.is_none();
+        let unfit = match (impossible, unknown, worst) {
+            (Some(why), ..) => Some(why),
+            (None, Some(name), _) => {
                 Some(format!("lacks {name}, whose effect cannot be estimated"))
             }
-            (None, None, true, Some((name, part))) if part > 0.5 * told => {
-                Some(format!("lacks {name}: {}", off()))
+            (None, None, Some((name, part))) if total > 1.0 && part > 0.5 * total => {
+                Some(format!("lacks {name}: {total:.2} times the tolerance"))
             }
-            (None, None, true, _) => Some(format!("has an error of {}", off())),
-            (None, None, false, _) => None,
+            _ if total > 1.0 => Some(format!("has an error of {total:.2} times the tolerance")),
+            _ => None,
         };
-        let unfit = unfit.or_else(|| self.called_out(estimate).map(str::to_string));
-        let (error, excess) = match unknown {
-            Some(_) => (ModelFormError::default(), f64::INFINITY),
-            None => (error, told),
-        };
-        Judged { error: (&error).into(), excess, is_possible: impossible.is_none(), unfit }
-    }
-
-    /// Returns the errors of the model's approximations.
-    fn own_error(&self, scene: &Scene, estimate: &Estimate) -> ModelFormError {
-        let sizes = &estimate.effective.sizes;
-        let accuracy = scene.accuracy();
-        let default = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
-        let is_made_finer = self.has_fields && scene.mesh().contact_element_size.is_none();
-        let own = |headline: QuantityOfInterest| {
-            let [restitution, contact_time, peak_force, peak_pressure] = self.own;
-            let (own, scale, asked, usual) = match headline {
-                QuantityOfInterest::Restitution => {
-                    (restitution, 1.0, accuracy.restitution, default.restitution)
-                }
-                QuantityOfInterest::ContactTime => {
-                    (contact_time, sizes.contact_time, accuracy.contact_time, default.contact_time)
-                }
-                QuantityOfInterest::PeakForce => {
-                    (peak_force, sizes.peak_force, accuracy.peak_force, default.peak_force)
-                }
-                QuantityOfInterest::PeakPressure => (
-                    peak_pressure,
-                    sizes.peak_pressure,
-                    accuracy.peak_pressure,
-                    default.peak_pressure,
-                ),
-                _ => return Some(0.0),
-            };
-            let share = asked / usual;
-            let is_followed = is_made_finer && (FINEST..1.0).contains(&share);
-            Some(own * scale * if is_followed { share } else { 1.0 })
-        };
-        let of_size = EffectStatus { is_lacking: false, neglect_error: None };
-        let of_size = match self.is_first_order {
-            true => FiniteSizeEffect.model_form_error(scene, estimate, &of_size),
-            false => ModelFormError::NOTHING,
-        };
-        ModelFormError::by(own).and(of_size)
-    }
-
-    /// Returns the model-form error by a neglected effect, `None` if the effect is called for and its size
-    /// cannot be estimated.
-    fn without(
-        &self,
-        effect: &dyn Effect,
-        scene: &Scene,
-        estimate: &Estimate,
-    ) -> Option<ModelFormError> {
-        let is_called_for =
-            || effect.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
-        let neglect_error = effect.neglect_error(scene, estimate);
-        let model_form_error = match &neglect_error {
-            None if is_called_for() => return None,
-            None => return Some(ModelFormError::NOTHING),
-            // A material's law is taken as it is given: by how much laws differ tells no model from another.
-            Some(neglect_error) if effect.name() == FiniteStrain::NAME => {
-                ModelFormError::of(neglect_error, estimate)
-            }
-            Some(_) => {
-                let standing = EffectStatus { is_lacking: true, neglect_error };
-                effect.model_form_error(scene, estimate, &standing)
-            }
-        };
-        // A contact that does not end has no time to be off by.
-        let is_known = [QuantityOfInterest::Restitution, QuantityOfInterest::PeakForce]
-            .into_iter()
-            .all(|headline| model_form_error.size(headline).is_some());
-        let part = match effect.name() == PartnerWaves::NAME {
-            true => self.own_waves(scene, estimate),
-            false => 1.0,
-        };
-        is_known.then(|| model_form_error.told().times(part))
-    }
-
-    /// Returns the reason why its result would advise another model at any tolerance.
-    fn called_out(&self, estimate: &Estimate) -> Option<&'static str> {
-        match self.choice() {
+        let advised = match own_scene.model() {
             ModelChoice::Condensed(options) => {
                 Vibration::advises_another(estimate, options.vibration_modes)
             }
             _ => None,
-        }
-    }
-
-    /// Relative error of the loss by waves in a large partner.
-    fn own_waves(&self, scene: &Scene, estimate: &Estimate) -> f64 {
-        let scene = scene.clone().with_model(self.choice());
-        let answer = match scene.model() {
-            ModelChoice::Ting { .. } => {
-                PartnerWaves::of_term(&scene, estimate, PartnerWaves::radiating)
-            }
-            ModelChoice::Condensed(_) => PartnerWaves::of_condensed(&scene, estimate),
-            _ => Support::Lacks,
         };
-        match answer {
-            Support::Lacks => 1.0,
-            _ => PartnerWaves::error_of_term(&scene, estimate),
-        }
+        let unfit = unfit.or_else(|| advised.map(str::to_string));
+        let (error, excess) = match unknown {
+            Some(_) => (ModelFormError::default(), f64::INFINITY),
+            None => (error, total),
+        };
+        Judged { error: (&error).into(), excess, is_possible, unfit }
     }
 
-    /// The switch of the case that it cannot obey.
-    fn disobeyed(&self, scene: &Scene) -> Option<&'static str> {
-        let EffectsTable {
-            viscoelasticity,
-            partner_waves,
-            mirror_symmetry,
-            hourglass_control,
-            bulk_viscosity,
-            finite_strain,
-            ..
-        } = *scene.effects();
-        let choice = self.choice();
-        let is_hertz = matches!(choice, ModelChoice::Hertz { .. });
-        let is_fem = choice == ModelChoice::Fem;
-        let on = |switch: Option<Switch>| switch == Some(Switch::On);
-        let disobeyed = [
-            (on(viscoelasticity) && is_hertz, "viscoelasticity"),
-            (on(partner_waves) && is_hertz, "partner waves"),
-            (on(mirror_symmetry) && !self.has_fields, "mirror symmetry"),
-            (on(hourglass_control) && !is_fem, "hourglass control"),
-            (on(bulk_viscosity) && !is_fem, "bulk viscosity"),
-            (on(finite_strain) && !is_fem, "finite strain"),
-            (partner_waves == Some(Switch::Off) && is_fem, "partner waves"),
-            (hourglass_control == Some(Switch::Off) && is_fem, "hourglass control"),
-        ];
-        disobeyed.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
-    }
-
-    /// Returns the reason why it cannot compute the scene at any tolerance.
-    fn impossible(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
-        if let Some(effect) = self.disobeyed(scene) {
-            return Some(format!("cannot obey the switch of {effect}"));
-        }
-        if !self.has_fields && asks_for_fields(scene) {
-            return Some("has no fields to draw".to_string());
-        }
-        let size = self.is_first_order.then(|| scene.finite_size().ok()).flatten()?;
-        size.check(widest_contact(scene, estimate)).err().map(|error| error.to_string())
+    /// Returns the errors of the model's approximations, which fall with the tolerance where it chooses the mesh.
+    fn own_error(&self, scene: &Scene, estimate: &Estimate, has_fields: bool) -> ModelFormError {
+        let usual = tolerances(&Accuracy::within(Accuracy::DEFAULT_TOLERANCE));
+        let asked = tolerances(&scene.accuracy());
+        let scales = scales(estimate);
+        let is_made_finer = has_fields && scene.mesh().contact_element_size.is_none();
+        ModelFormError::by(|quantity| {
+            let Some(k) = JUDGED.iter().position(|judged| *judged == quantity) else {
+                return Some(0.0);
+            };
+            let share = asked[k] / usual[k];
+            let is_followed = is_made_finer && (FINEST..1.0).contains(&share);
+            Some(self.own[k] * scales[k] * if is_followed { share } else { 1.0 })
+        })
     }
 }
 
-/// The largest error over the tolerance.
-fn excess(error: &ModelFormError, estimate: &Estimate, accuracy: &Accuracy) -> f64 {
+/// Returns whether a model lacks an effect. No answer means that the model has it without a decision.
+fn lacks(support: Option<&Support>) -> bool {
+    matches!(support, Some(Support::Lacks | Support::Is { active: false, .. }))
+}
+
+/// Returns the model-form error by a neglected effect, `None` if the effect is called for and its size cannot be
+/// estimated.
+fn error_without(
+    effect: &dyn Effect,
+    scene: &Scene,
+    estimate: &Estimate,
+) -> Option<ModelFormError> {
+    let neglect_error = effect.neglect_error(scene, estimate);
+    let error = match &neglect_error {
+        None if is_called_for(effect, scene, estimate) => return None,
+        None => return Some(ModelFormError::NOTHING),
+        // The spread over possible laws is the same in all models.
+        Some(neglect_error) if effect.name() == FiniteStrain::NAME => {
+            ModelFormError::of(neglect_error, estimate)
+        }
+        Some(_) => {
+            let status = EffectStatus { is_lacking: true, neglect_error };
+            effect.model_form_error(scene, estimate, &status)
+        }
+    };
+    // A contact that does not end has no contact time.
+    let is_known = [QuantityOfInterest::Restitution, QuantityOfInterest::PeakForce]
+        .into_iter()
+        .all(|quantity| error.size(quantity).is_some());
+    is_known.then(|| error.told())
+}
+
+/// Returns the first effect whose switch in the case the model cannot obey.
+fn disobeyed(
+    scene: &Scene,
+    estimate: &Estimate,
+    is_fem: bool,
+    support: impl Fn(&dyn Effect) -> Option<Support>,
+) -> Option<&'static str> {
+    let is_disobeyed = |effect: &&dyn Effect| {
+        let switch = effect.switch(scene.effects());
+        // A switch that transforms the scene is obeyed by any model.
+        let is_open = matches!(switch, None | Some(Switch::Auto));
+        if is_open || effect.transform(scene, estimate).is_ok_and(|scene| scene.is_some()) {
+            return false;
+        }
+        let support = support(*effect);
+        match switch {
+            Some(Switch::On) => support.is_none() || lacks(support.as_ref()),
+            _ => match support {
+                Some(Support::Is { active, .. }) => active,
+                // Elements have the waves in any case.
+                Some(Support::Inherent { .. }) => {
+                    is_fem && effect.name() == PartnerWaves::NAME
+                        || is_called_for(*effect, scene, estimate)
+                }
+                _ => false,
+            },
+        }
+    };
+    EFFECTS.into_iter().find(is_disobeyed).map(|effect| effect.name())
+}
+
+/// Returns the tolerances of the quantities in [`JUDGED`]: the restitution's absolute, others relative.
+fn tolerances(accuracy: &Accuracy) -> [f64; 4] {
+    let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
+    [restitution, contact_time, peak_force, peak_pressure]
+}
+
+/// Returns the values in SI units that relative tolerances belong to.
+fn scales(estimate: &Estimate) -> [f64; 4] {
     let sizes = &estimate.effective.sizes;
-    let over =
-        |headline: QuantityOfInterest, allowed: f64| error.size(headline).unwrap_or(0.0) / allowed;
-    [
-        over(QuantityOfInterest::Restitution, accuracy.restitution),
-        over(QuantityOfInterest::ContactTime, accuracy.contact_time * sizes.contact_time),
-        over(QuantityOfInterest::PeakForce, accuracy.peak_force * sizes.peak_force),
-        over(QuantityOfInterest::PeakPressure, accuracy.peak_pressure * sizes.peak_pressure),
-    ]
-    .into_iter()
-    .fold(0.0, f64::max)
+    [1.0, sizes.contact_time, sizes.peak_force, sizes.peak_pressure]
 }
 
-/// Whether the case asks for snapshots or probes.
+/// Returns the largest error over its tolerance.
+fn excess(error: &ModelFormError, scene: &Scene, estimate: &Estimate) -> f64 {
+    let allowed = tolerances(&scene.accuracy()).into_iter().zip(scales(estimate));
+    let errors = JUDGED.into_iter().map(|quantity| error.size(quantity).unwrap_or(0.0));
+    errors.zip(allowed).map(|(error, (share, scale))| error / (share * scale)).fold(0.0, f64::max)
+}
+
+/// Returns whether the case asks for snapshots or probes.
 fn asks_for_fields(scene: &Scene) -> bool {
     match scene.snapshots() {
         _ if !scene.probes().is_empty() => true,

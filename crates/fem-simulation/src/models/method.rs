@@ -12,8 +12,7 @@ use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, EffectDecisions, Support};
 use crate::estimate::Estimate;
-use crate::models::restart_state::RestartState;
-use crate::models::stepper::Stepper;
+use crate::models::stepper::{RestartState, SingleStep, Stepper};
 use crate::plan::Plan;
 use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::pair_cache::PairCache;
@@ -30,15 +29,24 @@ pub trait Method: Sync {
     /// A scene that the method cannot compute, or not within the scene's limits.
     fn build(&self, scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection>;
 
-    /// Element updates to come, what runs are ordered by, of a scene that could run: meshes are made
-    /// and no factors, and what takes milliseconds counts as nothing.
+    /// Returns the method's support for an effect as far as it is known before the model is built: the answer of
+    /// [`Model::support`] but for the numbers of the meshes. `None` means that the method has no use for the effect.
+    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support>;
+
+    /// Returns the number of element updates, by which runs are ordered. Meshes are made, but no factors; models
+    /// without steps count as zero.
     ///
     /// # Errors
-    /// As [`Method::build`], but for what only the making shows.
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection>;
+    /// As [`Method::build`], but for faults that only factors show.
+    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
+        match self.build(scene, &SharedModels::default())?.setup().cost {
+            Cost::Steps { element_updates, .. } => Ok(element_updates),
+            _ => Ok(0),
+        }
+    }
 
-    /// The case as written with the method's defaults filled in, which makes the same model; what
-    /// the method does not read stays as it is.
+    /// Returns the case as written with the method's defaults filled in, which makes the same model. Keys that the
+    /// method does not read stay as they are.
     ///
     /// # Errors
     /// As [`Method::price`].
@@ -70,9 +78,9 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// Returns the decisions on the scene.
     fn setup(&self) -> &ModelSetup;
 
-    /// What it has of an effect in a collision of which closed forms say this; `None` of an effect
-    /// that means nothing to it.
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support>;
+    /// Returns the model's support for an effect in a collision with this closed-form estimate; `None` if the model
+    /// has no use for the effect.
+    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support>;
 
     /// Computes a collision of the scene's bodies, as far as it gets; one that asks for what no run
     /// keeps ([`OutputRequest::check`]) does not begin. Where the contact outgrows the region in which it is
@@ -110,6 +118,19 @@ pub trait Model: fmt::Debug + Send + Sync {
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         [None, None]
     }
+}
+
+/// Begins a collision, in a single piece if the model has no steps.
+pub(crate) fn begun(
+    model: &Arc<dyn Model>,
+    approach: &Approach,
+    request: &OutputRequest,
+) -> Box<dyn Stepper> {
+    model.start(approach, request).unwrap_or_else(|| {
+        let (model, approach, request) = (model.clone(), *approach, request.clone());
+        let collide = move |monitor: &mut dyn Monitor| model.collide(&approach, &request, monitor);
+        Box::new(SingleStep::new(approach, collide))
+    })
 }
 
 /// The decisions on a scene before its collision is computed.

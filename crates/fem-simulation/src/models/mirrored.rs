@@ -13,8 +13,7 @@ use crate::effects::{Effect, MirrorSymmetry, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::approach_of;
 use crate::models::method::{ElementSetup, Model, ModelSetup};
-use crate::models::restart_state::RestartState;
-use crate::models::stepper::{Stepper, stopped};
+use crate::models::stepper::{RestartState, Stepper, stopped};
 use crate::plan::{Plan, candidate_radius};
 use crate::rejection::Rejection;
 
@@ -44,7 +43,7 @@ impl<M: Model> Mirrored<M> {
         let image = half.meshes()[0].map(|mesh| mesh.clone().on_side(Side::Above));
         let own = half.setup().clone();
         let estimate = plan.estimate;
-        let decisions = decide(scene, &estimate, |effect| has(effect, &half, &estimate))?;
+        let decisions = decide(scene, &estimate, |effect| support(effect, &half, &estimate))?;
         let elements = own.elements.map(|elements| ElementSetup { plan, ..elements });
         let approach = approach_of(scene)?;
         let setup = ModelSetup { approach, estimate, decisions, elements, ..own };
@@ -53,10 +52,10 @@ impl<M: Model> Mirrored<M> {
 }
 
 /// Returns the support of the whole for an effect: that of the half, and the symmetry.
-fn has(effect: &dyn Effect, half: &impl Model, estimate: &Estimate) -> Option<Support> {
+fn support(effect: &dyn Effect, half: &impl Model, estimate: &Estimate) -> Option<Support> {
     match effect.name() {
         MirrorSymmetry::NAME => Some(MirrorSymmetry::of_half()),
-        _ => half.has(effect, estimate),
+        _ => half.support(effect, estimate),
     }
 }
 
@@ -65,8 +64,8 @@ impl<M: Model> Model for Mirrored<M> {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        has(effect, &self.half, estimate)
+    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
+        support(effect, &self.half, estimate)
     }
 
     fn collide(
@@ -143,8 +142,8 @@ impl Stepper for MirroredCourse {
         self.half.progress()
     }
 
-    fn memory(&self) -> Option<RestartState> {
-        Some(RestartState { met: self.whole.approach, ..self.half.memory()? })
+    fn restart_state(&self) -> Option<RestartState> {
+        Some(RestartState { met: self.whole.approach, ..self.half.restart_state()? })
     }
 
     fn finish(self: Box<Self>) -> Collision {

@@ -8,7 +8,6 @@ pub(crate) mod method;
 mod mirrored;
 mod own_frame;
 mod reduced;
-pub(crate) mod restart_state;
 mod simplified;
 pub(crate) mod stepper;
 
@@ -19,7 +18,6 @@ use crate::effects::ComputedScene;
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
-pub(crate) use bouncing::Bounces;
 use bouncing::Bouncing;
 use simplified::Simplified;
 

@@ -8,8 +8,7 @@ use fem_mesh::SphereMesh;
 use crate::effects::{Effect, Support, decide};
 use crate::estimate::Estimate;
 use crate::models::method::{Model, ModelSetup};
-use crate::models::restart_state::RestartState;
-use crate::models::stepper::Stepper;
+use crate::models::stepper::{RestartState, Stepper};
 use crate::rejection::Rejection;
 
 /// The model of a simplified scene.
@@ -32,22 +31,22 @@ impl Simplified {
     ) -> Result<Self, Rejection> {
         let own = model.setup().clone();
         let estimate = Estimate::checked(given)?;
-        let has = |effect: &dyn Effect| has(effect, &answers, model.as_ref(), &estimate);
-        let decisions = decide(given, &estimate, has)?;
+        let support = |effect: &dyn Effect| support(effect, &answers, model.as_ref(), &estimate);
+        let decisions = decide(given, &estimate, support)?;
         let setup = ModelSetup { estimate, decisions, ..own };
         Ok(Self { model, setup, answers })
     }
 }
 
 /// What the effects that simplified the scene say, and else what the model has.
-fn has(
+fn support(
     effect: &dyn Effect,
     answers: &[(&'static str, Support)],
     model: &dyn Model,
     estimate: &Estimate,
 ) -> Option<Support> {
     let own = answers.iter().find(|(name, _)| *name == effect.name());
-    own.map(|(_, answer)| answer.clone()).or_else(|| model.has(effect, estimate))
+    own.map(|(_, answer)| answer.clone()).or_else(|| model.support(effect, estimate))
 }
 
 impl Model for Simplified {
@@ -55,8 +54,8 @@ impl Model for Simplified {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        has(effect, &self.answers, self.model.as_ref(), estimate)
+    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
+        support(effect, &self.answers, self.model.as_ref(), estimate)
     }
 
     fn collide(

@@ -1,71 +1,54 @@
-//! A collision under way, for who decides when it goes on: a generator, a frame of a page, a process
-//! that is stopped and begun again.
+//! A collision that is computed in pieces, and its restart state.
 
-use std::sync::Arc;
+use fem_collision::{Approach, Collision, Monitor, Progress, Stop};
+use serde::{Deserialize, Serialize};
 
-use fem_collision::{Approach, Collision, Monitor, OutputRequest, Progress, Stop};
+use crate::models::bouncing::Bounces;
 
-use crate::models::method::Model;
-use crate::models::restart_state::RestartState;
-
-/// A collision under way.
+/// A collision under way, for callers that decide when it continues: a generator, a frame of a page, or a process that
+/// is stopped and started again.
 pub trait Stepper {
-    /// Goes on for a while: some steps of a model that steps, all that there is of another one. Whether
-    /// there is more to compute.
+    /// Computes some steps, or the whole collision if the model has no steps. Returns whether there is more to compute.
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool;
 
-    /// How far it is.
+    /// Returns the progress.
     fn progress(&self) -> Progress;
 
-    /// All that a restart needs, of a model that goes on from it; see
-    /// [`Model::resume`](crate::Model::resume).
-    fn memory(&self) -> Option<RestartState> {
+    /// Returns the restart state, if the model can continue from one ([`Model::resume`](crate::Model::resume)).
+    fn restart_state(&self) -> Option<RestartState> {
         None
     }
 
-    /// What came out. A collision that is not over is interrupted here.
+    /// Returns the collision. One that has not ended is interrupted.
     fn finish(self: Box<Self>) -> Collision;
 }
 
-/// Begins a collision by a model: one that steps goes on in steps, another one in one go.
-pub(crate) fn begun(
-    model: &Arc<dyn Model>,
-    approach: &Approach,
-    request: &OutputRequest,
-) -> Box<dyn Stepper> {
-    model.start(approach, request).unwrap_or_else(|| {
-        let (model, approach, request) = (model.clone(), *approach, request.clone());
-        let collide = move |monitor: &mut dyn Monitor| model.collide(&approach, &request, monitor);
-        Box::new(InOneGo::of(approach, collide))
-    })
+/// Computes a collision to its end, or until `monitor` interrupts it.
+pub(crate) fn to_the_end(mut stepper: Box<dyn Stepper>, monitor: &mut dyn Monitor) -> Collision {
+    while monitor.report(stepper.progress()) && stepper.advance(monitor) {}
+    stepper.finish()
 }
 
-/// Goes on to the end, or until `monitor` interrupts it.
-pub(crate) fn to_the_end(mut course: Box<dyn Stepper>, monitor: &mut dyn Monitor) -> Collision {
-    while monitor.report(course.progress()) && course.advance(monitor) {}
-    course.finish()
-}
-
-/// A collision that cannot begin, and why.
+/// Returns a collision that cannot begin, with its reason.
 pub(crate) fn stopped(approach: Approach, stop: Stop) -> Box<dyn Stepper> {
-    Box::new(InOneGo::of(approach, move |_| Collision::stopped(approach, stop.clone())))
+    Box::new(SingleStep::new(approach, move |_| Collision::stopped(approach, stop.clone())))
 }
 
-/// A collision that is computed in one go.
-pub(crate) struct InOneGo<F> {
+/// A collision that is computed in a single piece.
+pub(crate) struct SingleStep<F> {
     approach: Approach,
     collide: F,
     collision: Option<Collision>,
 }
 
-impl<F: Fn(&mut dyn Monitor) -> Collision> InOneGo<F> {
-    /// Of bodies that meet like this, and what computes it.
-    pub fn of(approach: Approach, collide: F) -> Self {
+impl<F: Fn(&mut dyn Monitor) -> Collision> SingleStep<F> {
+    /// Makes the stepper of an approach from the function that computes its collision.
+    pub fn new(approach: Approach, collide: F) -> Self {
         Self { approach, collide, collision: None }
     }
 }
 
-impl<F: Fn(&mut dyn Monitor) -> Collision> Stepper for InOneGo<F> {
+impl<F: Fn(&mut dyn Monitor) -> Collision> Stepper for SingleStep<F> {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         if self.collision.is_none() {
             self.collision = Some((self.collide)(monitor));
@@ -82,4 +65,47 @@ impl<F: Fn(&mut dyn Monitor) -> Collision> Stepper for InOneGo<F> {
         let not_begun = Stop::Interrupted { time: 0.0, step: 0 };
         self.collision.unwrap_or_else(|| Collision::stopped(self.approach, not_begun))
     }
+}
+
+/// The restart state of a [`Stepper`] between two advances. A stepper that resumes from it
+/// ends with the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RestartState {
+    /// State of the present contact, by explicit elements.
+    pub(crate) contact: fem_explicit::RestartState,
+    /// Results of earlier contacts, for a ball that gravity brings back.
+    pub(crate) bounces: Option<Box<Bounces>>,
+    /// Approach of the bodies in the present contact, which is computed in the frame of their mass centre.
+    pub(crate) met: Approach,
+    /// Refinement: elements per length over those of the first plan.
+    pub(crate) refinement: f64,
+    /// Coarser meshes of earlier computations.
+    pub(crate) levels: Vec<RefinementLevel>,
+}
+
+impl RestartState {
+    /// Returns the state of the present contact.
+    pub fn contact(&self) -> &fem_explicit::RestartState {
+        &self.contact
+    }
+
+    /// Returns the number of steps done in the present contact.
+    pub fn step(&self) -> u64 {
+        self.contact.step()
+    }
+}
+
+/// A mesh that was too coarse.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RefinementLevel {
+    /// Edge length of its elements at the contact.
+    pub contact_element_size_m: f64,
+    /// Element updates of its collision; `None` if the collision was not computed on it or takes none.
+    pub element_updates: Option<u64>,
+    /// Key of the quantity that exceeds its tolerance by the largest factor.
+    pub quantity: String,
+    /// Its estimated error: the restitution's absolute, others relative.
+    pub error: f64,
+    /// The tolerance of that quantity in the case.
+    pub tolerance: f64,
 }

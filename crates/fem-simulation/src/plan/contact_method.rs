@@ -7,20 +7,15 @@
 
 use fem_case::{ContactMethod, Scene, Switch};
 
-use crate::effects::{FiniteStrain, SurfaceSlip};
+use crate::effects::{FiniteStrain, contact_method_of_case};
+use crate::estimate::quasi_static::surfaces_slip;
 use crate::plan::Plan;
-
-/// Returns the contact method that the case asks for. The default is a massless boundary, which gains no energy at any
-/// penalty stiffness and does not chatter (docs/contact.md).
-pub(crate) fn requested(scene: &Scene) -> ContactMethod {
-    scene.contact_method().unwrap_or(ContactMethod::Massless)
-}
 
 /// Returns the contact method at small strain.
 pub fn contact_method(scene: &Scene) -> ContactMethod {
-    match requested(scene) {
+    match contact_method_of_case(scene) {
         ContactMethod::Massless if !massless_is_possible(scene) => ContactMethod::Penalty,
-        ContactMethod::NodeToSurface if SurfaceSlip::is_on(scene) => ContactMethod::Penalty,
+        ContactMethod::NodeToSurface if surfaces_slip(scene) => ContactMethod::Penalty,
         method => method,
     }
 }

@@ -231,7 +231,7 @@ mod tests {
         let counted = explicit_memory(simulation.case().scene(), &plan, n, n * terms as u64);
         let mut course = simulation.start();
         while course.progress().fraction < 0.1 && course.advance(&mut ()) {}
-        let kept = postcard::to_stdvec(&course.memory().unwrap().contact).unwrap().len();
+        let kept = postcard::to_stdvec(&course.restart_state().unwrap().contact).unwrap().len();
         [counted as f64, kept as f64]
     }
 

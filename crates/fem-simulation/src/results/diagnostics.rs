@@ -131,7 +131,7 @@ pub fn diagnose(
     warnings.extend(of_elements(simulation, collision, errors));
     if let Some(estimate) = simulation.estimate(collision) {
         let scene = simulation.case().scene();
-        let after = |effect: &&dyn Effect| effect.after(scene, &estimate, collision);
+        let after = |effect: &&dyn Effect| effect.warnings_of_result(scene, &estimate, collision);
         warnings.extend(EFFECTS.iter().flat_map(after));
     }
     warnings

@@ -6,8 +6,9 @@ use serde::{Serialize, Serializer};
 
 use super::energy::Energy;
 use crate::effects::{EffectDecision, NeglectError};
-use crate::error::{ElasticNull, RefinementLevel};
+use crate::error::ElasticNull;
 use crate::models::ModelCandidate;
+use crate::models::stepper::RefinementLevel;
 
 /// The file name of the summary.
 pub const SUMMARY_FILE: &str = "summary.json";

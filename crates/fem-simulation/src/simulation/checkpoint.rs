@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use crate::models::restart_state::RestartState;
+use crate::models::stepper::RestartState;
 use crate::results::PROGRAM;
 use crate::simulation::identity::Identity;
 use crate::simulation::identity::NUMERICS;
@@ -72,7 +72,7 @@ pub enum CheckpointError {
 /// let run = Identity::of(simulation.case())?;
 /// let mut stepper = simulation.start();
 /// stepper.advance(&mut ());
-/// let state = stepper.memory().ok_or("a model without restart states")?;
+/// let state = stepper.restart_state().ok_or("a model without restart states")?;
 /// let bytes = checkpoint(&run, &state);
 /// assert_eq!(restart_state_of(&bytes, &run), Ok(state));
 ///

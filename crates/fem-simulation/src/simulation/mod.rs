@@ -14,17 +14,15 @@ use fem_collision::{
 };
 
 use crate::effects::{
-    EFFECTS, Effect, EffectDecision, EffectDecisions, FiniteStrain, NeglectError, decide,
+    Effect, EffectDecision, EffectDecisions, FiniteStrain, NeglectError, decide, effect_named,
 };
 use crate::error::{
-    ErrorEstimate, ErrorEstimator, RefinementBound, RefinementLevel, refined_because,
-    refinement_bound,
+    ErrorEstimate, ErrorEstimator, RefinementBound, refined_because, refinement_bound,
 };
 use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
-use crate::models::method::{Cost, Model, ModelSetup, SharedModels};
-use crate::models::restart_state::RestartState;
-use crate::models::stepper::{Stepper, begun};
+use crate::models::method::{Cost, Model, ModelSetup, SharedModels, begun};
+use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
 use crate::models::{ModelCandidate, SelectedModel, chosen, model_of, price_of, resolved};
 use crate::plan::body_source::probes_of;
 use crate::rejection::Rejection;
@@ -171,7 +169,7 @@ impl Simulation {
     /// Returns the restart state of a stepper, with the mesh of the simulation.
     pub fn restart_state_of(&self, stepper: &dyn Stepper) -> Option<RestartState> {
         let (refinement, levels) = (self.refinement, self.levels.clone());
-        Some(RestartState { refinement, levels, ..stepper.memory()? })
+        Some(RestartState { refinement, levels, ..stepper.restart_state()? })
     }
 
     /// Returns the case with every default filled in, without building its model.
@@ -340,7 +338,7 @@ impl Simulation {
     /// while stepper.progress().fraction < 0.5 && stepper.advance(&mut ()) {}
     ///
     /// // The restart state may be written, and read by another process.
-    /// let state = serde_json::to_string(&stepper.memory()).unwrap();
+    /// let state = serde_json::to_string(&stepper.restart_state()).unwrap();
     /// let state = serde_json::from_str(&state).unwrap();
     /// let mut resumed = simulation.resume(state)?;
     /// while resumed.advance(&mut ()) {}
@@ -374,8 +372,7 @@ impl Simulation {
         verdict: &EffectDecision,
         estimate: &Estimate,
     ) -> Option<NeglectError> {
-        let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
-        effect.neglect_error(&self.scene_of_model(), estimate)
+        effect_named(verdict.name)?.neglect_error(&self.scene_of_model(), estimate)
     }
 
     /// Returns the scene with the selected model, if the case leaves the choice open.
@@ -392,8 +389,8 @@ impl Simulation {
         let setup = self.setup();
         let anew = self.estimate(collision).filter(|_| collision.approach != setup.approach);
         let decided = anew.and_then(|estimate| {
-            let has = |effect: &dyn Effect| self.model.has(effect, &estimate);
-            decide(self.case.scene(), &estimate, has).ok()
+            let support = |effect: &dyn Effect| self.model.support(effect, &estimate);
+            decide(self.case.scene(), &estimate, support).ok()
         });
         let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
         decisions.take_what_was_found(self.case.scene(), collision);

@@ -28,7 +28,7 @@ fn in_pieces(overrides: &[&str], n_pieces: usize) -> (Collision, Vec<usize>) {
         }
         let n_contacts = simulation(overrides).case().scene().gravity().unwrap().bounces as f64;
         n_put_away[(course.progress().fraction * n_contacts) as usize] += 1;
-        let memory = course.memory().unwrap();
+        let memory = course.restart_state().unwrap();
         let bytes = postcard::to_stdvec(&memory).unwrap();
         let read: RestartState = postcard::from_bytes(&bytes).unwrap();
         assert_eq!(read, memory);
@@ -88,7 +88,7 @@ fn a_memory_of_another_ball_is_refused() {
     while course.progress().fraction < 0.5 {
         assert!(course.advance(&mut ()));
     }
-    let memory = course.memory().unwrap();
+    let memory = course.restart_state().unwrap();
     assert!(own.resume(memory.clone()).is_ok());
     for more in [
         "gravity.acceleration=9.8",

@@ -42,7 +42,7 @@ fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Coll
     for _ in 0..n_pieces {
         course.advance(&mut ());
     }
-    let text = serde_json::to_string(&course.memory().unwrap()).unwrap();
+    let text = serde_json::to_string(&course.restart_state().unwrap()).unwrap();
     let memory: RestartState = serde_json::from_str(&text).unwrap();
     let mut resumed = model.resume(memory).unwrap();
     while resumed.advance(&mut ()) {}
@@ -69,7 +69,7 @@ fn a_course_goes_on_from_its_memory() {
 fn a_memory_of_another_case_is_refused() {
     let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
                     decay_rate=2e4}]}";
-    let memory = simulation("fem", &[]).start().memory().unwrap();
+    let memory = simulation("fem", &[]).start().restart_state().unwrap();
     for other in [
         simulation("fem", &["mesh.contact_element_size='0.12 mm'"]),
         simulation("fem", &[relaxing]),
@@ -89,7 +89,7 @@ fn the_half_of_a_scene_goes_on_from_its_memory() {
     assert_eq!(whole.bodies[0].elements, whole.bodies[1].elements);
     let mut course = simulation.start();
     assert!((0..10).all(|_| course.advance(&mut ())));
-    let mut resumed = simulation.resume(course.memory().unwrap()).unwrap();
+    let mut resumed = simulation.resume(course.restart_state().unwrap()).unwrap();
     while resumed.advance(&mut ()) {}
     assert_eq!(resumed.finish(), whole);
 }

@@ -35,7 +35,7 @@ fn simulations() -> Vec<(&'static str, Simulation)> {
 fn memory_at(simulation: &Simulation, fraction: f64) -> RestartState {
     let mut course = simulation.start();
     while course.progress().fraction < fraction && course.advance(&mut ()) {}
-    course.memory().unwrap()
+    course.restart_state().unwrap()
 }
 
 /// The names of fields in a Debug text: words before a colon, at the beginning of a line.

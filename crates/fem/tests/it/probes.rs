@@ -109,7 +109,7 @@ fn probes_are_in_the_memory_of_a_run() {
     let simulation = simulation(&[COARSE, PROBES]);
     let mut course = simulation.start();
     while course.progress().fraction < 0.4 && course.advance(&mut ()) {}
-    let memory = serde_json::to_string(&course.memory()).unwrap();
+    let memory = serde_json::to_string(&course.restart_state()).unwrap();
     let stopped = course.finish();
     let mut resumed = simulation.resume(serde_json::from_str(&memory).unwrap()).unwrap();
     while resumed.advance(&mut ()) {}

@@ -3,15 +3,13 @@
 use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
 
-use crate::effects::bodies::vibration::Vibration;
-use crate::effects::effect::Effect;
 use crate::effects::effect::computed_scene::ComputedScene;
 use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::percent;
 use crate::effects::effect::support::Support;
-use crate::effects::material::finite_strain::relaxed_loss;
-use crate::effects::ting_prediction::TingPrediction;
+use crate::effects::effect::{Effect, FiniteSizeEffect, Vibration};
+use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
 use crate::estimate::Estimate;
 
 /// Second order of the contact's size over the spheres', of contact time and peak force: Ting's with
@@ -19,10 +17,6 @@ use crate::estimate::Estimate;
 const SECOND_ORDER: f64 = 0.1;
 
 const PRESSURE: f64 = 0.15;
-
-/// The spheres' own compliance.
-#[derive(Clone, Copy, Debug)]
-pub struct FiniteSizeEffect;
 
 /// What the spheres' own compliance adds to Hertz' approach, over it, up to which its first order is
 /// right to 1 % in contact time and force, and half-spaces without it to 5 %. Materials that are harder
@@ -33,9 +27,6 @@ const LARGEST_SHARE: f64 = 0.1;
 const LARGEST_KNOWN: f64 = 0.25;
 
 impl FiniteSizeEffect {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "finite size";
-
     /// Returns the answer of a model that includes the first order of the effect, or does not, with the
     /// reason.
     pub(crate) fn of_first_order(
@@ -88,17 +79,13 @@ impl FiniteSizeEffect {
 }
 
 impl Effect for FiniteSizeEffect {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let scene = ComputedScene::quiet(scene)?;
         let speed = estimate.hertz.approach_speed();
         let [with, without] =
             [true, false].map(|size| TingPrediction::of(&scene, speed, size).ok());
         match with.zip(without) {
-            Some((with, without)) => Some(NeglectError::difference(&with, &without)),
+            Some((with, without)) => Some(with.change_from(&without)),
             None => Self::by_stiffness(&scene, estimate),
         }
     }
@@ -108,11 +95,11 @@ impl Effect for FiniteSizeEffect {
         &self,
         scene: &Scene,
         estimate: &Estimate,
-        standing: &EffectStatus,
+        status: &EffectStatus,
     ) -> ModelFormError {
         let second_order = SECOND_ORDER * estimate.strain.powi(2);
-        let of_size = match standing.is_lacking {
-            true => ModelFormError::of(&standing.neglect_error.unwrap_or_default(), estimate),
+        let of_size = match status.is_lacking {
+            true => ModelFormError::of(&status.neglect_error.unwrap_or_default(), estimate),
             false => ModelFormError::of(
                 &NeglectError::shares(estimate, second_order, second_order),
                 estimate,

@@ -15,9 +15,9 @@
 use fem_case::Scene;
 use fem_case::engineering::number;
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
+use crate::effects::effect::{Effect, Gravity};
 use crate::estimate::Estimate;
 
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.
@@ -26,20 +26,7 @@ const FORCE_SHARE: f64 = 1.2;
 /// The first number and the square of the second below this: the contact is as without gravity, to rounding of what is printed.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// Weight of the bodies.
-#[derive(Clone, Copy, Debug)]
-pub struct Gravity;
-
-impl Gravity {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "gravity";
-}
-
 impl Effect for Gravity {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let Some(gravity) = scene.gravity() else {
             return Some(Relevance {

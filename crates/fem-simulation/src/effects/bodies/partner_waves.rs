@@ -6,22 +6,21 @@
 //! that of a half-space ([`radiated_share`]).
 
 use fem_case::engineering::number;
-use fem_case::{Body, EffectsTable, ModelChoice, Scene, Switch};
+use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Ting, radiated_share};
 use fem_material::Material;
 
-use crate::effects::effect::Effect;
+use crate::effects::bodies::vibration::ENOUGH_MODES;
 use crate::effects::effect::computed_scene::ComputedScene;
 use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
-use crate::effects::ting_prediction::TingPrediction;
+use crate::effects::effect::{Effect, NamedEffect, PartnerWaves};
+use crate::effects::ting_prediction::{TingPrediction, relaxes};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{EffectiveModuli, left_at};
 
-/// Number of modes that return the wave energy.
-pub(in crate::effects) const ENOUGH_MODES: usize = 12;
 /// Above this T c_s/D waves come back in time and give back what they took.
 const RETURN_LIMIT: f64 = 2.0;
 /// Below this T c_s/D nothing comes back in time: pressure waves, the first, take c_s/c_p of twice the
@@ -47,19 +46,7 @@ const SMOOTHED: f64 = 2.0;
 /// own material at a/R* = 0.7.
 const SHARE_OF_LOSS: f64 = 0.2;
 
-/// Waves radiated into a large partner.
-#[derive(Clone, Copy, Debug)]
-pub struct PartnerWaves;
-
 impl PartnerWaves {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "partner waves";
-
-    /// Returns the scene with another setting of the switch.
-    pub(in crate::effects) fn switched(scene: &Scene, partner_waves: Option<Switch>) -> Scene {
-        scene.clone().with_effects(EffectsTable { partner_waves, ..*scene.effects() })
-    }
-
     /// The materials of bodies that radiate, of a model that has their loss as a term: those whose waves do
     /// not come back within the contact, as long as the loss is a correction; and the largest body in
     /// any case where the case forces it. As they are to waves of the contact: elastic, with what is left of their
@@ -128,7 +115,7 @@ impl PartnerWaves {
     ) -> Support {
         // Where it is switched off it is there to be switched off.
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
-        match radiating(&Self::switched(scene, switch), estimate) {
+        match radiating(&PartnerWaves.switched(scene, switch), estimate) {
             [None, None] => Support::Lacks,
             _ => Support::Computes { idle: "" },
         }
@@ -160,14 +147,6 @@ fn large(crossed: [Option<Crossed>; 2], limit: f64) -> [Option<Material>; 2] {
 }
 
 impl Effect for PartnerWaves {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.partner_waves
-    }
-
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let crossed = crossed(scene, estimate);
         let share = radiated(&crossed, estimate);
@@ -203,8 +182,8 @@ impl Effect for PartnerWaves {
     /// a half-space takes of the restitution.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
-        let with = ComputedScene::quiet(&Self::switched(scene, switch))?;
-        let without = Self::switched(&with, Some(Switch::Off));
+        let with = ComputedScene::quiet(&self.switched(scene, switch))?;
+        let without = self.switched(&with, Some(Switch::Off));
         let speed = estimate.hertz.approach_speed();
         let estimate = Estimate::at(&with, speed).ok()?;
         if Self::radiating(&with, &estimate) != [None, None] {
@@ -215,12 +194,12 @@ impl Effect for PartnerWaves {
             let impacts = [own, &without].map(|scene| TingPrediction::of(scene, speed, false));
             if let [Ok(one), Ok(without)] = impacts {
                 let missing = missing_of_term(&crossed(&with, &estimate), &estimate);
-                let told = NeglectError::difference(&one, &without);
+                let told = one.change_from(&without);
                 let whole = |part: f64| (part * (1.0 + missing)).clamp(-1.0, 1.0);
                 return Some(NeglectError { restitution: told.restitution.map(whole), ..told });
             }
             // What relaxes takes part of what the waves would.
-            if relaxes(&with.bodies().each_ref().map(Body::material)) {
+            if relaxes(&with) {
                 return None;
             }
         }
@@ -233,9 +212,9 @@ impl Effect for PartnerWaves {
         &self,
         scene: &Scene,
         estimate: &Estimate,
-        standing: &EffectStatus,
+        status: &EffectStatus,
     ) -> ModelFormError {
-        let &EffectStatus { is_lacking, neglect_error } = standing;
+        let &EffectStatus { is_lacking, neglect_error } = status;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
         let Some(neglect_error) = neglect_error.filter(|_| !is_of_mesh) else {
             return ModelFormError::NOTHING;
@@ -291,10 +270,6 @@ fn taken(crossed: &[Option<Crossed>; 2], estimate: &Estimate, counts: fn(f64) ->
     let hertz = &estimate.effective.hertz;
     let bodies = crossed.iter().flatten().filter(|body| counts(body.passage));
     bodies.map(|body| radiated_share(hertz, &body.material) * kept(body.passage)).sum()
-}
-
-fn relaxes(materials: &[Option<&Material>; 2]) -> bool {
-    materials.iter().flatten().any(|material| material.relaxation().is_some())
 }
 
 /// Share of what a half-space takes that a body keeps: elements lost 0.35 of it at T c_s/D = 1.45, 0.023 at 2.99, 0.010

@@ -7,38 +7,22 @@
 //! gives way is a wall.
 
 use fem_case::engineering;
-use fem_case::{Body, EffectsTable, Scene, Switch};
+use fem_case::{Body, Scene, Switch};
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::computed_scene::TransformedScene;
 use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::support::Support;
+use crate::effects::effect::{Effect, NamedEffect, RigidPartner};
+use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
 /// Share of the compliance below which a body is rigid: 4e-5 of the contact time.
 const RIGID_SHARE: f64 = 1e-4;
 
-/// The stiffer body as a rigid one.
-#[derive(Clone, Copy, Debug)]
-pub struct RigidPartner;
-
-impl RigidPartner {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "rigid partner";
-}
-
 impl Effect for RigidPartner {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.rigid_partner
-    }
-
     /// It saves work and changes next to nothing: a scene may allow it, none calls for it.
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number =
@@ -66,8 +50,7 @@ impl Effect for RigidPartner {
         let answer = Support::is(true, format!("{number}: it is rigid, with its own mass"));
         let mut shapes = scene.bodies().each_ref().map(|body| body.shape().clone());
         shapes[stiffer.side] = stiffer.body.rigid();
-        let effects = EffectsTable { rigid_partner: None, ..*scene.effects() };
-        let scene = scene.clone().with_shapes(shapes).with_effects(effects);
+        let scene = RigidPartner.switched(scene, None).with_shapes(shapes);
         Ok(Some(TransformedScene { scene, answer }))
     }
 
@@ -83,9 +66,9 @@ impl Effect for RigidPartner {
         &self,
         _: &Scene,
         estimate: &Estimate,
-        standing: &EffectStatus,
+        status: &EffectStatus,
     ) -> ModelFormError {
-        ModelFormError::of(&standing.neglect_error.unwrap_or_default(), estimate)
+        ModelFormError::of(&status.neglect_error.unwrap_or_default(), estimate)
     }
 
     /// Of a body that is taken as rigid: what it gives way, relaxes and radiates.
@@ -102,11 +85,9 @@ impl Effect for RigidPartner {
 
 /// Returns the error of taking the stiffer body as rigid.
 fn change(scene: &Scene, estimate: &Estimate) -> NeglectError {
-    let [rigid, whole] = [Some(Switch::On), Some(Switch::Off)].map(|rigid_partner| {
-        let effects = EffectsTable { rigid_partner, ..*scene.effects() };
-        scene.clone().with_effects(effects)
-    });
-    NeglectError::between(&rigid, &whole, estimate.hertz.approach_speed())
+    let [rigid, whole] =
+        [Switch::On, Switch::Off].map(|switch| RigidPartner.switched(scene, Some(switch)));
+    change_between(&rigid, &whole, estimate.hertz.approach_speed())
 }
 
 fn refused(message: &str) -> Rejection {

@@ -10,58 +10,25 @@
 //! larger where β is small, as of rubber.
 
 use fem_case::engineering::number;
-use fem_case::{Body, EffectsTable, ModelChoice, Scene, Shape, Switch};
+use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{RelativeError, SlipSurface, SurfaceSlip as Slip};
-use fem_material::Material;
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
+use crate::effects::effect::{Effect, NamedEffect, SurfaceSlip};
+use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
+use crate::estimate::quasi_static::materials_mismatch;
 
-/// Below this κβR* materials are alike but for the rounding of their moduli.
-const ROUNDING: f64 = 1e-9;
 /// What a spring in series with the contact lacks of it, over a/R* of what it changes: explicit elements change 3 % less
 /// of approach, time and force at 0.03, 7 to 26 % less at 0.08 to 0.2.
 const NEXT_ORDER: f64 = 2.0;
 /// Change of the contact time that is worth a warning where it is left out.
 const SMALL_SHARE: f64 = 1e-3;
 
-/// Tangential slip between the surfaces of unlike materials.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfaceSlip;
-
-impl SurfaceSlip {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "surface slip";
-
-    /// Returns whether a model that supports it computes it, at any speed.
-    pub(crate) fn is_on(scene: &Scene) -> bool {
-        match scene.effects().surface_slip {
-            Some(Switch::On) => !has_wall(scene),
-            Some(Switch::Off) => false,
-            None | Some(Switch::Auto) => is_called_for(scene),
-        }
-    }
-
-    /// Returns the scene with another setting of the switch.
-    pub(crate) fn switched(scene: &Scene, switch: Switch) -> Scene {
-        let surface_slip = Some(switch);
-        scene.clone().with_effects(EffectsTable { surface_slip, ..*scene.effects() })
-    }
-}
-
 impl Effect for SurfaceSlip {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.surface_slip
-    }
-
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let RelativeError { contact_time, peak_force, .. } = change(scene, estimate);
         let [time, force] = [contact_time, peak_force].map(|share| percent(share.abs()));
@@ -74,7 +41,7 @@ impl Effect for SurfaceSlip {
             )
         });
         Some(Relevance {
-            is_called_for: is_called_for(scene),
+            is_called_for: materials_mismatch(scene),
             number: format!(
                 "slope of the interface × mismatch of the materials = {}",
                 number(slope, 2)
@@ -87,11 +54,11 @@ impl Effect for SurfaceSlip {
 
     /// Difference between Ting's impacts with and without slip; zero between like bodies.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        if !is_called_for(scene) {
+        if !materials_mismatch(scene) {
             return Some(NeglectError::NOTHING);
         }
-        let [with, without] = [Switch::On, Switch::Off].map(|to| Self::switched(scene, to));
-        Some(NeglectError::between(&with, &without, estimate.hertz.approach_speed()))
+        let [with, without] = [Switch::On, Switch::Off].map(|to| self.switched(scene, Some(to)));
+        Some(change_between(&with, &without, estimate.hertz.approach_speed()))
     }
 
     /// The next order of the series spring is neglected; elements compute the slip fully.
@@ -99,40 +66,24 @@ impl Effect for SurfaceSlip {
         &self,
         scene: &Scene,
         estimate: &Estimate,
-        standing: &EffectStatus,
+        status: &EffectStatus,
     ) -> ModelFormError {
-        let share = match (standing.is_lacking, scene.model()) {
+        let share = match (status.is_lacking, scene.model()) {
             (true, _) => 1.0,
             (false, ModelChoice::Fem) => 0.0,
             (false, _) => NEXT_ORDER * estimate.strain,
         };
-        match &standing.neglect_error {
-            _ if share == 0.0 || !is_called_for(scene) => ModelFormError::NOTHING,
+        match &status.neglect_error {
+            _ if share == 0.0 || !materials_mismatch(scene) => ModelFormError::NOTHING,
             Some(neglect_error) => ModelFormError::of(neglect_error, estimate).times(share),
             None => ModelFormError::default(),
         }
     }
 }
 
-fn has_wall(scene: &Scene) -> bool {
-    scene.bodies().iter().any(|body| *body.shape() == Shape::Wall)
-}
-
 fn relaxes(scene: &Scene) -> bool {
     let mut materials = scene.bodies().iter().filter_map(Body::material);
     materials.any(|material| material.relaxation().is_some_and(|series| series.relaxes()))
-}
-
-fn is_called_for(scene: &Scene) -> bool {
-    if has_wall(scene) {
-        return false;
-    }
-    let radii = scene.bodies().each_ref().map(|body| body.diameter().map_or(0.0, f64::recip));
-    let effective_radius = 0.5 / (radii[0] + radii[1]);
-    let [first, second] =
-        scene.bodies().each_ref().map(|body| body.material().and_then(Material::relaxation));
-    let differs = scene.surface_slip().mismatch().abs() * effective_radius > ROUNDING;
-    differs || first != second
 }
 
 /// Returns the larger of the changes with the instantaneous and with the relaxed moduli.

@@ -6,16 +6,17 @@
 use fem_case::{Body, Scene};
 use fem_collision::Collision;
 
-use crate::effects::bodies::partner_waves::{ENOUGH_MODES, PartnerWaves};
-use crate::effects::effect::Effect;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
-use crate::effects::material::finite_strain::relaxed_loss;
+use crate::effects::effect::{Effect, PartnerWaves, Vibration};
+use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
 
+/// Number of modes per body that carry the inertia of its deformation.
+pub(super) const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
 const LARGEST_VIBRATION: f64 = 0.01;
 
@@ -38,20 +39,7 @@ const RINGING_LOSS: f64 = 0.05;
 const RINGING_LENGTHENING: f64 = 0.035;
 const RINGING_WEAKENING: f64 = 0.25;
 
-/// Inertia of the bodies' own deformation.
-#[derive(Clone, Copy, Debug)]
-pub struct Vibration;
-
-impl Vibration {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "vibration";
-}
-
 impl Effect for Vibration {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
     fn relevance(&self, _: &Scene, estimate: &Estimate) -> Option<Relevance> {
         Some(Relevance {
             is_called_for: estimate.effective_mach.max(estimate.effective_ringing)
@@ -80,7 +68,12 @@ impl Effect for Vibration {
         Some(NeglectError { restitution: Some(loss * relaxed), ..lengths })
     }
 
-    fn after(&self, _: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
+    fn warnings_of_result(
+        &self,
+        _: &Scene,
+        estimate: &Estimate,
+        collision: &Collision,
+    ) -> Vec<String> {
         let hertz = &estimate.hertz;
         let initial = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
         // What is without a mass is without an end: its waves are gone.

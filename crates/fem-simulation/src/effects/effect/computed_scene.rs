@@ -2,8 +2,8 @@
 
 use fem_case::Scene;
 
-use crate::effects::EFFECTS;
 use crate::effects::effect::support::Support;
+use crate::effects::effect::{EFFECTS, effect_named};
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
@@ -35,8 +35,7 @@ impl ComputedScene {
         let estimate = Estimate::checked(given)?;
         let mut computed = Self::without_warnings(given, &estimate)?;
         for (name, answer) in &mut computed.answers {
-            let effect = EFFECTS.iter().find(|effect| effect.name() == *name);
-            let forced = effect.and_then(|effect| effect.forced(given, &estimate));
+            let forced = effect_named(name).and_then(|effect| effect.forced(given, &estimate));
             *answer = answer.clone().warning(forced);
         }
         Ok(computed)

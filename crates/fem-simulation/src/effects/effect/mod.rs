@@ -1,5 +1,5 @@
-//! The trait of an effect: its relevance to a scene, a model's support for it, and the error of neglecting
-//! it.
+//! The effects, and the trait that each implements: its relevance to a scene, its transformation of the scene,
+//! and the error of neglecting it.
 
 pub(super) mod computed_scene;
 pub(super) mod model_form_error;
@@ -18,16 +18,95 @@ use self::support::Support;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
-/// A physical or numerical effect that a collision may show or a computation may need.
-pub trait Effect: Sync {
+/// The name of an effect and its switch in a case.
+pub trait NamedEffect: Sync {
     /// Returns the effect's name in results.
     fn name(&self) -> &'static str;
 
-    /// Returns the case's switch for it, if `[effects]` has one.
-    fn switch(&self, _: &EffectsTable) -> Option<Switch> {
-        None
-    }
+    /// Returns the case's switch for the effect, if `[effects]` has one.
+    fn switch(&self, effects: &EffectsTable) -> Option<Switch>;
 
+    /// Returns the scene with another setting of the switch.
+    fn switched(&self, scene: &Scene, switch: Option<Switch>) -> Scene;
+}
+
+macro_rules! effects {
+    ($($(#[doc = $doc:literal])+ $effect:ident = $name:literal $($key:ident)?;)+) => {
+        $(
+            $(#[doc = $doc])+
+            #[derive(Clone, Copy, Debug)]
+            pub struct $effect;
+
+            impl $effect {
+                /// The effect's name in results.
+                pub const NAME: &'static str = $name;
+            }
+
+            impl NamedEffect for $effect {
+                fn name(&self) -> &'static str {
+                    Self::NAME
+                }
+
+                fn switch(&self, _effects: &EffectsTable) -> Option<Switch> {
+                    None$(.or(_effects.$key))?
+                }
+
+                fn switched(&self, scene: &Scene, _switch: Option<Switch>) -> Scene {
+                    let effects = EffectsTable { $($key: _switch,)? ..*scene.effects() };
+                    scene.clone().with_effects(effects)
+                }
+            }
+        )+
+
+        /// All effects, in the order in which results show them.
+        pub const EFFECTS: [&dyn Effect; [$($name),+].len()] = [$(&$effect),+];
+    };
+}
+
+// One row per effect: its name in results, and its key in `[effects]` if it can be switched.
+effects! {
+    /// Relaxation of the materials.
+    Viscoelasticity = "viscoelasticity" viscoelasticity;
+    /// The dashpot of a contact law.
+    DashpotEffect = "dashpot";
+    /// Compliance of the spheres beyond that of half-spaces.
+    FiniteSizeEffect = "finite size";
+    /// Finite strain and rotations.
+    FiniteStrain = "finite strain" finite_strain;
+    /// Tangential slip between the surfaces of unlike materials.
+    SurfaceSlip = "surface slip" surface_slip;
+    /// Plastic yield of the bodies.
+    PlasticYield = "plastic yield";
+    /// Waves radiated into a large partner.
+    PartnerWaves = "partner waves" partner_waves;
+    /// Two identical bodies computed as one against a rigid plane.
+    MirrorSymmetry = "mirror symmetry" mirror_symmetry;
+    /// The stiffer body computed as a rigid one.
+    RigidPartner = "rigid partner" rigid_partner;
+    /// Inertia of the bodies' own deformation.
+    Vibration = "vibration";
+    /// Hourglass control: the stiffness that elements with one integration point need against deformation modes
+    /// without mean strain.
+    HourglassControl = "hourglass control" hourglass_control;
+    /// Artificial viscosity that spreads steep fronts over several elements.
+    BulkViscosity = "bulk viscosity" bulk_viscosity;
+    /// Penalty springs at integration points, which resist penetration, in place of a contact that allows none.
+    PenaltySprings = "penalty springs";
+    /// Weight of the bodies.
+    Gravity = "gravity";
+    /// The candidate region of the contact search.
+    ContactSearch = "contact search";
+    /// Mass scaling: mass moved to light nodes for a longer time step.
+    MassScaling = "mass scaling";
+}
+
+/// Returns the effect of this name.
+pub(crate) fn effect_named(name: &str) -> Option<&'static dyn Effect> {
+    EFFECTS.into_iter().find(|effect| effect.name() == name)
+}
+
+/// A physical or numerical effect that a collision may show or a computation may need.
+pub trait Effect: NamedEffect {
     /// Returns whether the scene calls for the effect, or `None` if only the built model can decide.
     fn relevance(&self, _: &Scene, _: &Estimate) -> Option<Relevance> {
         None
@@ -59,28 +138,35 @@ pub trait Effect: Sync {
         &self,
         scene: &Scene,
         estimate: &Estimate,
-        standing: &EffectStatus,
+        status: &EffectStatus,
     ) -> ModelFormError {
-        if !standing.is_lacking {
+        if !status.is_lacking {
             return ModelFormError::NOTHING;
         }
-        let is_called_for =
-            || self.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for);
-        match &standing.neglect_error {
+        match &status.neglect_error {
             Some(neglect_error) => ModelFormError::of(neglect_error, estimate),
-            None if is_called_for() => ModelFormError::default(),
+            None if is_called_for(self, scene, estimate) => ModelFormError::default(),
             None => ModelFormError::NOTHING,
         }
     }
 
-    /// Returns an answer taken from the finished collision, for an effect that depends on the bodies as
+    /// Returns the support that the finished collision shows, for an effect that depends on the bodies as
     /// computed.
-    fn found(&self, _: &Scene, _: &Collision) -> Option<Support> {
+    fn support_in_result(&self, _: &Scene, _: &Collision) -> Option<Support> {
         None
     }
 
     /// Returns warnings that follow from the finished collision and could not be given before.
-    fn after(&self, _: &Scene, _: &Estimate, _: &Collision) -> Vec<String> {
+    fn warnings_of_result(&self, _: &Scene, _: &Estimate, _: &Collision) -> Vec<String> {
         Vec::new()
     }
+}
+
+/// Returns whether a scene calls for an effect.
+pub(crate) fn is_called_for<E: Effect + ?Sized>(
+    effect: &E,
+    scene: &Scene,
+    estimate: &Estimate,
+) -> bool {
+    effect.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for)
 }

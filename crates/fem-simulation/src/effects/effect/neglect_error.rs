@@ -3,12 +3,8 @@
 use std::fmt;
 
 use fem_case::engineering::{Unit, number};
-use fem_case::{ModelChoice, Scene, Switch};
 use serde::Serialize;
 
-use crate::effects::bodies::partner_waves::PartnerWaves;
-use crate::effects::effect::computed_scene::ComputedScene;
-use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
 
 /// Change of a collision's results if an effect is neglected, estimated by closed forms. All are
@@ -30,14 +26,20 @@ impl NeglectError {
     pub const NOTHING: Self =
         Self { restitution: Some(0.0), contact_time_s: Some(0.0), peak_force_n: Some(0.0) };
 
+    /// Returns the magnitudes of changes of restitution, contact time (s) and peak force (N), without those that
+    /// are not finite.
+    pub(in crate::effects) fn of(changes: [Option<f64>; 3]) -> Self {
+        let [restitution, contact_time_s, peak_force_n] =
+            changes.map(|change| change.filter(|change| change.is_finite()).map(f64::abs));
+        Self { restitution, contact_time_s, peak_force_n }
+    }
+
     /// Returns changes given as shares of the estimate's contact time and peak force; the restitution is
     /// unchanged.
     pub(crate) fn shares(estimate: &Estimate, contact_time: f64, peak_force: f64) -> Self {
-        Self {
-            restitution: Some(0.0),
-            contact_time_s: finite(contact_time * estimate.effective.sizes.contact_time),
-            peak_force_n: finite(peak_force * estimate.effective.sizes.peak_force),
-        }
+        let sizes = &estimate.effective.sizes;
+        let [time, force] = [contact_time * sizes.contact_time, peak_force * sizes.peak_force];
+        Self::of([Some(0.0), Some(time), Some(force)])
     }
 
     /// Returns the warning for an effect that is called for but switched off.
@@ -47,55 +49,8 @@ impl NeglectError {
 
     /// Returns a change of the restitution, with the other two unknown.
     pub(crate) fn restitution(change: f64) -> Self {
-        Self { restitution: finite(change), ..Self::default() }
+        Self::of([Some(change), None, None])
     }
-
-    /// Returns the difference between two scenes at the same approach speed (m/s), after all
-    /// transformations. Waves are left out where they are more than a correction; all is `None` where
-    /// Ting's model has no solution.
-    pub(crate) fn between(with: &Scene, without: &Scene, speed: f64) -> Self {
-        let [with, without] = [with, without].map(ComputedScene::quiet);
-        let Some((with, without)) = with.zip(without) else { return Self::default() };
-        let change = |with: &Scene, without: &Scene, size: bool| {
-            let [with, without] =
-                [with, without].map(|scene| TingPrediction::of(scene, speed, size));
-            Some(Self::difference(&with.ok()?, &without.ok()?))
-        };
-        let silent = |scene: &Scene| PartnerWaves::switched(scene, Some(Switch::Off));
-        let size = Self::has_finite_size(&with);
-        change(&with, &without, size)
-            .or_else(|| change(&with, &without, false).filter(|_| size))
-            .or_else(|| change(&silent(&with), &silent(&without), false))
-            .unwrap_or_default()
-    }
-
-    /// Returns whether the scene's model includes the spheres' finite size.
-    pub(crate) fn has_finite_size(scene: &Scene) -> bool {
-        match scene.model() {
-            ModelChoice::Fem | ModelChoice::Condensed(_) => true,
-            ModelChoice::Ting { finite_size, .. } => *finite_size,
-            _ => false,
-        }
-    }
-
-    /// Returns the difference between two impacts. Bodies that stay together have no contact time. A loss
-    /// of more than the whole energy counts as unknown.
-    pub(crate) fn difference(with: &TingPrediction, without: &TingPrediction) -> Self {
-        if (with.restitution - without.restitution).abs() > 1.0 {
-            return Self::default();
-        }
-        let times = with.contact_time.zip(without.contact_time);
-        Self {
-            restitution: finite(with.restitution - without.restitution),
-            contact_time_s: times.and_then(|(with, without)| finite(with - without)),
-            peak_force_n: finite(with.peak_force - without.peak_force),
-        }
-    }
-}
-
-/// Returns the magnitude of a finite number.
-fn finite(change: f64) -> Option<f64> {
-    change.is_finite().then_some(change.abs())
 }
 
 /// "about 0.012 of the restitution, 1.3 µs of the contact time".

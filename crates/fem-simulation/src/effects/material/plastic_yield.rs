@@ -9,9 +9,9 @@ use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
+use crate::effects::effect::{Effect, PlasticYield};
 use crate::estimate::Estimate;
 
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do
@@ -21,20 +21,7 @@ const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
 /// modulus and strength).
 const ELASTOMER: f64 = 0.1e9;
 
-/// Plastic yield of the bodies.
-#[derive(Clone, Copy, Debug)]
-pub struct PlasticYield;
-
-impl PlasticYield {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "plastic yield";
-}
-
 impl Effect for PlasticYield {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
         let first = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure));

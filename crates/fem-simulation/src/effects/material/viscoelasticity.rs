@@ -4,15 +4,16 @@
 //! a time: one that is over before the force has risen, or has not begun when the contact ends, is folded
 //! into the moduli ([`FastSlowLimits`]).
 
-use fem_case::{Body, EffectsTable, Scene, Switch};
+use fem_case::{Body, Scene, Switch};
 use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::computed_scene::TransformedScene;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
+use crate::effects::effect::{Effect, NamedEffect, Viscoelasticity};
+use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};
 use crate::rejection::Rejection;
@@ -27,24 +28,7 @@ const LEAST_FOLDED: f64 = 1e-7;
 /// Accuracy of the loss that decides on it.
 const LOSS_TOLERANCE: f64 = 1e-5;
 
-/// Relaxation of the materials.
-#[derive(Clone, Copy, Debug)]
-pub struct Viscoelasticity;
-
-impl Viscoelasticity {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "viscoelasticity";
-}
-
 impl Effect for Viscoelasticity {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.viscoelasticity
-    }
-
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let relaxing = relaxing(scene);
         if relaxing.is_empty() {
@@ -107,11 +91,9 @@ impl Effect for Viscoelasticity {
             Some(Switch::Off) => Some(Switch::Auto),
             own => own,
         };
-        let [with, without] = [followed, Some(Switch::Off)].map(|viscoelasticity| {
-            let effects = EffectsTable { viscoelasticity, ..*scene.effects() };
-            scene.clone().with_effects(effects)
-        });
-        Some(NeglectError::between(&with, &without, estimate.hertz.approach_speed()))
+        let [with, without] =
+            [followed, Some(Switch::Off)].map(|switch| self.switched(scene, switch));
+        Some(change_between(&with, &without, estimate.hertz.approach_speed()))
     }
 }
 

@@ -19,17 +19,16 @@
 //! The factors are measured: pairs, walls and half-spaces, ν from −0.4 to 0.45, elastic and relaxing, at
 //! default settings and v/c_s from 3e-3 to 0.08, within a factor of three.
 
-use fem_case::{Body, ContactMethod, EffectsTable, Scene, Switch};
+use fem_case::{Body, ContactMethod, Scene, Switch};
 use fem_material::Material;
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
-use crate::effects::material::finite_strain::FiniteStrain;
+use crate::effects::effect::{BulkViscosity, Effect, FiniteStrain};
+use crate::effects::numerics::contact_method_of_case;
 use crate::estimate::Estimate;
-use crate::plan::contact_method::requested;
 
 /// What it takes of the peak force, over v/c_s to the 3/5: ringing is not in it, which is a mean; of the
 /// largest force of a single step it takes 0.6.
@@ -40,14 +39,7 @@ const LOSS: f64 = 0.005;
 /// Approach speed over shear wave speed above which these say nothing.
 const LARGEST_MACH: f64 = 0.1;
 
-/// Artificial bulk viscosity against steep fronts.
-#[derive(Clone, Copy, Debug)]
-pub struct BulkViscosity;
-
 impl BulkViscosity {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "bulk viscosity";
-
     /// Returns whether a model that supports it computes it, for an approach speed over the shear wave
     /// speed and possibly finite strain.
     pub(crate) fn is_on(scene: &Scene, mach: f64, is_finite: bool) -> bool {
@@ -65,18 +57,10 @@ fn is_called_for(scene: &Scene, mach: f64, is_finite: bool) -> bool {
 
 /// Returns whether the contact rings without it. At finite strain springs act on nodes with mass.
 fn rings(scene: &Scene, is_finite: bool) -> bool {
-    is_finite || requested(scene) != ContactMethod::Massless
+    is_finite || contact_method_of_case(scene) != ContactMethod::Massless
 }
 
 impl Effect for BulkViscosity {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.bulk_viscosity
-    }
-
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let is_finite = FiniteStrain::laws(scene, estimate) != [None; 2];
         let is_called_for = is_called_for(scene, estimate.mach, is_finite);

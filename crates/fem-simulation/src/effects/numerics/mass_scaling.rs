@@ -10,9 +10,9 @@ use fem_case::{Body, Scene};
 use fem_collision::Collision;
 use fem_material::{Material, PronySeries};
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::relevance::percent;
 use crate::effects::effect::support::Support;
+use crate::effects::effect::{Effect, MassScaling};
 use crate::estimate::Estimate;
 
 /// Moved mass over the lighter body's mass: of 1 % the peak force is off by up to half of that.
@@ -31,14 +31,7 @@ fn left(body: &Body) -> f64 {
     1.0 - terms.map(|term| term.weight).sum::<f64>()
 }
 
-/// Mass scaling: mass moved to light nodes for a longer time step.
-#[derive(Clone, Copy, Debug)]
-pub struct MassScaling;
-
 impl MassScaling {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "mass scaling";
-
     /// Returns the factor on the moved mass in each body relative to bodies of equal compliance.
     pub(crate) fn times(scene: &Scene) -> [f64; 2] {
         let moduli = scene.bodies().each_ref().map(|body| body.partner().plane_strain_modulus());
@@ -95,18 +88,19 @@ impl MassScaling {
 }
 
 impl Effect for MassScaling {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn found(&self, scene: &Scene, collision: &Collision) -> Option<Support> {
+    fn support_in_result(&self, scene: &Scene, collision: &Collision) -> Option<Support> {
         let longer = collision.time_step? / collision.plain_time_step?;
         let masses = collision.bodies.each_ref().map(|body| body.mass);
         let added = collision.bodies.each_ref().map(|body| body.added_mass);
         Some(Self::of(scene, masses, added, longer))
     }
 
-    fn after(&self, scene: &Scene, _: &Estimate, collision: &Collision) -> Vec<String> {
+    fn warnings_of_result(
+        &self,
+        scene: &Scene,
+        _: &Estimate,
+        collision: &Collision,
+    ) -> Vec<String> {
         let shares =
             collision.added_shares().into_iter().zip(scene.bodies()).zip(Self::times(scene));
         let warnings = shares.filter_map(|((share, named), times)| {

@@ -11,23 +11,16 @@
 //! V the velocity of the mass centre. The pair's contact modulus is half of that of a body on a rigid
 //! plane, so penalty springs are twice as stiff over half of the overlap.
 
-use fem_case::{EffectsTable, Scene, Switch};
+use fem_case::{Scene, Switch};
 
-use crate::effects::effect::Effect;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::support::Support;
+use crate::effects::effect::{Effect, MirrorSymmetry};
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
-/// Two identical bodies as one against a rigid plane.
-#[derive(Clone, Copy, Debug)]
-pub struct MirrorSymmetry;
-
 impl MirrorSymmetry {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "mirror symmetry";
-
     /// Half of a scene whose bodies are identical: the lower one, against a rigid plane. `None` of a
     /// scene that has none, or that is to be computed whole.
     ///
@@ -48,7 +41,16 @@ impl MirrorSymmetry {
         }
     }
 
-    /// What a model has of it that computes half of a scene.
+    /// Returns the support of a method with elements, which rejects a switch that the bodies do not allow when it
+    /// builds the model.
+    pub(crate) fn support_by_elements(scene: &Scene) -> Support {
+        match Self::half_of(scene) {
+            Ok(None) => Support::Lacks,
+            Ok(Some(_)) | Err(_) => Self::of_half(),
+        }
+    }
+
+    /// Returns the support of a model that computes half of a scene.
     pub(crate) fn of_half() -> Support {
         let reason = "the bodies are identical: one is computed, against a rigid plane at rest \
                       between them";
@@ -57,14 +59,6 @@ impl MirrorSymmetry {
 }
 
 impl Effect for MirrorSymmetry {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.mirror_symmetry
-    }
-
     /// It saves work and changes nothing: a scene may allow it, none calls for it.
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number = match scene.has_identical_bodies() {

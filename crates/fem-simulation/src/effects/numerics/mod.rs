@@ -1,65 +1,50 @@
 //! Effects of the numerical method, and those that a model either has or lacks without a decision.
 
 mod bulk_viscosity;
-mod contact_search;
 mod mass_scaling;
 mod mirror_symmetry;
 
-use fem_case::{EffectsTable, Switch};
+use fem_case::engineering::show;
+use fem_case::{ContactMethod, Scene};
+use fem_collision::{CandidateRegion, Collision};
 
-use super::effect::Effect;
+use super::effect::neglect_error::NeglectError;
+use super::effect::support::Support;
+use super::effect::{ContactSearch, DashpotEffect, Effect, HourglassControl, PenaltySprings};
+use crate::estimate::Estimate;
 
-pub use bulk_viscosity::BulkViscosity;
-pub use contact_search::ContactSearch;
-pub use mass_scaling::MassScaling;
-pub use mirror_symmetry::MirrorSymmetry;
-
-/// The dashpot of a contact law.
-#[derive(Clone, Copy, Debug)]
-pub struct DashpotEffect;
-
-/// Hourglass control: the stiffness that elements with one integration point need against deformation
-/// modes without mean strain.
-#[derive(Clone, Copy, Debug)]
-pub struct HourglassControl;
-
-/// Penalty springs at integration points, which resist penetration, in place of a contact that allows none.
-#[derive(Clone, Copy, Debug)]
-pub struct PenaltySprings;
-
-impl DashpotEffect {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "dashpot";
+/// Returns the contact method of the case. The default is a massless boundary, which gains no energy at any
+/// penalty stiffness and does not ring (docs/contact.md).
+pub(crate) fn contact_method_of_case(scene: &Scene) -> ContactMethod {
+    scene.contact_method().unwrap_or(ContactMethod::Massless)
 }
 
-impl HourglassControl {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "hourglass control";
-}
+impl Effect for DashpotEffect {}
 
-impl PenaltySprings {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "penalty springs";
-}
+impl Effect for HourglassControl {}
 
-impl Effect for DashpotEffect {
-    fn name(&self) -> &'static str {
-        Self::NAME
+impl Effect for PenaltySprings {}
+
+impl ContactSearch {
+    /// Returns the answer of a model that searches this region.
+    pub(crate) fn within(candidate_region: &CandidateRegion) -> Support {
+        let CandidateRegion { radius, n_points, at_nodes } = candidate_region;
+        let points = if *at_nodes { "points" } else { "integration points" };
+        let flight = "free flight is not stepped";
+        Support::is(
+            true,
+            format!("{n_points} {points} within {} of the axis; {flight}", show(*radius, "m")),
+        )
     }
 }
 
-impl Effect for HourglassControl {
-    fn name(&self) -> &'static str {
-        Self::NAME
+impl Effect for ContactSearch {
+    fn neglect_error(&self, _: &Scene, _: &Estimate) -> Option<NeglectError> {
+        Some(NeglectError::NOTHING)
     }
 
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.hourglass_control
-    }
-}
-
-impl Effect for PenaltySprings {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    /// The region may have grown during the run.
+    fn support_in_result(&self, _: &Scene, collision: &Collision) -> Option<Support> {
+        collision.candidate_region.as_ref().map(Self::within)
     }
 }

@@ -9,6 +9,18 @@ use serde::{Deserialize, Serialize};
 use super::chain::Chain;
 use super::{phase, report};
 
+/// The restart state of a bouncing ball, beside that of the present contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Bounces {
+    /// Initial state of the ball, and the output request of all contacts.
+    pub(super) approach: Approach,
+    pub(super) request: OutputRequest,
+    /// Results of the finished contacts.
+    pub(super) so_far: Bounced,
+    /// Speed (m/s) of the contact for which the present model was made anew, if it was.
+    pub(super) made_at: Option<f64>,
+}
+
 /// The results of the contacts so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Bounced {

@@ -39,11 +39,10 @@ use crate::effects::{Effect, Support};
 use crate::estimate::Estimate;
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels};
 use crate::models::method_of;
-use crate::models::restart_state::RestartState;
-use crate::models::stepper::{Stepper, stopped};
+use crate::models::stepper::{RestartState, Stepper, stopped};
 use crate::rejection::Rejection;
 use bounced::Bounced;
-pub(crate) use stepper::Bounces;
+pub(crate) use bounced::Bounces;
 use stepper::BouncingCourse;
 
 /// Contact radius at rest over effective radius beyond which a sphere is no sphere any more.
@@ -159,8 +158,8 @@ impl Model for Bouncing {
         self.ball.first.setup()
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        self.ball.first.has(effect, estimate)
+    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
+        self.ball.first.support(effect, estimate)
     }
 
     fn collide(

@@ -5,27 +5,13 @@ use std::sync::Arc;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, Phase, Progress, Snapshot, Stop};
 use fem_explicit::ModelError;
 use fem_mesh::SphereMesh;
-use serde::{Deserialize, Serialize};
 
-use super::bounced::Bounced;
+use super::bounced::{Bounced, Bounces};
 use super::chain::Chain;
 use super::{Ball, fallen, first_request, later_request};
-use crate::models::method::Model;
-use crate::models::restart_state::RestartState;
-use crate::models::stepper::{Stepper, begun};
+use crate::models::method::{Model, begun};
+use crate::models::stepper::{RestartState, Stepper};
 use crate::rejection::Rejection;
-
-/// The restart state of a bouncing ball, beside that of the present contact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Bounces {
-    /// Initial state of the ball, and the output request of all contacts.
-    approach: Approach,
-    request: OutputRequest,
-    /// Results of the finished contacts.
-    so_far: Bounced,
-    /// Speed (m/s) of the contact for which the present model was made anew, if it was.
-    made_at: Option<f64>,
-}
 
 /// A ball that bounces, under way.
 pub(super) struct BouncingCourse {
@@ -162,8 +148,8 @@ impl Stepper for BouncingCourse {
         }
     }
 
-    fn memory(&self) -> Option<RestartState> {
-        let contact = self.contact.as_ref()?.memory()?;
+    fn restart_state(&self) -> Option<RestartState> {
+        let contact = self.contact.as_ref()?.restart_state()?;
         Some(RestartState { bounces: Some(Box::new(self.known.clone())), ..contact })
     }
 

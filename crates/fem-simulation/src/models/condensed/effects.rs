@@ -3,34 +3,37 @@
 use fem_case::{CondensedOptions, Scene};
 use fem_condensed::CondensedPair;
 
+use super::options;
 use crate::effects::{
     ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves, PenaltySprings,
     PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
-/// Returns the support of a condensed pair for each effect.
-pub(super) fn has(
+/// Returns the support of a scene's condensed bodies for an effect; without the bodies, as far as it is known before
+/// they are condensed.
+pub(super) fn support(
     effect: &dyn Effect,
     scene: &Scene,
     estimate: &Estimate,
-    pair: &CondensedPair,
-    options: CondensedOptions,
+    pair: Option<&CondensedPair>,
 ) -> Option<Support> {
+    let options = options(scene);
     Some(match effect.name() {
         Viscoelasticity::NAME => Support::Inherent { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
         PartnerWaves::NAME => PartnerWaves::of_condensed(scene, estimate),
         Vibration::NAME => {
-            let spheres = modes_of_spheres(scene, pair);
+            let spheres = pair.map(|pair| modes_of_spheres(scene, pair)).unwrap_or_default();
             Vibration::of_modes(estimate, options.vibration_modes, &spheres)
         }
         PenaltySprings::NAME => match options.penalty_springs {
             true => Support::is(true, "those of the explicit model, at its Gauss points"),
             false => Support::is(false, "the surfaces do not overlap at the nodes"),
         },
-        ContactSearch::NAME => ContactSearch::within(&pair.candidate_region()),
+        ContactSearch::NAME => ContactSearch::within(&pair?.candidate_region()),
+        MirrorSymmetry::NAME if pair.is_none() => MirrorSymmetry::support_by_elements(scene),
         FiniteStrain::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
             Support::Lacks
         }

@@ -24,11 +24,10 @@ use fem_mesh::SphereMesh;
 use self::bytes::relaxes_in_shear;
 use self::pace::{Foretold, n_steps};
 use super::mirrored::{Mirrored, plan_of_half};
-use crate::effects::{
-    Effect, MirrorSymmetry, PartnerWaves, Support, SurfaceSlip, Vibration, decide,
-};
+use crate::effects::{Effect, MirrorSymmetry, PartnerWaves, Support, Vibration, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
+use crate::estimate::quasi_static::surfaces_slip;
 use crate::estimate::viscous_flow::slower;
 use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
 use crate::plan::Plan;
@@ -65,6 +64,10 @@ impl Method for CondensedMethod {
         let plan = Plan::of(scene)?;
         let model = Condensed::with_plan(&half, plan_of_half(&plan, &half)?, shared)?;
         Ok(Box::new(Mirrored::new(model, scene, plan)?))
+    }
+
+    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
+        effects::support(effect, scene, estimate, None)
     }
 
     fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
@@ -132,8 +135,8 @@ impl Condensed {
                 .map_err(|error| Rejection::new(scene.model().path(), error.to_string()))
         })?;
         let estimate = &plan.estimate;
-        let has = |effect: &dyn Effect| effects::has(effect, scene, estimate, &pair, options);
-        let decisions = decide(scene, estimate, has)?;
+        let support = |effect: &dyn Effect| effects::support(effect, scene, estimate, Some(&pair));
+        let decisions = decide(scene, estimate, support)?;
         let mut unread = plan.warnings.clone();
         unread.extend(effects::unread_keys(scene, options));
         let approach = approach_of(scene)?;
@@ -301,8 +304,8 @@ impl Model for Condensed {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        effects::has(effect, &self.scene, estimate, &self.pair, self.options)
+    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
+        effects::support(effect, &self.scene, estimate, Some(&self.pair))
     }
 
     fn collide(
@@ -395,7 +398,7 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
         contact,
         vibration_modes: options.vibration_modes,
         held: scene.bodies().each_ref().map(fem_case::Body::is_held),
-        slip: SurfaceSlip::is_on(scene).then(|| {
+        slip: surfaces_slip(scene).then(|| {
             let slip = scene.surface_slip();
             Slip { curvature: slip.curvature(), shares: slip.shares() }
         }),

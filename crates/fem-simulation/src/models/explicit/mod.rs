@@ -25,10 +25,10 @@ use crate::effects::{
     Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
+use crate::estimate::quasi_static::surfaces_slip;
 use crate::estimate::{Estimate, mach};
-use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
-use crate::models::restart_state::RestartState;
-use crate::models::stepper::{Stepper, stopped, to_the_end};
+use crate::models::method::{ElementSetup, Method, Model, ModelSetup, SharedModels};
+use crate::models::stepper::{RestartState, Stepper, stopped, to_the_end};
 use crate::plan::body_source::BodySource;
 use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::contact_method::unread;
@@ -56,11 +56,8 @@ impl Method for ExplicitMethod {
         Ok(Box::new(Mirrored::new(model, scene, plan)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
-        match self.build(scene, &SharedModels::default())?.setup().cost {
-            Cost::Steps { element_updates, .. } => Ok(element_updates),
-            _ => Ok(0),
-        }
+    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
+        support(effect, scene, estimate, None)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
@@ -133,8 +130,8 @@ impl Explicit {
         let frame = made.own_frame(&approach).map_err(refused)?;
         let bodies = made.bodies(frame.own(), plan.candidate_radius).map_err(refused)?;
         let cost = cost(scene, &bodies, &plan)?;
-        let decisions =
-            decide(scene, &plan.estimate, |effect| has(effect, scene, &plan.estimate, &bodies))?;
+        let support = |effect: &dyn Effect| support(effect, scene, &plan.estimate, Some(&bodies));
+        let decisions = decide(scene, &plan.estimate, support)?;
         let setup = ModelSetup {
             description: "model fem, explicit finite elements".to_string(),
             approach,
@@ -243,8 +240,8 @@ impl Model for Explicit {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, _: &Estimate) -> Option<Support> {
-        has(effect, &self.made.scene, &self.setup.estimate, &self.bodies)
+    fn support(&self, effect: &dyn Effect, _: &Estimate) -> Option<Support> {
+        support(effect, &self.made.scene, &self.setup.estimate, Some(&self.bodies))
     }
 
     fn collide(
@@ -321,7 +318,7 @@ impl Stepper for ExplicitCourse {
         self.frame.progress(Progress { fraction, ..progress })
     }
 
-    fn memory(&self) -> Option<RestartState> {
+    fn restart_state(&self) -> Option<RestartState> {
         let contact = self.run.restart_state().clone();
         let (met, refinement, levels) = (*self.frame.met(), 1.0, Vec::new());
         Some(RestartState { contact, bounces: None, met, refinement, levels })
@@ -353,7 +350,7 @@ fn parts(
     speed: f64,
 ) -> Result<Parts, ModelError> {
     let held = scene.bodies().each_ref().map(Body::is_held);
-    let surface_slip = SurfaceSlip::is_on(scene);
+    let surface_slip = surfaces_slip(scene);
     let mut parts = Parts { held, surface_slip, ..Parts::default() };
     if let Ok(estimate) = Estimate::at(scene, approach_speed) {
         parts.finite_strain = FiniteStrain::laws(scene, &estimate);
@@ -402,16 +399,23 @@ fn method(planned: fem_case::ContactMethod) -> ContactMethod {
     }
 }
 
-/// Returns the support of explicit elements for each effect.
-fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) -> Option<Support> {
+/// Returns the support of explicit elements for an effect; without the bodies, as far as it is known before they are
+/// meshed.
+fn support(
+    effect: &dyn Effect,
+    scene: &Scene,
+    estimate: &Estimate,
+    bodies: Option<&Bodies>,
+) -> Option<Support> {
     Some(match effect.name() {
         Viscoelasticity::NAME => Support::Inherent { idle: "no history is kept" },
         HourglassControl::NAME => {
             let why = "elements with one mean stress need the stiffness of their bending modes";
             Support::is(true, why)
         }
-        ContactSearch::NAME => ContactSearch::within(&model.candidate_region()),
-        MassScaling::NAME => mass_scaling(scene, model),
+        ContactSearch::NAME => ContactSearch::within(&bodies?.candidate_region()),
+        MassScaling::NAME => mass_scaling(scene, bodies?),
+        MirrorSymmetry::NAME if bodies.is_none() => MirrorSymmetry::support_by_elements(scene),
         PartnerWaves::NAME | Gravity::NAME => Support::Inherent { idle: "" },
         BulkViscosity::NAME => Support::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),

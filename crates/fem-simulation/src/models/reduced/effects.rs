@@ -1,6 +1,8 @@
-//! What a reduced model has of each effect, and what it leaves out of a case that has it.
+//! Support of reduced models for each effect, and the keys of a case that they do not read.
 
 use fem_case::{ModelChoice, Scene, Snapshots, Switch};
+use fem_laws::laws::ContactLaw;
+use fem_material::engineering::number;
 
 use crate::effects::{
     DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves, PlasticYield,
@@ -8,55 +10,29 @@ use crate::effects::{
 };
 use crate::estimate::Estimate;
 
-/// What one reduced model has that another lacks.
-#[derive(Clone, Debug)]
-pub(in crate::models) struct Traits {
-    /// What it has of the relaxation.
-    pub relaxation: Relaxation,
-    /// Its dashpot, in words; none where it has none.
-    pub dashpot: Option<String>,
-    /// Whether it has surfaces that slip on each other, as a term of its own.
-    pub slip: bool,
-    /// Whether it has the waves that do not come back, as a term of its own.
-    pub waves: bool,
-    /// Whether it has the spheres' own compliance, and why.
-    pub finite_size: (bool, &'static str),
-}
-
-/// What a reduced model has of the relaxation of the materials.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::models) enum Relaxation {
-    /// All of it.
-    Whole,
-    /// Its limit for slow contacts, relaxed moduli and viscosities.
-    SlowLimit,
-    /// Nothing: the moduli are instantaneous.
-    Nothing,
-}
-
 /// Longest relaxation time over the contact time up to which the contact is slow.
 const SLOW_LIMIT: f64 = 0.1;
 
-/// What a reduced model has of each effect.
-pub(super) fn has(
+/// Returns the support of a scene's reduced model for an effect. The contact law, if there is one, describes its
+/// dashpot.
+pub(super) fn support(
     effect: &dyn Effect,
     scene: &Scene,
     estimate: &Estimate,
-    traits: &Traits,
+    law: Option<&ContactLaw>,
 ) -> Option<Support> {
+    let is_ting = matches!(scene.model(), ModelChoice::Ting { .. });
     Some(match effect.name() {
-        Viscoelasticity::NAME => relaxation(scene, estimate, traits.relaxation),
-        DashpotEffect::NAME => dashpot(scene.model(), traits.dashpot.as_deref()),
-        FiniteSizeEffect::NAME => match (scene.model(), traits.finite_size) {
-            (ModelChoice::Law { .. }, (is_there, reason)) => Support::is(is_there, reason),
-            (_, finite_size) => FiniteSizeEffect::of_first_order(scene, estimate, finite_size),
-        },
-        PartnerWaves::NAME if traits.waves => {
+        Viscoelasticity::NAME if is_ting => Support::Inherent { idle: "" },
+        Viscoelasticity::NAME => relaxation(scene, estimate),
+        DashpotEffect::NAME => dashpot(scene.model(), law),
+        FiniteSizeEffect::NAME => finite_size(scene, estimate),
+        PartnerWaves::NAME if is_ting => {
             PartnerWaves::of_term(scene, estimate, PartnerWaves::radiating)
         }
+        SurfaceSlip::NAME if is_ting => Support::Computes { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-        SurfaceSlip::NAME if traits.slip => Support::Computes { idle: "" },
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
@@ -66,55 +42,76 @@ pub(super) fn has(
     })
 }
 
-/// What the case gives and a reduced model does not read.
+/// Returns warnings about keys of the case that a reduced model does not read.
 pub(super) fn unread_keys(scene: &Scene) -> Vec<String> {
     let name = describe(scene.model());
-    // Who asks for none has them.
     let is_asked = |asked: &&Snapshots| match asked {
         Snapshots::Labels(labels) => !labels.is_empty(),
         Snapshots::Count(n) => *n > 0,
         Snapshots::Times(times) => !times.is_empty(),
     };
     let snapshots = scene.snapshots().filter(is_asked).map(|_| ("snapshots", "to draw"));
-    let probes = scene.probes().first().map(|_| ("probe", "to tell of"));
+    let probes = scene.probes().first().map(|_| ("probe", "to record"));
     let warning = |(key, what)| format!("output.{key} has no effect: {name} has no fields {what}");
     snapshots.into_iter().chain(probes).map(warning).collect()
 }
 
-/// What the model has of the relaxation.
-fn relaxation(scene: &Scene, estimate: &Estimate, has: Relaxation) -> Support {
+/// Returns the support of a model that takes instantaneous moduli, or the limit of slow contacts, for relaxation.
+fn relaxation(scene: &Scene, estimate: &Estimate) -> Support {
     let relevance = Viscoelasticity.relevance(scene, estimate).unwrap_or_default();
-    if !relevance.is_called_for {
-        return Support::Inherent { idle: "" };
+    let reason = relevance.number;
+    let has_slow_limit =
+        matches!(scene.model(), ModelChoice::Law { law, .. } if law.is_slow_limit());
+    if has_slow_limit && relevance.is_called_for {
+        let reason =
+            format!("{reason}; the law has its slow limit, relaxed moduli and viscosities");
+        return Support::is(true, reason).warning(slowness(scene, estimate));
     }
-    if has == Relaxation::Nothing && scene.effects().viscoelasticity == Some(Switch::On) {
+    if !relevance.is_called_for {
+        return Support::is(false, reason);
+    }
+    if scene.effects().viscoelasticity == Some(Switch::On) {
         return Support::Lacks;
     }
-    let reason = relevance.number;
-    match has {
-        Relaxation::Whole => Support::Inherent { idle: "" },
-        Relaxation::SlowLimit => {
-            let reason =
-                format!("{reason}; the law has its slow limit, relaxed moduli and viscosities");
-            Support::is(true, reason).warning(slowness(scene, estimate))
-        }
-        Relaxation::Nothing => {
-            let name = describe(scene.model());
-            let warning = format!(
-                "{reason}, and {name} does not know it: it takes the instantaneous moduli. Model \
-                 ting or fem computes the relaxation"
-            );
-            Support::is(false, format!("{reason}; not in {name}")).warning([warning])
-        }
-    }
+    let name = describe(scene.model());
+    let warning = format!(
+        "{reason}, and {name} does not include it: it takes the instantaneous moduli. Model ting or fem computes \
+         the relaxation"
+    );
+    Support::is(false, format!("{reason}; not in {name}")).warning([warning])
 }
 
-fn dashpot(model: &ModelChoice, dashpot: Option<&str>) -> Support {
+fn dashpot(model: &ModelChoice, law: Option<&ContactLaw>) -> Support {
     let name = describe(model);
-    match dashpot {
-        Some(dashpot) => Support::is(true, format!("{name}: {dashpot}")),
-        None => Support::is(false, format!("{name} has none here")),
-    }
+    let Some(law) = law.filter(|law| law.damping() > 0.0) else {
+        return Support::is(false, format!("{name} has none here"));
+    };
+    let exponent = law.damping_exponent();
+    let power = match number(exponent + 1.0, 5).as_str() {
+        "1" => String::new(),
+        power => format!("^{power}"),
+    };
+    let overlap = match exponent {
+        0.0 => String::new(),
+        n => format!(" × overlap^{}", number(n, 5)),
+    };
+    let damping = number(law.damping(), 5);
+    let reason = format!(
+        "{name}: force = C{overlap} × speed against the motion, C = {damping} N s/m{power}"
+    );
+    Support::is(true, reason)
+}
+
+fn finite_size(scene: &Scene, estimate: &Estimate) -> Support {
+    let is_there = match scene.model() {
+        ModelChoice::Hertz { finite_size } | ModelChoice::Ting { finite_size, .. } => *finite_size,
+        _ => return Support::is(false, "a law's stiffness is given"),
+    };
+    let reason = match is_there {
+        true => "the spheres' own compliance is in series, to first order",
+        false => "half-spaces; finite_size = true adds the spheres' own compliance",
+    };
+    FiniteSizeEffect::of_first_order(scene, estimate, (is_there, reason))
 }
 
 fn describe(model: &ModelChoice) -> String {
@@ -124,7 +121,7 @@ fn describe(model: &ModelChoice) -> String {
     }
 }
 
-/// A warning if the contact is not slow next to the relaxation.
+/// Returns a warning if the contact is not slow compared with the relaxation.
 fn slowness(scene: &Scene, estimate: &Estimate) -> Option<String> {
     let series = scene.bodies().iter().filter_map(|body| body.material()?.relaxation());
     let times = series.flat_map(|series| series.terms()).filter(|term| term.weight > 0.0);
@@ -133,7 +130,7 @@ fn slowness(scene: &Scene, estimate: &Estimate) -> Option<String> {
     (ratio > SLOW_LIMIT).then(|| {
         format!(
             "the longest relaxation time is {ratio:.2} contact times; above {SLOW_LIMIT} the slow \
-             limit that kuwabara_kono takes from the materials is in doubt, and model ting is not"
+             limit that kuwabara_kono takes from the materials does not hold: use model ting"
         )
     })
 }

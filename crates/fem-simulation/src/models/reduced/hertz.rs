@@ -5,10 +5,10 @@ use fem_case::schema::{HertzTable, ModelTable};
 use fem_case::{CaseFile, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use super::effects::{Relaxation, Traits};
+use super::effects::support;
 use super::ting;
-use super::{Motion, Moving, Reduced, resolve_start};
-use crate::effects::SurfaceSlip;
+use super::{Motion, Reduced, resolve_start};
+use crate::effects::{Effect, NamedEffect, Support, SurfaceSlip};
 use crate::estimate::Estimate;
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
@@ -26,8 +26,8 @@ impl Method for HertzMethod {
         Ok(Box::new(build(scene)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
-        build(scene).map(|_| 0)
+    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
+        support(effect, scene, estimate, None)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
@@ -63,21 +63,13 @@ pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
     let motion: Box<dyn Motion> = match is_closed {
         true => Box::new(ClosedForm(estimate.hertz)),
         false => {
-            let scene = SurfaceSlip::switched(scene, Switch::Off);
+            let scene = SurfaceSlip.switched(scene, Some(Switch::Off));
             Box::new(ting::motion(&scene, &estimate, false, finite_size, tolerance)?)
         }
     };
-    let description = match !is_closed {
-        false => "model hertz, a closed form",
-        true => "model hertz, one degree of freedom",
+    let description = match is_closed {
+        true => "model hertz, a closed form",
+        false => "model hertz, one degree of freedom",
     };
-    let traits = Traits {
-        waves: false,
-        slip: false,
-        relaxation: Relaxation::Nothing,
-        dashpot: None,
-        finite_size: ting::finite_size(finite_size),
-    };
-    let (description, pair) = (description.to_string(), *estimate.hertz.pair());
-    Reduced::of(scene, estimate, Moving { motion, pair, description, traits })
+    Reduced::of(scene, estimate, *estimate.hertz.pair(), motion, description.to_string())
 }

@@ -6,10 +6,10 @@ use fem_laws::laws::ContactLaw;
 use fem_laws::{
     EndRule, Impact, LawContext, LawError, LawImpact, LawInput, LawInputError, Pair, PairRelaxation,
 };
-use fem_material::engineering::number;
 
-use super::effects::{Relaxation, Traits};
-use super::{Motion, Moving, Reduced, refused, resolve_start};
+use super::effects::support;
+use super::{Motion, Reduced, refused, resolve_start};
+use crate::effects::{Effect, Support};
 use crate::estimate::Estimate;
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
@@ -27,8 +27,8 @@ impl Method for LawMethod {
         Ok(Box::new(build(scene)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
-        build(scene).map(|_| 0)
+    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
+        support(effect, scene, estimate, None)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
@@ -95,36 +95,13 @@ pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
         return Err(Rejection::new(scene.model().path(), message));
     };
     let description = format!("model law {name}, one degree of freedom");
-    let takes_slow_limit = law.is_slow_limit();
     let law = made.map_err(refuse)?;
     let impact = LawImpact::new(&pair, law).with_end_rule(end_rule);
     let gravity = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
     let impact = impact.with_tolerance(tolerance).and_then(|impact| impact.with_gravity(gravity));
     let impact = impact.map_err(refuse)?;
     let motion = Box::new(LawMotion { impact, law, numbers });
-    let traits = Traits {
-        waves: false,
-        slip: false,
-        relaxation: match takes_slow_limit {
-            true => Relaxation::SlowLimit,
-            false => Relaxation::Nothing,
-        },
-        dashpot: (law.damping() > 0.0).then(|| {
-            let exponent = law.damping_exponent();
-            let power = match number(exponent + 1.0, 5).as_str() {
-                "1" => String::new(),
-                power => format!("^{power}"),
-            };
-            let overlap = match exponent {
-                0.0 => String::new(),
-                n => format!(" × overlap^{}", number(n, 5)),
-            };
-            let damping = number(law.damping(), 5);
-            format!("force = C{overlap} × speed against the motion, C = {damping} N s/m{power}")
-        }),
-        finite_size: (false, "a law's stiffness is given"),
-    };
-    Reduced::of(scene, estimate, Moving { motion, pair, description, traits })
+    Reduced::of(scene, estimate, pair, motion, description)
 }
 
 fn law_numbers(

@@ -10,8 +10,7 @@ pub use law::LawMethod;
 pub use ting::TingMethod;
 
 mod collision;
-pub(super) mod effects;
-mod static_contact;
+mod effects;
 
 use std::fmt;
 
@@ -19,14 +18,14 @@ use fem_case::schema::StartTable;
 use fem_case::{CaseFile, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_laws::laws::ContactLaw;
-use fem_laws::{Impact, LawError, Pair};
+use fem_laws::{Impact, LawError, Pair, StaticHertz};
 
 use crate::effects::{Effect, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::models::method::{Cost, ForceLaw, Model, ModelSetup};
 use crate::rejection::Rejection;
-use effects::Traits;
+use collision::HERTZ_EXPONENT;
 
 /// What computes a relative motion.
 pub(super) trait Motion: fmt::Debug + Send + Sync {
@@ -49,18 +48,6 @@ pub(super) trait Motion: fmt::Debug + Send + Sync {
     }
 }
 
-/// A motion of a scene's bodies, and what is to be known of it.
-pub(super) struct Moving {
-    /// What computes it.
-    pub motion: Box<dyn Motion>,
-    /// Of the motion: with relaxed moduli if the law is a slow limit.
-    pub pair: Pair,
-    /// In a few words, what is integrated.
-    pub description: String,
-    /// What the model has that another lacks.
-    pub traits: Traits,
-}
-
 /// A scene with a reduced model, ready to run.
 #[derive(Debug)]
 pub struct Reduced {
@@ -68,18 +55,23 @@ pub struct Reduced {
     scene: Scene,
     motion: Box<dyn Motion>,
     pair: Pair,
-    traits: Traits,
 }
 
 impl Reduced {
-    /// A scene whose bodies move like this.
+    /// Makes the model of a scene from its motion. The pair has relaxed moduli if the law is a slow limit.
     ///
     /// # Errors
     /// An effect that the case forces on and a reduced model lacks.
-    pub(super) fn of(scene: &Scene, estimate: Estimate, moving: Moving) -> Result<Self, Rejection> {
-        let Moving { motion, pair, description, traits } = moving;
-        let has = |effect: &dyn Effect| effects::has(effect, scene, &estimate, &traits);
-        let decisions = decide(scene, &estimate, has)?;
+    pub(super) fn of(
+        scene: &Scene,
+        estimate: Estimate,
+        pair: Pair,
+        motion: Box<dyn Motion>,
+        description: String,
+    ) -> Result<Self, Rejection> {
+        let support =
+            |effect: &dyn Effect| effects::support(effect, scene, &estimate, motion.law());
+        let decisions = decide(scene, &estimate, support)?;
         let force = motion.law().map(|law| ForceLaw {
             stiffness: law.stiffness(),
             elastic_exponent: law.elastic_exponent(),
@@ -96,7 +88,7 @@ impl Reduced {
             cost: Cost::Little { force },
             elements: None,
         };
-        Ok(Self { setup, scene: scene.clone(), motion, pair, traits })
+        Ok(Self { setup, scene: scene.clone(), motion, pair })
     }
 
     /// The scene.
@@ -128,8 +120,8 @@ impl Model for Reduced {
         &self.setup
     }
 
-    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        effects::has(effect, &self.scene, estimate, &self.traits)
+    fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
+        effects::support(effect, &self.scene, estimate, self.law())
     }
 
     /// Closed forms and short integrations: nobody needs to look on.
@@ -153,11 +145,40 @@ impl Model for Reduced {
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
         let found = match self.law() {
-            Some(law) => static_contact::of_law(law, &self.pair, force).map(Some),
-            None => static_contact::of_hertz(&self.pair, self.motion.equilibrium_weight(), force),
+            Some(law) => under_spring(law, &self.pair, force).map(Some),
+            None => relaxed_hertz(&self.pair, self.motion.equilibrium_weight(), force),
         };
         found.map_err(|error| refused(&self.scene, &error))
     }
+}
+
+/// Returns Hertz' static contact with the equilibrium modulus; `None` if that is zero.
+fn relaxed_hertz(
+    pair: &Pair,
+    equilibrium_weight: f64,
+    force: f64,
+) -> Result<Option<StaticContact>, LawError> {
+    if equilibrium_weight == 0.0 {
+        return Ok(None);
+    }
+    let hertz = StaticHertz::new(&pair.with_modulus_share(equilibrium_weight)?, force)?;
+    Ok(Some(StaticContact {
+        force,
+        approach: hertz.approach,
+        contact_radius: Some(hertz.contact_radius),
+        centre_pressure: Some(hertz.peak_pressure),
+    }))
+}
+
+/// Returns the static contact of a law's spring alone, F = K δ^γ.
+fn under_spring(law: &ContactLaw, pair: &Pair, force: f64) -> Result<StaticContact, LawError> {
+    let approach = (force / law.stiffness()).powf(law.elastic_exponent().recip());
+    if !(approach > 0.0 && approach.is_finite()) {
+        return Err(LawError::NotPositive { quantity: "static approach", value: approach });
+    }
+    let has_radius = law.elastic_exponent() == HERTZ_EXPONENT;
+    let contact_radius = has_radius.then(|| (pair.effective_radius() * approach).sqrt());
+    Ok(StaticContact { force, approach, contact_radius, centre_pressure: None })
 }
 
 fn stop_of(error: &LawError) -> Stop {

@@ -4,9 +4,9 @@ use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::{Impact, LawError, Ting};
 
-use super::effects::{Relaxation, Traits};
-use super::{Motion, Moving, Reduced, refused, resolve_start};
-use crate::effects::PartnerWaves;
+use super::effects::support;
+use super::{Motion, Reduced, refused, resolve_start};
+use crate::effects::{Effect, PartnerWaves, Support};
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::ting_of;
 use crate::estimate::semi_infinite_partner::radiating_impact;
@@ -27,8 +27,8 @@ impl Method for TingMethod {
         Ok(Box::new(build(scene)?))
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
-        build(scene).map(|_| 0)
+    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
+        support(effect, scene, estimate, None)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
@@ -102,24 +102,8 @@ pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
     viscous_flow::check(scene, &estimate)?;
     let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
     let motion = Box::new(WithWaves { ting, scene: scene.clone(), finite_size, tolerance });
-    let traits = Traits {
-        waves: true,
-        slip: true,
-        relaxation: Relaxation::Whole,
-        dashpot: None,
-        finite_size: self::finite_size(finite_size),
-    };
     let description = "model ting, one degree of freedom".to_string();
-    let pair = *estimate.hertz.pair();
-    Reduced::of(scene, estimate, Moving { motion, pair, description, traits })
-}
-
-/// Whether the spheres' own compliance is there, and why.
-pub(super) fn finite_size(is_there: bool) -> (bool, &'static str) {
-    match is_there {
-        true => (true, "the spheres' own compliance is in series, to first order"),
-        false => (false, "half-spaces; finite_size = true adds the spheres' own compliance"),
-    }
+    Reduced::of(scene, estimate, *estimate.hertz.pair(), motion, description)
 }
 
 /// Ting's model of a scene, of the materials or of elastic ones with the same instantaneous moduli.

@@ -6,6 +6,8 @@ use std::ops::{Add, Mul};
 use fem_case::Accuracy;
 use fem_material::finite::HyperelasticLaw;
 
+use crate::effects::effect::relevance::percent;
+
 use super::measured::{CHANGES, POISSONS_RATIOS, STRAINS};
 
 /// Contact radius over sphere radius of the flattest computed sphere.
@@ -95,7 +97,7 @@ impl Departure {
     /// "1.00 % of the contact time, 1.80 % of the peak force and 5.00 % of the peak pressure".
     pub fn in_words(&self) -> String {
         let shares = [self.contact_time, self.peak_force, self.peak_pressure];
-        let [time, force, pressure] = shares.map(|share| super::percent(share.abs()));
+        let [time, force, pressure] = shares.map(|share| percent(share.abs()));
         format!(
             "{time} of the contact time, {force} of the peak force and {pressure} of the peak pressure"
         )

@@ -25,20 +25,19 @@ mod measured;
 mod strained;
 
 use fem_case::engineering::show;
-use fem_case::{Body, EffectsTable, ModelChoice, Scene, Switch};
+use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_collision::{Collision, QuantityOfInterest};
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
 use self::departure::Departure;
 use self::strained::Strained;
-use crate::effects::bodies::partner_waves::PartnerWaves;
-use crate::effects::effect::Effect;
 use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
-use crate::effects::ting_prediction::TingPrediction;
+use crate::effects::effect::{Effect, FiniteStrain, PartnerWaves};
+use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
@@ -64,14 +63,7 @@ const LEFT_FAR_AWAY: f64 = 0.03;
 /// Contact radii within which all elements are at finite strain, whatever the case allows.
 const NEAREST: f64 = 3.0;
 
-/// Finite strain and rotations.
-#[derive(Clone, Copy, Debug)]
-pub struct FiniteStrain;
-
 impl FiniteStrain {
-    /// The effect's name in results.
-    pub const NAME: &'static str = "finite strain";
-
     /// The laws of both bodies of a scene whose strains are those of an estimate; `None` of one that is
     /// computed at small strain.
     pub fn laws(scene: &Scene, estimate: &Estimate) -> [Option<HyperelasticLaw>; 2] {
@@ -195,21 +187,6 @@ fn with_relaxation(scene: &Scene, estimate: &Estimate, change: Departure) -> Dep
     Departure { restitution: change.restitution + lost, ..change }
 }
 
-/// Returns the loss of restitution by relaxation at small strain.
-pub(in crate::effects) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
-    let mut materials = scene.bodies().iter().filter_map(Body::material);
-    if !materials.any(|material| material.relaxation().is_some()) {
-        return 0.0;
-    }
-    let speed = estimate.hertz.approach_speed();
-    // With the spheres' own compliance where the model has it: what relaxation is worth asks for that, too.
-    let size = NeglectError::has_finite_size(scene);
-    let sized = size.then(|| TingPrediction::of(scene, speed, true).ok()).flatten();
-    let impact = sized.or_else(|| TingPrediction::of(scene, speed, false).ok());
-    let loss = impact.map_or(0.0, |impact| 1.0 - impact.restitution);
-    (loss - PartnerWaves::loss(scene, estimate)).max(0.0)
-}
-
 /// Returns the spread of the contact time over the laws that the case leaves open, as a share.
 fn spread(scene: &Scene, estimate: &Estimate) -> f64 {
     Strained::of_both(scene, estimate).iter().flatten().map(Strained::spread).sum()
@@ -256,14 +233,6 @@ fn laws_in_words(scene: &Scene, estimate: &Estimate) -> String {
 }
 
 impl Effect for FiniteStrain {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
-        effects.finite_strain
-    }
-
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let open = in_words(scene, estimate);
         let is_called_for = is_called_for(scene, estimate);
@@ -306,9 +275,9 @@ impl Effect for FiniteStrain {
         &self,
         scene: &Scene,
         estimate: &Estimate,
-        standing: &EffectStatus,
+        status: &EffectStatus,
     ) -> ModelFormError {
-        let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
+        let computed = if status.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = Strained::of_both(scene, estimate);
         let both =
             || both.iter().zip(computed).filter_map(|(body, law)| Some((body.as_ref()?, law)));
@@ -336,7 +305,12 @@ impl Effect for FiniteStrain {
     }
 
     /// The estimate warns before the run; this warns of the strains that occurred.
-    fn after(&self, scene: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
+    fn warnings_of_result(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        collision: &Collision,
+    ) -> Vec<String> {
         let radius = estimate.hertz.pair().effective_radius();
         let strain = collision.max_contact_radius.unwrap_or_default() / radius;
         let found = Estimate { strain, ..*estimate };
