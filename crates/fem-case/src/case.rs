@@ -237,7 +237,8 @@ impl CaseFile {
     /// # Errors
     /// Fails if code has set a value that TOML cannot represent; a case that was read has none.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
+        // By way of a table: the tables of a case are compiled for one serializer instead of three.
+        toml::to_string(&toml::Table::try_from(self)?)
     }
 
     /// Returns the keys and values as TOML.
