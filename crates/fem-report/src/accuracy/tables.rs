@@ -35,7 +35,7 @@ impl AccuracyTable {
 
 /// Returns the tables on the terminal: the fastest variants at each accuracy, limits and sources of error.
 pub fn terminal_tables(result: &AccuracyResult<'_>) -> Vec<AccuracyTable> {
-    let heading = "Most accurate for their time";
+    let heading = "Most accurate for their computing time";
     let fastest = variants(result, heading, |run| run.errors.is_on_frontier);
     with_rows([fastest, limits(result), error_parts(result)])
 }
@@ -127,7 +127,7 @@ fn limits(result: &AccuracyResult<'_>) -> AccuracyTable {
     });
     AccuracyTable::new(
         "The limit",
-        ["", "limit", "uncertainty", "condensed", "explicit adds"],
+        ["", "limit", "uncertainty", "condensed", "explicit − condensed"],
         rows,
     )
 }
@@ -137,7 +137,7 @@ fn error_parts(result: &AccuracyResult<'_>) -> AccuracyTable {
     let rows = parts.map(|part| {
         std::iter::once(part.source.name().to_string()).chain(errors(part.errors)).collect()
     });
-    let heading = "Sources of error, with eight elements across the contact";
+    let heading = "Sources of error, with eight elements across the contact radius";
     AccuracyTable::new(heading, std::iter::once("").chain(SYMBOLS), rows)
 }
 

@@ -42,7 +42,7 @@ pub struct Arguments {
     input: CaseArguments,
     #[command(flatten)]
     within: ToleranceArguments,
-    /// Time budget in seconds; what is running then is abandoned
+    /// Time budget in seconds; the run in progress is stopped
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     budget: f64,
     #[command(flatten)]
@@ -137,7 +137,7 @@ fn measure(
         let fits = left > 0.0 && !interrupt.is_requested() && forecast.seconds(variant) <= left;
         let ran = fits.then(|| run(variant, variants.contact_radius, deadline)).transpose()?;
         let took =
-            ran.as_ref().map_or("no time left".to_string(), |(_, seconds)| show(*seconds, "s"));
+            ran.as_ref().map_or("skipped: budget spent".to_string(), |(_, seconds)| show(*seconds, "s"));
         let (series, describe) = (variant.series.name(), variant.describe());
         progress.finish_item(&format!("{took:>12}  {series}  {describe}"));
         if let Some(ran) = ran {

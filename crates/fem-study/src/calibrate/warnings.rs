@@ -84,12 +84,12 @@ impl Calibration {
         if !misses(&self.fit) {
             return None;
         }
-        let none = "no series of these relaxation times makes these data";
-        let flatness = "the ranges show flatness, not probability";
+        let none = "no series of these relaxation times fits these data";
+        let meaningless = "so the ranges have no statistical meaning";
         let remedy = format!("try more {} or other {}", names.terms, names.times);
         Some(match self.fit.misfit {
             Some(misfit) if !self.has_uncertainties() => format!(
-                "the misfit is {misfit:.1} times the scatter of repeats: {none}, and {flatness}; \
+                "the misfit is {misfit:.1} times the scatter of repeats: {none}, {meaningless}; \
                  {remedy}"
             ),
             Some(misfit) => format!(
@@ -98,7 +98,7 @@ impl Calibration {
             ),
             None => {
                 let rms = self.fit.rms;
-                format!("the rms error is {rms:.3}: {none}, and {flatness}; {remedy}")
+                format!("the rms error is {rms:.3}: {none}, {meaningless}; {remedy}")
             }
         })
     }
@@ -107,8 +107,8 @@ impl Calibration {
         let is_unknown = self.fit.degrees_of_freedom == 0 && !self.has_uncertainties();
         is_unknown.then(|| {
             format!(
-                "no more data than weights: their scatter is unknown, and the ranges are those of \
-                 an error of {:.1e} in e; give {}",
+                "there are no more data than weights, so their scatter is unknown; the ranges assume \
+                 an error of {:.1e} in e. Give {}",
                 self.fit.error, names.uncertainty
             )
         })
@@ -119,7 +119,7 @@ impl Calibration {
         (determined < n).then(|| {
             format!(
                 "the data determine {determined} of {n} combinations of weights; the regularisation \
-                 and the bounds (no weight below 0, their sum at most 1) chose the rest"
+                 and the bounds (no weight below 0, their sum at most 1) determine the rest"
             )
         })
     }
@@ -127,9 +127,9 @@ impl Calibration {
     fn unused(&self, names: &SettingNames) -> Option<String> {
         let key = self.unused_key.as_deref()?;
         Some(match key {
-            UNUSED_STEPS => format!("{key} is not looked at: calibrate takes {STEPS}"),
+            UNUSED_STEPS => format!("{key} is ignored: calibrate takes {STEPS}"),
             _ => format!(
-                "{key} is not looked at: {} chooses, here {}",
+                "{key} is ignored: {} chooses the model, here {}",
                 names.model,
                 self.model.word()
             ),
@@ -151,17 +151,17 @@ fn falling(found: &SpeedExponent, fit: &SpectrumFit) -> Option<String> {
     let start = format!(
         "restitution falls with speed, 1 - e as the speed to the power {:.3}{error}; a Maxwell \
          term slower than the contact gives -0.2 (restitution rises), and no linear viscoelastic \
-         spectrum more than 0.2",
+         spectrum gives more than 0.2",
         found.value
     );
     let verdict = if found.is_above(SpeedExponent::LIMIT) {
-        "no Prony series makes these data; a loss that grows with the strain, such as plastic \
-         flow, fracture or friction, is at work"
+        "no Prony series fits these data; the loss grows with the strain, as in plastic \
+         flow, fracture or friction"
     } else if misses(fit) {
-        "a single Maxwell term (weight 1) cannot make these data, and the best series misses them"
+        "neither a single Maxwell term (weight 1) nor any series fits these data"
     } else {
-        "a single Maxwell term (weight 1) cannot make these data, only terms faster than the \
-         contact beside an equilibrium modulus can"
+        "a single Maxwell term (weight 1) does not fit these data, only terms faster than the \
+         contact with an equilibrium modulus do"
     };
     Some(format!("{start}: {verdict}"))
 }

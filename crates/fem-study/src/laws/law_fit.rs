@@ -121,8 +121,8 @@ impl<'a> LawFit<'a> {
             warnings.push(format!("{} is at its bound: the best value lies beyond", estimate.key));
         }
         if fit.degrees_of_freedom == 0 {
-            let what = "as many data as parameters: the law passes through them, which says nothing \
-                        on whether it is right";
+            let what = "there are as many data as parameters: the law passes through them, which does \
+                        not show whether it is right";
             warnings.push(what.to_string());
         }
         let chi_square = fit.sum_of_squares / fit.degrees_of_freedom.max(1) as f64;
@@ -135,8 +135,8 @@ impl<'a> LawFit<'a> {
             ));
         }
         if !problem.has_uncertainties() && has_trend(&fit.residuals) {
-            let what = "the residuals have a trend: what is left is the law's misfit more than \
-                        scatter, and the intervals tell the fit's flatness, no probability";
+            let what = "the residuals have a trend: the law does not fit the data, so the intervals have \
+                        no statistical meaning";
             warnings.push(what.to_string());
         }
         warnings

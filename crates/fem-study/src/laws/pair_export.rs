@@ -146,9 +146,9 @@ impl PairExport {
         match names.as_slice() {
             [] => Vec::new(),
             names => vec![format!(
-                "no loss of {} is known, and none is in e of {} pairs: it is too high, by how much is not \
-                 known; give [material.NAME.relaxation], of a material of the library in a table with its \
-                 numbers (fem-run materials NAME prints it), or name a law that loses energy in [model]",
+                "the loss of {} in an impact is not known and not included: e of {} pairs is too high by an \
+                 unknown amount; give material.NAME.relaxation (fem-run materials NAME prints a table to \
+                 copy), or name a law with damping in [model]",
                 names.join(", "),
                 if names.len() == 1 { "its" } else { "their" }
             )],

@@ -138,7 +138,7 @@ fn advice_names_the_settings_as_the_caller_does() {
         assert!(warnings[0].starts_with("restitution falls with speed"), "{warnings:?}");
         let more = format!("try more {terms} or other times");
         assert!(warnings.iter().any(|warning| warning.ends_with(&more)), "{warnings:?}");
-        let unused = format!("model.hertz is not looked at: {model} chooses, here ting");
+        let unused = format!("model.hertz is ignored: {model} chooses the model, here ting");
         assert_eq!(warnings.last(), Some(&unused));
     }
 }
