@@ -62,6 +62,16 @@ impl<'a> Laboratory<'a> {
         Ok(self.claim.load_case(file)?)
     }
 
+    /// Returns the names and the cases of all runs of the claim.
+    ///
+    /// # Errors
+    /// A case is invalid.
+    pub fn cases(&self) -> Result<(Vec<&'a String>, Vec<Case>), StudyError> {
+        let names: Vec<&String> = self.claim.runs.keys().collect();
+        let cases = names.iter().map(|name| self.case(name)).collect::<Result<_, _>>()?;
+        Ok((names, cases))
+    }
+
     /// Runs a case of the explicit model, or takes the result of an earlier run of it.
     ///
     /// # Errors

@@ -45,10 +45,9 @@ const RELATIVE: [Quantity; 5] = [
 /// Runs every case of the claim with both models.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let (names, own) = laboratory.cases()?;
     let mut cases = Vec::new();
-    for name in &names {
-        let case = laboratory.case(name)?;
+    for case in own {
         let size =
             Plan::of_case(&case)?.estimate.contact_radius / parameters.elements_per_contact_radius;
         let explicit = case.edited(|file| {

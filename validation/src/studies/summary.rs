@@ -7,9 +7,8 @@ use crate::run::Run;
 
 /// Runs every case of the claim.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name));
-    let runs = laboratory.simulate_all(cases.collect::<Result<_, _>>()?)?;
+    let (names, cases) = laboratory.cases()?;
+    let runs = laboratory.simulate_all(cases)?;
     let mut findings = Findings::new();
     for (name, run) in names.iter().zip(&runs) {
         for (quantity, value) in quantities(run) {

@@ -26,10 +26,9 @@ const RELATIVE: [Quantity; 4] = [
 
 /// Runs every case of the claim twice.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let (names, own) = laboratory.cases()?;
     let mut cases = Vec::new();
-    for name in &names {
-        let case = laboratory.case(name)?;
+    for case in own {
         let without = case.edited(|file| {
             let effects = file.effects.get_or_insert_default();
             *effects = EffectsTable { surface_slip: Some(Switch::Off), ..*effects };

@@ -9,14 +9,14 @@ use fem_collision::QuantityOfInterest;
 use super::AccuracyResult;
 use crate::number_text::{grouped, one_line};
 
-/// Stands for a missing number.
+/// The text for a missing number.
 const NONE: &str = "-";
 /// Column heads of the quantities of interest.
 const SYMBOLS: [&str; 6] = ["e", "T", "F", "approach", "a", "p0"];
 
 /// A table with a heading.
 pub struct AccuracyTable {
-    /// The heading.
+    /// Heading of the table.
     pub heading: &'static str,
     /// The column heads, and then the rows; the first column is text.
     pub rows: Vec<Vec<String>>,

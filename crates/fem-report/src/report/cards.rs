@@ -23,29 +23,29 @@ pub struct Card {
 
 /// Returns a card for each quantity that the result has.
 pub fn cards(result: &StoredResult) -> Vec<Card> {
-    QuantityOfInterest::ALL.into_iter().filter_map(|headline| card(result, headline)).collect()
+    QuantityOfInterest::ALL.into_iter().filter_map(|quantity| card(result, quantity)).collect()
 }
 
-fn card(result: &StoredResult, headline: QuantityOfInterest) -> Option<Card> {
-    let key = headline.key();
+fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
+    let key = quantity.key();
     let value = result.number(&[key])?;
     let hertz = result.number(&["hertz", key]);
-    let parts = result.error_parts(headline);
-    let scale = error_scale(value, headline);
-    let unit = (!headline.unit().is_empty()).then(|| Unit::fitting(value, headline.unit()));
+    let parts = result.error_parts(quantity);
+    let scale = error_scale(value, quantity);
+    let unit = (!quantity.unit().is_empty()).then(|| Unit::fitting(value, quantity.unit()));
     let scaled = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
     let mut notes = Vec::new();
     let numerics = if result.has_elements() { "mesh" } else { "numerics" };
     notes.extend(error_text(&parts, numerics, ROUNDING * scale, &|size| rounded(scaled(size))));
-    if let Some(hertz) = hertz.filter(|_| headline != QuantityOfInterest::Restitution) {
-        notes.push(format!("Hertz {} (× {:.4})", show(hertz, headline.unit()), value / hertz));
+    if let Some(hertz) = hertz.filter(|_| quantity != QuantityOfInterest::Restitution) {
+        notes.push(format!("Hertz {} (× {:.4})", show(hertz, quantity.unit()), value / hertz));
     }
-    if headline == QuantityOfInterest::Restitution && (1.0 - value).abs() < 0.1 && value != 1.0 {
+    if quantity == QuantityOfInterest::Restitution && (1.0 - value).abs() < 0.1 && value != 1.0 {
         notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
     }
     let error = parts.sum().filter(|error| *error > VISIBLE * scale);
     Some(Card {
-        name: name(result, headline),
+        name: name(result, quantity),
         value: with_error(scaled(value), error.map(scaled)),
         unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
         notes,
@@ -76,8 +76,8 @@ fn error_text(
 
 /// Returns the name of a quantity; for radius and pressure it says whether they refer to the undeformed
 /// (nominal) or the deformed (true) shape.
-pub fn name(result: &StoredResult, headline: QuantityOfInterest) -> String {
-    let shape = match headline {
+pub fn name(result: &StoredResult, quantity: QuantityOfInterest) -> String {
+    let shape = match quantity {
         QuantityOfInterest::MaxContactRadius | QuantityOfInterest::PeakPressure
             if result.is_finite_strain() =>
         {
@@ -86,12 +86,12 @@ pub fn name(result: &StoredResult, headline: QuantityOfInterest) -> String {
         QuantityOfInterest::MaxContactRadius | QuantityOfInterest::PeakPressure => ", nominal",
         _ => "",
     };
-    format!("{}{shape}", headline.name())
+    format!("{}{shape}", quantity.name())
 }
 
 /// Returns the scale of relative errors: 1 for the restitution, the value itself for all others.
-pub fn error_scale(value: f64, headline: QuantityOfInterest) -> f64 {
-    if headline == QuantityOfInterest::Restitution { 1.0 } else { value.abs() }
+pub fn error_scale(value: f64, quantity: QuantityOfInterest) -> f64 {
+    if quantity == QuantityOfInterest::Restitution { 1.0 } else { value.abs() }
 }
 
 #[cfg(test)]

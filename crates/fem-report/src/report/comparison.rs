@@ -61,7 +61,7 @@ pub fn comparison_page(results: &[StoredResult]) -> Result<String, ReportError> 
     cite.dedup();
     let names: Vec<String> = results.iter().map(|result| result.name.clone()).collect();
     let numbers =
-        QuantityOfInterest::ALL.iter().map(|headline| numbers(results, *headline)).collect();
+        QuantityOfInterest::ALL.iter().map(|quantity| numbers(results, *quantity)).collect();
     let (heads, numbers) = match results.len() {
         0..=MOST_COLUMNS => (names.clone(), numbers),
         _ => transposed(&names, numbers),
@@ -93,10 +93,10 @@ fn transposed(
 }
 
 /// Returns the row of a quantity: its value with error for each result, and its difference from the first.
-fn numbers(results: &[StoredResult], headline: QuantityOfInterest) -> (String, Vec<Cell>) {
+fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, Vec<Cell>) {
     let of = |result: &StoredResult| {
-        let value = result.number(&[headline.key()])?;
-        Some((value, result.error_parts(headline)))
+        let value = result.number(&[quantity.key()])?;
+        Some((value, result.error_parts(quantity)))
     };
     let first = results.first().and_then(of);
     let cell = |(k, result): (usize, &StoredResult)| {
@@ -105,28 +105,28 @@ fn numbers(results: &[StoredResult], headline: QuantityOfInterest) -> (String, V
             Some(own) => {
                 let from = first.filter(|_| k > 0);
                 (
-                    shown(own, headline),
-                    from.map_or(String::new(), |from| difference_text(own, from, headline)),
+                    shown(own, quantity),
+                    from.map_or(String::new(), |from| difference_text(own, from, quantity)),
                 )
             }
         };
         Cell { value, difference }
     };
-    let name = match results.iter().map(|result| cards::name(result, headline)).reduce(|a, b| {
+    let name = match results.iter().map(|result| cards::name(result, quantity)).reduce(|a, b| {
         // One may be nominal and another true.
-        if a == b { a } else { headline.name().to_string() }
+        if a == b { a } else { quantity.name().to_string() }
     }) {
         Some(name) => name,
-        None => headline.name().to_string(),
+        None => quantity.name().to_string(),
     };
     (name, results.iter().enumerate().map(cell).collect())
 }
 
 /// Returns `62.46 ± 0.21 µs`, or `62.46 µs, error at least 0.21 µs` if part of the error is unknown.
-fn shown((value, parts): (f64, Parts), headline: QuantityOfInterest) -> String {
-    let is_seen = |error: &f64| *error > cards::VISIBLE * cards::error_scale(value, headline);
+fn shown((value, parts): (f64, Parts), quantity: QuantityOfInterest) -> String {
+    let is_seen = |error: &f64| *error > cards::VISIBLE * cards::error_scale(value, quantity);
     let error = parts.sum().filter(is_seen);
-    let number = match headline.unit() {
+    let number = match quantity.unit() {
         "" => match error {
             None => format!("{value:.5}"),
             error => with_error(value, error),
@@ -143,11 +143,11 @@ fn shown((value, parts): (f64, Parts), headline: QuantityOfInterest) -> String {
     match (parts.sum(), parts.known().filter(is_seen)) {
         (Some(_), _) => number,
         (None, None) => format!("{number}, error not known"),
-        (None, Some(known)) if headline.unit().is_empty() => {
+        (None, Some(known)) if quantity.unit().is_empty() => {
             format!("{number}, error at least {}", rounded(known))
         }
         (None, Some(known)) => {
-            let unit = Unit::fitting(value, headline.unit());
+            let unit = Unit::fitting(value, quantity.unit());
             let known = rounded(unit.scaled(known));
             format!("{number}, error at least {known} {}", unit.symbol())
         }
@@ -156,12 +156,12 @@ fn shown((value, parts): (f64, Parts), headline: QuantityOfInterest) -> String {
 
 /// Returns the difference from the first result, absolute for the restitution and relative for all others,
 /// and whether it is within the error bars.
-fn difference_text(own: (f64, Parts), from: (f64, Parts), headline: QuantityOfInterest) -> String {
+fn difference_text(own: (f64, Parts), from: (f64, Parts), quantity: QuantityOfInterest) -> String {
     let difference = own.0 - from.0;
     if difference == 0.0 {
         return "the same".to_string();
     }
-    let size = match headline {
+    let size = match quantity {
         QuantityOfInterest::Restitution => format!("{difference:+.5}"),
         _ if own.0 > MULTIPLE * from.0 && from.0 > 0.0 => format!("\u{d7} {:.3}", own.0 / from.0),
         _ => format!("{:+.2} %", 100.0 * difference / from.0),

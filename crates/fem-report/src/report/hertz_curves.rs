@@ -23,7 +23,7 @@ pub struct HertzInstant {
     pub approach: f64,
     pub force: f64,
     pub contact_radius: f64,
-    /// Elastic energy.
+    /// Stored elastic energy, J.
     pub energy: f64,
 }
 

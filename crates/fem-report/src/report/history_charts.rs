@@ -7,7 +7,7 @@ use super::hertz_curves::{HertzCurves, HertzInstant};
 use super::stored_result::{ContactSnapshot, StoredResult};
 use crate::quantity_axis::{QuantityAxis, chart_axes, range};
 
-/// Most pressure profiles of one result, so that they can be told apart.
+/// Largest number of pressure profiles of one result, so that they can be distinguished.
 const MOST_PROFILES: usize = 4;
 /// Energies below this share of the largest get no curve.
 const FAINT: f64 = 5e-3;

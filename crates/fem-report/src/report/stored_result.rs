@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use crate::number_text::one_line;
 
-/// Why a page cannot be made.
+/// Errors of making a page.
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// The folder holds no result of a run.
@@ -19,12 +19,12 @@ pub enum ReportError {
     NoResult {
         /// The folder, as the user named it.
         folder: String,
-        /// What is wrong with its summary.
+        /// The error of its summary.
         fault: String,
-        /// What to do instead.
+        /// The suggested fix.
         help: &'static str,
     },
-    /// The same result is given twice.
+    /// The same result is named twice.
     #[error("{0}: this result is named twice")]
     Repeated(String),
     /// The template cannot be rendered.
@@ -59,7 +59,7 @@ pub struct StoredResult {
 
 /// The contact at a snapshot.
 pub struct ContactSnapshot {
-    /// Time, s.
+    /// Time of the snapshot, s.
     pub time: f64,
     /// The snapshot's label, as in file names.
     pub label: String,
@@ -73,7 +73,7 @@ pub struct ContactSnapshot {
 
 /// A file with the fields at a snapshot.
 pub struct FieldFile {
-    /// Time, s.
+    /// Time of the snapshot, s.
     pub time: f64,
     /// The snapshot's label, as in file names.
     pub label: String,
@@ -166,8 +166,8 @@ impl StoredResult {
     }
 
     /// Returns the parts of a quantity's error; results of older versions lack some.
-    pub fn error_parts(&self, headline: QuantityOfInterest) -> Parts {
-        let part = |part: &str| self.number(&["uncertainty", headline.key(), part]);
+    pub fn error_parts(&self, quantity: QuantityOfInterest) -> Parts {
+        let part = |part: &str| self.number(&["uncertainty", quantity.key(), part]);
         Parts {
             discretisation: part("discretisation"),
             model: part("model"),

@@ -23,7 +23,7 @@ pub struct PanelValues {
     pub own: Option<f64>,
     /// Its error bar, if both parts are known.
     pub error: Option<f64>,
-    /// Hertz' value.
+    /// The value of Hertz' closed form.
     pub hertz: Option<f64>,
 }
 

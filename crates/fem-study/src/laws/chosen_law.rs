@@ -32,28 +32,6 @@ pub fn family_of(scene: &Scene) -> Option<LawFamily> {
 }
 
 /// A law of a case and the known values of its parameters.
-///
-/// ```
-/// # use std::path::Path;
-/// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
-/// # [[body]]
-/// # name = 'floor'
-/// # wall = {}
-/// # [[body]]
-/// # name = 'ball'
-/// # sphere.diameter = 0.02
-/// # material = 'ice'
-/// # approach_speed = 0.1";
-/// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-/// use fem_study::laws::{ChosenLaw, LawFamily, LawFit};
-/// use fem_study::measured::Restitutions;
-///
-/// let ice = Restitutions::of("ice", &[(0.05, 0.7), (0.1, 0.62), (0.2, 0.55), (0.4, 0.45)]);
-/// let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[("n", 0.65)], None)?;
-/// let fit = LawFit::of(&ice, law.problem(&ice.points, &["a"])?, 0.95)?;
-/// assert!(fit.fit.rms < 0.05 && fit.fit.estimates[0].key == "a");
-/// # Ok::<(), fem_study::laws::LawFault>(())
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChosenLaw {
     model: Model,

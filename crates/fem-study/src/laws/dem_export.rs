@@ -51,29 +51,6 @@ impl DemExport {
     ///
     /// # Errors
     /// The data do not determine a law.
-    ///
-    /// ```
-    /// # use std::path::Path;
-    /// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
-    /// # [[body]]
-    /// # name = 'floor'
-    /// # wall = {}
-    /// # [[body]]
-    /// # name = 'ball'
-    /// # sphere.diameter = 0.02
-    /// # material = 'ice'
-    /// # approach_speed = 0.1";
-    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem_study::laws::{DemExport, ImpactCurve};
-    /// use fem_study::measured::Restitutions;
-    ///
-    /// let ice = Restitutions::of("ice", &[(0.1, 0.6), (0.2, 0.6)]);
-    /// let curve = ImpactCurve::measured(case.scene(), &ice)?;
-    /// let export = DemExport::of(&case, curve, 0.01)?;
-    /// assert!((export.export.hertz.restitution - 0.6).abs() < 1e-6);
-    /// assert!(export.export.snippets()?.iter().any(|snippet| snippet.code == "LAMMPS"));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, FitError> {
         let scene = case.scene();
         let n = curve.points.len() as f64;

@@ -28,29 +28,6 @@ impl LawInversion {
     ///
     /// # Errors
     /// The law does not have the key or has no loss; a parameter has no value; no value gives the restitution.
-    ///
-    /// ```
-    /// # use std::path::Path;
-    /// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
-    /// # [[body]]
-    /// # name = 'floor'
-    /// # wall = {}
-    /// # [[body]]
-    /// # name = 'ball'
-    /// # sphere.diameter = 0.02
-    /// # material = 'ice'
-    /// # approach_speed = 0.1";
-    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem_study::laws::{ChosenLaw, LawFamily, LawInversion};
-    ///
-    /// let law = ChosenLaw::of(&case, LawFamily::Tsuji, &[], None)?;
-    /// let found = LawInversion::of(&law, None, 0.1, 0.9)?;
-    /// assert_eq!(found.parameter().key, "alpha");
-    /// let [(alpha, _)] = found.solutions()[..] else { panic!("one") };
-    /// let made = found.model.outcome(&[alpha], 0.1)?;
-    /// assert!((made.restitution - 0.9).abs() < 1e-8);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn of(
         law: &ChosenLaw,
         key: Option<&str>,

@@ -7,6 +7,38 @@
 //! text                    is given    └─ impact_curve ─ dem_export ─┬─ stored_export
 //!                                        e(v), T(v)                └─ pair_export
 //! ```
+//!
+//! ```
+//! use fem_case::schema::{BodyTable, MaterialTable};
+//! use fem_case::{Case, CaseFile};
+//! use fem_study::laws::{ChosenLaw, DemExport, ImpactCurve, LawFamily, LawFit, LawInversion};
+//! use fem_study::measured::Restitutions;
+//!
+//! let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
+//! let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.1 m/s");
+//! let case =
+//!     Case::of(CaseFile::of_bodies(BodyTable::wall("floor"), ball).with_material("ice", ice))?;
+//! let measured = Restitutions::of("ice", &[(0.05, 0.7), (0.1, 0.62), (0.2, 0.55), (0.4, 0.45)]);
+//!
+//! // The dissipation of a law with a given exponent, fitted to the data.
+//! let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[("n", 0.65)], None)?;
+//! let fit = LawFit::of(&measured, law.problem(&measured.points, &["a"])?, 0.95)?;
+//! assert!(fit.fit.rms < 0.05 && fit.fit.estimates[0].key == "a");
+//!
+//! // The damping coefficient that makes e = 0.9 at 0.1 m/s.
+//! let law = ChosenLaw::of(&case, LawFamily::Tsuji, &[], None)?;
+//! let found = LawInversion::of(&law, None, 0.1, 0.9)?;
+//! let [(alpha, _)] = found.solutions()[..] else { panic!("one solution") };
+//! assert_eq!(found.parameter().key, "alpha");
+//! assert!((found.model.outcome(&[alpha], 0.1)?.restitution - 0.9).abs() < 1e-8);
+//!
+//! // Input of DEM codes.
+//! let curve = ImpactCurve::measured(case.scene(), &measured)?;
+//! let export = DemExport::of(&case, curve, 0.01)?.export;
+//! assert!((export.hertz.restitution - 0.58).abs() < 1e-6);
+//! assert!(export.snippets()?.iter().any(|snippet| snippet.code == "LAMMPS"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod chosen_law;
 mod dem_export;

@@ -78,28 +78,6 @@ impl PairExport {
     ///
     /// # Errors
     /// A material is unknown, a diameter is not positive, or there are too many of both; see [`DemExport::of`].
-    ///
-    /// ```
-    /// # use std::path::Path;
-    /// # let text = "[[body]]
-    /// # name = 'floor'
-    /// # wall = {}
-    /// # [[body]]
-    /// # name = 'ball'
-    /// # sphere.diameter = 0.02
-    /// # material = 'lib:pmma'
-    /// # approach_speed = 0.1
-    /// # [model.law.kuwabara_kono]
-    /// # a = 1e-6";
-    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem_study::laws::PairExport;
-    ///
-    /// let unknown = PairExport::of(&case, &["lib:glas".into()], &[1e-3, 2e-3], None, 0.01);
-    /// assert_eq!(unknown.unwrap_err().to_string(), "there is no material lib:glas");
-    /// let all = PairExport::of(&case, &[], &[1e-3, 2e-3], None, 0.01)?;
-    /// assert_eq!(all.numbers().len(), 3);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn of(
         case: &Case,
         materials: &[String],

@@ -1,4 +1,4 @@
-//! The cradle against conservation laws, drawing lots, and differences of an independent formula.
+//! Newton's cradle compared with conservation laws, random inputs, and differences of an independent formula.
 
 use fem_study::fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Trial};
 
@@ -23,7 +23,7 @@ fn trial() -> Trial {
     }
 }
 
-/// Free fall to the bottom, momentum and energy, none of them by the formulas of the module.
+/// Computes a trial from free fall, momentum and energy, without the formulas of the module.
 #[test]
 fn conservation_laws_hold() {
     let (cradle, trial) = (cradle(), trial());
@@ -45,7 +45,7 @@ fn conservation_laws_hold() {
     assert!(0.0 < e && e < 1.0);
 }
 
-/// Equal balls that lose nothing change places; the highest rise is where e = 1.
+/// Equal balls without loss exchange their velocities; at the highest rise e = 1.
 #[test]
 fn elastic_limits() {
     let equal = Cradle { masses: [Measured::exact(1.0); 2], ..cradle() };
@@ -61,7 +61,7 @@ fn elastic_limits() {
     assert_eq!(heavy.highest_rise(1.2), None);
 }
 
-/// Uncertainties by differences of free fall, momentum and the definition of e.
+/// Computes uncertainties by differences of free fall, momentum and the definition of e.
 #[test]
 fn uncertainties_are_those_of_differences() {
     let (cradle, trial) = (cradle(), trial());
@@ -94,9 +94,9 @@ fn uncertainties_are_those_of_differences() {
     assert!((shares - 1.0).abs() < 1e-14);
 }
 
-/// Drawing lots: 200 000 normal inputs.
+/// The standard deviation of 200 000 trials with normal inputs equals the uncertainty.
 #[test]
-fn uncertainty_of_e_is_that_of_lots() {
+fn the_uncertainty_of_e_is_that_of_random_inputs() {
     let (cradle, trial) = (cradle(), trial());
     let swing = cradle.swing(&trial).unwrap();
     // A linear congruential generator and the sum of twelve draws, normal enough for a variance.
@@ -122,12 +122,12 @@ fn uncertainty_of_e_is_that_of_lots() {
     }
     let mean = sum / f64::from(n);
     let deviation = (squares / f64::from(n) - mean * mean).sqrt();
-    // 1/√(2n) = 0.16 % of the lots, 0.1 % of second order.
+    // The scatter of the deviation is 1/√(2n) = 0.16 %, and the second order 0.1 %.
     assert!((deviation / swing.restitution.uncertainty - 1.0).abs() < 0.01, "{deviation}");
 }
 
 #[test]
-fn what_has_no_meaning_is_refused() {
+fn meaningless_values_are_rejected() {
     let (good, trial) = (cradle(), trial());
     let angle = |value: f64| Measured::exact(value);
     for release in [0.0, -0.1, 1.6, 30.0, f64::NAN] {

@@ -1,4 +1,4 @@
-//! What is entered into a DEM code against what its own formula makes of it, integrated.
+//! The restitutions that DEM codes make of the exported numbers, by integrating the codes' own formulas.
 
 use std::f64::consts::PI;
 
@@ -13,6 +13,7 @@ use fem_study::fit::dem::{
     mfix_entry, mfix_outcome, mfix_snippets, restitution_of, tsuji_entry, tsuji_outcome,
     viscel_entry, viscoelastic_damping, yade_betan, yade_snippets,
 };
+use fem_study::laws::PairExport;
 
 fn export() -> Export {
     let glass = glass(None);
@@ -37,9 +38,9 @@ fn export() -> Export {
     }
 }
 
-/// Every file says itself that a loss is missing, and none says so where it is not.
+/// Every file warns of a missing loss, and only then.
 #[test]
-fn files_say_of_which_materials_no_loss_is_known() {
+fn files_name_materials_without_a_known_loss() {
     let hunt_crossley = HuntCrossley { dissipation: 0.1, rms: 0.01, validity: [0.1, 1.0, 0.004] };
     let unpublished_loss = vec!["steel".to_string()];
     let of = |unpublished_loss: Vec<String>| {
@@ -85,8 +86,8 @@ fn entry(snippets: &[fem_study::fit::dem::Snippet], name: &str, key: &str) -> f6
     snippet.entries.iter().find(|(found, _)| *found == key).unwrap().1
 }
 
-/// LAMMPS 22 July 2025, run: 0.92 entered makes 0.94322, 0.889 makes 0.92014
-/// (`.ci/check_dem.py`); here its formula is integrated.
+/// In runs of LAMMPS of 22 July 2025 an entered 0.92 makes 0.94322 and 0.889 makes 0.92014 (`.ci/check_dem.py`); here
+/// its formula is integrated.
 #[test]
 fn lammps_tsuji_damps_too_little() {
     let pair = export().pair;
@@ -101,7 +102,7 @@ fn lammps_tsuji_damps_too_little() {
         model.impact(0.5).unwrap().restitution
     };
     for (entered, lammps) in [(0.92, 0.94322), (0.889, 0.92014)] {
-        // LAMMPS at 20 000 steps a contact is first order in the last of them: 2e-5.
+        // LAMMPS with 20 000 steps per contact has an error of 2e-5.
         assert!((made(entered) - lammps).abs() < 3e-5, "{entered}: {}", made(entered));
         assert!((tsuji_outcome(entered, TsujiVersion::Plain) - made(entered)).abs() < 1e-7);
     }
@@ -109,7 +110,7 @@ fn lammps_tsuji_damps_too_little() {
     assert!((entered - 0.889).abs() < 5e-4, "{entered}");
     assert!((made(entered) - 0.92).abs() < 1e-7);
     assert_eq!(entry(&lammps_snippets(&export()).unwrap(), "lammps_tsuji.in", "e"), entered);
-    // Corrected by √2, what is entered is nearly what comes out.
+    // With the factor √2 the entered value nearly equals the restitution.
     let corrected = tsuji_entry(0.92, TsujiVersion::RootTwo).unwrap();
     assert!((corrected - 0.92).abs() < 2e-3, "{corrected}");
     for wanted in [0.3, 0.5, 0.7, 0.95, 0.99] {
@@ -164,10 +165,10 @@ fn liggghts_hooke_has_the_contact_time() {
     assert!((impact.contact_time.unwrap() / 64e-6 - 1.0).abs() < 1e-7);
 }
 
-/// YADE 2023.02a, run: en = 0.92 makes 0.91972, 0.7 makes 0.69977 with Hertz–Mindlin; tc and en as
-/// they are wanted make 0.92130 and 0.71820 with ViscEl.
+/// Runs of YADE 2023.02a: en = 0.92 makes 0.91972 and 0.7 makes 0.69977 with Hertz–Mindlin; with ViscEl uncorrected tc
+/// and en make 0.92130 and 0.71820.
 #[test]
-fn yade_makes_what_was_seen() {
+fn yade_makes_the_observed_restitutions() {
     let pair = export().pair;
     let stiffness = 2.0 * pair.contact_modulus() * pair.effective_radius().sqrt();
     for (en, seen) in [(0.92, 0.91972), (0.7, 0.69977)] {
@@ -263,10 +264,10 @@ fn a_wall_is_written_for_lammps_with_twice_the_modulus() {
     assert!((eta / exact - 1.0).abs() < 1e-12);
 }
 
-/// MFIX's and MercuryDPM's Hertzian dashpots as their sources write them, integrated; a restitution of the law
-/// is good to 1e-8.
+/// Integrates the Hertzian dashpots of MFIX and MercuryDPM as their sources write them; the restitution of a law is
+/// accurate to 1e-8.
 #[test]
-fn hertzian_dashpots_of_mfix_and_mercury_make_what_is_said() {
+fn hertzian_dashpots_of_mfix_and_mercury_make_the_stated_restitution() {
     let pair = export().pair;
     let made = |alpha: f64| {
         let law = tsuji(&pair, alpha).unwrap();
@@ -296,9 +297,9 @@ fn hertzian_dashpots_of_mfix_and_mercury_make_what_is_said() {
     assert!((impact.contact_time.unwrap() / 64e-6 - 1.0).abs() < 1e-7);
 }
 
-/// Of unlike spheres every code is told both, and which pair the numbers are for; of equal ones no word.
+/// The input for unlike spheres has both spheres and names the pair of its numbers; that for equal ones does not.
 #[test]
-fn snippets_say_which_pair_they_are_for() {
+fn snippets_name_their_pair() {
     let all = |export: &Export| {
         let mut all = export.snippets().unwrap();
         all.retain(|snippet| !["Drake", "MuJoCo"].contains(&snippet.code));
@@ -320,8 +321,8 @@ fn snippets_say_which_pair_they_are_for() {
     assert!(mercury_snippets(&alike)[0].text.contains("auto sphere ="));
 }
 
-/// Of a wall E* = E/(1 − ν²) is made by the modulus that is entered: codes take
-/// 1/E* = (1 − ν²)/E + 1/E_w. Of a block without an end as well.
+/// The entered modulus of a wall or a half-space makes the contact's E*: codes use
+/// 1/E* = (1 − ν²)/E + 1/E_w.
 #[test]
 fn walls_have_the_modulus_of_the_contact() {
     let glass = glass(None);
@@ -407,4 +408,24 @@ fn drakes_dissipation_inverts_its_restitution() {
     for e in [0.05, 0.5, 0.92, 0.999] {
         assert!((restitution_of(dissipation_of(e)) - e).abs() < 1e-6, "{e}");
     }
+}
+
+/// An export of pairs has three pairs of two sizes, and names a material that does not exist.
+#[test]
+fn pairs_of_all_sizes_are_exported() {
+    let text = "[[body]]
+        name = 'floor'
+        wall = {}
+        [[body]]
+        name = 'ball'
+        sphere.diameter = 0.02
+        material = 'lib:pmma'
+        approach_speed = 0.1
+        [model.law.kuwabara_kono]
+        a = 1e-6";
+    let case = fem_case::Case::parse("ball.toml", text, std::path::Path::new("."), &[]).unwrap();
+    let of = |materials: &[String]| PairExport::of(&case, materials, &[1e-3, 2e-3], None, 0.01);
+    let unknown = of(&["lib:glas".to_string()]).unwrap_err();
+    assert_eq!(unknown.to_string(), "there is no material lib:glas");
+    assert_eq!(of(&[]).unwrap().numbers().len(), 3);
 }

@@ -1,10 +1,10 @@
-//! Fits against published numbers, exact data, closed forms of linear statistics, and refusals.
+//! Fits compared with published numbers, exact data and closed forms of linear statistics, and their errors.
 
 use crate::common::{bridges, glass_model, ice_model};
 use fem_laws::{EndRule, LawFamily};
 use fem_study::fit::{FitError, Model, Point, Problem};
 
-/// Data that a model makes, e and T.
+/// Returns restitutions and contact times that a model makes.
 fn made_by(model: &Model, values: &[f64], speeds: &[f64]) -> Vec<Point> {
     let point = |speed: &f64| {
         let outcome = model.outcome(values, *speed).unwrap();
@@ -21,7 +21,7 @@ fn assert_close(found: f64, expected: f64, relative: f64) {
     assert!((found / expected - 1.0).abs() <= relative, "found {found:e}, expected {expected:e}");
 }
 
-/// rms over n of the paper's law on the ice data: 0.084, 0.040, 0.033, 0.036 and 0.075, with
+/// Rms errors over n of the paper's law for the ice data are 0.084, 0.040, 0.033, 0.036 and 0.075, with
 /// A = 2.35e-4 s at n = 0.65 (the project's reference calculation, by another program).
 #[test]
 fn published_error_over_the_exponent() {
@@ -38,8 +38,8 @@ fn published_error_over_the_exponent() {
     }
 }
 
-/// The two free parameters of the paper: the least error lies at a flat optimum between its 0.65 and
-/// the table's 0.8, and both intervals hold the paper's neighbour 0.7.
+/// With the two free parameters of the paper the optimum is flat and lies between the paper's 0.65 and
+/// the table's 0.8; both intervals contain 0.7.
 #[test]
 fn ice_with_both_parameters_free() {
     let (model, points) = (ice_model(LawFamily::BordbarHyppanen), bridges());
@@ -60,7 +60,7 @@ fn ice_with_both_parameters_free() {
     assert!(low < 0.7 && 0.7 < high);
 }
 
-/// Data without errors give back what made them, whatever is free.
+/// Data without errors give the parameters that made them, whichever are free.
 #[test]
 fn exact_data_give_back_the_parameters() {
     let speeds = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
@@ -90,7 +90,7 @@ fn exact_data_give_back_the_parameters() {
     }
 }
 
-/// A linear law has no scale of its own: contact times fix k, restitutions c.
+/// For the linear law contact times determine k, and restitutions c.
 #[test]
 fn contact_times_fix_the_stiffness() {
     let model = glass_model(LawFamily::Linear, None);
@@ -104,8 +104,8 @@ fn contact_times_fix_the_stiffness() {
     assert_eq!(keys, "k and c");
 }
 
-/// A law with one e at all speeds, fitted to scattered data: e is their mean, its standard error
-/// s/√N, and its interval Student's, t = 2.776 for 4 degrees of freedom (any table).
+/// A law with one e at all speeds, fitted to scattered data, has their mean, a standard error of
+/// s/√N, and Student's interval with t = 2.776 for 4 degrees of freedom.
 #[test]
 fn interval_of_a_mean_is_students() {
     let model = glass_model(LawFamily::Tsuji, None);
@@ -129,8 +129,8 @@ fn interval_of_a_mean_is_students() {
     assert!((fit.quantile.unwrap() - 2.7764).abs() < 1e-4);
 }
 
-/// With uncertainties the residuals' size is known: ten times smaller ones, a ten times narrower
-/// interval, and the normal quantile.
+/// With uncertainties the size of the residuals is known: uncertainties that are ten times smaller give a ten times
+/// narrower interval, with the normal quantile.
 #[test]
 fn uncertainties_scale_the_interval() {
     let model = glass_model(LawFamily::Tsuji, None);
@@ -175,7 +175,7 @@ fn what_the_data_do_not_determine_is_refused() {
     assert!(Problem::new(&model, &one, &["a"]).unwrap().fit(1.0).is_err());
 }
 
-/// One point determines one parameter, exactly, and leaves nothing for an interval.
+/// One point determines one parameter exactly, without an interval.
 #[test]
 fn one_point_and_one_parameter() {
     let model = glass_model(LawFamily::BordbarHyppanen, None);
@@ -187,7 +187,7 @@ fn one_point_and_one_parameter() {
     assert_eq!((fit.degrees_of_freedom, fit.estimates[0].interval), (0, None));
 }
 
-/// Data without any loss have no best A: the search ends at its bound, and says so.
+/// Data without any loss have no best A: the search ends at its bound, which the estimate shows.
 #[test]
 fn no_loss_is_a_bound_or_a_refusal() {
     let model = glass_model(LawFamily::KuwabaraKono, None);
@@ -198,7 +198,7 @@ fn no_loss_is_a_bound_or_a_refusal() {
     }
 }
 
-/// The end rule belongs to the law: the same data, another A.
+/// Another end rule gives another A for the same data.
 #[test]
 fn end_rule_is_part_of_the_fit() {
     let force = glass_model(LawFamily::Tsuji, None);
@@ -215,8 +215,7 @@ fn end_rule_is_part_of_the_fit() {
     assert!(alpha(&force).values[0] > 1.01 * exact);
 }
 
-/// Hunt & Crossley's coefficient cannot make the losses of ice: the best e is at its bound, and said
-/// to be there.
+/// Hunt & Crossley's coefficient cannot make the losses of ice: the best e is at its bound, which the estimate shows.
 #[test]
 fn a_best_value_at_a_bound_is_found() {
     let (model, points) = (ice_model(LawFamily::HuntCrossley), bridges());

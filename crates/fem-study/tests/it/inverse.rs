@@ -1,11 +1,11 @@
-//! Inverse problems against published values and the laws themselves.
+//! Inverse problems compared with published values and with the laws themselves.
 
 use crate::common::{glass, glass_model};
 use fem_laws::{EndRule, LawFamily};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_study::fit::{FitError, Model, Point, Problem, invert};
 
-/// 0.92 at 0.5 m/s: β = 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus (the
+/// A restitution of 0.92 at 0.5 m/s needs β = 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus (the
 /// project's reference calculation, by another program).
 #[test]
 fn decay_rate_of_the_glass() {
@@ -20,7 +20,7 @@ fn decay_rate_of_the_glass() {
     }
 }
 
-/// Every law, every parameter that damps: what is found gives what was wanted.
+/// For every law and every damping parameter the values that are found give the wanted restitution.
 #[test]
 fn every_law_has_an_inverse() {
     for family in LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Ting) {
@@ -45,9 +45,9 @@ fn every_law_has_an_inverse() {
     }
 }
 
-/// exp(−πζ/√(1−ζ²)) and α = √5 ζ.
+/// Tsuji's law has e = exp(−πζ/√(1−ζ²)) with α = √5 ζ.
 #[test]
-fn tsuji_is_its_closed_form() {
+fn tsujis_law_has_its_closed_form() {
     let glass = glass(None);
     let pair = *glass_model(LawFamily::Tsuji, None).pair();
     let materials = [Some(glass.clone()), Some(glass)];
@@ -58,8 +58,8 @@ fn tsuji_is_its_closed_form() {
     assert!((found / exact - 1.0).abs() < 1e-7);
 }
 
-/// A solid that keeps half its modulus loses most at one rate: below that loss there are two rates,
-/// beyond it none.
+/// A solid that keeps half its modulus loses most at one rate: a smaller loss has two rates, a larger one
+/// none.
 #[test]
 fn a_solid_has_two_rates_or_none() {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();

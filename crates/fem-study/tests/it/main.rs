@@ -1,4 +1,4 @@
-//! Fits from outside, in one program: linked once, its tests run side by side.
+//! Tests of the public interface of fem-study.
 
 mod accuracy;
 mod common;

@@ -1,14 +1,14 @@
-//! Prony series from restitutions of Ting's model: a series that is known comes back as far as the
-//! data can tell, and intervals tell how far that is.
+//! Prony series from restitutions of Ting's model: a known series is found as far as the data determine
+//! it, which the intervals show.
 
 use fem_laws::{Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_study::fit::FitError;
 use fem_study::fit::spectrum::{SpectrumFit, SpectrumProblem};
 
-/// Speeds over two decades: contact times over a factor of 2.5.
+/// Speeds over two decades, which span a factor of 2.5 in contact time.
 const SPEEDS: [f64; 6] = [0.02, 0.05, 0.12, 0.3, 0.8, 2.0];
-/// Of the series that is sought: contacts take 48 to 120 µs.
+/// Relaxation times of the series; contact times are 48 to 120 µs.
 const TRUE: [(f64, f64); 2] = [(0.05, 20e-6), (0.25, 300e-6)];
 const GRID: [f64; 5] = [5e-6, 20e-6, 80e-6, 300e-6, 1200e-6];
 
@@ -47,7 +47,7 @@ fn fit(
     problem.fit(0.95)
 }
 
-/// With the right relaxation times and no noise the weights themselves come back.
+/// With the right relaxation times and no noise the weights are found.
 #[test]
 fn weights_come_back_at_their_own_times() {
     let measured = restitutions(&TRUE).unwrap();
@@ -59,8 +59,8 @@ fn weights_come_back_at_their_own_times() {
     assert!(found.rms < 1e-7, "{}", found.rms);
 }
 
-/// On a grid of more times restitutions are reproduced, and so are the combinations that the data
-/// determine; the true weights lie in all ranges.
+/// On a grid of more times the restitutions and the combinations that the data determine are reproduced;
+/// the true weights lie in all ranges.
 #[test]
 fn restitutions_and_determined_combinations_come_back_on_a_grid() {
     let measured = restitutions(&TRUE).unwrap();
@@ -82,8 +82,8 @@ fn restitutions_and_determined_combinations_come_back_on_a_grid() {
     }
 }
 
-/// Normal noise of a known size: 95 % intervals of all weights and moments hold the truth in 12
-/// trials about as often as they say. They are wider than that where bounds cut them.
+/// With normal noise of a known size the 95 % intervals of all weights and moments contain the truth in 12
+/// trials about as often as they should. Bounds make them conservative.
 #[test]
 fn intervals_are_honest_under_noise() {
     let exact = restitutions(&TRUE).unwrap();
@@ -113,7 +113,7 @@ fn intervals_are_honest_under_noise() {
     assert!(narrow.weight_ranges[1].high - narrow.weight_ranges[1].low < 0.2, "{narrow:?}");
 }
 
-/// One point and four terms: one combination, and no weight alone.
+/// One point and four terms determine one combination, and no single weight.
 #[test]
 fn one_point_determines_one_combination() {
     let model = |weights: &[f64]| {
@@ -141,7 +141,7 @@ fn one_point_determines_one_combination() {
     }
 }
 
-/// A loss beyond every weight of these times: the sum stays 1.
+/// If the loss is larger than that of any weights of these times, the sum of the weights stays 1.
 #[test]
 fn weights_sum_to_at_most_one() {
     let measured = [0.1; SPEEDS.len()];
@@ -150,8 +150,8 @@ fn weights_sum_to_at_most_one() {
     assert!(sum <= 1.0 + 1e-12 && sum > 0.999, "{:?}", found.weights);
 }
 
-/// One restitution tells one sum of weights: known to a hundredth it is determined, to a fifth it is not, and a
-/// value of less than two errors may be zero.
+/// One restitution determines a sum of weights if its uncertainty is 0.01, but not if it is 0.2, and a
+/// value of less than two standard errors may be zero.
 #[test]
 fn what_the_errors_leave_open_is_not_determined() {
     let measured = restitutions(&TRUE).unwrap();

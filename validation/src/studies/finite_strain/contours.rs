@@ -11,9 +11,8 @@
 //! - `RUN.front_speed`, if the instants are times: the speed in the undeformed body, from the first instant to the last,
 //!   of the place on the axis where −σ_yy is a tenth of its largest value there, m/s.
 
-use fem_case::engineering::Unit;
 use fem_collision::{Snapshot, SnapshotInstant};
-use fem_figure::contour::{Contour, Levels, Panel, Section, Window};
+use fem_figure::contour::{Panel, Section, Window};
 
 use crate::error::StudyError;
 use crate::findings::{Figure, Findings};
@@ -23,8 +22,6 @@ use crate::studies::sections;
 
 const MILLI: f64 = 1e3;
 const MEGA: f64 = 1e6;
-/// Approximate number of colour bands over the largest stress.
-const N_BANDS: usize = 11;
 /// Index of the upper body; the wall is the lower one.
 const UPPER: usize = 1;
 /// Extent of the picture in radii of the ball: to each side, below the wall, above it.
@@ -34,8 +31,7 @@ const ABOVE: f64 = 2.15;
 
 /// Runs every case of the claim, whose snapshots are the four named instants, or four times.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name)).collect::<Result<_, _>>()?;
+    let (names, cases) = laboratory.cases()?;
     let runs = laboratory.run_all(cases)?;
     let mut findings = Findings::new();
     for (name, run) in names.into_iter().zip(&runs) {
@@ -116,9 +112,6 @@ fn draw(name: &str, run: &ExplicitRun, instants: &[&Snapshot]) -> Figure {
     let radius = MILLI * run.smallest_radius();
     let halves: Vec<_> =
         instants.iter().map(|snapshot| sections::halves(run, snapshot, MEGA)).collect();
-    let ranges = halves.iter().map(sections::range);
-    let (smallest, largest) =
-        ranges.fold((0.0f64, 0.0f64), |(from, to), (a, b)| (from.min(a), to.max(b)));
     let wall = Section {
         points: vec![[-2.0 * radius, 0.0], [2.0 * radius, 0.0]],
         values: vec![0.0; 2],
@@ -126,28 +119,16 @@ fn draw(name: &str, run: &ExplicitRun, instants: &[&Snapshot]) -> Figure {
         outline: vec![0, 1],
     };
     let panel = |(k, letter): (usize, char)| {
-        let least = sections::range(&halves[k]).0 * MEGA;
-        let least = Unit::fitting(least, "Pa").with_digits(3).show(least).replace('-', "\u{2212}");
-        let label = instants[k]
-            .label
-            .map_or(String::new(), |label| format!("{}, ", label.name().replace('-', " ")));
-        let time = 1e3 * instants[k].time;
+        let label = instants[k].label.map(|label| format!("{}, ", label.name().replace('-', " ")));
+        let instant = format!("{}{:.2} ms", label.unwrap_or_default(), 1e3 * instants[k].time);
         Panel {
-            title: format!("({letter}) {label}{time:.2} ms, σ_yy ≥ {least}"),
+            title: sections::title(letter, &instant, sections::range(&halves[k]).0 * MEGA),
             sections: vec![halves[k][UPPER].mirrored(), wall.clone()],
         }
     };
-    let contour = Contour {
-        quantity: "σ_yy [MPa]".into(),
-        x_label: "r [mm]".into(),
-        y_label: "y [mm]".into(),
-        window: Window {
-            x: (-WIDTH * radius, WIDTH * radius),
-            y: (-BELOW * radius, ABOVE * radius),
-        },
-        levels: Levels::about_zero(smallest, largest, N_BANDS),
-        panels: (0..instants.len()).zip('a'..).map(panel).collect(),
-    };
+    let window =
+        Window { x: (-WIDTH * radius, WIDTH * radius), y: (-BELOW * radius, ABOVE * radius) };
+    let panels = (0..instants.len()).zip('a'..).map(panel).collect();
     let title = run.case.file().title.clone().unwrap_or_default();
     Figure {
         name: name.into(),
@@ -155,6 +136,6 @@ fn draw(name: &str, run: &ExplicitRun, instants: &[&Snapshot]) -> Figure {
             "{title}, at finite strain: true stress in the direction of the contact, σ_yy, in section, \
              tension positive. The lines are the outline of the deformed ball, true to scale, and the wall."
         ),
-        svg: contour.svg(),
+        svg: sections::figure("MPa", window, halves.iter().map(sections::range), panels),
     }
 }

@@ -44,9 +44,8 @@ struct Measured {
 /// Runs all cases and compares.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { against } = laboratory.parameters()?;
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name));
-    let runs = laboratory.simulate_all(cases.collect::<Result<_, _>>()?)?;
+    let (names, cases) = laboratory.cases()?;
+    let runs = laboratory.simulate_all(cases)?;
     let mut findings = Findings::new();
     let mut pulses = BTreeMap::new();
     for (name, run) in names.into_iter().zip(&runs) {

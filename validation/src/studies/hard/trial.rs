@@ -105,7 +105,7 @@ impl Trial {
     /// Returns the count of results that are not finite.
     pub fn no_number(&self) -> Option<f64> {
         let collision = self.collision()?;
-        let results = QuantityOfInterest::ALL.map(|headline| headline.of(collision));
+        let results = QuantityOfInterest::ALL.map(|quantity| quantity.of(collision));
         let results = results.into_iter().chain([collision.residual_relative]);
         let of_row = |row: &HistoryRow| {
             let [lower, upper] = row.velocity;

@@ -22,9 +22,8 @@ struct Parameters {
 /// Runs every case of the claim.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name));
-    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let (names, cases) = laboratory.cases()?;
+    let runs = laboratory.run_all(cases)?;
     let mut findings = Findings::new();
     for (name, run) in names.iter().zip(&runs) {
         findings.measure(format!("{name}.energy"), run.energy_residual());

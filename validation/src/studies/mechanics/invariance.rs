@@ -16,9 +16,8 @@ const REFERENCE: &str = "plain";
 
 /// Runs all cases.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name));
-    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let (names, cases) = laboratory.cases()?;
+    let runs = laboratory.run_all(cases)?;
     let Some(plain) = names.iter().position(|name| *name == REFERENCE) else {
         return Err(StudyError::parameters(format!("the claim has no [run.{REFERENCE}]")));
     };

@@ -1,8 +1,7 @@
 //! Fig. 14: σ_yy in section at four instants, on the deformed bodies.
 
-use fem_case::engineering::Unit;
 use fem_collision::{Snapshot, SnapshotInstant};
-use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
+use fem_figure::contour::{Panel, Region, Section, Window};
 use serde::Deserialize;
 
 use crate::error::StudyError;
@@ -14,8 +13,6 @@ use crate::studies::sections;
 const MILLI: f64 = 1e3;
 const GIGA: f64 = 1e-9;
 const GIGA_PASCAL: f64 = 1e9;
-/// Approximate number of colour bands over the largest stress.
-const N_BANDS: usize = 11;
 /// Share of Hertz' p₀ at which the stressed region ends.
 const STRESSED: f64 = 0.1;
 
@@ -116,27 +113,16 @@ fn difference(first: &Instant, second: &Instant) -> f64 {
 }
 
 fn draw(instants: &[Instant], [half_width, half_height]: [f64; 2]) -> Figure {
-    let (smallest, largest) = instants
-        .iter()
-        .map(Instant::range)
-        .fold((0.0f64, 0.0f64), |(from, to), (a, b)| (from.min(a), to.max(b)));
     let panel = |(instant, letter): (&Instant, char)| {
         let name = instant.label.name().replace('-', " ");
-        let least = Unit::fitting(instant.range().0 / GIGA, "Pa").with_digits(3);
-        let least = least.show(instant.range().0 / GIGA).replace('-', "\u{2212}");
+        let name = format!("{name}, {:.1} µs", 1e6 * instant.time);
         Panel {
-            title: format!("({letter}) {name}, {:.1} µs, σ_yy ≥ {least}", 1e6 * instant.time),
+            title: sections::title(letter, &name, instant.range().0 / GIGA),
             sections: instant.halves.iter().map(Section::mirrored).collect(),
         }
     };
-    let contour = Contour {
-        quantity: "σ_yy [GPa]".into(),
-        x_label: "r [mm]".into(),
-        y_label: "y [mm]".into(),
-        window: Window { x: (-half_width, half_width), y: (-half_height, half_height) },
-        levels: Levels::about_zero(smallest, largest, N_BANDS),
-        panels: instants.iter().zip('a'..).map(panel).collect(),
-    };
+    let window = Window { x: (-half_width, half_width), y: (-half_height, half_height) };
+    let panels = instants.iter().zip('a'..).map(panel).collect();
     Figure {
         name: "contours".into(),
         caption: "Fig. 14 of the paper, computed and drawn here: stress in the direction of the \
@@ -144,6 +130,6 @@ fn draw(instants: &[Instant], [half_width, half_height]: [f64; 2]) -> Figure {
                   the outlines of the deformed bodies, true to scale (not magnified); y is \
                   measured from the middle of the contact."
             .into(),
-        svg: contour.svg(),
+        svg: sections::figure("GPa", window, instants.iter().map(Instant::range), panels),
     }
 }

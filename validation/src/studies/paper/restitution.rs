@@ -34,9 +34,8 @@ struct Parameters {
 /// Runs all cases; those named `all` and `shear` are varied by their decay rate.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name));
-    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let (names, cases) = laboratory.cases()?;
+    let runs = laboratory.run_all(cases)?;
     let mut findings = Findings::new();
     let mut rows = Vec::new();
     for (name, run) in names.iter().zip(&runs) {

@@ -24,9 +24,8 @@ const MAIN: &str = "elastic";
 /// Runs all cases of the claim; the one named `elastic` is drawn.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut findings = Findings::new();
-    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name));
-    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let (names, cases) = laboratory.cases()?;
+    let runs = laboratory.run_all(cases)?;
     for (name, run) in names.iter().zip(&runs) {
         for (quantity, value) in quantities(run) {
             findings.measure(format!("{name}.{quantity}"), value);

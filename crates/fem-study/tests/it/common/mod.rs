@@ -1,4 +1,4 @@
-//! Bodies of the paper.
+//! The bodies of Bordbar & Hyppänen (2007) and of Bridges et al. (1984).
 
 #![allow(dead_code, reason = "no test file uses all of it")]
 
@@ -6,7 +6,7 @@ use fem_laws::{EndRule, LawFamily, Pair, Partner};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_study::fit::{Model, Point};
 
-/// Table 1, with a decay rate, 1/s.
+/// Returns the glass of table 1, with a decay rate, 1/s.
 pub fn glass(decay: Option<(f64, ActsOn)>) -> Material {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
     let series = decay.map(|(rate, acts_on)| {
@@ -16,7 +16,7 @@ pub fn glass(decay: Option<(f64, ActsOn)>) -> Material {
     Material::new(2390.0, moduli, series).unwrap()
 }
 
-/// 22.2 mm and 15.9 mm.
+/// Returns the model of spheres of 22.2 mm and 15.9 mm.
 pub fn glass_model(family: LawFamily, decay: Option<(f64, ActsOn)>) -> Model {
     let glass = glass(decay);
     let sphere = |diameter| Partner::solid_sphere(diameter, &glass);
@@ -24,7 +24,7 @@ pub fn glass_model(family: LawFamily, decay: Option<(f64, ActsOn)>) -> Model {
     Model::new(&pair, [Some(glass.clone()), Some(glass)], family, EndRule::ZeroForce).unwrap()
 }
 
-/// Two ice spheres of 2 cm.
+/// Returns the model of two ice spheres of 2 cm.
 pub fn ice_model(family: LawFamily) -> Model {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(10e9, 0.3).unwrap();
     let ice = Material::new(1000.0, moduli, None).unwrap();
@@ -33,7 +33,7 @@ pub fn ice_model(family: LawFamily) -> Model {
         .unwrap()
 }
 
-/// e = 0.32 (v/[cm/s])^−0.234, at most 1, at 12 speeds from 0.02 to 5 cm/s (Bridges et al. 1984).
+/// Returns e = 0.32 (v/[cm/s])^−0.234, at most 1, at 12 speeds from 0.02 to 5 cm/s (Bridges et al. 1984).
 pub fn bridges() -> Vec<Point> {
     let speed = |i: i32| 0.02 * 250f64.powf(f64::from(i) / 11.0);
     (0..12).map(|i| Point::new(1e-2 * speed(i), (0.32 * speed(i).powf(-0.234)).min(1.0))).collect()
