@@ -136,8 +136,9 @@ fn measure(
         let left = deadline.end.saturating_duration_since(Instant::now()).as_secs_f64();
         let fits = left > 0.0 && !interrupt.is_requested() && forecast.seconds(variant) <= left;
         let ran = fits.then(|| run(variant, variants.contact_radius, deadline)).transpose()?;
-        let took =
-            ran.as_ref().map_or("skipped: budget spent".to_string(), |(_, seconds)| show(*seconds, "s"));
+        let took = ran
+            .as_ref()
+            .map_or("skipped: budget spent".to_string(), |(_, seconds)| show(*seconds, "s"));
         let (series, describe) = (variant.series.name(), variant.describe());
         progress.finish_item(&format!("{took:>12}  {series}  {describe}"));
         if let Some(ran) = ran {

@@ -334,7 +334,8 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
     let ran = place.succeed(&[&pairs[..], &["--out", "all"]].concat());
     assert!(ran.stdout.contains("4 grains, 10 pairs"), "{}", ran.stdout);
     // The warning says why steel loses nothing and what to do; glass relaxes.
-    let why = "warning: the loss of steel in an impact is not known and not included: e of its pairs";
+    let why =
+        "warning: the loss of steel in an impact is not known and not included: e of its pairs";
     assert!(ran.stderr.contains(why), "{}", ran.stderr);
     let numbers = place.json("all/export.json");
     let rows = numbers["pairs"].as_array().unwrap();
