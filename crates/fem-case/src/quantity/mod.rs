@@ -317,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_finite_quantity_is_an_error_that_says_why() {
+    fn errors_name_quantity_and_key() {
         let is = |found: String, expected: &str| assert_eq!(found, expected);
         is(
             explained::<Length>("'22.2 kg'", "diameter"),

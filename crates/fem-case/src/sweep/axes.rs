@@ -95,7 +95,7 @@ impl AxisValue {
     }
 
     /// Returns the value of a key for display: numbers of a range or a table are rounded to five digits.
-    pub fn said(&self, key: usize) -> String {
+    pub fn displayed(&self, key: usize) -> String {
         let text = self.text(key);
         match self.source {
             Source::Made => rounded(text).filter(|short| short.len() < text.len()),
@@ -267,7 +267,7 @@ impl Reader<'_> {
                 if array.is_empty() {
                     let error = self
                         .document
-                        .error_on(value.span(), format!("the list of {name} is empty"));
+                        .error_on(value.span(), format!("{name} has no values"));
                     return faults.push(error.with_help("write at least one value"));
                 }
                 let values = array.iter().map(|value| self.written(&name, value));

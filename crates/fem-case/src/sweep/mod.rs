@@ -160,15 +160,15 @@ impl Sweep {
     }
 
     /// Returns the member's values for display, in the order of the keys.
-    pub fn said(&self, member: usize) -> Vec<String> {
+    pub fn displayed(&self, member: usize) -> Vec<String> {
         let choice = self.choice(member);
-        let value = |(axis, key): (usize, usize)| self.axes[axis].values[choice[axis]].said(key);
+        let value = |(axis, key): (usize, usize)| self.axes[axis].values[choice[axis]].displayed(key);
         self.places().map(value).collect()
     }
 
     /// Describes the member: `body.0.approach_speed = 0.1 m/s, …`.
     pub fn describe(&self, member: usize) -> String {
-        let pairs = self.keys().zip(self.said(member));
+        let pairs = self.keys().zip(self.displayed(member));
         let pairs: Vec<_> = pairs.map(|(key, value)| format!("{} = {value}", key.key)).collect();
         pairs.join(", ")
     }

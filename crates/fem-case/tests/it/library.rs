@@ -29,7 +29,7 @@ fn fault(overrides: &[&str]) -> String {
 
 /// The numbers agree with moduli of other sources.
 #[test]
-fn materials_are_solids_and_say_where_they_are_from() {
+fn materials_are_solids_with_a_source() {
     assert!(materials().len() > 15, "{:?}", materials().keys());
     for (name, entry) in materials() {
         for text in [&entry.title, &entry.source, &entry.range] {
@@ -74,7 +74,7 @@ fn the_terms_of_pvb_add_up() {
 }
 
 #[test]
-fn a_case_has_the_table_that_it_names() {
+fn a_case_gets_the_table_of_its_material() {
     let case = parse(BALL, &[]).unwrap();
     let pmma = &materials()["pmma"].material;
     assert_eq!(case.file().material.get("lib:pmma").unwrap().density.si(), pmma.density.si());
@@ -126,14 +126,14 @@ fn an_unknown_name_lists_the_library() {
     let text = error.to_string();
     assert!(text.contains("did you mean `lib:pmma`?"), "{text}");
     assert!(text.contains("lib:alumina, lib:aluminium"), "{text}");
-    for (said, meant) in [
+    for (name, expected) in [
         ("acrylic", "pmma"),
         ("Plexiglass", "pmma"),
         ("PDMS", "silicone"),
         ("100Cr6", "bearing-steel"),
     ] {
-        let told = fault(&[&format!("body.1.material='lib:{said}'")]);
-        assert!(told.contains(&format!("did you mean `lib:{meant}`?")), "{told}");
+        let message = fault(&[&format!("body.1.material='lib:{name}'")]);
+        assert!(message.contains(&format!("did you mean `lib:{expected}`?")), "{message}");
     }
     assert!(fault(&["body.1.material='lib:'"]).contains("the library has"));
     assert!(fault(&["material=3"]).contains("material"));
@@ -143,19 +143,19 @@ fn an_unknown_name_lists_the_library() {
 /// The warning of an unpublished loss appears for each way to use a material of the library, and only then.
 #[test]
 fn an_unpublished_loss_causes_a_warning() {
-    let said = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unpublished_loss();
-    assert!(said(BALL, &[]).unwrap().contains("the loss of pmma in an impact is not published"));
+    let warning = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unpublished_loss();
+    assert!(warning(BALL, &[]).unwrap().contains("the loss of pmma in an impact is not published"));
     // As `fem-run new` writes it, and as a resolved case has it.
     let copy = table_text("pmma").unwrap() + &BALL.replace("lib:pmma", "pmma");
-    assert!(said(&copy, &[]).unwrap().contains("the loss of pmma"));
+    assert!(warning(&copy, &[]).unwrap().contains("the loss of pmma"));
     let resolved = parse(BALL, &[]).unwrap().file().clone();
     assert!(Case::of(resolved).unwrap().scene().unpublished_loss().is_some());
     let relaxing = "material.'lib:pmma'.relaxation={ acts_on = 'shear', terms = [{ weight = 0.1, \
                     relaxation_time = 1 }] }";
     let law = "model.law={ kuwabara_kono = { a = '1e-6 s' } }";
     for set in ["body.1.material='lib:pvb'", relaxing, law] {
-        assert_eq!(said(BALL, &[set]), None, "{set}");
+        assert_eq!(warning(BALL, &[set]), None, "{set}");
     }
     // Other numbers make it the user's material.
-    assert_eq!(said(&copy, &["material.pmma.density=1200"]), None);
+    assert_eq!(warning(&copy, &["material.pmma.density=1200"]), None);
 }

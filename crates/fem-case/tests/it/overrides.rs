@@ -195,7 +195,7 @@ fn faults_in_the_key() {
 }
 
 #[test]
-fn of_keys_that_contradict_each_other_the_override_is_to_blame() {
+fn an_override_is_blamed_for_contradictions() {
     let glass = "[material.glass]\ndensity = 1\nyoungs_modulus = 2\nbulk_modulus = 2\n\
                  [material.glass.relaxation]\nacts_on = 'all'\n\
                  terms = [{ weight = 0.1, relaxation_time = 1 }, { weight = 0.2, decay_rate = 1 }]\n";

@@ -76,7 +76,7 @@ impl Probe {
     }
 
     /// Interpolates a nodal field, such as the displacement (r, y), m, or the velocity, m/s.
-    pub fn of_nodes(&self, field: &[[f64; 2]]) -> [f64; 2] {
+    pub fn interpolate(&self, field: &[[f64; 2]]) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (node, share) in self.quad.into_iter().zip(self.shares) {
             for axis in 0..2 {
@@ -161,8 +161,8 @@ impl Probes {
             self.found.iter().enumerate().filter_map(|(k, found)| Some((k, found.as_ref()?)))
         {
             let (from, to) = (&all.bodies[*side], &mut few.bodies[*side]);
-            to.displacement[k] = probe.of_nodes(&from.displacement);
-            to.velocity[k] = probe.of_nodes(&from.velocity);
+            to.displacement[k] = probe.interpolate(&from.displacement);
+            to.velocity[k] = probe.interpolate(&from.velocity);
             if let Some(material) = materials[*side] {
                 to.stress[k] = probe.stress(material, from);
             }
@@ -248,7 +248,7 @@ mod tests {
             let on_arc = [0.5f64.sin(), sign * (1.0 - 0.5f64.cos())];
             for place in [[0.0, 0.0], [0.0, sign * 1.3], [0.313, sign * 0.7], on_arc, [1.0, sign]] {
                 let probe = Probe::new(&recovery, place).unwrap();
-                let [u_r, u_y] = probe.of_nodes(&fields.displacement);
+                let [u_r, u_y] = probe.interpolate(&fields.displacement);
                 // Rounding.
                 assert!((u_r - a * place[0]).abs() < 1e-16, "{place:?} {u_r}");
                 assert!((u_y - b * place[1]).abs() < 1e-16, "{place:?} {u_y}");

@@ -72,7 +72,7 @@ impl Frame {
 
     /// Returns the energy (J) to which residuals are relative, at the largest approach so far (m): the initial energy and the
     /// work of the weight. A ball that is laid down has almost no initial energy.
-    pub fn energy_at_stake(&self, closest: f64) -> f64 {
+    pub fn energy_scale(&self, closest: f64) -> f64 {
         self.initial() + self.weight() * closest
     }
 
@@ -111,13 +111,13 @@ mod tests {
     }
 
     #[test]
-    fn energy_at_stake_grows_by_what_weight_gives() {
+    fn the_energy_scale_includes_the_work_of_the_weight() {
         let approach = Approach::at(2.0).unwrap();
         let masses = [None, Some(3.0)];
         let frame = Frame { approach, masses, reduced_mass: 3.0, gravity: 0.0 };
         // ½ 3 2², and 3 · 10 over a tenth.
-        assert_eq!(frame.energy_at_stake(0.1), 6.0);
-        assert_eq!(Frame { gravity: 10.0, ..frame }.energy_at_stake(0.1), 9.0);
+        assert_eq!(frame.energy_scale(0.1), 6.0);
+        assert_eq!(Frame { gravity: 10.0, ..frame }.energy_scale(0.1), 9.0);
     }
 
     /// A wall keeps its velocity; what it gives is force times way.

@@ -63,7 +63,7 @@ pub enum Stop {
     /// The total energy has grown.
     #[error(
         "at {at} (step {step}) the energy is {ratio:.4} times the initial energy: the time integration \
-         is unstable; the fastest node is node {node} of the {} body, with the undeformed position \
+         is unstable; the fastest node is node {node} of the {} body; its undeformed position is \
          r = {}, y = {}",
         side_of(*body),
         show(place[0], "m"),

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn the_residual_is_what_held_lost_and_given_leave() {
+    fn the_residual_is_the_balance_of_the_sides() {
         let mut book = EnergyLedger::EMPTY.with(Account::Kinetic, 3.0).with(Account::WallWork, 0.5);
         assert_eq!(book.residual(2.5), 0.0);
         book.add(Account::ViscousDissipation, 0.25);
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_stays_in_the_residual() {
+    fn nan_stays_in_the_residual() {
         let book = EnergyLedger::EMPTY.with(Account::Kinetic, 1.0).with(Account::Strain, f64::NAN);
         assert!(book.residual(1.0).is_nan());
     }

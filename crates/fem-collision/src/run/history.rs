@@ -110,9 +110,9 @@ impl History {
     }
 
     /// Returns whether a restart state is consistent.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_consistent(&self) -> bool {
         let n = self.rows.len();
-        self.interval.is_sound()
+        self.interval.is_consistent()
             && self.interval.n() == n
             && self.essential.len() == n
             && self.last_contact.is_none_or(|row| row < n)
@@ -214,7 +214,7 @@ mod tests {
                 let essential = [37, n_steps - 5];
                 let steps = run(&mut history, n_steps, essential);
                 assert!(steps.len() <= 4 * n_rows && steps.len() > n_rows, "{}", steps.len());
-                assert!(history.is_sound());
+                assert!(history.is_consistent());
                 assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
                 assert!(essential.iter().all(|step| steps.contains(step)));
                 // Even to a factor of 2, away from the essential rows.
@@ -233,7 +233,7 @@ mod tests {
                 let mut history = History::new(n_rows, expected_steps);
                 assert!(history.rows.capacity() <= MOST_RESERVED);
                 let steps = run(&mut history, 20, [3, 17]);
-                assert!(history.is_sound());
+                assert!(history.is_consistent());
                 assert!(expected_steps.is_infinite() || steps.len() == 21, "{steps:?}");
             }
         }

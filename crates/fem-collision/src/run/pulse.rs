@@ -161,7 +161,7 @@ impl ForcePulse {
     }
 
     /// Returns whether a restart state is consistent.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_consistent(&self) -> bool {
         self.stride > 0
             && self.samples.len() <= MOST
             && self.samples.is_sorted_by(|one, next| one.time <= next.time)
@@ -220,7 +220,7 @@ mod tests {
             }
             impulse += force / n_steps as f64;
         }
-        assert!(pulse.is_sound());
+        assert!(pulse.is_consistent());
         (pulse.peaks(largest, 1.0), largest)
     }
 
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn the_pressure_of_first_touch_is_no_peak() {
+    fn the_pressure_of_first_touch_does_not_count() {
         let (peaks, _) = pulse(12_000, 12, 0.0, 9.0);
         assert!((peaks.pressure - 1.0).abs() < 3e-4, "{peaks:?}");
     }
@@ -313,7 +313,7 @@ mod tests {
             long.observe(time, impulse, 1.0, 1.0);
             impulse += force / n as f64;
         }
-        assert!(long.is_sound() && long.samples.len() > MOST / 2 - 1, "{}", long.samples.len());
+        assert!(long.is_consistent() && long.samples.len() > MOST / 2 - 1, "{}", long.samples.len());
         let strides = long.samples.windows(2).map(|two| (two[1].time - two[0].time) * n as f64);
         assert!(strides.into_iter().all(|stride| (stride - long.stride as f64).abs() < 1e-6));
         assert!((long.peaks(1.0, 1.0).force - 1.0).abs() < 3e-4);

@@ -69,7 +69,7 @@ impl SamplingInterval {
     }
 
     /// Returns whether a restart state is consistent.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_consistent(&self) -> bool {
         self.stride > 0 && self.n < usize::MAX
     }
 }
@@ -84,7 +84,7 @@ mod tests {
             [(1000, 7600.0, 7), (1000, 50.0, 1), (0, 5.0, 5), (10, f64::NAN, 1)]
         {
             let interval = SamplingInterval::new(n_instants, expected_steps);
-            assert!(interval.is_sound());
+            assert!(interval.is_consistent());
             let due: Vec<u64> = (0..30).filter(|&step| interval.is_due(step)).collect();
             let expected: Vec<u64> = (0..30).step_by(stride).collect();
             assert_eq!(due, expected);
@@ -96,7 +96,7 @@ mod tests {
     fn the_nearest_stride_keeps_about_as_many() {
         for n_steps in [700_u64, 1000, 1400, 1499, 1500, 1999, 2999, 7600, 123_456] {
             let interval = SamplingInterval::nearest(1000, n_steps as f64);
-            assert!(interval.is_sound());
+            assert!(interval.is_consistent());
             let n = (0..n_steps).filter(|&step| interval.is_due(step)).count();
             assert!((667..1500).contains(&n), "{n} of {n_steps}");
         }

@@ -282,7 +282,7 @@ impl<'a> ImpactRun<'a> {
         sample = self.integrated(before.as_ref(), begin.as_ref(), sample);
         let lost = sample.dissipated + sample.radiated.unwrap_or(0.0);
         let residual = sample.residual;
-        let at_stake = self.frame.energy_at_stake(self.approach.highest);
+        let at_stake = self.frame.energy_scale(self.approach.highest);
         self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / at_stake);
         self.growth = nan_aware_max(self.growth, (residual - lost) / at_stake);
         if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {

@@ -78,7 +78,7 @@ pub(super) fn outcome(model: &Model, run: RestartState, ending: Ending) -> Colli
         ));
     }
     let frame = model.frame();
-    let of_stake = frame.initial() / frame.energy_at_stake(log.max_approach);
+    let of_stake = frame.initial() / frame.energy_scale(log.max_approach);
     // A residual that is not a number is above every limit.
     let is_sound = of_stake * ledger.worst_residual <= LARGEST_RESIDUAL;
     Collision {

@@ -87,9 +87,9 @@ impl SampledHistory {
 
     /// Returns whether it can belong to a run of a model in a state.
     pub fn fits(&self, model: &Model, state: &State) -> bool {
-        self.cadence.is_sound()
+        self.cadence.is_consistent()
             && self.standstill.is_of(&model.frame())
-            && self.pulse.is_sound()
+            && self.pulse.is_consistent()
             && self.pulse.last_time().is_none_or(|time| time <= state.time)
             && self.last.is_none_or(|row| row.time <= state.time)
     }

@@ -61,7 +61,7 @@ fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
         let mut values: Vec<String> = Vec::new();
         for (k, key) in of.keys.iter().enumerate() {
             names.push(short_role(&key.key));
-            values.push(plain(&element.said(k)));
+            values.push(plain(&element.displayed(k)));
         }
         names.dedup();
         values.dedup();

@@ -170,7 +170,7 @@ fn horizontal_label(sweep: &Sweep, choice: &FigureChoice) -> String {
         return if of_all { role_of_all(name) } else { role(name) };
     }
     let elements = sweep.axes[choice.x.axis].values.iter().enumerate();
-    let said = elements.map(|(k, element)| format!("{} {}", k + 1, plain(&element.said(0))));
+    let said = elements.map(|(k, element)| format!("{} {}", k + 1, plain(&element.displayed(0))));
     let said = said.collect::<Vec<_>>().join(", ");
     match said.chars().count() {
         0..=LONGEST_LABEL => said,

@@ -68,7 +68,7 @@ pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder:
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
     let row = |row: &Row| {
-        let said = sweep.said(row.index);
+        let said = sweep.displayed(row.index);
         let mut cells: Vec<String> = said.iter().map(|value| one_line(value)).collect();
         cells.extend(result_cells(row));
         cells

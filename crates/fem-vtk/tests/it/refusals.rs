@@ -16,16 +16,24 @@ fn refusal(writer: VtuWriter) -> Error {
     error
 }
 
+/// Asserts that a writer fails with this error.
+macro_rules! refused {
+    ($writer:expr, $error:pat) => {{
+        let error = refusal($writer);
+        assert!(matches!(error, $error), "{error:?}");
+    }};
+}
+
 fn square() -> VtuWriter<'static> {
     VtuWriter::new(&POINTS, &QUADS)
 }
 
 #[test]
 fn empty_meshes_and_arrays() {
-    assert!(matches!(refusal(VtuWriter::new(&[], &QUADS)), Error::Empty { .. }));
-    assert!(matches!(refusal(VtuWriter::new(&POINTS, &[])), Error::Empty { .. }));
-    assert!(matches!(refusal(square().field_data("none", 1, &[0.0; 0])), Error::Empty { .. }));
-    assert!(matches!(refusal(square().point_data("none", 1, &[0.0; 0])), Error::Empty { .. }));
+    refused!(VtuWriter::new(&[], &QUADS), Error::Empty { .. });
+    refused!(VtuWriter::new(&POINTS, &[]), Error::Empty { .. });
+    refused!(square().field_data("none", 1, &[0.0; 0]), Error::Empty { .. });
+    refused!(square().point_data("none", 1, &[0.0; 0]), Error::Empty { .. });
 }
 
 #[test]
@@ -40,27 +48,15 @@ fn wrong_lengths() {
         message,
         "CellData array \"body\": found 2 values; 1 cells x 1 components are needed"
     );
-    assert!(matches!(refusal(square().field_data("f", 3, &[0.0; 4])), Error::Length { .. }));
-    assert!(matches!(
-        refusal(square().cell_data("f", usize::MAX, &[0.0; 4])),
-        Error::Length { .. }
-    ));
+    refused!(square().field_data("f", 3, &[0.0; 4]), Error::Length { .. });
+    refused!(square().cell_data("f", usize::MAX, &[0.0; 4]), Error::Length { .. });
 }
 
 #[test]
 fn numbers_of_components() {
-    assert!(matches!(
-        refusal(square().point_data("v", 2, &[0.0; 8])),
-        Error::Components { components: 2, .. }
-    ));
-    assert!(matches!(
-        refusal(square().cell_data("v", 0, &[0.0; 1])),
-        Error::Components { components: 0, .. }
-    ));
-    assert!(matches!(
-        refusal(square().field_data("v", 0, &[0.0; 1])),
-        Error::Components { components: 0, .. }
-    ));
+    refused!(square().point_data("v", 2, &[0.0; 8]), Error::Components { components: 2, .. });
+    refused!(square().cell_data("v", 0, &[0.0; 1]), Error::Components { components: 0, .. });
+    refused!(square().field_data("v", 0, &[0.0; 1]), Error::Components { components: 0, .. });
 }
 
 #[test]
@@ -69,15 +65,9 @@ fn values_that_are_not_finite() {
     values[7] = f64::NAN;
     let message = refusal(square().point_data("velocity", 3, &values)).to_string();
     assert_eq!(message, "PointData array \"velocity\": value NaN at index 2 (component 1)");
-    assert!(matches!(
-        refusal(square().cell_data("p", 1, &[f64::INFINITY])),
-        Error::NotFinite { index: 0, .. }
-    ));
-    assert!(matches!(
-        refusal(square().field_data("p", 1, &[f64::NEG_INFINITY])),
-        Error::NotFinite { .. }
-    ));
-    assert!(matches!(refusal(square().time(f64::NAN)), Error::NotFinite { .. }));
+    refused!(square().cell_data("p", 1, &[f64::INFINITY]), Error::NotFinite { index: 0, .. });
+    refused!(square().field_data("p", 1, &[f64::NEG_INFINITY]), Error::NotFinite { .. });
+    refused!(square().time(f64::NAN), Error::NotFinite { .. });
     let mut points = POINTS;
     points[3][1] = f64::NAN;
     let error = refusal(VtuWriter::new(&points, &QUADS));
@@ -87,12 +77,12 @@ fn values_that_are_not_finite() {
 #[test]
 fn names() {
     for name in ["", "a\nb", "a\u{1}"] {
-        assert!(matches!(refusal(square().cell_data(name, 1, &[0.0])), Error::Name { .. }));
+        refused!(square().cell_data(name, 1, &[0.0]), Error::Name { .. });
     }
     let twice = square().cell_data("p", 1, &[0.0]).cell_data("p", 1, &[0.0]);
-    assert!(matches!(refusal(twice), Error::DuplicateName { section: "CellData", .. }));
+    refused!(twice, Error::DuplicateName { section: "CellData", .. });
     let time = square().time(0.0).field_data("TimeValue", 1, &[0.0]);
-    assert!(matches!(refusal(time), Error::DuplicateName { section: "FieldData", .. }));
+    refused!(time, Error::DuplicateName { section: "FieldData", .. });
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn a_falling_sphere_needs_a_support() {
 }
 
 #[test]
-fn without_gravity_nothing_is_held_and_nothing_comes_back() {
+fn held_and_bounces_need_gravity() {
     fault(&[(GRAVITY, ""), ("= 3", "= «3»")], "bounces without [gravity]", "9.81 m/s^2");
     let held = format!("{SPHERE}\nheld = «true»");
     fault(

@@ -1,4 +1,4 @@
-//! A valid case, and helpers for cases with a fault at a marked position.
+//! A valid case, and cases with a fault at a marked position.
 
 use std::path::Path;
 
@@ -83,13 +83,20 @@ pub fn error_at_mark(marked: &str) -> CaseError {
     error
 }
 
-/// Checks message and help of the fault of the valid case with one part replaced.
-#[track_caller]
-pub fn fault(part: &str, replacement: &str, message: &str, help: &str) {
-    assert!(VALID.contains(part), "{part}");
-    let error = error_at_mark(&VALID.replacen(part, replacement, 1));
-    assert!(error.message().contains(message), "{error}");
-    assert!(error.help().unwrap_or("").contains(help), "{error}");
+/// Each line of the table replaces a part of the valid case and names the message and the help of the fault.
+#[test]
+fn every_fault_of_the_table_has_its_position_message_and_help() {
+    let lines = include_str!("table.txt").lines();
+    for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        println!("{line}");
+        let line = line.replace('⏎', "\n");
+        let (part, rest) = line.split_once(" => ").unwrap();
+        let cells: Vec<&str> = rest.split(" | ").collect();
+        assert!(VALID.contains(part), "{part}");
+        let error = error_at_mark(&VALID.replacen(part, cells[0], 1));
+        assert!(error.message().contains(cells.get(1).unwrap_or(&"")), "{error}");
+        assert!(error.help().unwrap_or("").contains(cells.get(2).unwrap_or(&"")), "{error}");
+    }
 }
 
 #[test]

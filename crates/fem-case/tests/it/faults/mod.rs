@@ -1,8 +1,6 @@
-//! Every fault of a case file: where it is found, what is said, what help is given.
+//! Faults of a case file: position, message and help.
 
 mod gravity;
 pub mod marked;
-mod numbers;
 mod places;
 mod scene;
-mod text;

@@ -1,59 +1,11 @@
-//! Faults of materials, bodies, models, snapshots and probes.
+//! Faults of bodies and probes, and implausible numbers.
 
 use fem_case::Probe;
 
-use super::marked::{VALID, error_at_mark, fault, parse};
-
-#[test]
-fn moduli() {
-    fault(
-        "poissons_ratio = 0.244",
-        "shear_modulus = 1e9\npoissons_ratio = «0.244»",
-        "exactly two of youngs_modulus, shear_modulus, bulk_modulus, poissons_ratio",
-        "",
-    );
-    fault(
-        "[material.glass]\ndensity = \"2390 kg/m^3\"\nyoungs_modulus = \"63 GPa\"",
-        "«[material.glass]»\ndensity = \"2390 kg/m^3\"",
-        "exactly two",
-        "",
-    );
-    fault("poissons_ratio = 0.244", "shear_modulus = «1e9»", "implies poissons_ratio", "");
-    fault("poissons_ratio = 0.244", "bulk_modulus = «1e9»", "implies poissons_ratio", "");
-}
-
-#[test]
-fn relaxation() {
-    fault("decay_rate", "relaxation_time = «1», decay_rate", "both decay_rate and", "keep one");
-    fault(
-        "{ weight = 0.5, decay_rate = \"2708 1/s\" }",
-        "«{ weight = 0.5 }»",
-        "neither decay_rate nor",
-        "decay_rate = \"2708 1/s\"",
-    );
-    fault(
-        "[{ weight = 0.5, decay_rate = \"2708 1/s\" }, { weight = 0.25, relaxation_time = 1e-3 }]",
-        "«[]»",
-        "at least one term",
-        "",
-    );
-    fault(
-        "[{ weight = 0.5, decay_rate = \"2708 1/s\" }, { weight = 0.25, relaxation_time = 1e-3 }]",
-        "«[{ weight = 0.8, decay_rate = 1 }, { weight = 0.3, decay_rate = 2 }]»",
-        "at most 1",
-        "",
-    );
-    fault("\"2708 1/s\"", "«1e-320»", "relaxation_time must be positive and finite", "");
-}
+use super::marked::{VALID, error_at_mark, parse};
 
 #[test]
 fn materials() {
-    fault(
-        "material = \"glass\"",
-        "material = «\"glas\"»",
-        "no material \"glas\"",
-        "did you mean `glass`? the case has glass",
-    );
     let unused =
         "[material.\"ice (unused)\"]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n";
     parse(&format!("{VALID}{unused}")).unwrap();
@@ -136,36 +88,6 @@ fn bodies() {
 }
 
 #[test]
-fn snapshots() {
-    let list = "[\"mid-compression\", \"maximum\"]";
-    fault(list, "[\"maximum\", «\"maximun\"»]", "not the label", "did you mean `maximum`?");
-    fault(list, "[\"maximum\", «\"maximum\"»]", "twice", "");
-    fault(list, "[\"maximum\", «1e-6»]", "mixes", "");
-    fault(list, "[\"1 us\", «\"maximum\"»]", "mixes", "");
-    fault(list, "[«\"1 um\"»]", "snapshots must be a time", "");
-    fault(list, "[«-1e-6»]", "snapshots is -1e-6 s", "");
-    fault(list, "[«[]»]", "snapshots.0 is an array", "");
-    fault(list, "«0»", "snapshots is 0", "a whole number");
-    fault(list, "«1.5»", "snapshots is 1.5", "a whole number");
-}
-
-#[test]
-fn models() {
-    fault("fem = {}", "auto = «3»", "auto is an integer", "");
-    fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "keep exactly one");
-    fault("[model]\nfem = {}", "«[model]»", "names no model", "fem = {}");
-    fault("fem = {}", "condensed.steps = «\"many\"»", "does not begin with a number", "");
-    fault("fem = {}", "law = «{}»", "model.law names no law", "kuwabara_kono");
-    fault("fem = {}", "law.tsuji = «{}»", "the key `e` is missing", "write e");
-    let two = "[model.law.tsuji]\ne = 0.9\nalpha = «0.1»";
-    fault("[model]\nfem = {}", two, "both e and alpha are given", "");
-    let two = "[model.law.linear]\nk = 1e7\ncontact_time = «\"60 us\"»";
-    fault("[model]\nfem = {}", two, "both k and contact_time are given", "");
-    let accuracy = "[accuracy]\ntolerance = «\"2\"»\n[model]\nfem = {}";
-    fault("[model]\nfem = {}", accuracy, "tolerance is \"2\"", "at most 0.5");
-}
-
-#[test]
 fn probes() {
     let with = |probe: &str| format!("{VALID}[[output.probe]]\n{probe}");
     let is = |probe: &str, message: &str, help: &str| {
@@ -183,4 +105,30 @@ fn probes() {
     is("body = \"striker\"\nr = 0\ny = «1e-3»\n", "outside of \"striker\"", "lower body, y <= 0");
     is(&at("«\"5 mm\"»", "\"1 mm\""), "outside of \"target\"", "a radius of");
     is("body = «\"taget\"»\nr = 0\ny = 0\n", "no body \"taget\"", "did you mean `target`");
+}
+
+#[test]
+fn implausible_numbers_cause_warnings() {
+    let odd = |part: &str, replacement: &str| {
+        assert!(VALID.contains(part), "{part}");
+        parse(&VALID.replacen(part, replacement, 1)).unwrap().scene().implausible_numbers()
+    };
+    assert!(parse(VALID).unwrap().scene().implausible_numbers().is_empty());
+    for (part, replacement, warning) in [
+        ("\"22.2 mm\"", "5", "diameter of striker is 5.000 m"),
+        ("\"15.9 mm\"", "\"3 m\"", "that of the other body"),
+        ("\"22.2 mm\"", "\"101 m\"", "diameter of striker is 101.0 m"),
+        ("\"2390 kg/m^3\"", "2.39", "density of striker is 2.39"),
+        ("\"2390 kg/m^3\"", "\"26 g/cm^3\"", "density of"),
+        ("\"63 GPa\"", "63", "Young's modulus of striker is"),
+    ] {
+        let found = odd(part, replacement);
+        assert!(found.iter().any(|text| text.contains(warning)), "{replacement}: {found:?}");
+    }
+    // Rare values that are plausible.
+    for (part, replacement) in
+        [("\"22.2 mm\"", "1.5"), ("\"2390 kg/m^3\"", "11"), ("\"63 GPa\"", "\"1 kPa\"")]
+    {
+        assert_eq!(odd(part, replacement), [""; 0], "{replacement}");
+    }
 }

@@ -7,7 +7,7 @@ use super::pair::{Change, mesh, parsed, relaxation, snapshots};
 use super::shipped::{exactly, paths, shipped};
 
 #[test]
-fn an_edit_of_nothing_changes_nothing() {
+fn an_empty_edit_changes_nothing() {
     let mut n_filled_in = 0;
     for case in shipped() {
         let same = case.edited(|_| {}).unwrap();
@@ -23,7 +23,7 @@ fn an_edit_of_nothing_changes_nothing() {
 }
 
 #[test]
-fn what_an_edit_leaves_alone_keeps_its_line() {
+fn unchanged_keys_keep_their_line() {
     let case = parsed(&["start.gap=2e-6", "limits.memory='1 GB'"]);
     let edited = case
         .edited(|file| {
@@ -90,7 +90,7 @@ fn a_list_that_becomes_a_number_has_no_elements() {
 }
 
 #[test]
-fn of_keys_that_contradict_each_other_the_edit_is_to_blame() {
+fn an_edit_is_blamed_for_contradictions() {
     let blamed = |case: &Case, change: Change| case.edited(change).unwrap_err();
     let case = parsed(&["model.law.tsuji.alpha=0.1", "body.1.approach_speed=0"]);
     let law = |file: &mut CaseFile| {

@@ -9,7 +9,7 @@ use super::pair::{made, parsed};
 use super::shipped::{exactly, shipped};
 
 #[test]
-fn what_is_made_is_what_is_written() {
+fn a_case_in_code_is_the_same_as_its_text() {
     let case = Case::of(made()).unwrap();
     assert_eq!(exactly(&case), exactly(&parsed(&[])));
     // The same keys are given, whichever the way.
@@ -28,7 +28,7 @@ fn what_is_made_is_what_is_written() {
 }
 
 #[test]
-fn models_are_what_is_written() {
+fn models_in_code_are_the_same_as_in_text() {
     let tsuji =
         TsujiTable { e: Some(0.9.into()), end: Some(End::ZeroOverlap), ..Default::default() };
     let condensed = CondensedTable { vibration_modes: Some(12.into()), ..Default::default() };

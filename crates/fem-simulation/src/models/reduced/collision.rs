@@ -27,7 +27,7 @@ pub(super) fn of_impact(
     let residual = |instant| rows.row(instant).residual.unwrap_or(0.0);
     let is_together = impact.contact_time.is_none();
     let first_touch = frame.approach.first_touch();
-    let at_stake = frame.energy_at_stake(impact.max_approach);
+    let at_stake = frame.energy_scale(impact.max_approach);
     let end = impact.history.last().map(|instant| rows.row(instant));
     Collision {
         approach: frame.approach,
