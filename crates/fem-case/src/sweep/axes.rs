@@ -265,9 +265,8 @@ impl Reader<'_> {
             }
             DeValue::Array(array) => {
                 if array.is_empty() {
-                    let error = self
-                        .document
-                        .error_on(value.span(), format!("{name} has no values"));
+                    let error =
+                        self.document.error_on(value.span(), format!("{name} has no values"));
                     return faults.push(error.with_help("write at least one value"));
                 }
                 let values = array.iter().map(|value| self.written(&name, value));

@@ -162,7 +162,8 @@ impl Sweep {
     /// Returns the member's values for display, in the order of the keys.
     pub fn displayed(&self, member: usize) -> Vec<String> {
         let choice = self.choice(member);
-        let value = |(axis, key): (usize, usize)| self.axes[axis].values[choice[axis]].displayed(key);
+        let value =
+            |(axis, key): (usize, usize)| self.axes[axis].values[choice[axis]].displayed(key);
         self.places().map(value).collect()
     }
 

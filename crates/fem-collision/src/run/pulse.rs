@@ -313,7 +313,11 @@ mod tests {
             long.observe(time, impulse, 1.0, 1.0);
             impulse += force / n as f64;
         }
-        assert!(long.is_consistent() && long.samples.len() > MOST / 2 - 1, "{}", long.samples.len());
+        assert!(
+            long.is_consistent() && long.samples.len() > MOST / 2 - 1,
+            "{}",
+            long.samples.len()
+        );
         let strides = long.samples.windows(2).map(|two| (two[1].time - two[0].time) * n as f64);
         assert!(strides.into_iter().all(|stride| (stride - long.stride as f64).abs() < 1e-6));
         assert!((long.peaks(1.0, 1.0).force - 1.0).abs() < 3e-4);

@@ -111,7 +111,8 @@ impl RestartState {
     pub(crate) fn fits(&self, model: &Model) -> bool {
         let Self { state, .. } = self;
         let history_fits = |history: &History| {
-            history.is_consistent() && history.rows().last().is_none_or(|row| row.time <= state.time)
+            history.is_consistent()
+                && history.rows().last().is_none_or(|row| row.time <= state.time)
         };
         self.approach == *model.approach()
             && self.fingerprint == fingerprint(model)
