@@ -7,8 +7,7 @@ use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::prelude::{BandPlot, Layout, LinePlot, Plot, ScatterPlot, TickFormat};
 
 use crate::clip::runs;
-use crate::curve::{Curve, Mark};
-use crate::line_style::LineStyle;
+use crate::curve::{Curve, LineStyle, Mark};
 use crate::style::{COLOURS, decade, tick};
 
 /// Factor of free space beside the data on a logarithmic axis.

@@ -18,12 +18,10 @@ mod clip;
 pub mod contour;
 mod curve;
 mod grid;
-mod line_style;
 mod panel;
 mod scale;
 mod simplify;
 mod style;
-mod ticks;
 
 pub use chart::{Axis, Chart};
 pub use curve::{Curve, Mark};

@@ -10,8 +10,7 @@ use std::fmt::Write;
 use kuva::plot::scatter::MarkerShape;
 
 use crate::chart::{Chart, VisibleCurve};
-use crate::curve::Mark;
-use crate::line_style::LineStyle;
+use crate::curve::{LineStyle, Mark};
 use crate::scale::Scale;
 use crate::simplify::simplify;
 use crate::style::{COLOURS, DIM, FONT, GREY, GRID, INK, LETTER, escaped, number, words};

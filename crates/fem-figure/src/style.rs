@@ -59,7 +59,6 @@ pub(crate) const INK: &str = "#1c2126";
 /// The colour of secondary text and lines.
 pub(crate) const DIM: &str = "#5a626b";
 pub(crate) const GRID: &str = "#dfe3e8";
-/// The fonts.
 pub(crate) const FONT: &str = "DejaVu Sans, Arial, Helvetica, sans-serif";
 
 /// Approximate width of a character over the font size.

@@ -45,7 +45,7 @@ fn bands_of_a_linear_field_have_exact_areas() {
 #[test]
 fn a_region_is_its_outline_without_inner_edges() {
     let section = square(6, |[x, _]| x);
-    let whole = Region::whole(&section);
+    let whole = Region::at_most(&section, f64::INFINITY);
     assert_eq!((whole.loops.len(), whole.loops[0].len()), (1, 24));
     // A ring has a hole.
     let section = square(16, |[x, y]| (x - 0.5).hypot(y - 0.5));
@@ -87,7 +87,7 @@ fn levels_on_nodes_leave_no_slivers() {
 fn points_without_a_value_are_left_out() {
     let mut section = square(4, |[x, _]| x);
     section.values[0] = f64::NAN;
-    let corner = Region::whole(&section).area();
+    let corner = Region::at_most(&section, f64::INFINITY).area();
     assert!(corner < 0.95 && corner > 0.9, "{corner}");
     assert_eq!(section.range().map(|range| range.1), Some(1.0));
     section.values.fill(f64::INFINITY);
@@ -97,7 +97,7 @@ fn points_without_a_value_are_left_out() {
 #[test]
 fn a_mirror_image_doubles_the_area_without_a_seam() {
     let section = square(5, |[x, y]| x + y).mirrored();
-    let whole = Region::whole(&section);
+    let whole = Region::at_most(&section, f64::INFINITY);
     assert!((whole.area() - 2.0).abs() < ROUNDING);
     assert_eq!(whole.loops.len(), 1);
     let ends = [section.outline[0], section.outline[section.outline.len() - 1]];

@@ -1,4 +1,4 @@
-//! What a chart of a page shows, and what it leaves to the page.
+//! Tests the charts for pages: their content, and what they leave to the style sheet of the page.
 
 use fem_figure::{Axis, Chart, Curve, GREY, panel};
 

@@ -1,15 +1,16 @@
 //! A case in memory.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use fem::{Identity, Simulation};
 use fem_command::{Failure, Given, Timed};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::failure::OrRaise;
 use crate::outcome::Outcome;
-use crate::watch::{RunWatch, watched};
+use crate::watch::{BROKEN, RunWatch, watched};
 
 /// A valid case with its text and overrides.
 #[pyclass(frozen, module = "fem_run._native")]
@@ -118,7 +119,7 @@ impl Case {
     ) -> PyResult<(Outcome, Option<PyErr>)> {
         let started = Instant::now();
         let case = self.case.clone();
-        let (ran, error) = watched(py, report, |watch| {
+        let (ran, error) = watched(py, report, Duration::MAX, move |watch| {
             let mut simulation = Simulation::new(case)?;
             if !fields {
                 simulation.skip_snapshots();
@@ -127,6 +128,10 @@ impl Case {
             let computed = simulation.run_within_tolerance(&mut timed);
             Ok::<_, Failure>((computed, timed.stop().0))
         })?;
+        // Without a limit of its time the work has ended with a value.
+        let Some(ran) = ran else {
+            return Err(error.unwrap_or_else(|| PyRuntimeError::new_err(BROKEN)));
+        };
         let (computed, stopwatch) = ran.or_raise(py)?;
         Ok((Outcome::of(computed, stopwatch), error))
     }

@@ -51,7 +51,7 @@ fn array<'py>(py: Python<'py>, read: &ReadArray, n: usize) -> PyResult<Bound<'py
 
 #[pymethods]
 impl Outcome {
-    /// Returns `summary.json`.
+    /// Returns the text of `summary.json`.
     fn summary(&self) -> PyResult<String> {
         serde_json::to_string(&self.summary).map_err(broken)
     }

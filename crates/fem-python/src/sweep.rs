@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use fem::ComputedCollision;
 use fem::results::Summary;
@@ -16,7 +17,10 @@ use serde_json::Value;
 
 use crate::case::Case;
 use crate::failure::OrRaise;
-use crate::watch::{WatchState, watched_apart};
+use crate::watch::{WatchState, watched};
+
+/// Time that stopped members get to end; their results so far are returned in any case.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Results so far, for a caller that does not wait for the end.
 #[derive(Default)]
@@ -53,7 +57,7 @@ impl<'a> Observer for MemberObserver<'a> {
     }
 
     fn begin(&self, _: usize) -> Self::Watch {
-        Timed::since(std::time::Instant::now(), MemberWatch(self.watch))
+        Timed::since(Instant::now(), MemberWatch(self.watch))
     }
 
     fn end(&self, index: usize, watch: Self::Watch, ran: Result<&ComputedCollision, &CaseError>) {
@@ -131,7 +135,7 @@ pub fn run_members(
     let found = Arc::new(PartialResults::default());
     let own = Arc::clone(&found);
     let work = move |watch: &WatchState| run(&cases, threads, watch, &own);
-    let (ran, error) = watched_apart(py, report, work)?;
+    let (ran, error) = watched(py, report, GRACE, work)?;
     if let Some(ran) = ran {
         ran.or_raise(py)?;
     }

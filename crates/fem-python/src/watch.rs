@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,12 +11,9 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 /// The message of a panic.
-const BROKEN: &str = "a computation stopped unexpectedly; please report it";
+pub const BROKEN: &str = "a computation stopped unexpectedly; please report it";
 /// Interval at which the calling thread looks up.
 const LOOK: Duration = Duration::from_millis(50);
-
-/// Time that stopped work gets to end, if its end is not needed.
-const GRACE: Duration = Duration::from_secs(1);
 
 /// State shared by the work and the calling thread.
 #[derive(Default)]
@@ -51,53 +48,16 @@ impl Monitor for RunWatch<'_> {
     }
 }
 
-/// Runs `work` without Python's lock. Signals and exceptions of `report` end it early; they are returned
-/// beside its value.
+/// Runs `work` without Python's lock. Signals and exceptions of `report` stop it early; they are returned beside its value.
+/// There is no value if stopped work, such as the factorisation of a mesh, which nothing interrupts, does not end within
+/// `grace`; it then continues by itself.
 ///
 /// # Errors
 /// The work panicked.
-pub fn watched<T: Send>(
+pub fn watched<T: Send + 'static>(
     py: Python<'_>,
     report: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&WatchState) -> T + Send,
-) -> PyResult<(T, Option<PyErr>)> {
-    let watched = WatchState::default();
-    let mut error = None;
-    let done = thread::scope(|scope| {
-        let (sender, receiver) = channel();
-        let watched = &watched;
-        let worker = scope.spawn(move || {
-            let done = work(watched);
-            // The receiver exists until the thread has ended.
-            let _ = sender.send(());
-            done
-        });
-        let look = || -> PyResult<()> {
-            py.check_signals()?;
-            report.map_or(Ok(()), |report| report.call1((watched.fraction(),)).map(drop))
-        };
-        let receiver = Mutex::new(receiver);
-        let wait = || receiver.lock().map_or(Ok(()), |receiver| receiver.recv_timeout(LOOK));
-        while py.detach(wait) == Err(RecvTimeoutError::Timeout) {
-            if let Err(found) = look() {
-                error.get_or_insert(found);
-                watched.is_stopped.store(true, Ordering::Relaxed);
-            }
-        }
-        py.detach(|| worker.join())
-    });
-    let done = done.map_err(|_| PyRuntimeError::new_err(BROKEN))?;
-    Ok((done, error))
-}
-
-/// Does the same for work that may continue by itself if it does not end within a second after it was
-/// stopped, such as the factorisation of a mesh, which nothing interrupts: then there is no value.
-///
-/// # Errors
-/// The work panicked.
-pub fn watched_apart<T: Send + 'static>(
-    py: Python<'_>,
-    report: Option<&Bound<'_, PyAny>>,
+    grace: Duration,
     work: impl FnOnce(&WatchState) -> T + Send + 'static,
 ) -> PyResult<(Option<T>, Option<PyErr>)> {
     let watched = Arc::new(WatchState::default());
@@ -106,30 +66,24 @@ pub fn watched_apart<T: Send + 'static>(
     // The receiver may be gone.
     thread::spawn(move || drop(sender.send(work(&own))));
     let receiver = Mutex::new(receiver);
-    let wait = || {
-        let receiver = receiver.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        receiver.recv_timeout(LOOK)
-    };
+    let wait = || receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(LOOK);
     let mut stopped: Option<(Instant, PyErr)> = None;
     loop {
         match py.detach(wait) {
             Ok(done) => return Ok((Some(done), stopped.map(|(_, error)| error))),
-            Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err(BROKEN));
-            }
+            Err(RecvTimeoutError::Disconnected) => return Err(PyRuntimeError::new_err(BROKEN)),
             Err(RecvTimeoutError::Timeout) => {}
         }
-        let signals = py.check_signals();
-        let looked = signals.and_then(|()| match &stopped {
-            None => report.map_or(Ok(()), |report| report.call1((watched.fraction(),)).map(drop)),
-            Some(_) => Ok(()),
+        let looked = py.check_signals().and_then(|()| match (&stopped, report) {
+            (None, Some(report)) => report.call1((watched.fraction(),)).map(drop),
+            _ => Ok(()),
         });
         if let Err(error) = looked {
             watched.is_stopped.store(true, Ordering::Relaxed);
             stopped.get_or_insert((Instant::now(), error));
         }
         match stopped {
-            Some((at, error)) if at.elapsed() > GRACE => return Ok((None, Some(error))),
+            Some((at, error)) if at.elapsed() > grace => return Ok((None, Some(error))),
             other => stopped = other,
         }
     }

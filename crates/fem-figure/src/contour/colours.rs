@@ -10,14 +10,13 @@ const DARK: f64 = 0.28;
 /// Hues in degrees next to zero and far from it.
 const BELOW: (f64, f64) = (205.0, 300.0);
 const ABOVE: (f64, f64) = (85.0, 25.0);
-/// Largest chroma.
 const CHROMA: f64 = 0.17;
 
 /// Lightness of the neutral band and of the last one on a dark ground.
 const NIGHT: (f64, f64) = (0.27, 0.93);
 
 /// Returns `#rrggbb` at a position from −1 (lowest) over 0 (neutral) to 1.
-pub fn band_colour(position: f64) -> String {
+pub(crate) fn band_colour(position: f64) -> String {
     colour(position, (LIGHT, DARK))
 }
 

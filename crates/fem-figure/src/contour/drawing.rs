@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use super::colours::band_colour;
 use super::levels::Levels;
-use super::paths;
 use super::region::{Cells, Region};
 use super::section::Section;
 use super::window::{PANEL_WIDTH, Window};
@@ -24,7 +23,7 @@ const N_TICKS: usize = 7;
 pub struct Panel {
     /// Title above the panel.
     pub title: String,
-    /// The bodies.
+    /// The sections of the bodies.
     pub sections: Vec<Section>,
 }
 
@@ -91,7 +90,7 @@ impl Contour {
             let _ = writeln!(
                 svg,
                 "<path d=\"{}\" fill=\"{ground}\" stroke=\"{INK}\" stroke-width=\"1.1\"/>",
-                paths::of_line(points, &self.window)
+                self.window.line_path(points)
             );
         }
         svg.push_str("</g>\n");
@@ -101,7 +100,7 @@ impl Contour {
     /// Draws the bands from the neutral one outward, each over the one before.
     fn draw_bands(&self, svg: &mut String, section: &Section) {
         bands(&self.levels, section, |band, region| {
-            let data = paths::of_region(&region, &self.window);
+            let data = self.window.region_path(&region);
             let colour = band_colour(self.levels.position(band));
             let _ = writeln!(svg, "<path fill=\"{colour}\" d=\"{data}\"/>");
         });

@@ -9,7 +9,6 @@ use std::fmt::Write;
 use super::colours::{band_colour, dark_band_colour};
 use super::drawing::{Contour, Panel, bands};
 use super::levels::Levels;
-use super::paths;
 use super::window::{PANEL_WIDTH, Window};
 use crate::style::{DIM, FONT, GRID, INK, LETTER, number, words};
 
@@ -44,7 +43,7 @@ impl Contour {
         let Window { x, y } = self.window;
         for section in &panel.sections {
             bands(&self.levels, &section.within(x, y), |band, region| {
-                let data = paths::of_region(&region.mirrored(), &self.window);
+                let data = self.window.region_path(&region.mirrored());
                 let _ = writeln!(svg, "<path {} d=\"{data}\"/>", fill(&self.levels, band));
             });
         }
@@ -60,7 +59,7 @@ impl Contour {
                 svg,
                 "<path class=\"{class} stroke\" stroke=\"{INK}\" stroke-width=\"1.1\" \
                  fill=\"{ground}\" d=\"{}\"/>",
-                paths::of_line(image.into_iter().chain(half), &self.window)
+                self.window.line_path(image.into_iter().chain(half))
             );
         }
         svg += "</svg>\n";

@@ -34,7 +34,7 @@ impl Levels {
     }
 
     /// Returns the position of a band from −1 (lowest) over 0 (neutral) to 1, for
-    /// [`band_colour`](super::band_colour).
+    /// `band_colour`.
     pub(crate) fn position(&self, band: usize) -> f64 {
         let neutral = self.neutral() as f64;
         let n_bands = self.edges.len() as f64 - 1.0;

@@ -14,13 +14,11 @@ mod colours;
 mod drawing;
 mod frames;
 mod levels;
-mod paths;
 mod region;
 mod rounded;
 mod section;
 mod window;
 
-pub use colours::band_colour;
 pub use drawing::{Contour, Panel};
 pub use levels::Levels;
 pub use region::Region;

@@ -17,11 +17,6 @@ pub struct Region {
 }
 
 impl Region {
-    /// Returns the region of all quads.
-    pub fn whole(section: &Section) -> Self {
-        Self::at_most(section, f64::INFINITY)
-    }
-
     /// Returns the region where the field is at most `level`.
     pub fn at_most(section: &Section, level: f64) -> Self {
         Cells::of(section).at_most(level)
@@ -84,9 +79,7 @@ pub(crate) struct Cells {
 
 impl Cells {
     pub fn of(section: &Section) -> Self {
-        let is_finite =
-            |quad: &&[u32; 4]| quad.iter().all(|point| section.values[*point as usize].is_finite());
-        let quads: Vec<[u32; 4]> = section.quads.iter().filter(is_finite).copied().collect();
+        let quads: Vec<[u32; 4]> = section.finite_quads().collect();
         let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| [quad[k], quad[(k + 1) % 4]]);
         let mut owner: HashMap<[u32; 2], u32> = HashMap::with_capacity(4 * quads.len());
         for (cell, quad) in quads.iter().enumerate() {

@@ -151,12 +151,12 @@ mod tests {
             off.fold(0.0, f64::max)
         };
         assert!(farthest(&coarse) > 0.012 && farthest(&round) < 0.002, "{}", farthest(&round));
-        let area = |section: &Section| Region::whole(section).area().abs();
+        let area = |section: &Section| Region::at_most(section, f64::INFINITY).area().abs();
         let ring = 0.5 * std::f64::consts::PI * 0.75;
         assert!((area(&coarse) / ring - 1.0).abs() > 0.01);
         let rest = area(&round) + 0.5 * 0.25 * 10.0 * (std::f64::consts::PI / 10.0).sin();
         assert!((rest / (0.5 * std::f64::consts::PI) - 1.0).abs() < 3e-3, "{rest}");
-        assert_eq!(Region::whole(&round).loops.len(), 1);
+        assert_eq!(Region::at_most(&round, f64::INFINITY).loops.len(), 1);
         assert_eq!(coarse.rounded(0.1), coarse);
     }
 

@@ -59,17 +59,15 @@ impl Section {
         Self { quads, ..self.clone() }
     }
 
-    /// Returns the quads with finite values, by the coordinates and values of their corners.
-    pub(crate) fn cells(&self) -> impl Iterator<Item = [([f64; 2], f64); 4]> {
-        let corners = |quad: &[u32; 4]| {
-            quad.map(|point| (self.points[point as usize], self.values[point as usize]))
-        };
-        self.quads.iter().map(corners).filter(|cell| cell.iter().all(|(_, v)| v.is_finite()))
+    /// Returns the quads whose values are all finite.
+    pub(crate) fn finite_quads(&self) -> impl Iterator<Item = [u32; 4]> {
+        let is_finite = |quad: &[u32; 4]| quad.iter().all(|k| self.values[*k as usize].is_finite());
+        self.quads.iter().copied().filter(is_finite)
     }
 
     /// Returns the smallest and the largest value of the quads; `None` without quads.
     pub fn range(&self) -> Option<(f64, f64)> {
-        let values = self.cells().flatten().map(|(_, value)| value);
+        let values = self.finite_quads().flatten().map(|point| self.values[point as usize]);
         values.fold(None, |range, value| {
             let (from, to) = range.unwrap_or((value, value));
             Some((value.min(from), value.max(to)))

@@ -1,7 +1,10 @@
-//! The visible part of the plane and its position in a panel.
+//! The visible part of the plane, its position in a panel, and SVG path data in it.
 
+use std::fmt::Write;
+
+use super::region::Region;
+use crate::scale::ticks;
 use crate::style::number;
-use crate::ticks::ticks;
 
 /// Width of a window in pixels.
 pub(crate) const PANEL_WIDTH: f64 = 400.0;
@@ -27,7 +30,7 @@ impl Window {
     }
 
     /// Returns the position of a point in pixels from the upper left corner.
-    pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.scale() * (x - self.x.0), self.scale() * (self.y.1 - y)]
     }
 
@@ -38,11 +41,33 @@ impl Window {
         [x.collect(), y.collect()]
     }
 
-    /// Whether a point is within half a window's width of the window.
-    pub(crate) fn is_near(&self, [x, y]: [f64; 2]) -> bool {
+    /// Returns the closed paths of a region.
+    pub(crate) fn region_path(&self, region: &Region) -> String {
+        let loops = region.loops.iter();
+        loops.map(|polygon| self.path(polygon.iter().copied()) + "Z").collect()
+    }
+
+    /// Returns an open path; points farther than half a window's width from the window are left out.
+    pub(crate) fn line_path(&self, points: impl Iterator<Item = [f64; 2]>) -> String {
         let margin = 0.5 * (self.x.1 - self.x.0);
         let inside =
             |value: f64, (from, to): (f64, f64)| (from - margin..=to + margin).contains(&value);
-        inside(x, self.x) && inside(y, self.y)
+        self.path(points.filter(|[x, y]| inside(*x, self.x) && inside(*y, self.y)))
+    }
+
+    /// Returns points that differ by at least a tenth of a pixel, with absolute coordinates.
+    fn path(&self, points: impl Iterator<Item = [f64; 2]>) -> String {
+        let tenths = |point: [f64; 2]| self.place(point).map(|x| (10.0 * x).round() as i64);
+        let (mut data, mut last) = (String::new(), None);
+        for place in points.map(tenths) {
+            if last == Some(place) {
+                continue;
+            }
+            data.push(if last.is_none() { 'M' } else { 'L' });
+            let [x, y] = place.map(|tenths| tenths as f64 / 10.0);
+            let _ = write!(data, "{x} {y}");
+            last = Some(place);
+        }
+        data
     }
 }

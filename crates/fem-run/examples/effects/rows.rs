@@ -29,10 +29,10 @@ const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
 const FALLING: &str = "body.1.approach_speed=0.5";
 const WEIGHT: &str = "gravity.acceleration=9.81";
 
-/// What a run records beside the quantities of the collision.
+/// Records of a run beside the quantities of interest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
-    /// Nothing more.
+    /// Only the quantities of interest.
     Quantities,
     /// A history of a thousand rows.
     History,
@@ -42,12 +42,12 @@ pub enum Kept {
     Stress,
 }
 
-/// A run by its changes of the glass pair, and what it records.
+/// A run: the changes of the glass pair, and its records.
 #[derive(Clone, Copy, Debug)]
 pub struct Side {
     /// Overrides, as for `--set`.
     pub overrides: &'static [&'static str],
-    /// What it records.
+    /// The records of the run.
     pub kept: Kept,
 }
 

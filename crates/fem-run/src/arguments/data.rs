@@ -46,18 +46,14 @@ impl ColumnArguments {
         Ok(table.renamed(&names)?)
     }
 
-    /// Returns the options as one text, which is part of a result's identity.
-    pub fn text(&self) -> String {
-        self.columns.join(",")
+    /// Returns the data file and these options as one text, which is part of a result's identity.
+    pub fn identity(&self, path: &Path) -> String {
+        path.display().to_string() + &self.columns.join(",")
     }
 }
 
 impl From<DataError> for Failure {
     fn from(error: DataError) -> Self {
-        let failure = Failure::bad_input(error.to_string());
-        match error.help {
-            Some(help) => failure.with_help(help),
-            None => failure,
-        }
+        Failure::bad_input(error.to_string()).with_help_if(error.help)
     }
 }

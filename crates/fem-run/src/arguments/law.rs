@@ -77,24 +77,17 @@ pub fn parse_family(name: &str) -> Result<LawFamily, String> {
 /// # Errors
 /// There is no such parameter.
 pub fn find_key(family: LawFamily, key: &str, option: &str) -> Result<usize, Failure> {
-    find_parameter(family, key)
-        .map_err(|error| with_help(format!("{option}: {error}"), error.help()))
+    find_parameter(family, key).map_err(|error| {
+        Failure::bad_input(format!("{option}: {error}")).with_help_if(error.help())
+    })
 }
 
 /// Turns the error of a value into a failure that names its option.
 pub fn of_value(option: &str) -> impl Fn(ParameterError) -> Failure {
-    move |error| with_help(format!("{option} {error}"), error.help())
+    move |error| Failure::bad_input(format!("{option} {error}")).with_help_if(error.help())
 }
 
-fn with_help(message: String, help: Option<String>) -> Failure {
-    let failure = Failure::bad_input(message);
-    match help {
-        Some(help) => failure.with_help(help),
-        None => failure,
-    }
-}
-
-/// Splits `KEY=VALUE`.
+/// Splits `KEY=VALUE` at its first `=`.
 ///
 /// # Errors
 /// There is no `=`.

@@ -60,41 +60,31 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
         Ok(arguments) => return arguments,
         Err(error) => error,
     };
-    if error.kind() == ErrorKind::InvalidSubcommand {
-        // `help exprt`; elsewhere a word that is no command is taken as a case.
-        let word = match error.get(ContextKind::InvalidSubcommand) {
-            Some(ContextValue::String(word)) => word.clone(),
-            _ => String::new(),
-        };
-        let mut command = Arguments::command();
-        let names = names_of(&command).join(", ");
-        let near =
-            near_command(&word).map_or(String::new(), |near| format!("; did you mean {near}?"));
-        let text = format!("{word:?} is not a command; the commands are {names}{near}");
-        command.error(error.kind(), text).exit()
-    }
-    // clap takes the second of two cases for a command.
-    let is_of_commands = error.to_string().contains("the subcommand");
-    if error.kind() != ErrorKind::ArgumentConflict || !is_of_commands {
-        error.exit()
-    }
     let mut command = Arguments::command();
-    let names = names_of(&command);
-    let word = std::env::args().nth(1).unwrap_or_default();
-    let near = near_command(&word).map_or(String::new(), |near| format!("; did you mean {near}?"));
-    let names = names.join(", ");
-    command
-        .error(
-            error.kind(),
-            match word.as_str() {
-                "run" => "running a case needs no command: fem-run CASE.toml".to_string(),
-                _ => format!(
-                    "only one case can be run at a time, and a command must be the first word; the \
-                     commands are {names}{near}"
-                ),
-            },
-        )
-        .exit()
+    let names = names_of(&command).join(", ");
+    let (word, text) = match error.kind() {
+        // `help exprt`; elsewhere a word that is no command is taken as a case.
+        ErrorKind::InvalidSubcommand => {
+            let word = match error.get(ContextKind::InvalidSubcommand) {
+                Some(ContextValue::String(word)) => word.clone(),
+                _ => String::new(),
+            };
+            let text = format!("{word:?} is not a command; the commands are {names}");
+            (word, text)
+        }
+        // clap takes the second of two cases for a command.
+        ErrorKind::ArgumentConflict if error.to_string().contains("the subcommand") => {
+            let text = "only one case can be run at a time, and a command must be the first word; the commands are";
+            (std::env::args().nth(1).unwrap_or_default(), format!("{text} {names}"))
+        }
+        _ => error.exit(),
+    };
+    let text = match near_command(&word) {
+        _ if word == "run" => "running a case needs no command: fem-run CASE.toml".to_string(),
+        Some(near) => format!("{text}; did you mean {near}?"),
+        None => text,
+    };
+    command.error(error.kind(), text).exit()
 }
 
 fn names_of(command: &clap::Command) -> Vec<String> {

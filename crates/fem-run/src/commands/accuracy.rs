@@ -17,7 +17,7 @@ use crate::progress::ItemProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
-use crate::text::standard_output::{self, one_line};
+use crate::text::standard_output::one_line;
 use crate::text::tables::table;
 
 /// Shorter runs are timed three times, and the median is taken.
@@ -62,7 +62,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let variants = Variants::of(&case)?;
     let identity = Identity::of(&case)?;
     let stem = arguments.input.stem();
-    let mut output = arguments.output.claim(&stem, "accuracy", &[&identity.case])?;
+    let mut output = arguments.output.claim(&stem, "accuracy", &[identity.case])?;
     if !quiet {
         announce(&arguments.input.name(), &variants, budget);
     }
@@ -90,19 +90,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         output.write("accuracy.svg", svg)?;
     }
     output.write("accuracy.md", page)?;
-    let place = output.publish(&json(&result))?;
-    if quiet {
-        return Ok(());
-    }
-    let mut text = format!("{}\n", one_line(result.title));
-    for part in terminal_tables(&result) {
-        let mut alignment = vec![Right; part.rows[0].len()];
-        alignment[0] = Left;
-        let rows = table(&alignment, part.rows);
-        text += &format!("\n{}\n{}\n", part.heading, rows.trim_end());
-    }
-    sentences(&result).iter().for_each(|sentence| text += &format!("\n{sentence}\n"));
-    standard_output::print(&format!("{text}\nResult: {place}\n"))
+    output.publish(&json(&result), || {
+        let mut text = format!("{}\n", one_line(result.title));
+        for part in terminal_tables(&result) {
+            let mut alignment = vec![Right; part.rows[0].len()];
+            alignment[0] = Left;
+            let rows = table(&alignment, part.rows);
+            text += &format!("\n{}\n{}\n", part.heading, rows.trim_end());
+        }
+        sentences(&result).iter().for_each(|sentence| text += &format!("\n{sentence}\n"));
+        text
+    })
 }
 
 /// Prints one line on stderr about the study.

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use comfy_table::CellAlignment::{Left, Right};
+use comfy_table::CellAlignment::Left;
 use fem::effects::percent;
 use fem::{Cost, ErrorEstimator, ForceLaw, RefinedBeforeRun, Simulation};
 use fem_case::Case;
@@ -17,7 +17,7 @@ use crate::progress::stopwatch::peak_memory_with;
 use crate::text::failure::Failure;
 use crate::text::run_report;
 use crate::text::standard_output;
-use crate::text::tables::{mesh_table, pairs, table};
+use crate::text::tables::{headed, mesh_table, pairs, table};
 
 /// Time for the reference runs that decide whether the mesh is fine enough.
 const PATIENCE_WITH_REFERENCE_RUNS: Duration = Duration::from_secs(2);
@@ -128,15 +128,13 @@ fn models(simulation: &Simulation) -> String {
 /// Returns which effects are on, why, and the changes of the results without them.
 fn effects(simulation: &Simulation) -> String {
     let setup = simulation.setup();
-    let header = ["", "", "restitution", "contact time", "peak force", ""].map(String::from);
     let rows = setup.decisions.verdicts.iter().map(|verdict| {
         let neglect_error = simulation.neglect_error(verdict, &setup.estimate).unwrap_or_default();
         let [restitution, time, force] = run_report::changes(&neglect_error);
         let switch = run_report::on_or_off(verdict).to_string();
         [switch, verdict.name.to_string(), restitution, time, force, verdict.reason.clone()]
     });
-    let alignments = [Left, Left, Right, Right, Right, Left];
-    table(&alignments, std::iter::once(header).chain(rows))
+    headed("||>restitution|>contact time|>peak force|", rows)
 }
 
 /// Returns the cost with the default effects; empty if the case does not override them.

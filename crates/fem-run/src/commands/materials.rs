@@ -1,6 +1,5 @@
 //! `fem-run materials`: the library of materials, and one of them as a case has it.
 
-use comfy_table::CellAlignment::{Left, Right};
 use fem_case::CaseFile;
 use fem_case::engineering::show;
 use fem_case::library::{Material, materials, nearest_to, table_text};
@@ -10,7 +9,7 @@ use textwrap::{Options, WordSeparator, WordSplitter};
 
 use crate::text::failure::Failure;
 use crate::text::standard_output;
-use crate::text::tables::table;
+use crate::text::tables::headed;
 
 /// List the materials that a case can name as "lib:NAME", or print one of them
 ///
@@ -55,10 +54,9 @@ pub fn one(name: &str) -> Result<String, Failure> {
     Ok(format!("{}\n{text}", comments.join("\n")))
 }
 
-/// One row a material.
+/// Returns the list, one row per material.
 fn list() -> Result<String, CaseError> {
-    let header = ["name", "density", "Young's", "Poisson's", "relaxes", "what"];
-    let mut rows = vec![header.map(String::from)];
+    let mut rows = Vec::new();
     for (name, entry) in materials() {
         let floor = BodyTable::wall("floor");
         let ball = BodyTable::sphere("ball", 0.01, format!("lib:{name}")).approaching(1.0);
@@ -74,7 +72,7 @@ fn list() -> Result<String, CaseError> {
             entry.title.clone(),
         ]);
     }
-    let list = table(&[Left, Right, Right, Right, Left, Left], rows);
+    let list = headed("name|>density|>Young's|>Poisson's|relaxes|what", rows);
     Ok(format!(
         "{list}\nIn a case: material = \"lib:NAME\". Source and range: fem-run materials NAME\n"
     ))

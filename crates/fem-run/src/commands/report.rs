@@ -71,7 +71,7 @@ pub struct PlotArguments {
     /// Result folders of runs; the curves of several are drawn over each other
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
-    /// What to draw
+    /// The figure to draw
     #[arg(long, value_name = "FIGURE")]
     what: Figure,
     /// The file, - for standard output [default: FIGURE.svg]

@@ -19,13 +19,14 @@ use crate::sweep::{
 use crate::text::failure::Failure;
 use crate::text::standard_output;
 
-/// Compute many members of a case: lists of values for some of its keys
+/// Compute a case for many values of some of its keys
 ///
 /// Writes sweep.csv, sweep.svg and a summary of each member into a folder. The same command on the folder
 /// of a stopped sweep continues it; members that are done are not computed again.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
-    /// The sweep file, TOML: a case, and in [vary] dotted keys with values; with --status a sweep's folder
+    /// The sweep file (TOML): a case, and in [vary] some of its keys with values; with --status the folder of
+    /// a sweep
     #[arg(value_name = "SWEEP")]
     sweep: PathBuf,
     /// Folder for the results [default: runs/<the sweep file's stem>]

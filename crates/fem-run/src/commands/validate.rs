@@ -4,7 +4,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use comfy_table::CellAlignment::{Left, Right};
+use comfy_table::CellAlignment::Left;
 use fem_case::engineering::show;
 use fem_validate::{
     Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, hard_scenes, has_hard_scenes,
@@ -21,7 +21,7 @@ use crate::result_folder::whole_file::OwnedFileKind;
 use crate::result_folder::{Replaces, ResultFolder};
 use crate::text::failure::Failure;
 use crate::text::standard_output::{self, one_line};
-use crate::text::tables::table;
+use crate::text::tables::{headed, table};
 
 /// Identifies the Markdown tables of this command.
 const TABLE: OwnedFileKind = OwnedFileKind {
@@ -180,12 +180,9 @@ fn report(results: &[ClaimResult], place: &Path) -> String {
         if claims.is_empty() {
             continue;
         }
-        let header =
-            ["claim", "quantity", "reference", "ours", "difference", "tolerance", "verdict"];
-        let rows = claims.into_iter().flat_map(rows);
-        let rows = std::iter::once(header.map(String::from)).chain(rows);
+        let header = "claim|quantity|>reference|>ours|>difference|>tolerance|verdict";
         text += &format!("{}\n\n", section.heading());
-        text += &table(&[Left, Left, Right, Right, Right, Right, Left], rows);
+        text += &headed(header, claims.into_iter().flat_map(rows));
         text += "\n";
     }
     let n_checks: usize = results.iter().map(|result| result.checks.len()).sum();

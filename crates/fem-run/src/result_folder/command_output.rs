@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::{Replaces, ResultFolder, ResultPath};
 use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::standard_output::{self, one_line};
 
 /// Options for the result folder of a command.
 #[derive(clap::Args, Clone, Debug)]
@@ -40,26 +40,27 @@ impl OutputArguments {
         &self,
         stem: &str,
         command: &str,
-        inputs: &[&str],
+        inputs: &[String],
     ) -> Result<CommandOutput, Failure> {
-        let inputs = inputs.iter().map(|input| input.as_bytes());
+        let inputs = inputs.iter().map(String::as_bytes);
         let made_from = digest_of(std::iter::once(command.as_bytes()).chain(inputs));
         let replaces = Replaces::only(&made_from, self.force);
-        let name = format!("{stem}_{command}");
-        let place = ResultPath::choose(self.out.as_deref(), &name, &made_from, &replaces);
+        let folder = format!("{stem}_{command}");
+        let place = ResultPath::choose(self.out.as_deref(), &folder, &made_from, &replaces);
         let longest_name = "liggghts_coeff_restitution.in.tmp";
         let folder = ResultFolder::claim(&place.out, longest_name, replaces)?;
-        Ok(CommandOutput { folder, made_from, name: format!("{command}.json"), files: Vec::new() })
+        let (files, quiet) = (vec![format!("{command}.json")], self.quiet);
+        Ok(CommandOutput { folder, made_from, files, quiet })
     }
 }
 
-/// A claimed folder and the names of the files written so far.
+/// A claimed folder and the names of its files, the first of which is written last.
 #[derive(Debug)]
 pub struct CommandOutput {
     folder: ResultFolder,
     made_from: String,
-    name: String,
     files: Vec<String>,
+    quiet: bool,
 }
 
 impl CommandOutput {
@@ -68,12 +69,11 @@ impl CommandOutput {
     /// # Errors
     /// The file system.
     pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
-        std::fs::write(self.folder.path().join(name), bytes).map_err(|error| {
-            Failure::failed(format!("{name} cannot be written: {error}"))
-                .with_help("nothing was kept; is the disk full? An older result is unchanged")
-        })?;
         self.files.push(name.to_string());
-        Ok(())
+        std::fs::write(self.folder.path().join(name), bytes).map_err(|error| {
+            unwritten(name, error)
+                .with_help("nothing was kept; is the disk full? An older result is unchanged")
+        })
     }
 
     /// Writes a table.
@@ -86,35 +86,40 @@ impl CommandOutput {
         header: &[&str],
         rows: impl IntoIterator<Item = impl AsRef<[Option<f64>]>>,
     ) -> Result<(), Failure> {
-        let failed = |error: &dyn std::fmt::Display| {
-            Failure::failed(format!("{name} cannot be written: {error}"))
-        };
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(header).map_err(|error| failed(&error))?;
+        let mut text = header.join(",") + "\n";
         for row in rows {
             let cells =
                 row.as_ref().iter().map(|value| value.map_or(String::new(), |v| format!("{v:?}")));
-            writer.write_record(cells).map_err(|error| failed(&error))?;
+            text += &(cells.collect::<Vec<_>>().join(",") + "\n");
         }
-        let bytes = writer.into_inner().map_err(|error| failed(&error))?;
-        self.write(name, bytes)
+        self.write(name, text)
     }
 
-    /// Writes the numbers, moves all files to their place and returns the path of that.
+    /// Writes the numbers, moves all files to their place, and prints `text` and the path of that place.
     ///
     /// # Errors
     /// The file system.
-    pub fn publish(mut self, numbers: &impl Serialize) -> Result<String, Failure> {
-        let name = self.name.clone();
-        let mut numbers = serde_json::to_value(numbers)
-            .map_err(|error| Failure::failed(format!("{name} cannot be written: {error}")))?;
-        let mut files = vec![name.clone()];
-        files.extend(self.files.iter().cloned());
+    pub fn publish(
+        mut self,
+        numbers: &impl Serialize,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), Failure> {
+        let name = self.files.remove(0);
+        let mut numbers = serde_json::to_value(numbers).map_err(|error| unwritten(&name, error))?;
         numbers["program"] = json!(PROGRAM);
         numbers["version"] = json!(env!("CARGO_PKG_VERSION"));
         numbers["made_from"] = json!(self.made_from);
-        numbers["files"] = json!(files);
+        numbers["files"] = std::iter::once(&name).chain(&self.files).cloned().collect();
         self.write(&name, format!("{numbers:#}\n"))?;
-        Ok(one_line(&self.folder.publish(true)?.display().to_string()))
+        let place = self.folder.publish(true)?;
+        if self.quiet {
+            return Ok(());
+        }
+        let place = one_line(&place.display().to_string());
+        standard_output::print(&format!("{}\nResult: {place}\n", text()))
     }
+}
+
+fn unwritten(name: &str, error: impl std::fmt::Display) -> Failure {
+    Failure::failed(format!("{name} cannot be written: {error}"))
 }

@@ -17,7 +17,7 @@ pub use super::existing_output::RESTART_FILE;
 /// Options for restart files.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct RestartArguments {
-    /// Keep a restart file in the result folder and update it every so many seconds
+    /// Keep a restart file in the result folder and update it at this interval
     ///
     /// The file is removed when the run is over; an interrupted run leaves its last state.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = parse_seconds)]

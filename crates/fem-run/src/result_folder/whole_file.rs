@@ -9,9 +9,9 @@ use tempfile::NamedTempFile;
 use crate::text::failure::Failure;
 use crate::text::standard_output::{self, one_line};
 
-/// Beginning and end of the names of temporary files.
+/// Beginning of the names of temporary files.
 pub const PREFIX: &str = ".fem-run-";
-/// See [`PREFIX`].
+/// End of the names of temporary files.
 pub const SUFFIX: &str = ".tmp";
 /// Bytes at the beginning of a file in which its marker is searched.
 const HEAD: u64 = 600;

@@ -66,7 +66,7 @@ pub fn status(folder: &Path) -> Result<String, Failure> {
     let mut rows = vec![
         ["members", &mark.members.len().to_string()].map(String::from),
         ["done", &n_done.to_string()].map(String::from),
-        ["of these failed", &n_failed.to_string()].map(String::from),
+        ["failed", &n_failed.to_string()].map(String::from),
         ["left", &n_left.to_string()].map(String::from),
         ["time spent", &format!("{} on one core", duration(spent))].map(String::from),
     ];

@@ -93,6 +93,14 @@ impl Failure {
         self
     }
 
+    /// Sets the suggested fix, if there is one.
+    pub fn with_help_if(self, help: Option<impl Into<String>>) -> Self {
+        match help {
+            Some(help) => self.with_help(help),
+            None => self,
+        }
+    }
+
     /// Returns the whole failure as plain text, as it is printed to a pipe after `error: `.
     pub fn text(&self) -> String {
         let others = self.others.iter().map(|other| format!("\nerror: {}", other.text()));

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use comfy_table::CellAlignment::{Left, Right};
+use comfy_table::CellAlignment::Left;
 use fem::effects::{EffectDecision, NeglectError};
 use fem::results::{BodySummary, BounceSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
@@ -12,7 +12,7 @@ use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
 use indicatif::{DecimalBytes, HumanCount};
 
 use super::standard_output::one_line;
-use super::tables::table;
+use super::tables::{headed, table};
 
 /// Stands for a missing number.
 const NONE: &str = "-";
@@ -71,7 +71,6 @@ fn quantities(summary: &Summary) -> String {
     let (ours, hertz) = (&summary.collision, &summary.hertz);
     let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
     let own = if has_elements { "± mesh" } else { "± numerics" };
-    let header = ["", "this run", own, "± neglected", "Hertz", "ratio"].map(String::from);
     let row = |headline: QuantityOfInterest| {
         let (value, theirs) = (ours.number(headline), hertz.number(headline));
         let has_unit = headline != QuantityOfInterest::Restitution;
@@ -88,8 +87,8 @@ fn quantities(summary: &Summary) -> String {
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         [headline.name().into(), shown(value), mesh, neglected, shown(theirs), ratio]
     };
-    let rows = std::iter::once(header).chain(QuantityOfInterest::ALL.map(row));
-    let table = table(&[Left, Right, Right, Right, Right, Right], rows);
+    let header = format!("|>this run|>{own}|>± neglected|>Hertz|>ratio");
+    let table = headed(&header, QuantityOfInterest::ALL.map(row));
     let legend = error_legend(own, &table);
     format!("{table}\n{legend}\n")
 }
@@ -128,7 +127,6 @@ fn elastic_deficit(restitution: Option<f64>) -> Option<String> {
 /// Returns one line per contact of a bouncing ball, and the contact at rest.
 fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
     let quantity = |value: Option<f64>, unit: &str| value.map_or(NONE.into(), |v| show(v, unit));
-    let header = ["bounce", "at", "before", "restitution", "contact time", "peak force"];
     let row = |(k, bounce): (usize, &BounceSummary)| {
         [
             (k + 1).to_string(),
@@ -140,8 +138,7 @@ fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
         ]
     };
     let rows = bounces.iter().enumerate().take(MOST_BOUNCES).map(row);
-    let rows = std::iter::once(header.map(String::from)).chain(rows);
-    let mut text = table(&[Left, Right, Right, Right, Right, Right], rows);
+    let mut text = headed("bounce|>at|>before|>restitution|>contact time|>peak force", rows);
     if bounces.len() > MOST_BOUNCES {
         text += &format!("and {} more\n", bounces.len() - MOST_BOUNCES);
     }
@@ -158,7 +155,6 @@ fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
 }
 
 fn bodies(bodies: &[BodySummary]) -> String {
-    let header = ["body", "elements", "mass", "before", "after", "vibration"].map(String::from);
     let quantity = |value: Option<f64>, unit: &str| value.map_or(NONE.into(), |v| show(v, unit));
     let speeds = bodies.iter().flat_map(|body| [body.velocity_before_m_s, body.velocity_after_m_s]);
     let fastest = speeds.flatten().fold(0.0, |fastest: f64, speed| fastest.max(speed.abs()));
@@ -174,8 +170,7 @@ fn bodies(bodies: &[BodySummary]) -> String {
             quantity(body.vibration_energy_j, "J"),
         ]
     };
-    let rows = std::iter::once(header).chain(bodies.iter().map(row));
-    table(&[Left, Right, Right, Right, Right, Right], rows)
+    headed("body|>elements|>mass|>before|>after|>vibration", bodies.iter().map(row))
 }
 
 /// Returns how peaks are defined, the restitution without relaxation, the residuals and the cost.
@@ -249,8 +244,6 @@ fn price(summary: &Summary) -> String {
 
 /// Returns the models that were considered, their expected errors, and why one was chosen.
 pub fn models(considered: &[ModelCandidate]) -> String {
-    let header = ["", "model", "restitution", "contact time", "peak force", "peak pressure", ""]
-        .map(String::from);
     let row = |considered: &ModelCandidate| {
         let ExpectedError { restitution, contact_time_s, peak_force_n, peak_pressure_pa } =
             considered.error;
@@ -261,8 +254,8 @@ pub fn models(considered: &[ModelCandidate]) -> String {
         let model = considered.model.to_string();
         [mark.to_string(), model, restitution, time, force, pressure, considered.reason.clone()]
     };
-    let rows = std::iter::once(header).chain(considered.iter().map(row));
-    table(&[Left, Left, Right, Right, Right, Right, Left], rows)
+    let header = "|model|>restitution|>contact time|>peak force|>peak pressure|";
+    headed(header, considered.iter().map(row))
 }
 
 /// Returns the changes of restitution, contact time and peak force.

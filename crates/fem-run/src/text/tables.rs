@@ -23,6 +23,15 @@ pub fn table<R: Into<Row>>(
     table.trim_fmt() + "\n"
 }
 
+/// Returns such a table below a header, whose cells `|` separates; `>` begins a column with numbers on the right.
+pub fn headed<R: Into<Row>>(header: &str, rows: impl IntoIterator<Item = R>) -> String {
+    let columns = header.split('|');
+    let alignment: Vec<CellAlignment> =
+        columns.clone().map(|name| if name.starts_with('>') { Right } else { Left }).collect();
+    let names = Row::from(columns.map(|name| name.trim_start_matches('>')));
+    table(&alignment, std::iter::once(names).chain(rows.into_iter().map(Into::into)))
+}
+
 /// Returns a table of names and values.
 pub fn pairs<const N: usize>(rows: [(&str, String); N]) -> String {
     table(&[Left, Left], rows.map(|(name, value)| [name.to_string(), value]))
@@ -42,8 +51,6 @@ pub fn show_value(value: f64, unit: &str) -> String {
 
 /// Returns the size and the quality of both meshes; a rigid body has none.
 pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
-    let header =
-        ["body", "elements", "nodes", "smallest scaled Jacobian", "largest aspect", "edges"];
     let row = |name: &str, mesh: Option<&SphereMesh>| {
         let Some(mesh) = mesh else {
             return [name, "-", "-", "-", "-", "rigid"].map(String::from);
@@ -60,6 +67,5 @@ pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
     };
     let bodies = scene.bodies().iter().zip(meshes);
     let rows = bodies.map(|(body, mesh)| row(body.name(), mesh));
-    let rows = std::iter::once(header.map(String::from)).chain(rows);
-    table(&[Left, Right, Right, Right, Right, Left], rows)
+    headed("body|>elements|>nodes|>smallest scaled Jacobian|>largest aspect|edges", rows)
 }

@@ -34,7 +34,7 @@ fn what_accuracy_costs_is_what_is_computed() {
                 "--quiet",
                 "--force",
             ];
-            place.succeed(&[&[file.to_str().unwrap()], &set[..]].concat());
+            place.succeed(([file.to_str().unwrap()], set));
             place.json(&format!("{case}/summary.json"))
         };
         let elastic = run(COLUMNS[0].0);

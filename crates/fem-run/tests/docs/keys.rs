@@ -12,7 +12,7 @@ use crate::pages::Page;
 /// Returns the page, and a folder with a result in `runs/case`.
 fn page_and_result() -> (Page, Place) {
     let place = Place::new();
-    place.succeed(&["case.toml", "--quiet"]);
+    place.succeed("case.toml --quiet");
     (Page::load("docs/results.md"), place)
 }
 
@@ -70,7 +70,7 @@ fn energies_are_those_of_the_accounts() {
 #[test]
 fn columns_of_a_history_are_those_of_the_page() {
     let (page, place) = page_and_result();
-    let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+    let history = place.text("runs/case/history.csv");
     let code = page.code();
     let listed = code.iter().find(|code| code.text.starts_with("time_s, ")).unwrap();
     let velocities = "velocity_striker_m_s, velocity_target_m_s";

@@ -12,10 +12,9 @@ fn elastic() -> Place {
 #[test]
 fn a_table_a_page_and_a_picture_are_written() {
     let place = elastic();
-    let ran = place.run(&["accuracy", "case.toml", "--out", "out"]);
-    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    place.fails(0, "accuracy case.toml --out out");
     assert_eq!(place.list("out"), ["accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg"]);
-    let csv = String::from_utf8(place.read("out/accuracy.csv")).unwrap();
+    let csv = place.text("out/accuracy.csv");
     let header: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     for column in ["settings", "element_updates", "seconds", "restitution", "peak_pressure_error"] {
         assert!(header.contains(&column), "{column}: {header:?}");
@@ -23,14 +22,14 @@ fn a_table_a_page_and_a_picture_are_written() {
     for series in ["Hertz", "condensed", "the case as written"] {
         assert!(csv.lines().any(|line| line.starts_with(series)), "{series}:\n{csv}");
     }
-    let page = String::from_utf8(place.read("out/accuracy.md")).unwrap();
+    let page = place.text("out/accuracy.md");
     assert!(page.contains("![errors over seconds](accuracy.svg)"), "{page}");
     // The suggested setting is valid input.
     let advised = page.split("--set '").nth(1).and_then(|rest| rest.split('\'').next()).unwrap();
     place.succeed(&["case.toml", "--set", advised, "--out", "advised", "--quiet"]);
     // A repeated study replaces the result.
-    place.succeed(&["accuracy", "case.toml", "--budget", "1e-3", "--out", "out", "--quiet"]);
-    let page = String::from_utf8(place.read("out/accuracy.md")).unwrap();
+    place.succeed("accuracy case.toml --budget 1e-3 --out out --quiet");
+    let page = place.text("out/accuracy.md");
     assert!(page.contains("were left out"), "{page}");
 }
 
@@ -42,16 +41,10 @@ fn the_tolerance_is_that_of_the_case() {
         ("1 %", "Within 1 % in e, T and F and 3 % in the peak pressure: "),
         ("0.000001", "No variant that was computed is within 0.0001 % in e, T and F"),
     ] {
-        let ran = place.run(&[
-            "accuracy",
-            "case.toml",
-            "--tolerance",
-            tolerance,
-            "--out",
-            "out",
-            "--force",
-        ]);
-        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        let ran = place.fails(
+            0,
+            &["accuracy", "case.toml", "--tolerance", tolerance, "--out", "out", "--force"],
+        );
         assert!(ran.stdout.lines().any(|line| line.starts_with(begins)), "{}", ran.stdout);
     }
 }
@@ -68,9 +61,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         (&["--set", "limits.elements=10"], "at most 10 are allowed"),
     ] {
         let all = [&["accuracy", "case.toml"], arguments].concat();
-        let ran = place.run(&all);
-        assert_eq!(ran.code, Some(2), "{all:?} {}", ran.stderr);
-        assert!(ran.stderr.contains(said), "{all:?} {}", ran.stderr);
+        place.fails(2, &all).tells(said);
         assert_eq!(place.list("."), ["case.toml"]);
     }
 }

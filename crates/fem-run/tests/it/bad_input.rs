@@ -6,8 +6,7 @@ use crate::common::{CASE, Place};
 #[track_caller]
 fn refused(place: &Place, arguments: &[&str]) -> String {
     let before = place.list(".");
-    let ran = place.run(arguments);
-    assert_eq!(ran.code, Some(2), "{arguments:?}: {}{}", ran.stdout, ran.stderr);
+    let ran = place.fails(2, arguments);
     assert_eq!(ran.stdout, "", "{arguments:?}");
     assert_eq!(ran.stderr.matches("error: ").count(), 1, "{}", ran.stderr);
     assert!(!ran.stderr.contains("panicked"), "{}", ran.stderr);
@@ -133,7 +132,7 @@ fn meshes_too_coarse_or_too_dear_are_refused_and_limits_override() {
     let long = ["check", "case.toml", "--set", "time.step_factor=1e-7"];
     let message = refused(&place, &long);
     assert!(message.contains("limits.element_updates"), "{message}");
-    place.succeed(&[&long[..], &["--set", "limits.element_updates=1e15"]].concat());
+    place.succeed((long, "--set limits.element_updates=1e15"));
 }
 
 #[test]
@@ -220,10 +219,6 @@ fn slips_of_the_command_line_are_answered() {
     }
     let sweep = "case = \"case.toml\"\n[vary]\n\"body.0.approach_speed\" = [0.1, 0.2]\n";
     let place = Place::with(sweep);
-    let ran = place.run(&["case.toml"]);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("is a sweep: fem-run sweep FILE"), "{}", ran.stderr);
-    let ran = Place::new().run(&["sweep", "case.toml"]);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("is a case: fem-run FILE"), "{}", ran.stderr);
+    place.fails(2, "case.toml").tells("is a sweep: fem-run sweep FILE");
+    Place::new().fails(2, "sweep case.toml").tells("is a case: fem-run FILE");
 }

@@ -27,7 +27,7 @@ fn three_bounces_are_printed_summed_up_and_written_down() {
         assert_eq!(summary["rest"].is_object(), has_rest);
         assert_eq!(summary["complete"], true);
         assert!(summary["energy"]["potential_j"].is_number());
-        let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+        let history = place.text("out/history.csv");
         let header = history.lines().next().unwrap();
         assert!(header.ends_with("residual_j,potential_j,left_before_j"), "{header}");
     }

@@ -32,8 +32,8 @@ fn left_in(place: &Place, set: &[&str]) -> (RestartState, Identity) {
     let mut bytes = Vec::new();
     // The file of a short run may exist too briefly to be read.
     for _ in 0..100 {
-        let keep = ["case.toml", "--out", "out", "--checkpoint-every", "0", "--quiet"];
-        let mut run = place.command(&[&keep[..], set].concat()).spawn().unwrap();
+        let keep = "case.toml --out out --checkpoint-every 0 --quiet";
+        let mut run = place.command((keep, set)).spawn().unwrap();
         while bytes.is_empty() && run.try_wait().unwrap().is_none() {
             bytes = std::fs::read(place.path("out").join(RESTART_FILE)).unwrap_or_default();
         }
@@ -85,8 +85,8 @@ fn gone_on(
     let _ = std::fs::remove_dir_all(place.path("out"));
     std::fs::create_dir(place.path("out")).unwrap();
     std::fs::write(place.path("out").join(RESTART_FILE), checkpoint(identity, memory)).unwrap();
-    let ran = place.run(&[&["case.toml", "--out", "out", "--restart"][..], set].concat());
-    assert!(ran.stderr.contains("continuing from step"), "{}", ran.stderr);
+    let ran = place.run(("case.toml --out out --restart", set));
+    ran.tells("continuing from step");
     let summary = place.json("out/summary.json");
     assert_eq!(ran.code, Some(if summary["complete"] == true { 0 } else { 1 }), "{}", ran.stderr);
     (ran.stderr, summary)
@@ -131,7 +131,7 @@ fn a_motion_that_is_not_its_own_stops_a_run_at_once() {
             let ends = |end: &str| files.iter().any(|file| file.ends_with(end));
             assert!(ends("history.csv") && ends(".pvd"), "{name}: {files:?}");
             assert!(ends("last-sound.vtu") && ends("last-sound.svg"), "{name}: {files:?}");
-            let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+            let history = place.text("out/history.csv");
             assert!(!history.contains("NaN") && !history.contains("inf"), "{name}: {history}");
         }
     }

@@ -5,12 +5,12 @@ use crate::common::Place;
 #[test]
 fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
     let place = Place::new();
-    let list = place.succeed(&["materials"]).stdout;
+    let list = place.succeed("materials").stdout;
     for name in ["alumina", "glass", "pmma", "soda-lime-glass"] {
         let row = list.lines().find(|line| line.starts_with(&format!("{name} ")));
         assert!(row.is_some(), "{name}: {list}");
     }
-    let one = place.succeed(&["materials", "lib:pmma"]).stdout;
+    let one = place.succeed("materials lib:pmma").stdout;
     assert!(one.contains("# Source: ") && one.contains("# Range: "), "{one}");
     assert!(one.lines().all(|line| line.len() <= 100), "{one}");
     // The text is a table of a case.
@@ -18,8 +18,8 @@ fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
                   sphere = { diameter = '1 cm' }\napproach_speed = 1\n\n[model]\nhertz = {}\n";
     place.write("ball.toml", &format!("{bodies}\n{one}"));
     place.write("short.toml", &bodies.replace("'pmma'", "'lib:pmma'"));
-    let own = place.succeed(&["ball.toml", "--json"]).stdout;
-    let short = place.succeed(&["short.toml", "--json"]).stdout;
+    let own = place.succeed("ball.toml --json").stdout;
+    let short = place.succeed("short.toml --json").stdout;
     let read = |text: &str| -> serde_json::Value { serde_json::from_str(text).unwrap() };
     let (own, short) = (read(&own), read(&short));
     assert_eq!(own["peak_force_n"], short["peak_force_n"]);
@@ -29,9 +29,8 @@ fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
 
 #[test]
 fn a_material_that_is_not_there_is_bad_input() {
-    let ran = Place::new().run(&["materials", "rubber"]);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("did you mean natural-rubber?"), "{}", ran.stderr);
+    let ran = Place::new().fails(2, "materials rubber");
+    ran.tells("did you mean natural-rubber?");
     assert!(ran.stdout.is_empty());
 }
 
@@ -45,8 +44,8 @@ fn a_new_case_is_sound_with_all_that_its_comments_offer() {
         let name = format!("{partner}_0.5ms");
         let ran = place.succeed(&["new", &name, "--partner", partner, "--material", material]);
         let file = format!("{name}.toml");
-        assert!(ran.stdout.contains(&file), "{}", ran.stdout);
-        let text = String::from_utf8(place.read(&file)).unwrap();
+        ran.prints(&file);
+        let text = place.text(&file);
         assert!(text.starts_with("#:schema ./fem-run.schema.json\n"), "{text}");
         for place in ["{below}", "{table}", "{relaxation}", "{gravity}", "{material}", "{file}"] {
             assert!(!text.contains(place), "{text}");
@@ -68,28 +67,25 @@ fn a_new_case_is_sound_with_all_that_its_comments_offer() {
             assert!(offer.lines().all(is_offer), "{offer}");
             let in_force: Vec<&str> = offer.lines().map(|line| &line[1..]).collect();
             place.write("offered.toml", &text.replace(offer, &in_force.join("\n")));
-            let ran = place.run(&["check", "offered.toml"]);
-            assert_eq!(ran.code, Some(0), "{offer}\n{}", ran.stderr);
+            place.fails(0, "check offered.toml");
         }
     }
     let schema = place.json("fem-run.schema.json");
     assert_eq!(schema["properties"]["body"]["minItems"], 2);
-    let printed = place.succeed(&["schema"]).stdout;
+    let printed = place.succeed("schema").stdout;
     assert_eq!(printed.as_bytes(), place.read("fem-run.schema.json"));
 }
 
 #[test]
 fn a_new_case_overwrites_nothing() {
     let place = Place::new();
-    let ran = place.run(&["new", "case"]);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("case.toml exists"), "{}", ran.stderr);
+    place.fails(2, "new case").tells("case.toml exists");
     assert_eq!(place.list("."), ["case.toml"]);
     place.write("fem-run.schema.json", "{}");
-    place.succeed(&["new", "other", "--quiet"]);
+    place.succeed("new other --quiet");
     assert_eq!(place.read("fem-run.schema.json"), b"{}");
-    assert_eq!(place.run(&["new", "none/ball"]).code, Some(2));
-    assert_eq!(place.run(&["new", "ball", "--material", "stee"]).code, Some(2));
+    assert_eq!(place.run("new none/ball").code, Some(2));
+    assert_eq!(place.run("new ball --material stee").code, Some(2));
     assert_eq!(place.list("."), ["case.toml", "fem-run.schema.json", "other.toml"]);
 }
 
@@ -117,7 +113,7 @@ fn a_schema_has_the_keys_of_the_reader() {
         assert_eq!(told(&place.run(&["check", "case.toml", "--set", at]).stderr), keys, "{at}");
     }
     place.write("sweep.toml", "nothing = 1\ncase = 'case.toml'\nvary = { title = ['a'] }\n");
-    assert_eq!(told(&place.run(&["sweep", "sweep.toml"]).stderr), keys(&read("sweep")));
+    assert_eq!(told(&place.run("sweep sweep.toml").stderr), keys(&read("sweep")));
 }
 
 #[test]
@@ -130,23 +126,20 @@ fn a_word_that_is_nearly_a_command_is_asked_about() {
         (&["mateirals"], "did you mean fem-run materials?"),
         (&["help", "exprt"], "did you mean export?"),
     ] {
-        let ran = place.run(arguments);
-        assert_eq!(ran.code, Some(2));
-        assert!(ran.stderr.contains(meant), "{}", ran.stderr);
+        place.fails(2, arguments).tells(meant);
     }
     // The word is meant as a file.
     for file in ["mesh.toml", "glass"] {
-        let ran = place.run(&[file]);
-        assert!(ran.stderr.contains("there is no such file"), "{}", ran.stderr);
+        place.run(&[file]).tells("there is no such file");
     }
 }
 
 #[test]
 fn manual_pages_are_of_the_command_and_its_commands() {
     let place = Place::new();
-    let whole = place.succeed(&["man"]).stdout;
+    let whole = place.succeed("man").stdout;
     assert!(whole.contains(".TH fem-run 1") && whole.contains("fem\\-run\\-check"), "{whole}");
-    let one = place.succeed(&["man", "check"]).stdout;
+    let one = place.succeed("man check").stdout;
     assert!(one.contains("Check a case and print it"), "{one}");
-    assert_eq!(place.run(&["man", "chek"]).code, Some(2));
+    assert_eq!(place.run("man chek").code, Some(2));
 }

@@ -23,12 +23,11 @@ fn the_ice_table_is_reproduced() {
         [("0.5", "0.084"), ("0.65", "0.040"), ("0.7", "0.033"), ("0.8", "0.036"), ("1.0", "0.075")]
     {
         let n = format!("n={n}");
-        let law = ["fit", "case.toml", "--data", "ice.csv", "--law", "bordbar_hyppanen"];
-        let ran =
-            place.succeed(&[&law[..], &["--free", "a", "--param", &n, "--out", "fit"]].concat());
+        let law = "fit case.toml --data ice.csv --law bordbar_hyppanen";
+        let ran = place.succeed((law, ["--free", "a", "--param", &n, "--out", "fit"]));
         let numbers = place.json("fit/fit.json");
         assert_eq!(format!("{:.3}", numbers["rms"].as_f64().unwrap()), rms, "{n}");
-        assert!(ran.stdout.contains("rms error: 0.0"), "{}", ran.stdout);
+        ran.prints("rms error: 0.0");
         assert_eq!(place.list("fit"), ["fit.json", "fit.svg", "histories.svg", "residuals.csv"]);
     }
 }
@@ -36,20 +35,8 @@ fn the_ice_table_is_reproduced() {
 #[test]
 fn both_parameters_with_profile_and_comparison() {
     let place = ice();
-    let ran = place.succeed(&[
-        "fit",
-        "case.toml",
-        "--data",
-        "ice.csv",
-        "--law",
-        "bordbar_hyppanen",
-        "--free",
-        "a,n",
-        "--compare",
-        "kuwabara_kono",
-        "--at",
-        "1 cm/s",
-    ]);
+    let law = "fit case.toml --data ice.csv --law bordbar_hyppanen --free a,n";
+    let ran = place.succeed((law, "--compare kuwabara_kono --at '1 cm/s'"));
     let numbers = place.json("runs/ice_fit/fit.json");
     let n = &numbers["parameters"][1];
     assert_eq!((n["key"].as_str(), n["free"].as_bool()), (Some("n"), Some(true)));
@@ -61,15 +48,15 @@ fn both_parameters_with_profile_and_comparison() {
         assert!(end(0) < value && value < end(1));
     }
     assert_eq!(format!("{:.3}", numbers["compared"][0]["rms"].as_f64().unwrap()), "0.084");
-    assert!(ran.stdout.contains("correlation of a and n"), "{}", ran.stdout);
-    assert!(ran.stderr.contains("the residuals have a trend"), "{}", ran.stderr);
-    let svg = String::from_utf8(place.read("runs/ice_fit/fit.svg")).unwrap();
+    ran.prints("correlation of a and n");
+    ran.tells("the residuals have a trend");
+    let svg = place.text("runs/ice_fit/fit.svg");
     for label in ["kuwabara_kono", "best fit", "restitution", "impact speed v"] {
         assert!(svg.contains(label), "{label}");
     }
     // A second fit replaces the first; other files stay.
     place.write("runs/ice_fit/notes.txt", "mine");
-    place.succeed(&["fit", "case.toml", "--data", "ice.csv", "--law", "kuwabara_kono", "--quiet"]);
+    place.succeed("fit case.toml --data ice.csv --law kuwabara_kono --quiet");
     assert!(place.list("runs/ice_fit").contains(&"notes.txt".to_string()));
     assert_eq!(place.json("runs/ice_fit/fit.json")["law"], "kuwabara_kono");
 }
@@ -78,78 +65,57 @@ fn both_parameters_with_profile_and_comparison() {
 fn one_point_fits_one_parameter_and_not_two() {
     let place = Place::new();
     place.write("glass.csv", GLASS_POINT);
-    let law = ["fit", "case.toml", "--data", "glass.csv", "--law", "bordbar_hyppanen"];
-    let ran = place.succeed(&[&law[..], &["--param", "n=1", "--out", "one"]].concat());
-    assert!(ran.stderr.contains("as many data as parameters"), "{}", ran.stderr);
-    let ran = place.run(&[&law[..], &["--free", "a,n", "--out", "two"]].concat());
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("1 measured value cannot determine 2 parameters (a, n)"));
+    let law = "fit case.toml --data glass.csv --law bordbar_hyppanen";
+    place.succeed((law, "--param n=1 --out one")).tells("as many data as parameters");
+    place
+        .fails(2, (law, "--free a,n --out two"))
+        .tells("1 measured value cannot determine 2 parameters (a, n)");
     assert!(!place.path("two").exists());
 }
 
 #[test]
 fn faults_of_data_and_options_are_pointed_at() {
     let place = ice();
-    let refused = |csv: &str, more: &[&str], expected: &[&str]| {
+    let refused = |csv: &str, more: &str, expected: &str| {
         place.write("bad.csv", csv);
-        let law = ["fit", "case.toml", "--data", "bad.csv", "--law", "bordbar_hyppanen"];
-        let ran = place.run(&[&law[..], more].concat());
-        assert_eq!(ran.code, Some(2), "{csv}: {}", ran.stdout);
-        for part in expected {
-            assert!(ran.stderr.contains(part), "{csv:?} {more:?}: {}", ran.stderr);
-        }
+        let law = "fit case.toml --data bad.csv --law bordbar_hyppanen";
+        place.fails(2, (law, more)).tells(expected);
         assert!(!place.path("runs").exists());
     };
-    refused(
-        "speed_m_s,e\n1,0.9\n2,much\n",
-        &[],
-        &["bad.csv:3: e is \"much\", which is not a number"],
-    );
-    refused("speed_m_s,e\n1,0.9\n-2,0.8\n", &[], &["bad.csv:3: the approach speed is -2.0 m/s"]);
-    refused(
-        "speed_m_s,e\n1,92\n",
-        &[],
-        &["bad.csv:2: the restitution is 92.0", "restitution_percent"],
-    );
-    refused("speed_m_s,e\n1,0.9,3\n", &[], &["bad.csv:2:"]);
+    refused("speed_m_s,e\n1,0.9\n2,much\n", "", "bad.csv:3: e is \"much\", which is not a number");
+    refused("speed_m_s,e\n1,0.9\n-2,0.8\n", "", "bad.csv:3: the approach speed is -2.0 m/s");
+    refused("speed_m_s,e\n1,92\n", "", "bad.csv:2: the restitution is 92.0|restitution_percent");
+    refused("speed_m_s,e\n1,0.9,3\n", "", "bad.csv:2:");
     refused(
         "speed_m_s,e,uncertanty\n1,0.9,0.01\n",
-        &[],
-        &["bad.csv:1: unknown column uncertanty", "did you mean `uncertainty`?"],
+        "",
+        "bad.csv:1: unknown column uncertanty|did you mean `uncertainty`?",
     );
-    refused("v_m_s,speed_m_s,e\n1,1,0.9\n", &[], &["mean the same"]);
-    refused(
-        "speed_m_s\n1\n",
-        &[],
-        &["bad.csv:1: there is no column restitution; found are speed_m_s"],
-    );
-    refused("time_s,e\n1,0.9\n", &[], &["there is no column speed"]);
-    refused("speed_m_s,e\n", &[], &["there is no row"]);
-    refused("speed_m_s,e,uncertainty\n1,0.9,0\n", &[], &["bad.csv:2: uncertainty is 0.0"]);
+    refused("v_m_s,speed_m_s,e\n1,1,0.9\n", "", "mean the same");
+    refused("speed_m_s\n1\n", "", "bad.csv:1: there is no column restitution; found are speed_m_s");
+    refused("time_s,e\n1,0.9\n", "", "there is no column speed");
+    refused("speed_m_s,e\n", "", "there is no row");
+    refused("speed_m_s,e,uncertainty\n1,0.9,0\n", "", "bad.csv:2: uncertainty is 0.0");
     refused(
         "speed,e\n1 kg,0.9\n",
-        &[],
-        &["bad.csv:2: speed is \"1 kg\", which is of another dimension"],
+        "",
+        "bad.csv:2: speed is \"1 kg\", which is of another dimension",
     );
     refused(
         "body.0.approach_speed,body.0.sphere.diameter,restitution\n1,0.01,0.9\n1,0.02,0.8\n",
-        &[],
-        &["bad.csv:3: the sweep varies body.0.sphere.diameter"],
+        "",
+        "bad.csv:3: the sweep varies body.0.sphere.diameter",
     );
     let good = "speed_m_s,e\n1,0.9\n2,0.8\n3,0.7\n";
-    refused(good, &["--free", "b"], &["bordbar_hyppanen has no parameter \"b\"", "a, n"]);
-    refused(good, &["--param", "n"], &["there is no `=`"]);
-    refused(good, &["--param", "a=1 kg"], &["of another dimension", "a is in s"]);
-    refused(good, &["--param", "n=7"], &["it must be from 0 to 3"]);
-    refused(good, &["--bounds", "a=2..1"], &["the range is empty"]);
-    refused(good, &["--bounds", "n=0.4..1"], &["the parameter is not free"]);
-    refused(good, &["--profile", "n"], &["this parameter is not free"]);
-    refused(good, &["--confidence", "95"], &["--confidence <P>': give a level between 0 and 1"]);
-    refused(
-        "speed_m_s,e\n1,0.9\n1,0.91\n1,0.92\n",
-        &["--free", "a,n"],
-        &["do not tell a and n apart"],
-    );
+    refused(good, "--free b", "bordbar_hyppanen has no parameter \"b\"|a, n");
+    refused(good, "--param n", "there is no `=`");
+    refused(good, "--param 'a=1 kg'", "of another dimension|a is in s");
+    refused(good, "--param n=7", "it must be from 0 to 3");
+    refused(good, "--bounds a=2..1", "the range is empty");
+    refused(good, "--bounds n=0.4..1", "the parameter is not free");
+    refused(good, "--profile n", "this parameter is not free");
+    refused(good, "--confidence 95", "--confidence <P>': give a level between 0 and 1");
+    refused("speed_m_s,e\n1,0.9\n1,0.91\n1,0.92\n", "--free a,n", "do not tell a and n apart");
 }
 
 /// The same data in different spellings give the same fit.
@@ -165,7 +131,7 @@ fn units_and_sweep_columns_are_read() {
     ];
     let rms = files.map(|text| {
         place.write("data.csv", text);
-        place.succeed(&["fit", "case.toml", "--data", "data.csv", "--law", "kuwabara_kono", "-q"]);
+        place.succeed("fit case.toml --data data.csv --law kuwabara_kono -q");
         let numbers = place.json("runs/data_fit/fit.json");
         assert_eq!(numbers["points"], 2);
         numbers["rms"].as_f64().unwrap()
@@ -180,26 +146,20 @@ fn units_and_sweep_columns_are_read() {
 #[test]
 fn inverse_of_the_glass() {
     let place = Place::new();
-    let ran = place.succeed(&["invert", "case.toml", "--law", "ting", "--restitution", "0.92"]);
-    assert!(ran.stdout.contains("2982"), "{}", ran.stdout);
+    place.succeed("invert case.toml --law ting --restitution 0.92").prints("2982");
     let bulk = ["--set", "material.glass.relaxation.acts_on=\"shear\""];
     let ting = ["invert", "case.toml", "--law", "ting", "--restitution", "0.92"];
-    let ran = place.succeed(&[&ting[..], &bulk].concat());
-    assert!(ran.stdout.contains("4173"), "{}", ran.stdout);
-    let ran = place.succeed(&["invert", "case.toml", "--restitution", "0.92"]);
-    for law in ["kuwabara_kono", "tsuji", "falcon", "bordbar_hyppanen", "hunt_crossley", "ting"] {
-        assert!(ran.stdout.contains(law), "{law}: {}", ran.stdout);
-    }
-    let ran = place.run(&[&ting[..5], &["1.5"]].concat());
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("it must be greater than 0 and less than 1"));
-    let law = ["invert", "case.toml", "--restitution", "0.3", "--law", "hunt_crossley"];
-    let ran = place.run(&law);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("no e gives a restitution of 0.3"), "{}", ran.stderr);
-    let law = ["invert", "case.toml", "--restitution", "0.3", "--law", "linear"];
-    let ran = place.run(&law);
-    assert!(ran.stderr.contains("linear needs a value of k"), "{}", ran.stderr);
+    place.succeed((ting, bulk)).prints("4173");
+    place
+        .succeed("invert case.toml --restitution 0.92")
+        .prints("kuwabara_kono|tsuji|falcon|bordbar_hyppanen|hunt_crossley|ting");
+    place
+        .fails(2, &[&ting[..5], &["1.5"]].concat())
+        .tells("it must be greater than 0 and less than 1");
+    let law = "invert case.toml --restitution 0.3 --law hunt_crossley";
+    place.fails(2, law).tells("no e gives a restitution of 0.3");
+    let law = "invert case.toml --restitution 0.3 --law linear";
+    place.run(law).tells("linear needs a value of k");
 }
 
 /// The law of `[model]` with its parameters and end of contact is the default; options override it.
@@ -209,7 +169,7 @@ fn a_case_gives_its_law() {
     let n = "model.law={bordbar_hyppanen={a=1e-4,n=0.65,end='zero_overlap'}}";
     let fit = |more: &[&str]| {
         let options = ["fit", "case.toml", "--data", "ice.csv", "--out", "fit", "--set", n];
-        place.succeed(&[&options[..], more].concat());
+        place.succeed((options, more));
         let numbers = place.json("fit/fit.json");
         let text = |key: &str| numbers[key].as_str().unwrap().to_string();
         let values = numbers["parameters"].as_array().unwrap().iter();
@@ -234,7 +194,7 @@ fn a_case_gives_its_law() {
     // A law found for a restitution gives it when the case runs.
     let invert = ["invert", "case.toml", "--restitution", "0.92", "--set"];
     let law = "model.law={zhang_whiten={e=0.5}}";
-    let ran = glass.succeed(&[&invert[..], &[law]].concat());
+    let ran = glass.succeed((invert, [law]));
     assert!(
         ran.stdout.contains("zhang_whiten") && !ran.stdout.contains("falcon"),
         "{}",
@@ -247,47 +207,35 @@ fn a_case_gives_its_law() {
     let e = glass.json("run/summary.json")["restitution"].as_f64().unwrap();
     // The value is printed with seven digits.
     assert!((e - 0.92).abs() < 1e-6, "{e}");
-    let refused = |options: &[&str], expected: &str| {
-        let ran = glass.run(&[&invert[..4], options].concat());
-        assert_eq!(ran.code, Some(2), "{}", ran.stdout);
-        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
-    };
-    refused(&["--law", "zhang_whiten", "--end", "zero_overlap"], "zero force by its definition");
-    refused(&["--law", "ting", "--end", "zero_overlap"], "zero force by its definition");
-    refused(&["--law", "hertz"], "loses nothing");
-    refused(&["--find", "a"], "--find needs a law");
+    for (options, expected) in [
+        ("--law zhang_whiten --end zero_overlap", "zero force by its definition"),
+        ("--law ting --end zero_overlap", "zero force by its definition"),
+        ("--law hertz", "loses nothing"),
+        ("--find a", "--find needs a law"),
+    ] {
+        glass.fails(2, ("invert case.toml --restitution 0.92", options)).tells(expected);
+    }
     // A restitution that no law gives is bad input.
-    let ran = glass.run(&["invert", "case.toml", "--restitution", "1.2"]);
+    let ran = glass.run("invert case.toml --restitution 1.2");
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
 }
 
 #[test]
 fn export_writes_snippets_from_ting_and_from_a_file() {
     let place = Place::new();
-    let ran = place.succeed(&["export", "case.toml"]);
+    let ran = place.succeed("export case.toml");
     let numbers = place.json("runs/case_export/export.json");
     let snippet = |file: &str| {
         let snippets = numbers["snippets"].as_array().unwrap();
         snippets.iter().find(|snippet| snippet["file"] == file).unwrap().clone()
     };
-    for file in [
-        "lammps_coeff_restitution.in",
-        "lammps_viscoelastic.in",
-        "lammps_tsuji.in",
-        "liggghts_hertz.in",
-        "liggghts_hooke.in",
-        "yade_hertz_mindlin.py",
-        "yade_viscel.py",
-        "mercury_hertzian.cpp",
-        "mercury_linear.cpp",
-        "lethe.prm",
-        "mfix_hertzian.dat",
-        "mfix_lsd.dat",
-        "drake_point_contact.py",
-        "mujoco_contact.xml",
-    ] {
-        assert!(ran.stdout.contains(file), "{}", ran.stdout);
-        let text = String::from_utf8(place.read(format!("runs/case_export/{file}"))).unwrap();
+    let files = "lammps_coeff_restitution.in lammps_viscoelastic.in lammps_tsuji.in liggghts_hertz.in \
+                 liggghts_hooke.in yade_hertz_mindlin.py yade_viscel.py mercury_hertzian.cpp \
+                 mercury_linear.cpp lethe.prm mfix_hertzian.dat mfix_lsd.dat drake_point_contact.py \
+                 mujoco_contact.xml";
+    for file in files.split(' ') {
+        ran.prints(file);
+        let text = place.text(format!("runs/case_export/{file}"));
         assert!(text.contains(" Fitted from 0.1581 m/s to 1.581 m/s"), "{text}");
         assert!(snippet(file)["worst_error"].as_f64().unwrap() > 0.0);
     }
@@ -299,7 +247,7 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
         tsuji["entries"]["e"].as_f64().unwrap() < tsuji["restitution"].as_f64().unwrap() - 0.02
     );
     place.write("e.csv", "speed_m_s,restitution\n0.1,0.92\n1,0.92\n");
-    place.succeed(&["export", "case.toml", "--data", "e.csv", "--out", "constant"]);
+    place.succeed("export case.toml --data e.csv --out constant");
     let numbers = place.json("constant/export.json");
     let hertz = &numbers["snippets"][0];
     // The data are constant, so the fit is.
@@ -314,14 +262,14 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     assert_eq!(place.read("c/lammps_tsuji.in"), place.read("runs/case_export/lammps_tsuji.in"));
     // LIGGGHTS and YADE have no such wall.
     let wall = "body.1={name='floor',wall={}}";
-    let ran = place.succeed(&["export", "case.toml", "--set", wall, "--out", "wall"]);
-    assert!(ran.stdout.contains("not written for LIGGGHTS and YADE"), "{}", ran.stdout);
+    place
+        .succeed(&["export", "case.toml", "--set", wall, "--out", "wall"])
+        .prints("not written for LIGGGHTS and YADE");
     assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 10);
     let elastic = Place::with(&CASE.replace("[material.glass.relaxation]", "[material.other.relaxation]")
         .replace("[[body]]\nname = \"striker\"", "[material.other]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n\n[[body]]\nname = \"striker\""));
-    let ran = elastic.run(&["export", "case.toml"]);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("no body relaxes"), "{}", ran.stderr);
+    let ran = elastic.fails(2, "export case.toml");
+    ran.tells("no body relaxes");
     assert_eq!(ran.stderr.matches("help: ").count(), 1, "{}", ran.stderr);
 }
 
@@ -331,15 +279,15 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
     let place = Place::new();
     let pairs =
         ["export", "case.toml", "--materials", "glass,lib:steel", "--diameters", "2 mm,1 cm"];
-    let ran = place.succeed(&[&pairs[..], &["--out", "all"]].concat());
-    assert!(ran.stdout.contains("4 grains, 10 pairs"), "{}", ran.stdout);
+    let ran = place.succeed((pairs, "--out all"));
+    ran.prints("4 grains, 10 pairs");
     // The warning says why steel loses nothing and what to do; glass relaxes.
-    let why =
-        "warning: the loss of steel in an impact is not known and not included: e of its pairs";
-    assert!(ran.stderr.contains(why), "{}", ran.stderr);
+    ran.tells(
+        "warning: the loss of steel in an impact is not known and not included: e of its pairs",
+    );
     let numbers = place.json("all/export.json");
     let rows = numbers["pairs"].as_array().unwrap();
-    let table = String::from_utf8(place.read("all/pairs.csv")).unwrap();
+    let table = place.text("all/pairs.csv");
     assert_eq!((rows.len(), table.lines().count()), (10, 11));
     let unlike = ["body.0.sphere.diameter='2 mm'", "body.1.sphere.diameter='1 cm'"];
     place.succeed(&["export", "case.toml", "--set", unlike[0], "--set", unlike[1], "--out", "one"]);
@@ -352,7 +300,7 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
         (&"lib:steel".into(), Some(1.0))
     );
     for file in ["lammps_pairs.in", "liggghts_pairs.in", "mfix_pairs.dat"] {
-        let text = String::from_utf8(place.read(format!("all/{file}"))).unwrap();
+        let text = place.text(format!("all/{file}"));
         assert!(text.contains("4: lib:steel, 0.01 m"), "{text}");
     }
     for (option, value, expected) in [
@@ -360,9 +308,7 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
         ("--materials", "lib:stel", "did you mean lib:steel?"),
         ("--diameters", "2 kg", "this is not a length"),
     ] {
-        let ran = place.run(&["export", "case.toml", option, value]);
-        assert_eq!(ran.code, Some(2));
-        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+        place.fails(2, &["export", "case.toml", option, value]).tells(expected);
     }
 }
 
@@ -371,37 +317,36 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
 fn cradle_of_one_trial_and_of_a_file() {
     let place = Place::new();
     let cradle = ["cradle", "--length", "20 cm ± 1 mm", "--diameters", "22.2 mm,15.9 mm"];
-    let angles = ["--alpha", "20 deg ± 0.2 deg", "--beta", "28.3 ± 0.2 deg"];
-    let ran = place.succeed(&[&cradle[..], &angles].concat());
+    let angles = "--alpha '20 deg ± 0.2 deg' --beta '28.3 ± 0.2 deg'";
+    let ran = place.succeed((cradle, angles));
     // 2 √(9.80665 · 0.2) sin 10° = 0.4864 m/s; (1 + (15.9/22.2)³) sin 14.15°/sin 10° − 1 = 0.925;
     // its uncertainty is 1.925 · 0.1° √(cot² 10° + cot² 14.15°) = 0.023.
-    assert!(ran.stdout.contains("0.4864 ±"), "{}", ran.stdout);
-    assert!(ran.stdout.contains("0.925 ± 0.023"), "{}", ran.stdout);
+    ran.prints("0.4864 ±|0.925 ± 0.023");
     assert!(!place.path("runs").exists());
     place.write("trials.csv", TRIALS);
-    let file = ["--data", "trials.csv", "--angle-uncertainty", "0.1 deg"];
-    let ran = place.succeed(&[&cradle[..], &file].concat());
-    assert!(ran.stdout.contains("20.00 deg"), "{}", ran.stdout);
+    let file = "--data trials.csv --angle-uncertainty '0.1 deg'";
+    place.succeed((cradle, file)).prints("20.00 deg");
     assert_eq!(place.list("runs/trials_cradle"), ["cradle.csv", "cradle.json", "cradle.svg"]);
     // The output of the cradle is input of the fit.
     let data = "runs/trials_cradle/cradle.csv";
     let fit = ["fit", "case.toml", "--data", data, "--law", "kuwabara_kono", "--out", "fit"];
     place.succeed(&fit);
     assert_eq!(place.json("fit/fit.json")["weighted"], true);
-    let refused = |arguments: &[&str], expected: &str| {
-        let ran = place.run(&[&cradle[..3], arguments].concat());
-        assert_eq!(ran.code, Some(2), "{arguments:?}");
-        assert!(ran.stderr.contains(expected), "{arguments:?}: {}", ran.stderr);
+    let refused = |options: &str, expected: &str| {
+        place.fails(2, ("cradle --length '20 cm ± 1 mm'", options)).tells(expected);
     };
-    let beta = ["--beta", "20 deg", "--masses", "1 g,1 g"];
-    refused(&[&["--alpha", "30"], &beta[..]].concat(), "write '30 deg' for degrees");
-    refused(&[&["--alpha", "95 deg"], &beta[..]].concat(), "threads go slack");
-    refused(&[&["--alpha", "20 g"], &beta[..]].concat(), "is not an angle");
-    refused(&["--alpha", "20 deg", "--beta", "20 deg", "--masses", "1 g"], "gives one ball");
+    for (angle, masses, expected) in [
+        ("30", "1 g,1 g", "write '30 deg' for degrees"),
+        ("95 deg", "1 g,1 g", "threads go slack"),
+        ("20 g", "1 g,1 g", "is not an angle"),
+        ("20 deg", "1 g", "gives one ball"),
+    ] {
+        refused(&format!("--alpha '{angle}' --beta '20 deg' --masses '{masses}'"), expected);
+    }
     place.write("trials.csv", "alpha,beta\n20,20\n");
-    refused(&["--masses", "1 g,1 g", "--data", "trials.csv"], "does not name its unit");
+    refused("--masses '1 g,1 g' --data trials.csv", "does not name its unit");
     place.write("trials.csv", "alpha_deg,beta_deg\n20,20\n120,20\n");
-    refused(&["--masses", "1 g,1 g", "--data", "trials.csv"], "trials.csv:3: release angle");
+    refused("--masses '1 g,1 g' --data trials.csv", "trials.csv:3: release angle");
 }
 
 /// Common slips: a law with two letters swapped, thousands separators.
@@ -414,9 +359,7 @@ fn slips_of_the_hand_are_answered() {
         ("mishra", "did you mean mishra_murty?"),
         ("tsuji", "remove the separator of thousands"),
     ] {
-        let ran = place.run(&["fit", "case.toml", "--data", "parted.csv", "--law", law]);
-        assert_eq!(ran.code, Some(2));
-        assert!(ran.stderr.contains(told), "{}", ran.stderr);
+        place.fails(2, &["fit", "case.toml", "--data", "parted.csv", "--law", law]).tells(told);
     }
     let invert =
         |e: &str| place.run(&["invert", "case.toml", "--law", "tsuji", "--restitution", e]);
@@ -437,18 +380,13 @@ fn columns_of_other_names_are_told() {
     let data = data.to_str().unwrap();
     let fit = |columns: &[&str]| {
         let law = ["fit", "case.toml", "--data", data, "--law", "kuwabara_kono"];
-        place.run(&[&law[..], columns].concat())
+        place.run((law, columns))
     };
     let ran = fit(&["--columns", "speed=v,restitution=COR,uncertainty=u", "--out", "out"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-    assert!(ran.stdout.contains("4 points"), "{}", ran.stdout);
-    assert!(
-        ran.stderr.contains("1 row without a speed or a restitution left out"),
-        "{}",
-        ran.stderr
-    );
-    assert!(ran.stderr.contains("kontaktzeit_us"), "{}", ran.stderr);
-    let residuals = String::from_utf8(place.read("out/residuals.csv")).unwrap();
+    ran.prints("4 points");
+    ran.tells("1 row without a speed or a restitution left out|kontaktzeit_us");
+    let residuals = place.text("out/residuals.csv");
     assert!(residuals.contains("\n0.1,0.957,"), "{residuals}");
     for (columns, told) in [
         ("restitution=e_n", "there is no column e_n; found are versuch, v_cm_s, cor, u"),
@@ -456,7 +394,7 @@ fn columns_of_other_names_are_told() {
     ] {
         let ran = fit(&["--columns", columns]);
         assert_eq!(ran.code, Some(2));
-        assert!(ran.stderr.contains(told), "{}", ran.stderr);
+        ran.tells(told);
     }
 }
 
@@ -475,12 +413,12 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     // Each law appears once, and all are fitted.
     assert!(!ran.stdout.contains("not ranked"), "{}", ran.stdout);
     let twins = "the same curve as linear: tsuji, zhang_whiten, falcon";
-    assert!(ran.stdout.contains(twins), "{}", ran.stdout);
-    assert!(ran.stdout.contains("held: of Hertz' contact time"), "{}", ran.stdout);
-    let ranking = String::from_utf8(place.read("out/ranking.csv")).unwrap();
+    ran.prints(twins);
+    ran.prints("held: of Hertz' contact time");
+    let ranking = place.text("out/ranking.csv");
     assert!(ranking.contains("\nbordbar_hyppanen,a n,"), "{ranking}");
     // Each law is drawn beside the data with its evidence, and its values are kept.
-    let picture = String::from_utf8(place.read("out/fit.svg")).unwrap();
+    let picture = place.text("out/fit.svg");
     let kept = place.json("out/fit.json")["compared"].as_array().unwrap().clone();
     for (k, row) in ranking.lines().skip(1).enumerate() {
         let law = row.split(',').next().unwrap();
@@ -490,43 +428,31 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
         assert!(found.clone().any(|line| line.contains(&share)), "{law}, {share}: {picture}");
         assert!(k == 0 || kept[k - 1]["law"] == law, "{kept:?}");
     }
-    let ran = place.run(&[&all[..], &["--free", "a"]].concat());
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("--free applies to a single law"), "{}", ran.stderr);
+    place.fails(2, (all, "--free a")).tells("--free applies to a single law");
 }
 
 /// Tables as people have them, and messages for those that cannot be read.
 #[test]
 fn tables_are_read_or_refused_with_what_to_do() {
     let place = Place::new();
-    let fit = ["fit", "case.toml", "--law", "tsuji", "--data", "e.dat", "--out", "out", "--force"];
+    let fit = "fit case.toml --law tsuji --data e.dat --out out --force";
     let rows = "v_m_s  COR\n0,1  0,92\n  1   0,90\n";
     place.write("e.dat", rows);
-    let ran = place.succeed(&[&fit[..], &["--columns", "restitution=COR"]].concat());
-    assert!(ran.stdout.contains("2 points"), "{}", ran.stdout);
+    place.succeed((fit, "--columns restitution=COR")).prints("2 points");
     let utf_16: Vec<u8> =
         "\u{feff}v_m_s;COR\n0,1;0,92\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
     std::fs::write(place.path("e.dat"), utf_16).unwrap();
-    let ran = place.succeed(&fit);
-    assert!(ran.stdout.contains("1 point of"), "{}", ran.stdout);
-    let refused = |text: &str, more: &[&str], expected: &[&str]| {
+    place.succeed(fit).prints("1 point of");
+    let refused = |text: &str, more: &str, expected: &str| {
         place.write("e.dat", text);
-        let ran = place.run(&[&fit[..], more].concat());
-        assert_eq!(ran.code, Some(2), "{}", ran.stdout);
-        for words in expected {
-            assert!(ran.stderr.contains(words), "{words}: {}", ran.stderr);
-        }
+        place.fails(2, (fit, more)).tells(expected);
     };
-    refused(
-        "0.1,0.92\n1,0.9\n",
-        &[],
-        &["e.dat:1: the first row is of numbers", "speed_m_s,restitution"],
-    );
-    refused("impact speed\n1\n", &[], &["--columns restitution=COLUMN", "separated by commas"]);
-    refused("u,COR\n1,0.9\n", &[], &["found are u, cor", "--columns speed=COLUMN"]);
+    refused("0.1,0.92\n1,0.9\n", "", "e.dat:1: the first row is of numbers|speed_m_s,restitution");
+    refused("impact speed\n1\n", "", "--columns restitution=COLUMN|separated by commas");
+    refused("u,COR\n1,0.9\n", "", "found are u, cor|--columns speed=COLUMN");
     let table = "u,COR\n1,0.9\n";
-    refused(table, &["--columns", "speeed=u"], &["did you mean speed?"]);
-    refused(table, &["--columns", "speed=CO"], &["did you mean cor?"]);
+    refused(table, "--columns speeed=u", "did you mean speed?");
+    refused(table, "--columns speed=CO", "did you mean cor?");
 }
 
 /// Warnings about a result are also printed with --quiet.
@@ -534,16 +460,17 @@ fn tables_are_read_or_refused_with_what_to_do() {
 fn quiet_keeps_warnings() {
     let place = Place::new();
     place.write("e.csv", "speed_m_s,restitution\n0.1,0.92\n1,0.9\n");
-    let odd = ["--set", "body.0.sphere.diameter=500", "--quiet"];
+    let odd = "--set body.0.sphere.diameter=500 --quiet";
     let fit = &["fit", "case.toml", "--law", "tsuji", "--data", "e.csv"][..];
     let export = &["export", "case.toml", "--data", "e.csv"][..];
     let invert = &["invert", "case.toml", "--restitution", "0.9"][..];
     for command in [fit, export, invert] {
-        let ran = place.succeed(&[command, &odd].concat());
+        let ran = place.succeed((command, odd));
         assert_eq!(ran.stdout, "");
-        assert!(ran.stderr.contains("warning: the diameter of striker is 500"), "{}", ran.stderr);
+        ran.tells("warning: the diameter of striker is 500");
     }
     place.write("one.csv", "speed_m_s,restitution\n0.1,0.92\n");
-    let ran = place.succeed(&["fit", "case.toml", "--law", "tsuji", "--data", "one.csv", "-q"]);
-    assert!(ran.stderr.contains("as many data as parameters"), "{}", ran.stderr);
+    place
+        .succeed("fit case.toml --law tsuji --data one.csv -q")
+        .tells("as many data as parameters");
 }

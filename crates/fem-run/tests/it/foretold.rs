@@ -46,19 +46,19 @@ fn check_tells_what_may_follow() {
     let place = Place::new();
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
-    let open = place.succeed(&["check", "rubber.toml"]).stdout;
+    let open = place.succeed("check rubber.toml").stdout;
     let finer = open.lines().find(|line| line.starts_with("# mesh refinement  ")).unwrap();
     for words in
         ["misses accuracy.tolerance: at most ", " finer meshes, ", " element updates more, "]
     {
         assert!(finer.contains(words), "{finer}");
     }
-    let told = place.succeed(&["check", "auxetic.toml"]).stdout;
+    let told = place.succeed("check auxetic.toml").stdout;
     assert!(told.contains("finer mesh  ") && !told.contains("misses accuracy.tolerance"), "{told}");
     place.write("resolved.toml", &told);
-    let again = place.succeed(&["resolved.toml", "--out", "again"]);
+    let again = place.succeed("resolved.toml --out again");
     assert!(!again.stderr.contains("refined"), "{}", again.stderr);
-    place.succeed(&["auxetic.toml", "--out", "out"]);
+    place.succeed("auxetic.toml --out out");
     for key in ["restitution", "peak_force_n"] {
         assert_eq!(place.json("again/summary.json")[key], place.json("out/summary.json")[key]);
     }

@@ -1,4 +1,5 @@
-//! The structure of the workspace: which crate depends on which, and what crates may not depend on.
+//! The structure of the workspace, which docs/architecture.md shows, what crates may not depend on, and how docstrings
+//! are written.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -6,144 +7,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-
-/// Each crate with the `description` of its manifest and the crates that it depends on. A crate follows
-/// those that it depends on.
-const HOUSE: [(&str, &str, &[&str]); 20] = [
-    (
-        "fem-material",
-        "Isotropic viscoelastic materials: elastic moduli, Prony relaxation, hyperelastic laws",
-        &[],
-    ),
-    (
-        "fem-mesh",
-        "Graded axisymmetric quadrilateral meshes of spheres and half-spaces, their boundary curves and quality",
-        &[],
-    ),
-    (
-        "fem-element",
-        "Axisymmetric four-node elements: geometry, stabilisation, element matrices, eigenvalue bounds",
-        &[],
-    ),
-    ("fem-vtk", "VTK XML writer and mesh reader", &[]),
-    ("fem-figure", "Charts and filled contours as self-contained SVG", &[]),
-    (
-        "fem-laws",
-        "Closed forms and reduced laws for the collision of two spheres",
-        &["fem-material"],
-    ),
-    (
-        "fem-case",
-        "Case files: TOML with units to a validated, resolved case",
-        &["fem-laws", "fem-material"],
-    ),
-    (
-        "fem-contact",
-        "Frictionless penalty contact between two axisymmetric boundaries or a boundary and a rigid body",
-        &["fem-mesh"],
-    ),
-    (
-        "fem-collision",
-        "Requests and results of a collision, the same for every model",
-        &["fem-element", "fem-material", "fem-mesh"],
-    ),
-    (
-        "fem-condensed",
-        "Collisions of linear viscoelastic bodies condensed to their contact nodes",
-        &["fem-collision", "fem-contact", "fem-element", "fem-material", "fem-mesh"],
-    ),
-    (
-        "fem-explicit",
-        "Explicit dynamics of two viscoelastic bodies in contact, at small or finite strain",
-        &["fem-collision", "fem-contact", "fem-element", "fem-material", "fem-mesh"],
-    ),
-    (
-        "fem-simulation",
-        "One collision: estimate, effects, plan, model, run, results and their error",
-        &[
-            "fem-case",
-            "fem-collision",
-            "fem-condensed",
-            "fem-contact",
-            "fem-explicit",
-            "fem-laws",
-            "fem-material",
-            "fem-mesh",
-            "fem-vtk",
-        ],
-    ),
-    (
-        "fem-study",
-        "Many collisions: sweeps, calibration, contact laws, measured data, accuracy studies",
-        &["fem-case", "fem-collision", "fem-laws", "fem-material", "fem-mesh", "fem-simulation"],
-    ),
-    (
-        "fem",
-        "The library of fem-run: one collision, many collisions, cases and results under one name",
-        &[
-            "fem-case",
-            "fem-collision",
-            "fem-condensed",
-            "fem-explicit",
-            "fem-laws",
-            "fem-material",
-            "fem-mesh",
-            "fem-simulation",
-            "fem-study",
-        ],
-    ),
-    (
-        "fem-report",
-        "Reports and figures of results: the report page, charts of sweeps and fits, stress in section",
-        &["fem", "fem-case", "fem-collision", "fem-figure", "fem-laws", "fem-vtk"],
-    ),
-    (
-        "fem-validate",
-        "Claims about collisions, each checked against independent references",
-        &[
-            "fem",
-            "fem-case",
-            "fem-collision",
-            "fem-contact",
-            "fem-element",
-            "fem-explicit",
-            "fem-figure",
-            "fem-laws",
-            "fem-material",
-            "fem-mesh",
-        ],
-    ),
-    (
-        "fem-page",
-        "The HTML page that computes collisions in the browser, in WebAssembly",
-        &["fem", "fem-case", "fem-figure", "fem-report"],
-    ),
-    (
-        COMMAND,
-        "The fem-run command: how do two viscoelastic spheres collide?",
-        &[
-            "fem",
-            "fem-case",
-            "fem-collision",
-            "fem-figure",
-            "fem-laws",
-            "fem-mesh",
-            "fem-report",
-            "fem-validate",
-            "fem-vtk",
-        ],
-    ),
-    (
-        PYTHON,
-        "The Python module fem_run, with the command in the same wheel",
-        &["fem", "fem-case", "fem-collision", "fem-run", "fem-vtk"],
-    ),
-    (
-        "fem-fuzz",
-        "Hostile input for everything that reads: cases, meshes, tables, restart files, sweeps, the command",
-        &["fem", "fem-case", "fem-mesh", "fem-vtk"],
-    ),
-];
 
 const COMMAND: &str = "fem-run";
 /// The Python module, which contains the command.
@@ -225,37 +88,28 @@ fn compiled(workspace: &BTreeMap<String, Crate>, name: &str) -> BTreeSet<String>
     found
 }
 
+/// docs/architecture.md has one row per crate: its name, the `description` of its manifest and the crates that it depends
+/// on, each of which has its row before.
 #[test]
-fn crates_stand_on_each_other_as_the_table_says() {
+fn crates_stand_on_each_other_as_the_page_on_architecture_says() {
     let workspace = workspace();
-    let mut faults = Vec::new();
-    let known: BTreeSet<&str> = HOUSE.iter().map(|row| row.0).collect();
-    for name in workspace.keys().filter(|name| !known.contains(name.as_str())) {
-        faults.push(format!("{name} is not in the table"));
-    }
-    for (k, (name, meaning, allowed)) in HOUSE.iter().enumerate() {
-        let Some(found) = workspace.get(*name) else {
-            faults.push(format!("{name} is in the table and not in the workspace"));
-            continue;
+    let page = fs::read_to_string(root().join("docs/architecture.md")).expect("a page");
+    let rows = page.lines().skip_while(|line| !line.starts_with("| crate |")).skip(2);
+    let shown: Vec<&str> = rows.take_while(|line| line.starts_with('|')).collect();
+    let mut before = BTreeSet::new();
+    for shown in &shown {
+        let name = shown.split('`').nth(1).unwrap_or_default();
+        let Some(found) = workspace.get(name) else {
+            panic!("{name} is on the page and not in the workspace")
         };
-        if found.description != *meaning {
-            faults.push(format!("{name} says of itself: {}", found.description));
-        }
-        for below in found.dependencies.iter().filter(|below| workspace.contains_key(*below)) {
-            if !allowed.contains(&below.as_str()) {
-                faults.push(format!("{name} -> {below} is not allowed"));
-            }
-        }
-        for below in *allowed {
-            if !found.dependencies.contains(*below) {
-                faults.push(format!("{name} -> {below} is in the table, and nobody uses it"));
-            }
-            if HOUSE[..k].iter().all(|row| row.0 != *below) {
-                faults.push(format!("{name} comes before {below}, on which it stands"));
-            }
-        }
+        let below = found.dependencies.iter().filter(|below| workspace.contains_key(*below));
+        let below: Vec<String> = below.map(|below| format!(" `{below}`")).collect();
+        assert_eq!(*shown, format!("| `{name}` | {} |{} |", found.description, below.concat()));
+        assert!(below.iter().all(|below| before.contains(below)), "{name} stands on a later row");
+        before.insert(format!(" `{name}`"));
     }
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    let names = workspace.keys().filter(|name| !before.contains(&format!(" `{name}`")));
+    assert_eq!(names.collect::<Vec<_>>(), [""; 0], "not on the page");
 }
 
 #[test]
@@ -311,16 +165,68 @@ fn every_crate_has_the_lints_of_the_workspace() {
     }
 }
 
-/// docs/architecture.md contains the table, row for row.
+/// Returns the first paragraphs of a source file's docstrings, each with its line number.
+fn docstrings(source: &str) -> Vec<(usize, String)> {
+    let mut found: Vec<(usize, String)> = Vec::new();
+    let (mut marker, mut is_open) = ("", false);
+    for (k, line) in source.lines().enumerate() {
+        let line = line.trim_start();
+        let own = ["///", "//!"].into_iter().find(|own| line.starts_with(own)).unwrap_or_default();
+        let text = line[own.len()..].trim();
+        if own.is_empty() {
+            is_open = false;
+        } else if own != marker {
+            found.push((k + 1, text.to_string()));
+            is_open = true;
+        } else if text.is_empty() {
+            is_open = false;
+        } else if is_open && let Some((_, paragraph)) = found.last_mut() {
+            *paragraph += &format!(" {text}");
+        }
+        marker = own;
+    }
+    found
+}
+
+/// Docstrings are sentences: none has one or two words, or begins as a fragment.
 #[test]
-fn the_page_on_architecture_shows_the_table() {
-    let page = fs::read_to_string(root().join("docs/architecture.md")).expect("a page");
-    let row = |(name, meaning, allowed): &(&str, &str, &[&str])| {
-        let below: Vec<String> = allowed.iter().map(|below| format!(" `{below}`")).collect();
-        format!("| `{name}` | {meaning} |{} |", below.concat())
-    };
-    let expected: Vec<String> = HOUSE.iter().map(row).collect();
-    let rows = page.lines().skip_while(|line| !line.starts_with("| crate |")).skip(2);
-    let shown: Vec<&str> = rows.take_while(|line| line.starts_with('|')).collect();
-    assert_eq!(shown, expected);
+fn docstrings_are_sentences() {
+    const FRAGMENTS: [&str; 3] = ["Of ", "What a ", "What an "];
+    /// Folders that have not been rewritten yet.
+    const LEFT_OUT: [&str; 11] = [
+        "crates/fem",
+        "crates/fem-case",
+        "crates/fem-collision",
+        "crates/fem-condensed",
+        "crates/fem-explicit",
+        "crates/fem-laws",
+        "crates/fem-material",
+        "crates/fem-simulation",
+        "crates/fem-study",
+        "fuzz",
+        "validation",
+    ];
+    let mut faults = Vec::new();
+    let (mut open, mut n_read) = (vec![root()], 0);
+    while let Some(path) = open.pop() {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if LEFT_OUT.iter().any(|left| path == root().join(left)) {
+            continue;
+        }
+        if path.is_dir() {
+            let is_left = name == "target" || name.starts_with('.') && name != "..";
+            let entries = fs::read_dir(&path).expect("a folder").filter(|_| !is_left);
+            open.extend(entries.map(|entry| entry.expect("an entry").path()));
+        } else if name.ends_with(".rs") {
+            for (line, text) in docstrings(&fs::read_to_string(&path).expect("a source file")) {
+                n_read += 1;
+                let starts = FRAGMENTS.iter().any(|start| text.starts_with(start));
+                if text.split_whitespace().count() <= 2 || starts {
+                    faults.push(format!("{}:{line}: {text}", path.display()));
+                }
+            }
+        }
+    }
+    assert!(n_read > 1000, "{n_read}");
+    assert!(faults.is_empty(), "{} fragments:\n{}", faults.len(), faults.join("\n"));
 }

@@ -15,8 +15,8 @@ const LOCK: &str = ".fem-run-lock";
 
 /// Starts a run of hours and waits until it has its hidden folder.
 fn endless(place: &Place, out: &str) -> Child {
-    let fine = ["--set", "mesh.contact_element_size=6e-6", "--set", "time.step_factor=1e-2"];
-    let mut command = place.command(&[&["case.toml", "--out", out][..], &fine].concat());
+    let fine = "--set mesh.contact_element_size=6e-6 --set time.step_factor=1e-2";
+    let mut command = place.command((["case.toml", "--out", out], fine));
     let mut child = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     let mut line = String::new();
     BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();

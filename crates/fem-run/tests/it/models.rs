@@ -31,7 +31,7 @@ const MODELS: [&str; 4] = [
 fn every_model_writes_the_same_keys_and_columns() {
     let place = Place::new();
     let fem = summary(&place, &[]);
-    let columns = String::from_utf8(place.read("out/history.csv")).unwrap();
+    let columns = place.text("out/history.csv");
     for model in MODELS {
         let reduced = summary(&place, &[model]);
         assert_eq!(keys(&reduced), keys(&fem), "{model}");
@@ -59,7 +59,7 @@ fn every_model_writes_the_same_keys_and_columns() {
             reduced["files"],
             serde_json::json!(["summary.json", "history.csv", "report.html"])
         );
-        let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+        let history = place.text("out/history.csv");
         assert_eq!(history.lines().next(), columns.lines().next());
         assert_eq!(history.lines().count(), 1202);
         // Time, force and approach are always there; a law has no pressure, and no model has
@@ -161,18 +161,16 @@ fn what_does_not_come_back_or_end_is_said() {
     assert_eq!((number(&stuck["restitution"]), stuck["contact_time_s"].is_null()), (0.0, true));
     assert!(stuck["warnings"].to_string().contains("stay together"), "{stuck}");
     let creep = "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}";
-    let ran = place.run(&["case.toml", "--out", "out", "--force", "--set", creep]);
-    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-    assert!(ran.stderr.contains("remedy: lower the damping"), "{}", ran.stderr);
+    place
+        .fails(1, &["case.toml", "--out", "out", "--force", "--set", creep])
+        .tells("remedy: lower the damping");
     assert_eq!(place.json("out/summary.json")["complete"], false);
     for (value, message) in [
         ("model.law.tsuji={}", "`e` is missing in model.law.tsuji"),
         ("model.law.kuwabara_kono={}", "flows"),
         ("model.auto={best=true}", "unknown key `best`"),
     ] {
-        let ran = place.run(&["check", "case.toml", "--set", value]);
-        assert_eq!(ran.code, Some(2), "{value}: {}", ran.stderr);
-        assert!(ran.stderr.contains(message), "{}", ran.stderr);
+        place.fails(2, &["check", "case.toml", "--set", value]).tells(message);
     }
 }
 
@@ -184,10 +182,9 @@ fn check_and_the_announcement_name_the_model() {
         ("model.law.falcon.c=300", "model law falcon"),
     ] {
         let checked = place.succeed(&["check", "case.toml", "--set", model]);
-        assert!(checked.stdout.contains(named), "{}", checked.stdout);
+        checked.prints(named);
         place.write("resolved.toml", &checked.stdout);
-        let ran = place.succeed(&["resolved.toml", "--out", "out", "--force"]);
-        assert!(ran.stderr.contains(named), "{}", ran.stderr);
+        place.succeed("resolved.toml --out out --force").tells(named);
     }
 }
 
@@ -200,10 +197,10 @@ fn a_sweep_runs_over_models() {
          { law = { kuwabara_kono = { a = '1 us' } } }, { law = { linear = { k = 1e7, c = 1e9, \
          end = 'zero_overlap' } } }]\n'body.0.approach_speed' = [0.1, 0.5]\n",
     );
-    let ran = place.run(&["sweep", "sweep.toml", "--out", "out"]);
+    let ran = place.run("sweep sweep.toml --out out");
     // Two members creep without end; the others are done.
     assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-    assert!(ran.stderr.contains("2 of 8 members failed"), "{}", ran.stderr);
+    ran.tells("2 of 8 members failed");
     let table = place.read("out/sweep.csv");
     let mut table = csv::Reader::from_reader(table.as_slice());
     let header = table.headers().unwrap().clone();
@@ -214,8 +211,7 @@ fn a_sweep_runs_over_models() {
     assert!(restitution(3).starts_with("0.927"));
     assert_eq!((restitution(7), &rows[7][column("complete")]), (String::new(), "false"));
     assert_eq!(&rows[3][column("elements")], "");
-    let again = place.run(&["sweep", "sweep.toml", "--out", "out"]);
-    assert!(again.stderr.contains("8 done before, 0 to run"), "{}", again.stderr);
+    place.run("sweep sweep.toml --out out").tells("8 done before, 0 to run");
 }
 
 /// The condensed model writes the same files and keys as finite elements.
@@ -224,11 +220,11 @@ fn condensed_bodies_write_all_files_of_finite_elements() {
     let place = Place::new();
     let fem = summary(&place, &[]);
     let files = place.list("out");
-    let columns = String::from_utf8(place.read("out/history.csv")).unwrap();
+    let columns = place.text("out/history.csv");
     let condensed = summary(&place, &["model.condensed={}"]);
     assert_eq!(keys(&condensed), keys(&fem));
     assert_eq!(place.list("out"), files);
-    let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+    let history = place.text("out/history.csv");
     assert_eq!(history.lines().next(), columns.lines().next());
     assert!(condensed["element_updates"].is_null() && condensed["complete"] == true);
     assert_eq!(condensed["bodies"][0]["elements"], fem["bodies"][0]["elements"]);

@@ -12,8 +12,8 @@ fn assert_same_files(place: &Place, a: &str, b: &str, names: &[&str]) {
 #[test]
 fn two_runs_give_the_same_bytes() {
     let place = Place::new();
-    place.succeed(&["case.toml", "--out", "a"]);
-    place.succeed(&["case.toml", "--out", "b", "--threads", "2"]);
+    place.succeed("case.toml --out a");
+    place.succeed("case.toml --out b --threads 2");
     let files = place.list("a");
     let files: Vec<&str> = files.iter().map(String::as_str).collect();
     assert_eq!(place.list("b"), files);
@@ -34,7 +34,7 @@ fn two_runs_give_the_same_bytes() {
 fn what_check_prints_runs_to_the_same_bits() {
     let place = Place::new();
     let set = ["--set", "mesh.contact_element_size='80 um'", "--set", "start.gap=1e-6"];
-    let checked = place.succeed(&[&["check", "case.toml"][..], &set].concat()).stdout;
+    let checked = place.succeed(("check case.toml", set)).stdout;
     let table: toml::Table = checked.parse().unwrap();
     assert_eq!(table["mesh"]["contact_element_size"].as_float(), Some(80e-6));
     assert_eq!(table["time"]["step_factor"].as_float(), Some(0.9));
@@ -42,11 +42,11 @@ fn what_check_prints_runs_to_the_same_bits() {
         assert!(checked.contains(expected), "{expected}: {checked}");
     }
     place.write("resolved.toml", &checked);
-    place.succeed(&[&["case.toml", "--out", "a"][..], &set].concat());
-    place.succeed(&["resolved.toml", "--out", "b"]);
+    place.succeed(("case.toml --out a", set));
+    place.succeed("resolved.toml --out b");
     assert_same_files(&place, "a", "b", &["history.csv"]);
     // A resolved case resolves to itself.
-    let again = place.succeed(&["check", "resolved.toml"]).stdout;
+    let again = place.succeed("check resolved.toml").stdout;
     assert_eq!(again.parse::<toml::Table>().unwrap(), table);
     assert_eq!(place.json("a/summary.json")["case"], place.json("b/summary.json")["case"]);
 }
@@ -54,8 +54,8 @@ fn what_check_prints_runs_to_the_same_bits() {
 #[test]
 fn check_and_a_quiet_check_write_nothing() {
     let place = Place::new();
-    place.succeed(&["check", "case.toml"]);
-    let ran = place.succeed(&["check", "case.toml", "--quiet"]);
+    place.succeed("check case.toml");
+    let ran = place.succeed("check case.toml --quiet");
     assert_eq!(ran.stdout, "");
     assert!(ran.stderr.lines().all(|line| line.starts_with("warning: ")), "{}", ran.stderr);
     assert_eq!(place.list("."), ["case.toml"]);
@@ -64,26 +64,25 @@ fn check_and_a_quiet_check_write_nothing() {
 #[test]
 fn a_mesh_that_was_written_gives_the_bits_of_the_built_in_one() {
     let place = Place::new();
-    let ran = place.succeed(&["mesh", "case.toml", "--out", "meshes"]);
-    assert!(ran.stdout.contains("scaled Jacobian"), "{}", ran.stdout);
+    place.succeed("mesh case.toml --out meshes").prints("scaled Jacobian");
     assert_eq!(place.list("meshes"), ["striker.vtu", "target.vtu"]);
-    place.succeed(&["case.toml", "--out", "a"]);
+    place.succeed("case.toml --out a");
     let with_meshes = [
         "--set",
         "body.0.sphere.mesh='meshes/striker.vtu'",
         "--set",
         "body.1.sphere.mesh='meshes/target.vtu'",
     ];
-    place.succeed(&[&["case.toml", "--out", "b"][..], &with_meshes].concat());
+    place.succeed(("case.toml --out b", with_meshes));
     assert_same_files(&place, "a", "b", &["history.csv", "case_1_maximum.vtu"]);
     // The scene upside down. Both of the equal bodies are computed, as always for meshes from
     // files.
-    place.succeed(&["mesh", "case.toml"]);
+    place.succeed("mesh case.toml");
     let swapped = ["--set", "body.1.sphere={diameter='22.2 mm', mesh='meshes/case/striker.vtu'}"];
     let built_in =
         ["--set", "body.1.sphere={diameter='22.2 mm'}", "--set", "effects.mirror_symmetry='off'"];
-    place.succeed(&[&["case.toml", "--out", "c"][..], &swapped].concat());
-    place.succeed(&[&["case.toml", "--out", "d"][..], &built_in].concat());
+    place.succeed(("case.toml --out c", swapped));
+    place.succeed(("case.toml --out d", built_in));
     assert_same_files(&place, "c", "d", &["history.csv"]);
 }
 
@@ -92,8 +91,7 @@ fn a_mesh_replaces_only_a_mesh() {
     let place = Place::new();
     std::fs::create_dir(place.path("meshes")).unwrap();
     place.write("meshes/target.vtu", "mine");
-    let ran = place.run(&["mesh", "case.toml", "--out", "meshes"]);
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    place.fails(2, "mesh case.toml --out meshes");
     assert_eq!(place.list("meshes"), ["target.vtu"]);
     assert_eq!(place.read("meshes/target.vtu"), b"mine");
     for size in ["60e-6", "70e-6"] {

@@ -20,8 +20,8 @@ fn another_case_takes_a_folder_of_its_own() {
     assert!(own.starts_with("case-") && own.len() == "case-".len() + 8, "{own}");
     assert_eq!(place.read("runs/case/summary.json"), first);
     let said = format!("result: runs/{own}, since runs/case holds that of another case");
-    assert!(ran.stderr.contains(&said), "{}", ran.stderr);
-    assert!(ran.stdout.contains(&format!("Result: runs/{own}\n")), "{}", ran.stdout);
+    ran.tells(&said);
+    ran.prints(&format!("Result: runs/{own}\n"));
 
     place.write(&format!("runs/{own}/notes.txt"), "mine");
     place.succeed(&run(&[&SLOWER]));
@@ -38,11 +38,9 @@ fn a_named_folder_of_another_case_is_refused() {
     let out = ["--out", "out"];
     place.succeed(&run(&[&TING, &out]));
     let before = place.result("out");
-    let ran = place.run(&run(&[&SLOWER, &out]));
-    assert_eq!(ran.code, Some(2));
-    for expected in ["--out out: this folder holds the result of another case", "--force"] {
-        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
-    }
+    place
+        .fails(2, &run(&[&SLOWER, &out]))
+        .tells("--out out: this folder holds the result of another case|--force");
     assert_eq!(
         (place.result("out"), place.list(".")),
         (before, vec!["case.toml".into(), "out".into()])
@@ -57,10 +55,10 @@ fn a_case_is_what_it_asks_to_be_computed() {
     let place = Place::new();
     let out = ["--out", "out", "--quiet"];
     place.succeed(&run(&[&TING, &out]));
-    let text = String::from_utf8(place.read("case.toml")).unwrap();
+    let text = place.text("case.toml");
     let text = text.replace("\"63 GPa\"", "6.3e10").replace("A pair", "The pair");
     place.write("same.toml", &format!("# the same\n{text}"));
-    place.succeed(&[&["same.toml"][..], &TING, &out].concat());
+    place.succeed(("same.toml", TING, out));
     place.succeed(&run(&[&TING, &out, &["--set", "output.snapshots=[]"]]));
     let limits = ["--set", "limits.elements=1e6"];
     assert_eq!(place.run(&run(&[&TING, &out, &limits])).code, Some(2));
@@ -73,12 +71,11 @@ fn commands_do_not_replace_each_others_results() {
     place.write("data.csv", "speed_m_s,restitution\n0.1,0.95\n0.5,0.92\n");
     let fit = ["fit", "case.toml", "--data", "data.csv", "--law", "kuwabara_kono", "-q"];
     place.succeed(&run(&[&TING, &["--out", "out"]]));
-    let ran = place.run(&[&fit[..], &["--out", "out"]].concat());
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    place.fails(2, (fit, "--out out"));
     place.succeed(&fit);
     // Other options of the same fit replace it, another case does not.
-    place.succeed(&[&fit[..], &["--confidence", "0.9"]].concat());
-    place.succeed(&[&fit[..], &["--set", "body.0.sphere.diameter='2 cm'"]].concat());
+    place.succeed((fit, "--confidence 0.9"));
+    place.succeed((fit, ["--set", "body.0.sphere.diameter='2 cm'"]));
     let folders = place.list("runs");
     assert_eq!(folders.len(), 2, "{folders:?}");
     assert!(folders[0] == "data_fit" && folders[1].starts_with("data_fit-"), "{folders:?}");

@@ -7,7 +7,7 @@ use crate::common::Place;
 const TING: [&str; 4] = ["case.toml", "--set", "model.ting={}", "--quiet"];
 
 fn text(place: &Place, name: &str) -> String {
-    String::from_utf8(place.read(name)).unwrap()
+    place.text(name)
 }
 
 /// Checks that a page loads nothing from elsewhere.
@@ -27,7 +27,7 @@ fn a_kink_of_the_contact_radius_is_explained() {
         let terms = format!("[{{ weight = 0.99, relaxation_time = {seconds} }}]");
         let relaxation =
             format!("material.glass.relaxation={{ acts_on = \"all\", terms = {terms} }}");
-        place.succeed(&[&TING[..], &["--set", &relaxation, "--out", seconds]].concat());
+        place.succeed((TING, ["--set", &relaxation, "--out", seconds]));
         text(&place, &format!("{seconds}/report.html")).contains("has a kink at its maximum")
     };
     assert!(of("2e-6") && !of("1.0"));
@@ -61,7 +61,7 @@ fn a_run_with_fields_has_all_of_it_on_a_page() {
     assert!(summary["files"].as_array().unwrap().iter().any(|file| file == "report.html"));
     // An older result gets the same page as a new one.
     fs::remove_file(place.path("runs/case/report.html")).unwrap();
-    place.succeed(&["report", "runs/case"]);
+    place.succeed("report runs/case");
     assert_eq!(text(&place, "runs/case/report.html"), page);
     // Each figure is also written by itself, as XML.
     for what in ["contours", "force", "approach", "radius", "pressure", "energy", "profile"] {
@@ -78,16 +78,14 @@ fn a_result_without_fields_has_a_page_and_no_picture_of_them() {
     let page = text(&place, "runs/case/report.html");
     stands_alone(&page);
     assert!(page.contains("Contact radius a [µm]") && !page.contains("<figure>"));
-    let ran = place.run(&["plot", "runs/case", "--what", "contours"]);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("nothing to draw"), "{}", ran.stderr);
+    place.fails(2, "plot runs/case --what contours").tells("nothing to draw");
 }
 
 #[test]
 fn a_case_can_do_without_a_page() {
     let place = Place::new();
-    let spared = ["--set", "output.report=false"];
-    place.succeed(&[&TING[..], &spared].concat());
+    let spared = "--set output.report=false";
+    place.succeed((TING, spared));
     assert_eq!(place.list("runs/case"), ["history.csv", "summary.json"]);
 }
 
@@ -96,7 +94,7 @@ fn a_case_can_do_without_a_page() {
 fn a_title_is_text() {
     let place = Place::new();
     let title = ["--set", "title='<script>alert(1)</script>'"];
-    place.succeed(&[&TING[..], &title].concat());
+    place.succeed((TING, title));
     let page = text(&place, "runs/case/report.html");
     assert!(!page.contains("<script>alert"));
     assert_eq!(page.matches("<script>").count(), 1);
@@ -105,10 +103,10 @@ fn a_title_is_text() {
 #[test]
 fn several_results_are_compared() {
     let place = Place::new();
-    place.succeed(&[&TING[..], &["--out", "slow"]].concat());
+    place.succeed((TING, "--out slow"));
     let fast = ["--set", "body.0.approach_speed='1 m/s'", "--out", "fast"];
-    place.succeed(&[&TING[..], &fast].concat());
-    place.succeed(&["report", "slow", "fast", "--out", "both.html"]);
+    place.succeed((TING, fast));
+    place.succeed("report slow fast --out both.html");
     let page = text(&place, "both.html");
     stands_alone(&page);
     // The force grows by 2^(6/5) less relaxation; the difference is printed as a share.
@@ -126,10 +124,10 @@ fn several_results_are_compared() {
 fn a_comparison_tells_what_differs_first() {
     let place = Place::new();
     let condensed = ["case.toml", "--set", "model.condensed={}", "--quiet"];
-    place.succeed(&[&condensed[..], &["--out", "glass_on_glass"]].concat());
+    place.succeed((condensed, "--out glass_on_glass"));
     let fast = ["--set", "body.0.approach_speed='4 m/s'", "--out", "glass_fast_0.5"];
-    place.succeed(&[&condensed[..], &fast].concat());
-    place.succeed(&["report", "glass_on_glass", "glass_fast_0.5", "--out", "both.html"]);
+    place.succeed((condensed, fast));
+    place.succeed("report glass_on_glass glass_fast_0.5 --out both.html");
     let page = text(&place, "both.html");
     assert_eq!(page.matches(">glass_fast_0.5</text>").count(), 5, "in the legend of each chart");
     let (before, rest) = page.split_once("<details>").unwrap();
@@ -140,9 +138,7 @@ fn a_comparison_tells_what_differs_first() {
     let longest = page.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(str::len).max();
     assert!(longest.is_some_and(|n| n <= 12), "{longest:?}");
     for folders in [["glass_on_glass", "glass_on_glass"], ["glass_on_glass", "./glass_on_glass/"]] {
-        let ran = place.run(&["report", folders[0], folders[1]]);
-        assert_eq!(ran.code, Some(2));
-        assert!(ran.stderr.contains("named twice"), "{}", ran.stderr);
+        place.fails(2, &["report", folders[0], folders[1]]).tells("named twice");
     }
 }
 
@@ -153,7 +149,7 @@ fn snapshots_have_the_fields_that_are_asked_for() {
     let run = |fields: &str, out: &str| {
         let set = format!("output.fields={fields}");
         let condensed = ["case.toml", "--set", "model.condensed={}", "--quiet", "--out", out];
-        place.succeed(&[&condensed[..], &["--set", &set]].concat());
+        place.succeed((condensed, ["--set", &set]));
         let snapshot = place.list(out).into_iter().find(|name| name.ends_with("maximum.vtu"));
         let file = fem_vtk::VtuFile::open(place.path(out).join(snapshot.unwrap())).unwrap();
         let has = |name: &str| [file.point_data(name).is_ok(), file.cell_data(name).is_ok()];
@@ -167,9 +163,7 @@ fn snapshots_have_the_fields_that_are_asked_for() {
     let (arrays, page) = run("[]", "none");
     assert_eq!(arrays, [[false; 2], [false; 2], [false; 2], [false; 2], [true; 2]]);
     assert!(!page.contains("<figure>") && page.contains("Contact pressure p ["));
-    let ran = place.run(&["case.toml", "--set", "output.fields=['sigma_zz']"]);
-    assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("sigma_yy"), "{}", ran.stderr);
+    place.fails(2, &["case.toml", "--set", "output.fields=['sigma_zz']"]).tells("sigma_yy");
 }
 
 /// A ball on a wall fills its picture: the wall is a strip, with the body above it.
@@ -178,7 +172,7 @@ fn the_frame_follows_what_is_there() {
     let place = Place::new();
     let wall = ["--set", "body.0={ name = 'floor', wall = {} }", "--set", "model.condensed={}"];
     let moves = ["--set", "body.1.approach_speed='0.5 m/s'", "--quiet"];
-    place.succeed(&[&["case.toml"][..], &wall, &moves].concat());
+    place.succeed(("case.toml", wall, moves));
     let page = text(&place, "runs/case/report.html");
     assert_eq!(page.matches("class=\"rigid ink stroke\"").count(), 4);
     // The height of a frame over its width: 0.625; it was 0.85 when as much of the wall as of the
@@ -194,15 +188,12 @@ fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
     let place = Place::new();
     place.succeed(&TING);
     for folder in [".", "nowhere"] {
-        let ran = place.run(&["report", folder]);
-        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-        assert!(ran.stderr.contains("summary.json cannot be read"), "{}", ran.stderr);
+        place.fails(2, &["report", folder]).tells("summary.json cannot be read");
     }
     place.write("mine.html", "<p>mine</p>");
-    let ran = place.run(&["report", "runs/case", "--out", "mine.html"]);
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    place.fails(2, "report runs/case --out mine.html");
     assert_eq!(text(&place, "mine.html"), "<p>mine</p>");
-    place.succeed(&["report", "runs/case"]);
+    place.succeed("report runs/case");
 }
 
 /// Commands that write a single file overwrite no file of others.
@@ -210,7 +201,7 @@ fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
 fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
     let place = Place::new();
     place.succeed(&TING);
-    place.succeed(&[&TING[..], &["--out", "runs/other"]].concat());
+    place.succeed((TING, "--out runs/other"));
     let summary = text(&place, "runs/case/summary.json");
     fn own(name: &str) -> Vec<&str> {
         vec!["plot", "runs/case", "--what", "force", "--out", name]
@@ -230,8 +221,7 @@ fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
             _ => mine.to_string(),
         };
         place.write(name, &old);
-        let ran = place.run(&command);
-        assert_eq!(ran.code, Some(2), "{command:?}: {}", ran.stderr);
+        let ran = place.fails(2, &command);
         assert!(ran.stderr.contains(name) && ran.stderr.contains("--out"), "{}", ran.stderr);
         assert_eq!(text(&place, name), old, "{command:?}");
     }
@@ -281,12 +271,12 @@ fn hertz_far_away_does_not_flatten_the_curves() {
 #[test]
 fn a_contact_without_an_end_does_not_squeeze_the_others() {
     let place = Place::new();
-    place.succeed(&[&TING[..], &["--out", "leaves"]].concat());
+    place.succeed((TING, "--out leaves"));
     let stays =
         "material.glass.relaxation={acts_on='all',terms=[{weight=1.0,relaxation_time='0.1 us'}]}";
-    place.succeed(&[&TING[..], &["--set", stays, "--out", "stays"]].concat());
+    place.succeed((TING, ["--set", stays, "--out", "stays"]));
     assert!(place.json("stays/summary.json")["contact_time_s"].is_null());
-    place.succeed(&["report", "leaves", "stays", "--out", "both.html"]);
+    place.succeed("report leaves stays --out both.html");
     let [width, height] = share(&text(&place, "both.html"));
     assert!(width > 0.8 && height > 0.8, "{width} × {height}");
     // The error by neglected effects of bodies that stay together is printed beside the number.
@@ -303,10 +293,10 @@ fn ten_results_are_told_apart() {
     let names: Vec<String> = (0..10).map(|k| format!("run{k}")).collect();
     for (k, name) in names.iter().enumerate() {
         let speed = format!("body.0.approach_speed={}", 0.1 * (k + 1) as f64);
-        place.succeed(&[&TING[..], &["--set", &speed, "--out", name]].concat());
+        place.succeed((TING, ["--set", &speed, "--out", name]));
     }
     let folders: Vec<&str> = names.iter().map(String::as_str).collect();
-    place.succeed(&[&["report"], &folders[..], &["--out", "all.html"]].concat());
+    place.succeed(("report", &folders, "--out all.html"));
     let page = text(&place, "all.html");
     let strokes =
         page.split("<path class=\"c").skip(1).map(|path| path.split(" d=").next().unwrap());
@@ -321,11 +311,11 @@ fn ten_results_are_told_apart() {
 #[test]
 fn names_errors_and_instants_are_what_they_are() {
     let place = Place::new();
-    place.succeed(&[&TING[..], &["--out", "b_fem"]].concat());
+    place.succeed((TING, "--out b_fem"));
     let film =
         ["case.toml", "--set", "model.condensed={}", "--set", "output.snapshots=40", "--quiet"];
-    place.succeed(&[&film[..], &["--out", "a_film"]].concat());
-    place.succeed(&["report", "b_fem", "a_film", "--out", "both.html"]);
+    place.succeed((film, "--out a_film"));
+    place.succeed("report b_fem a_film --out both.html");
     let page = text(&place, "both.html");
     assert!(page.contains(">b_fem</text>") && page.contains(">a_film</text>"));
     let page = text(&place, "a_film/report.html");

@@ -11,7 +11,7 @@ use crate::common::Place;
 
 const RESTART_FILE: &str = "fem-run.restart";
 /// Options that write many restart files.
-const KEPT: [&str; 3] = ["--checkpoint-every", "0.02", "--quiet"];
+const KEPT: &str = "--checkpoint-every 0.02 --quiet";
 
 /// A ball that falls three times.
 const BALL: &str = r#"
@@ -83,8 +83,7 @@ fn scenes() -> Vec<(&'static str, Place, Vec<&'static str>)> {
 }
 
 fn command(place: &Place, set: &[&str], more: &[&str]) -> Child {
-    let arguments = [&["case.toml", "--out", "out"][..], &KEPT, set, more].concat();
-    let mut command = place.command(&arguments);
+    let mut command = place.command(("case.toml --out out", KEPT, set, more));
     command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
@@ -123,7 +122,7 @@ fn kill_at_random(n_gone_on: usize, seed: u64) -> usize {
     let mut killed = 0;
     for (name, place, set) in scenes() {
         let begin = Instant::now();
-        place.succeed(&[&["case.toml", "--out", "whole", "--quiet"][..], &set].concat());
+        place.succeed(("case.toml --out whole --quiet", &set));
         let whole = place.result("whole");
         let length = begin.elapsed();
         let mut gone_on = 0;
@@ -184,15 +183,13 @@ fn a_restart_file_of_another_case_or_build_is_refused() {
     killed(&place, &FINE);
     let path = format!("out/{RESTART_FILE}");
     let file = place.read(&path);
-    let restart = |set: &[&str]| {
-        place.run(&[&["case.toml", "--out", "out", "--restart"][..], &FINE, set].concat())
-    };
+    let restart = |set: &[&str]| place.run(("case.toml --out out --restart", FINE, set));
     let other = ["--set", "body.0.approach_speed=0.4"];
     for set in [&other[..], &["--set", "output.snapshots=3"], &[&other[..], &["--force"]].concat()]
     {
         let ran = restart(set);
         assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-        assert!(ran.stderr.contains("of another case"), "{}", ran.stderr);
+        ran.tells("of another case");
     }
     let text = String::from_utf8_lossy(&file).to_string();
     let (_, numerics) = text.split_once("\"numerics\":\"").unwrap();
@@ -214,7 +211,7 @@ fn a_restart_file_of_another_case_or_build_is_refused() {
         fs::write(place.path(&path), bytes).unwrap();
         let ran = restart(&[]);
         assert_eq!(ran.code, Some(2), "{message}: {}", ran.stderr);
-        assert!(ran.stderr.contains(message), "{}", ran.stderr);
+        ran.tells(message);
         assert_eq!(place.list("out"), [RESTART_FILE]);
     }
 }
@@ -227,28 +224,25 @@ fn another_case_leaves_the_restart_file_alone() {
     fs::create_dir(place.path("runs")).unwrap();
     fs::rename(place.path("out"), place.path("runs/case")).unwrap();
     let ting = ["--set", "model.ting={}"];
-    place.succeed(&[&["case.toml"][..], &ting].concat());
+    place.succeed(("case.toml", ting));
     assert_eq!(place.list("runs/case"), [RESTART_FILE]);
     assert_eq!(place.list("runs").len(), 2);
-    let ran = place.run(&[&["case.toml", "--out", "runs/case"][..], &ting].concat());
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    place.fails(2, ("case.toml --out runs/case", ting));
     // Nor does another case continue it.
     fs::remove_dir_all(place.path("runs").join(&place.list("runs")[1])).unwrap();
-    let ran = place.run(&[&["case.toml", "--restart"][..], &ting].concat());
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-    assert!(ran.stderr.contains("of another case"), "{}", ran.stderr);
+    place.fails(2, ("case.toml --restart", ting)).tells("of another case");
 }
 
 #[test]
 fn without_a_file_a_run_starts_anew_and_says_so() {
     let place = Place::new();
-    let ran = place.succeed(&["case.toml", "--restart"]);
-    assert!(ran.stderr.contains("starting anew"), "{}", ran.stderr);
-    place.succeed(&["case.toml", "--out", "other"]);
+    place.succeed("case.toml --restart").tells("starting anew");
+    place.succeed("case.toml --out other");
     assert_eq!(place.result("runs/case"), place.result("other"));
     // A model without restart state.
-    let ran = place.succeed(&["case.toml", "--checkpoint-every", "1", "--set", "model.ting={}"]);
-    assert!(ran.stderr.contains("leaves no restart file"), "{}", ran.stderr);
+    place
+        .succeed(&["case.toml", "--checkpoint-every", "1", "--set", "model.ting={}"])
+        .tells("leaves no restart file");
     for seconds in ["-1", "nan", "soon"] {
         assert_eq!(place.run(&["case.toml", "--checkpoint-every", seconds]).code, Some(2));
     }
@@ -263,7 +257,7 @@ fn an_interrupted_run_goes_on_too() {
 
     let place = Place::new();
     let size = ["--set", "mesh.contact_element_size='20 um'"];
-    place.succeed(&[&["case.toml", "--out", "whole", "--quiet"][..], &size].concat());
+    place.succeed(("case.toml --out whole --quiet", size));
     let mut child = command(&place, &size, &[]);
     while !place.path("out").join(RESTART_FILE).exists() {
         sleep(Duration::from_millis(1));
@@ -275,8 +269,7 @@ fn an_interrupted_run_goes_on_too() {
     assert!(summary["files"].to_string().contains(RESTART_FILE), "{}", summary["files"]);
     assert!(place.list("out").contains(&RESTART_FILE.to_string()));
     place.write("out/notes.txt", "mine");
-    let ran = place.succeed(&[&["case.toml", "--out", "out", "--restart"][..], &size].concat());
-    assert!(ran.stderr.contains("continuing from step"), "{}", ran.stderr);
+    place.succeed(("case.toml --out out --restart", size)).tells("continuing from step");
     fs::remove_file(place.path("out/notes.txt")).unwrap();
     assert_eq!(place.result("out"), place.result("whole"));
 }

@@ -35,14 +35,12 @@ fn same(place: &Place, name: &str) {
 fn the_script_computes_the_sweep() {
     let place = place();
     let base = ["sweep", "sweep.toml", "--set", "title=\"it's\""];
-    place.succeed(&[&base[..], &["--out", "whole", "--quiet"]].concat());
-    let slurm = ["--out", "out", "--slurm", "--time=10 --mem=1G", "--shards", "3"];
-    let ran = place.succeed(&[&base[..], &slurm].concat());
-    assert!(ran.stdout.contains("7 members in 3 tasks"), "{}", ran.stdout);
-    assert!(ran.stdout.contains("Submit it with: sh "), "{}", ran.stdout);
+    place.succeed((base, "--out whole --quiet"));
+    let slurm = "--out out --slurm '--time=10 --mem=1G' --shards 3";
+    place.succeed((base, slurm)).prints("7 members in 3 tasks|Submit it with: sh ");
     assert_eq!(place.list("out"), ["members", "sweep.json", "sweep.sbatch"]);
     assert!(place.list("out/members").is_empty());
-    let script = String::from_utf8(place.read("out/sweep.sbatch")).unwrap();
+    let script = place.text("out/sweep.sbatch");
     for line in ["#SBATCH --array=1-3", "#SBATCH --requeue", "#SBATCH --time=10 --mem=1G"] {
         assert!(script.lines().any(|known| known == line), "{line}\n{script}");
     }
@@ -66,18 +64,18 @@ fn the_script_computes_the_sweep() {
 fn it_submits_itself_twice_and_a_task_that_was_killed_queues_again() {
     let place = place();
     stand_in(&place, "sbatch", "echo '42;cluster'");
-    let slurm = ["sweep", "sweep.toml", "--out", "out", "--slurm=--time=10", "--submit"];
-    let ran = place.command(&slurm).env("PATH", path_with(&place)).output().unwrap();
+    let slurm = "sweep sweep.toml --out out --slurm=--time=10 --submit";
+    let ran = place.command(slurm).env("PATH", path_with(&place)).output().unwrap();
     let stdout = String::from_utf8(ran.stdout).unwrap();
     assert!(stdout.contains("Submitted: array 42, merge 42"), "{stdout}");
-    let calls = String::from_utf8(place.read("calls")).unwrap();
+    let calls = place.text("calls");
     let calls: Vec<&str> = calls.lines().collect();
     assert!(calls.len() == 2 && calls[0].ends_with("sweep.sbatch"), "{calls:?}");
     assert!(calls[1].contains("--dependency=afterany:42") && calls[1].ends_with("merge"));
 
     // The program that the script starts is killed.
     stand_in(&place, "scontrol", "");
-    let script = String::from_utf8(place.read("out/sweep.sbatch")).unwrap();
+    let script = place.text("out/sweep.sbatch");
     let start = script.find("  exec ").unwrap();
     let end = start + script[start..].find('\n').unwrap();
     place.write(
@@ -88,7 +86,7 @@ fn it_submits_itself_twice_and_a_task_that_was_killed_queues_again() {
     command.arg(place.path("killed")).current_dir(place.path(".")).env("PATH", path_with(&place));
     command.env("SLURM_ARRAY_TASK_ID", "2").env("SLURM_ARRAY_JOB_ID", "42");
     assert_eq!(command.output().unwrap().status.code(), Some(137));
-    let calls = String::from_utf8(place.read("calls")).unwrap();
+    let calls = place.text("calls");
     assert_eq!(calls.lines().last(), Some("scontrol requeue 42_2"));
     // Tasks are not requeued for ever.
     command.env("SLURM_RESTART_COUNT", "10").output().unwrap();
@@ -112,9 +110,7 @@ fn a_slurm_that_is_not_there_or_refuses_is_told() {
         (&["--submit"], "--slurm"),
         (&["--no-merge"], "--shard"),
     ] {
-        let ran = place.run(&[&["sweep", "sweep.toml", "--out", "new"][..], arguments].concat());
-        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+        place.fails(2, ("sweep sweep.toml --out new", arguments)).tells(expected);
     }
     assert!(!place.path("new").exists());
 }
@@ -122,26 +118,20 @@ fn a_slurm_that_is_not_there_or_refuses_is_told() {
 #[test]
 fn a_sweep_says_how_far_it_is() {
     let place = place();
-    place.succeed(&["sweep", "sweep.toml", "--out", "out", "--shard", "1/3", "--quiet"]);
+    place.succeed("sweep sweep.toml --out out --shard 1/3 --quiet");
     let words = |text: &str| {
         let rows = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
         rows.collect::<Vec<_>>()
     };
-    let ran = place.succeed(&["sweep", "--status", "out"]);
+    let ran = place.succeed("sweep --status out");
     let said = words(&ran.stdout);
-    for expected in
-        ["out: a sweep of case.toml", "members 7", "done 3", "of these failed 0", "left 4"]
-    {
+    for expected in ["out: a sweep of case.toml", "members 7", "done 3", "failed 0", "left 4"] {
         assert!(said.iter().any(|line| line == expected), "{expected}\n{}", ran.stdout);
     }
     // A merge of an incomplete sweep says so.
-    let ran = place.run(&["sweep", "sweep.toml", "--out", "out", "--merge"]);
-    assert_eq!(ran.code, Some(1));
-    assert!(ran.stderr.contains("3 of 7 members are done"), "{}", ran.stderr);
+    place.fails(1, "sweep sweep.toml --out out --merge").tells("3 of 7 members are done");
     fs::create_dir(place.path("mine")).unwrap();
     for folder in ["mine", "none"] {
-        let ran = place.run(&["sweep", "--status", folder]);
-        assert_eq!(ran.code, Some(2));
-        assert!(ran.stderr.contains("sweep.json"), "{}", ran.stderr);
+        place.fails(2, &["sweep", "--status", folder]).tells("sweep.json");
     }
 }

@@ -7,12 +7,9 @@ use crate::common::{FAILS, Place};
 #[test]
 fn a_run_that_fails_says_why_and_keeps_what_it_has() {
     let place = Place::new();
-    let ran = place.run(&[&["case.toml"][..], &FAILS].concat());
-    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-    for expected in ["error: ", "step", "likely cause: ", "remedy: ", "runs/case"] {
-        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
-    }
-    assert!(ran.stdout.contains("INCOMPLETE"), "{}", ran.stdout);
+    let ran = place.fails(1, ("case.toml", FAILS));
+    ran.tells("error: |step|likely cause: |remedy: |runs/case");
+    ran.prints("INCOMPLETE");
     let summary = place.json("runs/case/summary.json");
     assert_eq!(summary["complete"], false);
     assert!(summary["stopped_because"].as_str().unwrap().contains("folds at the radius"));
@@ -23,7 +20,7 @@ fn a_run_that_fails_says_why_and_keeps_what_it_has() {
     assert!(summary["peak_force_n"].as_f64().unwrap() > 0.0);
     let warnings = summary["warnings"].to_string();
     assert!(warnings.contains("not complete"), "{warnings}");
-    let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+    let history = place.text("runs/case/history.csv");
     assert!(history.lines().count() > 3);
     // The last valid state is in the collection and in a picture.
     let files = summary["files"].as_array().unwrap();
@@ -34,7 +31,7 @@ fn a_run_that_fails_says_why_and_keeps_what_it_has() {
             String::from_utf8(place.read(Path::new("runs/case").join(name.as_str().unwrap())));
         assert!(!text.unwrap().contains("NaN"), "{ending}");
     }
-    let collection = String::from_utf8(place.read("runs/case/case.pvd")).unwrap();
+    let collection = place.text("runs/case/case.pvd");
     assert!(collection.contains("_last-sound.vtu"), "{collection}");
 }
 
@@ -93,7 +90,7 @@ mod signals {
             let place = Place::new();
             let summary = interrupted(&place, start(&place, &[]), signal);
             assert!(summary["stopped_because"].as_str().unwrap().contains("interrupted"));
-            let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+            let history = place.text("runs/case/history.csv");
             assert!(history.lines().count() >= 2, "{history}");
             assert_eq!(place.list("runs"), ["case"]);
         }
@@ -126,7 +123,7 @@ mod signals {
     #[test]
     fn what_an_interrupted_run_has_takes_the_place_of_an_older_result() {
         let place = Place::new();
-        place.succeed(&["case.toml"]);
+        place.succeed("case.toml");
         let (mut child, _stderr) = start(&place, &["--force"]);
         send(&child, Signal::SIGINT);
         assert_eq!(child.wait().unwrap().code(), Some(130));
@@ -137,12 +134,12 @@ mod signals {
     #[test]
     fn a_killed_run_leaves_an_older_result_alone() {
         let place = Place::new();
-        place.succeed(&["case.toml"]);
+        place.succeed("case.toml");
         let before = place.read("runs/case/summary.json");
         let (mut child, _stderr) = start(&place, &[]);
         child.kill().unwrap();
         child.wait().unwrap();
         assert_eq!(place.read("runs/case/summary.json"), before);
-        place.succeed(&["case.toml"]);
+        place.succeed("case.toml");
     }
 }

@@ -18,7 +18,7 @@ fn fed(place: &Place, arguments: &[&str], text: &[u8]) -> Ran {
 fn a_case_from_the_standard_input_is_the_case() {
     let place = Place::new();
     let ting = ["--set", "model.ting={}"];
-    place.succeed(&[&["case.toml", "--out", "file"][..], &ting].concat());
+    place.succeed(("case.toml --out file", ting));
     let ran = fed(&place, &[&["-"][..], &ting].concat(), CASE.as_bytes());
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     assert!(ran.stderr.starts_with("<stdin>: "), "{}", ran.stderr);
@@ -34,7 +34,7 @@ fn faults_of_the_standard_input_have_a_place() {
     let text = CASE.replace("density", "densitty");
     let ran = fed(&place, &["-", "--json"], text.as_bytes());
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
-    assert!(ran.stderr.contains("<stdin>:4:1: "), "{}", ran.stderr);
+    ran.tells("<stdin>:4:1: ");
     for (text, message) in [
         (vec![b'#'; (16 << 20) + 1], "16 MiB"),
         (b"title = \"\xff\"".to_vec(), "not UTF-8"),
@@ -42,7 +42,7 @@ fn faults_of_the_standard_input_have_a_place() {
     ] {
         let ran = fed(&place, &["-"], &text);
         assert_eq!(ran.code, Some(2));
-        assert!(ran.stderr.contains(message), "{}", ran.stderr);
+        ran.tells(message);
     }
     assert_eq!(place.list("."), ["case.toml"]);
 }
@@ -52,13 +52,12 @@ fn faults_of_the_standard_input_have_a_place() {
 fn json_is_the_summary_alone() {
     let place = Place::new();
     for quiet in [&[][..], &["--quiet"]] {
-        let ran = place.succeed(&[&["case.toml", "--json", "--out", "out"][..], quiet].concat());
+        let ran = place.succeed(("case.toml --json --out out", quiet));
         assert_eq!(ran.stdout.as_bytes(), place.read("out/summary.json"));
         let is_warning = |line: &str| line.starts_with("warning: ");
         assert_eq!(ran.stderr.lines().all(is_warning), !quiet.is_empty(), "{}", ran.stderr);
     }
-    let failed = place.run(&[&["case.toml", "--json"][..], &crate::common::FAILS].concat());
-    assert_eq!(failed.code, Some(1));
+    let failed = place.fails(1, &[&["case.toml", "--json"][..], &crate::common::FAILS].concat());
     let summary: serde_json::Value = serde_json::from_str(&failed.stdout).unwrap();
     assert_eq!(summary["complete"], false);
 }

@@ -40,7 +40,7 @@ fn assert_same_result(place: &Place, a: &str, b: &str) {
 #[test]
 fn all_lists_are_combined_in_order_and_every_column_is_there() {
     let place = place(SWEEP);
-    let ran = place.succeed(&["sweep", "sweep.toml"]);
+    let ran = place.succeed("sweep sweep.toml");
     assert_eq!(place.list("runs/sweep"), ["members", "sweep.csv", "sweep.json", "sweep.svg"]);
     let rows = rows(&place, "runs/sweep/sweep.csv");
     let weight = "material.glass.relaxation.terms.0.weight";
@@ -56,7 +56,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
 
     // The row is the member's summary, and the member equals the single case.
     let set = ["--set", "body.0.approach_speed='50 cm/s'", "--set", &format!("{weight}=0.5")];
-    place.succeed(&[&["case.toml", "--out", "alone"][..], &set].concat());
+    place.succeed(("case.toml --out alone", set));
     let alone = place.json("alone/summary.json");
     let member =
         place.json(&format!("runs/sweep/members/{}/summary.json", rows[3].last().unwrap()));
@@ -96,11 +96,9 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     assert!(n_checked > 20);
     let elements = alone["bodies"].as_array().unwrap().iter().map(|body| &body["elements"]);
     assert_eq!(cell("elements"), elements.map(|n| n.as_u64().unwrap()).sum::<u64>().to_string());
-    for expected in ["50 cm/s", "/ Hertz", "Result: runs/sweep/sweep.csv"] {
-        assert!(ran.stdout.contains(expected), "{}", ran.stdout);
-    }
-    assert!(ran.stderr.contains("[6/6] body.0.approach_speed = "), "{}", ran.stderr);
-    let svg = String::from_utf8(place.read("runs/sweep/sweep.svg")).unwrap();
+    ran.prints("50 cm/s|/ Hertz|Result: runs/sweep/sweep.csv");
+    ran.tells("[6/6] body.0.approach_speed = ");
+    let svg = place.text("runs/sweep/sweep.svg");
     for expected in ["[m/s]", "contact time [µs]", "Hertz", "g = 0.5"] {
         assert!(svg.contains(expected), "{expected}");
     }
@@ -110,17 +108,15 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
 #[test]
 fn a_dry_run_counts_and_writes_nothing() {
     let place = place(SWEEP);
-    let ran = place.succeed(&["sweep", "sweep.toml", "--dry-run"]);
-    assert!(ran.stderr.contains("6 members; 0 done before, 6 to run"), "{}", ran.stderr);
+    place.succeed("sweep sweep.toml --dry-run").tells("6 members; 0 done before, 6 to run");
     assert_eq!(place.list("."), ["case.toml", "sweep.toml"]);
-    place.succeed(&["sweep", "sweep.toml", "--shard", "1/3", "--quiet"]);
+    place.succeed("sweep sweep.toml --shard 1/3 --quiet");
     let table = place.read("runs/sweep/sweep.csv");
-    let ran = place.succeed(&["sweep", "sweep.toml", "--dry-run"]);
-    assert!(ran.stderr.contains("6 members; 2 done before, 4 to run"), "{}", ran.stderr);
+    place.succeed("sweep sweep.toml --dry-run").tells("6 members; 2 done before, 4 to run");
     assert_eq!(place.read("runs/sweep/sweep.csv"), table);
     // A member that would be rejected is rejected here.
     place.write("sweep.toml", "case = 'case.toml'\n[vary]\nbody.0.approach_speed = [0.3, -1.0]\n");
-    assert_eq!(place.run(&["sweep", "sweep.toml", "--dry-run"]).code, Some(2));
+    assert_eq!(place.run("sweep sweep.toml --dry-run").code, Some(2));
 }
 
 #[test]
@@ -129,7 +125,7 @@ fn paired_lists_run_side_by_side() {
         "case = 'case.toml'\ncombine = 'paired'\n[vary]\n'body.0.approach_speed' = [0.3, 0.5]\n\
          'body.1.sphere.diameter' = ['16 mm', '18 mm']\n",
     );
-    place.succeed(&["sweep", "sweep.toml", "--out", "out", "--quiet"]);
+    place.succeed("sweep sweep.toml --out out --quiet");
     let rows = rows(&place, "out/sweep.csv");
     assert_eq!(
         rows[1..].iter().map(|row| &row[..2]).collect::<Vec<_>>(),
@@ -147,7 +143,7 @@ fn ranges_links_and_tables_make_the_members_that_lists_make() {
          {speeds} = {{ from = '25 cm/s', to = '100 cm/s', n = 3, log = true }}\n"
     ));
     let ting = ["--set", "model.ting={}", "--quiet", "--out"];
-    place.succeed(&[&["sweep", "sweep.toml"][..], &ting, &["range"]].concat());
+    place.succeed(("sweep sweep.toml", ting, "range"));
     let range = rows(&place, "range/sweep.csv");
     assert_eq!(
         range[0][..6],
@@ -170,7 +166,7 @@ fn ranges_links_and_tables_make_the_members_that_lists_make() {
         "case = 'case.toml'\n[vary]\n'body.0.sphere.diameter, body.1.sphere.diameter, \
          body.0.approach_speed' = { table = 'pairs.csv', columns = ['d', 'd', 'body.0.approach_speed'] }\n",
     );
-    place.succeed(&[&["sweep", "sweep.toml"][..], &ting, &["table"]].concat());
+    place.succeed(("sweep sweep.toml", ting, "table"));
     let table = rows(&place, "table/sweep.csv");
     assert_eq!(table.len(), 7);
     let results =
@@ -182,7 +178,7 @@ fn ranges_links_and_tables_make_the_members_that_lists_make() {
         "sweep.toml",
         "case = 'case.toml'\n[vary]\nbody.0.approach_speed = { from = 0.25, to = 1, n = 4 }\n",
     );
-    place.succeed(&[&["sweep", "sweep.toml"][..], &ting, &["even"]].concat());
+    place.succeed(("sweep sweep.toml", ting, "even"));
     let even = rows(&place, "even/sweep.csv");
     assert_eq!(
         even.iter().map(|row| row[0].as_str()).collect::<Vec<_>>()[1..],
@@ -193,7 +189,7 @@ fn ranges_links_and_tables_make_the_members_that_lists_make() {
 #[test]
 fn whole_results_are_kept_on_demand_and_those_without_are_computed_again() {
     let place = place("case = 'case.toml'\n[vary]\nbody.0.approach_speed = [0.3]\n");
-    place.succeed(&["sweep", "sweep.toml"]);
+    place.succeed("sweep sweep.toml");
     let member = place.list("runs/sweep/members").remove(0);
     let folder = format!("runs/sweep/members/{member}");
     assert_eq!(place.list(&folder), ["summary.json"]);
@@ -201,7 +197,7 @@ fn whole_results_are_kept_on_demand_and_those_without_are_computed_again() {
         "sweep.toml",
         "case = 'case.toml'\nkeep = 'all'\n[vary]\nbody.0.approach_speed = [0.3]\n",
     );
-    place.succeed(&["sweep", "sweep.toml"]);
+    place.succeed("sweep sweep.toml");
     let files = place.list(&folder);
     for expected in ["history.csv", "summary.json", &format!("{member}.pvd")] {
         assert!(files.iter().any(|name| name == expected), "{files:?}");
@@ -211,10 +207,10 @@ fn whole_results_are_kept_on_demand_and_those_without_are_computed_again() {
 #[test]
 fn threads_and_shards_give_the_same_bytes() {
     let place = place(SWEEP);
-    place.succeed(&["sweep", "sweep.toml", "--out", "one", "--threads", "1"]);
-    place.succeed(&["sweep", "sweep.toml", "--out", "two", "--threads", "2"]);
+    place.succeed("sweep sweep.toml --out one --threads 1");
+    place.succeed("sweep sweep.toml --out two --threads 2");
     assert_same_result(&place, "one", "two");
-    place.succeed(&["sweep", "sweep.toml", "--out", "shards", "--shard", "3/4"]);
+    place.succeed("sweep sweep.toml --out shards --shard 3/4");
     let done: Vec<_> = rows(&place, "shards/sweep.csv").into_iter().skip(1).collect();
     assert_eq!(done.len(), 1);
     assert_eq!(done[0][..2], ["50 cm/s", "0.5"]);
@@ -267,17 +263,15 @@ fn a_killed_sweep_goes_on_where_it_was() {
     let again = [&["sweep", "sweep.toml", "--out", "killed"][..], &FINE].concat();
     let ran = place.succeed(&again);
     let expected = format!("12 members; {n_kept} done before, {} to run", 12 - n_kept);
-    assert!(ran.stderr.contains(&expected), "{}", ran.stderr);
-    place.succeed(&[&["sweep", "sweep.toml", "--out", "whole"][..], &FINE].concat());
+    ran.tells(&expected);
+    place.succeed(("sweep sweep.toml --out whole", FINE));
     for name in ["sweep.csv", "sweep.svg"] {
         assert!(place.read(format!("killed/{name}")) == place.read(format!("whole/{name}")));
     }
     // A finished sweep has nothing to do; a changed list reuses what it can.
-    let ran = place.succeed(&again);
-    assert!(ran.stderr.contains("12 done before, 0 to run"), "{}", ran.stderr);
+    place.succeed(&again).tells("12 done before, 0 to run");
     place.write("sweep.toml", &LONG.replace("0.30, 0.31,", "0.29,").replace("0.35", "'35 cm/s'"));
-    let ran = place.succeed(&again);
-    assert!(ran.stderr.contains("11 members; 10 done before, 1 to run"), "{}", ran.stderr);
+    place.succeed(&again).tells("11 members; 10 done before, 1 to run");
     assert_eq!(rows(&place, "killed/sweep.csv").len(), 12);
 }
 
@@ -291,8 +285,7 @@ fn an_interrupted_sweep_keeps_its_members_and_says_how_to_go_on() {
     kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGINT).unwrap();
     let ran: crate::common::Ran = child.wait_with_output().unwrap().into();
     assert_eq!(ran.code, Some(130), "{}", ran.stderr);
-    assert!(ran.stderr.contains("of 12 members are done"), "{}", ran.stderr);
-    assert!(ran.stderr.contains("the same command continues"), "{}", ran.stderr);
+    ran.tells("of 12 members are done|the same command continues");
     let rows = rows(&place, "out/sweep.csv");
     assert!((2..13).contains(&rows.len()));
     assert_eq!(rows.len() - 1, n_done(&place, "out"));
@@ -309,10 +302,9 @@ fn a_failing_member_is_named_and_the_others_go_on() {
          'body.0.approach_speed' = [60, 0.5]\nmesh.contact_element_size = [0.5e-3, 90e-6]\n",
     );
     for _ in 0..2 {
-        let ran = place.run(&["sweep", "sweep.toml"]);
-        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-        assert!(ran.stderr.contains("error: 1 of 2 members failed"), "{}", ran.stderr);
-        assert!(ran.stderr.contains("body.0.approach_speed = 60"), "{}", ran.stderr);
+        place
+            .fails(1, "sweep sweep.toml")
+            .tells("error: 1 of 2 members failed|body.0.approach_speed = 60");
         let rows = rows(&place, "runs/sweep/sweep.csv");
         let column = |name: &str| rows[0].iter().position(|key| key == name).unwrap();
         let complete = column("complete");
@@ -328,25 +320,21 @@ fn a_failing_member_is_named_and_the_others_go_on() {
 #[test]
 fn only_a_new_folder_or_a_sweep_is_written_into() {
     let place = place(SWEEP);
-    place.succeed(&["case.toml", "--out", "result", "--quiet"]);
+    place.succeed("case.toml --out result --quiet");
     place.write("file", "mine");
     fs::create_dir(place.path("mine")).unwrap();
     place.write("mine/notes.txt", "mine");
     for out in ["result", "file", "mine", "file/below", "."] {
-        let ran = place.run(&["sweep", "sweep.toml", "--out", out]);
-        assert_eq!(ran.code, Some(2), "{out}: {}", ran.stderr);
-        assert!(ran.stderr.contains(&format!("--out {out}")), "{}", ran.stderr);
+        place.fails(2, &["sweep", "sweep.toml", "--out", out]).tells(&format!("--out {out}"));
     }
     assert_eq!(place.list("mine"), ["notes.txt"]);
     // The same message without a run.
     for more in [&["--dry-run"][..], &["--slurm="], &["--shard", "1/2", "--no-merge"]] {
-        let ran = place.run(&[&["sweep", "sweep.toml", "--out", "mine"], more].concat());
-        assert_eq!(ran.code, Some(2), "{more:?}: {}", ran.stderr);
-        assert!(ran.stderr.contains("something other than a sweep"), "{}", ran.stderr);
+        place.fails(2, ("sweep sweep.toml --out mine", more)).tells("something other than a sweep");
     }
     // Nor does a run replace a sweep.
-    place.succeed(&["sweep", "sweep.toml", "--out", "out", "--shard", "6/6", "--quiet"]);
-    assert_eq!(place.run(&["case.toml", "--out", "out"]).code, Some(2));
+    place.succeed("sweep sweep.toml --out out --shard 6/6 --quiet");
+    assert_eq!(place.run("case.toml --out out").code, Some(2));
 }
 
 #[test]
@@ -355,8 +343,7 @@ fn the_shipped_sweep_is_sound() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sweep_speed.toml");
     // Only the first member: the slowest speed, on a coarse mesh.
     let arguments = ["sweep", file, "--shard", "1/12", "--set", "mesh.contact_element_size=20e-6"];
-    let ran = place.succeed(&arguments);
-    assert!(ran.stdout.contains("1 of 12 members are done"), "{}", ran.stdout);
+    place.succeed(&arguments).prints("1 of 12 members are done");
 }
 
 #[test]
@@ -364,13 +351,13 @@ fn the_page_on_sweeps_is_true() {
     let page = include_str!("../../../../docs/sweeps.md");
     let place = Place::new();
     // An empty shard checks all members and computes none.
-    let arguments = ["sweep", "sweep.toml", "--out", "out", "--shard", "9999/9999"];
+    let arguments = "sweep sweep.toml --out out --shard 9999/9999";
     let examples: Vec<_> = page.split("```toml\n").skip(1).collect();
     assert!(examples.len() > 1);
     for example in examples {
         let example = &example[..example.find("```").unwrap()];
         place.write("sweep.toml", &example.replace("glass_0.5ms.toml", "case.toml"));
-        place.succeed(&arguments);
+        place.succeed(arguments);
     }
     for column in &rows(&place, "out/sweep.csv")[0] {
         let is_varied = column.contains('.');
@@ -386,19 +373,19 @@ fn condensed_members_are_told_how_to_share_a_factor() {
     let vary = "[vary]\nbody.0.approach_speed = [0.2, 3]\n\
                 material.glass.relaxation.terms.0.decay_rate = [1000, 2000]\n";
     let place = place(&format!("case = 'case.toml'\n{vary}"));
-    let condensed = ["sweep", "sweep.toml", "--set", "model.condensed={}"];
+    let condensed = "--set model.condensed={}";
     let hint = "give mesh.contact_element_size and mesh.refined_radius";
-    let stderr = place.succeed(&[&condensed[..], &["--out", "open"]].concat()).stderr;
+    let stderr = place.succeed(("sweep sweep.toml --out open", condensed)).stderr;
     assert_eq!(stderr.matches(hint).count(), 1, "{stderr}");
-    let given = ["--set", "mesh.refined_radius='0.4 mm'", "--out", "given"];
-    let stderr = place.succeed(&[&condensed[..], &given].concat()).stderr;
+    let given = ["--set", "mesh.refined_radius='0.4 mm'"];
+    let stderr = place.succeed(("sweep sweep.toml --out given", condensed, given)).stderr;
     assert!(!stderr.contains(hint), "{stderr}");
     // A member equals the single case, apart from the files that are not kept.
     let rows = rows(&place, "given/sweep.csv");
     let member = format!("given/members/{}/summary.json", rows[4].last().unwrap());
-    let speed = ["case.toml", "--out", "alone", "--set", "body.0.approach_speed=3"];
-    let rate = ["--set", "material.glass.relaxation.terms.0.decay_rate=2000"];
-    place.succeed(&[&speed[..], &rate, &condensed[2..], &given[..2]].concat());
+    let speed = "case.toml --out alone --set body.0.approach_speed=3";
+    let rate = "--set material.glass.relaxation.terms.0.decay_rate=2000";
+    place.succeed((speed, rate, condensed, given));
     let [mut alone, mut member] = ["alone/summary.json", &member].map(|name| place.json(name));
     for summary in [&mut alone, &mut member] {
         let summary = summary.as_object_mut().unwrap();

@@ -15,7 +15,7 @@ fn place() -> Place {
 }
 
 fn sweep(place: &Place, words: &[&str]) -> String {
-    place.succeed(&[&["sweep"], words, &TING].concat()).stderr
+    place.succeed(("sweep", words, TING)).stderr
 }
 
 #[track_caller]
@@ -34,7 +34,7 @@ fn a_packed_sweep_has_one_file_and_the_same_table() {
     let packs = place.list("packed/members");
     assert!(packs.len() == 1 && packs[0].starts_with("1-of-1."), "{packs:?}");
     // A line is the member's summary.
-    let text = String::from_utf8(place.read(format!("packed/members/{}", packs[0]))).unwrap();
+    let text = place.text(format!("packed/members/{}", packs[0]));
     let line: serde_json::Value = serde_json::from_str(text.lines().next().unwrap()).unwrap();
     let alone = format!("folders/members/{}/summary.json", line["member"].as_str().unwrap());
     let mut summaries = [line["summary"].clone(), place.json(&alone)];
@@ -55,7 +55,7 @@ fn a_line_that_breaks_off_is_computed_again_and_no_other() {
     sweep(&place, &["folders.toml", "--out", "folders"]);
     sweep(&place, &["packed.toml", "--out", "packed"]);
     let pack = format!("packed/members/{}", place.list("packed/members")[0]);
-    let text = String::from_utf8(place.read(&pack)).unwrap();
+    let text = place.text(&pack);
     let kept: Vec<&str> = text.split_inclusive('\n').take(12).collect();
     fs::write(place.path(&pack), &kept.concat()[..kept.concat().len() - 40]).unwrap();
     let said = sweep(&place, &["packed.toml", "--out", "packed"]);
@@ -81,7 +81,7 @@ fn shards_have_a_file_each() {
     }
     let packs = place.list("packed/members");
     assert!(packs.len() == 2 && packs[1].starts_with("3-of-3."), "{packs:?}");
-    let done = place.succeed(&["sweep", "--status", "packed"]).stdout;
+    let done = place.succeed("sweep --status packed").stdout;
     let left = |n: &str| done.lines().any(|line| line.starts_with("left ") && line.ends_with(n));
     // The first process has written a sweep.json with what it knows.
     assert!(left(" 0"), "{done}");

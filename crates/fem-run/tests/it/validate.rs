@@ -33,28 +33,25 @@ fn place(checks: &str) -> Place {
 #[test]
 fn a_claim_that_holds_is_shown_with_its_reference() {
     let place = place(CHECK);
-    let ran = place.succeed(&["validate"]);
-    for expected in ["Against the paper", "mine", "restitution", "0.93", "0.01", "pass"] {
-        assert!(ran.stdout.contains(expected), "wants {expected}\n{}", ran.stdout);
-    }
-    assert!(ran.stderr.contains("[1/1] pass  mine"), "{}", ran.stderr);
+    let ran = place.succeed("validate");
+    ran.prints("Against the paper|mine|restitution|0.93|0.01|pass");
+    ran.tells("[1/1] pass  mine");
     assert_eq!(
         place.list("runs/validation"),
         ["checks.csv", "index.html", "summary.json"].map(String::from)
     );
     assert_eq!(place.json("runs/validation/summary.json")["passed"], true);
     // A second time, over the old page.
-    place.succeed(&["validate", "mine", "--quiet"]);
+    place.succeed("validate mine --quiet");
 }
 
 #[test]
 fn a_claim_that_fails_ends_with_status_1_and_keeps_the_page() {
     let place = place(&CHECK.replace("0.93", "0.99"));
-    let ran = place.run(&["validate"]);
-    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-    assert!(ran.stdout.contains("FAIL"), "{}", ran.stdout);
-    assert!(ran.stderr.contains("1 of 1 claims fail: mine"), "{}", ran.stderr);
-    let page = String::from_utf8(place.read("runs/validation/index.html")).unwrap();
+    let ran = place.fails(1, "validate");
+    ran.prints("FAIL");
+    ran.tells("1 of 1 claims fail: mine");
+    let page = place.text("runs/validation/index.html");
     assert!(page.contains("FAIL") && page.contains("It is so."));
     assert_eq!(place.json("runs/validation/summary.json")["passed"], false);
 }
@@ -62,9 +59,7 @@ fn a_claim_that_fails_ends_with_status_1_and_keeps_the_page() {
 #[test]
 fn a_quantity_that_the_study_does_not_measure_fails() {
     let place = place(&CHECK.replace("pair.restitution", "pair.colour"));
-    let ran = place.run(&["validate"]);
-    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-    assert!(ran.stdout.contains("not measured"), "{}", ran.stdout);
+    place.fails(1, "validate").prints("not measured");
 }
 
 #[test]
@@ -73,8 +68,7 @@ fn a_run_that_fails_is_a_claim_that_fails() {
     let sets: Vec<_> = crate::common::FAILS.iter().skip(1).step_by(2).collect();
     let text = claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = {sets:?}\n"));
     place.write("validation/mine/claim.toml", &text);
-    let ran = place.run(&["validate"]);
-    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    let ran = place.fails(1, "validate");
     assert!(ran.stdout.contains("mine") && ran.stdout.contains("FAIL"), "{}", ran.stdout);
 }
 
@@ -86,7 +80,7 @@ fn a_claim_may_have_any_model() {
             claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = ['{model}']\n"));
         assert!(text.contains(model));
         place.write("validation/mine/claim.toml", &text);
-        place.succeed(&["validate", "--quiet"]);
+        place.succeed("validate --quiet");
     }
 }
 
@@ -105,11 +99,10 @@ fn bad_claims_are_refused_before_anything_runs() {
         (&CHECK.replace("published", "hearsay"), "\"hearsay", "unknown variant"),
     ] {
         let place = place(checks);
-        let ran = place.run(&["validate"]);
-        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+        let ran = place.fails(2, "validate");
         let position = line(&claim(checks), place_of);
-        assert!(ran.stderr.contains(&position), "wants {position}\n{}", ran.stderr);
-        assert!(ran.stderr.contains(message), "wants {message}\n{}", ran.stderr);
+        ran.tells(&position);
+        ran.tells(message);
         assert!(!place.path("runs").exists());
     }
     let place = place(CHECK);
@@ -122,29 +115,24 @@ fn bad_claims_are_refused_before_anything_runs() {
         (&["validate", "mine", "--table", "t.md"], "--table"),
         (&["validate", "mine", "--scenes", "t.md"], "none of the named claims has hard scenes"),
     ] {
-        let ran = place.run(arguments);
-        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-        assert!(ran.stderr.contains(message), "wants {message}\n{}", ran.stderr);
+        place.fails(2, arguments).tells(message);
     }
     let sumary = claim(CHECK).replace("'summary'", "'sumary'");
     place.write("validation/mine/claim.toml", &sumary);
-    let ran = place.run(&["validate"]);
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    let ran = place.fails(2, "validate");
     let message = "claim.toml:1:1: there is no study `sumary`; the studies are balances, ";
-    assert!(ran.stderr.contains(message), "{}", ran.stderr);
+    ran.tells(message);
     place.write("validation/mine/claim.toml", &claim(CHECK));
     place.write("case.toml", &crate::common::CASE.replace("density", "densty"));
-    let ran = place.run(&["validate"]);
-    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-    assert!(ran.stderr.contains("case.toml:4:1: "), "{}", ran.stderr);
+    place.fails(2, "validate").tells("case.toml:4:1: ");
 }
 
 /// The page is self-contained.
 #[test]
 fn the_page_is_self_contained() {
     let place = place(CHECK);
-    place.succeed(&["validate", "--quiet"]);
-    let page = String::from_utf8(place.read("runs/validation/index.html")).unwrap();
+    place.succeed("validate --quiet");
+    let page = place.text("runs/validation/index.html");
     for outside in ["<script", "<link", "@import", "src=\"http", "url("] {
         assert!(!page.contains(outside), "{outside}");
     }

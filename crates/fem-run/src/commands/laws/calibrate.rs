@@ -18,7 +18,6 @@ use crate::arguments::law::{parse_confidence, parse_share};
 use crate::jobs::value_of;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
-use crate::text::standard_output;
 
 /// Find a Prony series from measured restitutions, and what they leave undetermined
 ///
@@ -45,15 +44,15 @@ pub struct Arguments {
     /// [default: a tenth of the shortest contact time to ten times the longest]
     #[arg(long, value_name = "FIRST..LAST", value_parser = parse_window)]
     times: Option<(f64, f64)>,
-    /// What relaxes: all moduli, or the shear modulus with an elastic bulk modulus [default: as in the
+    /// The moduli that relax: all, or the shear modulus beside an elastic bulk modulus [default: as in the
     /// case, or all]
     #[arg(long, value_name = "MODULI", value_parser = ["all", "shear"])]
     acts_on: Option<String>,
     /// The material to calibrate if the bodies differ; the other keeps its relaxation
     #[arg(long, value_name = "NAME")]
     material: Option<String>,
-    /// Error of a restitution that a weight of 1 costs as much as; 0 for no regularisation [default: the
-    /// data's uncertainty, or 0.001]
+    /// Strength of the regularisation: the error of a restitution that costs as much as a weight of 1; 0 for
+    /// none [default: the data's uncertainty, or 0.001]
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = parse_ridge)]
     regularisation: Option<f64>,
     /// Standard uncertainty of the restitutions if the file has none
@@ -93,20 +92,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let table = arguments.columns.read(&arguments.data)?;
     let (found, warnings) = found(arguments, &case, &table)?;
     let picture = calibration_figure(&found).map_err(CalibrationFault::Fit)?;
-    let columns = arguments.columns.text();
-    let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
-    let inputs = inputs.each_ref().map(String::as_str);
+    let inputs = [case_identity(&case), arguments.columns.identity(&arguments.data)];
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", &inputs)?;
     output.write("relaxation.toml", found.relaxation_toml())?;
     output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals())?;
     output.write("calibrate.svg", picture)?;
-    let text = calibration_text(&found, &warnings);
-    let name = arguments.input.name();
-    let place = output.publish(&found.numbers(&name, warnings))?;
-    if arguments.output.quiet {
-        return Ok(());
-    }
-    standard_output::print(&format!("{text}\nResult: {place}\n"))
+    let numbers = found.numbers(&arguments.input.name(), warnings.clone());
+    output.publish(&numbers, || calibration_text(&found, &warnings))
 }
 
 /// Calibrates to a table in memory and returns the numbers, with the table to paste into the case.

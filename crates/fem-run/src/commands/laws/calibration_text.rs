@@ -1,12 +1,11 @@
 //! The text of a calibration.
 
-use comfy_table::CellAlignment::{Left, Right};
 use fem::calibrate::{Calibration, CalibrationModel};
 use fem::fit::spectrum::Range;
 use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
 
-use crate::text::tables::{show_value, table};
+use crate::text::tables::{headed, show_value};
 
 /// Returns the text on stdout.
 pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
@@ -80,8 +79,8 @@ fn heading(found: &Calibration) -> String {
 
 fn weights(found: &Calibration) -> String {
     let fit = &found.fit;
-    let level = format!("{} % range, others free", 100.0 * found.confidence);
-    let header = ["", "relaxation time", "best", level.as_str(), "from the data"].map(String::from);
+    let level = 100.0 * found.confidence;
+    let header = format!("|>relaxation time|>best|{level} % range, others free|>from the data");
     let span = |range: &Range, shown: &dyn Fn(f64) -> String| {
         format!("{} to {}", shown(range.low), shown(range.high))
     };
@@ -106,12 +105,10 @@ fn weights(found: &Calibration) -> String {
         moment("Σ g/τ", rate, &rates),
         moment("Σ g τ", time, &times),
     ];
-    let rows = std::iter::once(header).chain(terms).chain(moments);
-    table(&[Left, Right, Right, Left, Right], rows)
+    headed(&header, terms.chain(moments))
 }
 
 fn combinations(found: &Calibration) -> String {
-    let header = ["combination", "singular value", "value", "standard error", ""].map(String::from);
     let all = &found.fit.resolution.combinations;
     let seen = all.iter().filter(|combination| combination.singular_value > 0.0);
     let n_unseen = all.len() - seen.clone().count();
@@ -142,7 +139,7 @@ fn combinations(found: &Calibration) -> String {
             verdict.to_string(),
         ]
     });
-    let text = table(&[Left, Right, Right, Right, Left], std::iter::once(header).chain(rows));
+    let text = headed("combination|>singular value|>value|>standard error|", rows);
     match n_unseen {
         0 => text,
         n => text + &format!("{n} more that do not affect the data\n"),

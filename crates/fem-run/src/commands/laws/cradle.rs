@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use comfy_table::CellAlignment::{Left, Right};
+use comfy_table::CellAlignment::Left;
 use fem::fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_of_balls};
 use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
 use fem_report::law_figures::cradle_figure;
@@ -13,9 +13,9 @@ use crate::arguments::data::ColumnArguments;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
 use crate::text::standard_output;
-use crate::text::tables::table;
+use crate::text::tables::{headed, table};
 
-/// Restitution from the angles of a Newton's cradle
+/// Compute the restitution from the angles of a Newton's cradle
 ///
 /// The first ball is released at the angle alpha and strikes the second, at rest, which rises to beta. A
 /// single trial is printed; a CSV file of trials also gives a table, cradle.csv, which fit reads, and a
@@ -78,24 +78,15 @@ fn acceleration(text: &str) -> Result<Measured, NotMeasured> {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let cradle = cradle(arguments)?;
     let Some(path) = &arguments.data else {
-        // clap requires both if there is no file.
-        let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) else {
-            return Err(Failure::bad_input("--alpha and --beta are missing"));
-        };
-        let uncertain = |angle| with_default(angle, arguments);
-        let trial = Trial { release: uncertain(alpha), rise: uncertain(beta) };
-        let swing = cradle.swing(&trial)?;
+        let (trial, swing) = single(&cradle, arguments)?;
         if arguments.output.quiet {
             return Ok(());
         }
         return standard_output::print(&one(&cradle, &trial, &swing));
     };
     let swings = swings(&cradle, &arguments.columns.read(path)?, arguments)?;
-    let mut output = arguments.output.claim(
-        &stem_of(path),
-        "cradle",
-        &[&(path.display().to_string() + &arguments.columns.text())],
-    )?;
+    let inputs = [arguments.columns.identity(path)];
+    let mut output = arguments.output.claim(&stem_of(path), "cradle", &inputs)?;
     let header = [
         "speed_m_s",
         "restitution",
@@ -122,17 +113,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write_table("cradle.csv", &header, rows)?;
     output.write("cradle.svg", cradle_figure(&swings))?;
     let [first, second] = cradle.masses;
-    let place = output.publish(&json!({
+    let numbers = json!({
         "data": path.display().to_string(),
         "trials": swings.len(),
         "length_m": cradle.length.value,
         "mass_ratio": second.value / first.value,
         "gravity_m_s2": cradle.gravity.value,
-    }))?;
-    if arguments.output.quiet {
-        return Ok(());
-    }
-    standard_output::print(&format!("{}\nResult: {place}\n", many(&cradle, &swings)))
+    });
+    output.publish(&numbers, || many(&cradle, &swings))
 }
 
 /// Returns speed before, restitution and velocities after with their uncertainties, of one trial or of each
@@ -151,19 +139,22 @@ pub fn numbers(arguments: &Arguments, table: Option<&Table>) -> Result<Value, Fa
             "second_after_m_s": swing.second_after.value,
         })
     };
-    match (table, arguments.alpha, arguments.beta) {
-        (Some(table), ..) => {
-            let swings = swings(&cradle, table, arguments)?;
-            Ok(swings.iter().map(of).collect())
-        }
-        (None, Some(alpha), Some(beta)) => {
-            let uncertain = |angle| with_default(angle, arguments);
-            let trial = Trial { release: uncertain(alpha), rise: uncertain(beta) };
-            let swing = cradle.swing(&trial)?;
-            Ok(of(&(trial, swing)))
-        }
-        _ => Err(Failure::bad_input("--alpha and --beta are missing")),
+    match table {
+        Some(table) => Ok(swings(&cradle, table, arguments)?.iter().map(of).collect()),
+        None => Ok(of(&single(&cradle, arguments)?)),
     }
+}
+
+/// Returns the trial of the options with its result.
+fn single(cradle: &Cradle, arguments: &Arguments) -> Result<(Trial, Swing), Failure> {
+    // clap requires both angles if there is no file.
+    let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) else {
+        return Err(Failure::bad_input("--alpha and --beta are missing"));
+    };
+    let [release, rise] = [alpha, beta].map(|angle| with_default(angle, arguments));
+    let trial = Trial { release, rise };
+    let swing = cradle.swing(&trial)?;
+    Ok((trial, swing))
 }
 
 fn cradle(arguments: &Arguments) -> Result<Cradle, Failure> {
@@ -227,8 +218,9 @@ fn one(cradle: &Cradle, trial: &Trial, swing: &Swing) -> String {
         let names = ["alpha", "beta", "the first mass", "the second mass"];
         let shares = names.iter().zip(swing.shares).filter(|(_, share)| *share >= 0.005);
         let shares: Vec<_> =
-            shares.map(|(name, share)| format!("{:.0} % {name}", 100.0 * share)).collect();
-        text += &format!("\nUncertainty, first order; variance of e from {}.\n", shares.join(", "));
+            shares.map(|(name, share)| format!("{name} ({:.0} %)", 100.0 * share)).collect();
+        let shares = shares.join(", ");
+        text += &format!("\nFirst-order uncertainty; the variance of e comes from {shares}.\n");
     }
     if let Some(doubt) = cradle.doubt(trial, swing) {
         text += &format!("warning: {doubt}\n");
@@ -237,7 +229,6 @@ fn one(cradle: &Cradle, trial: &Trial, swing: &Swing) -> String {
 }
 
 fn many(cradle: &Cradle, swings: &[(Trial, Swing)]) -> String {
-    let header = ["alpha", "beta", "u", "v1", "v2", "restitution"].map(String::from);
     let rows = swings.iter().map(|(trial, swing)| {
         [
             format!("{:.2} deg", trial.release.value.to_degrees()),
@@ -248,7 +239,7 @@ fn many(cradle: &Cradle, swings: &[(Trial, Swing)]) -> String {
             show_measured(swing.restitution, ""),
         ]
     });
-    let mut text = table(&[Right; 6], std::iter::once(header).chain(rows));
+    let mut text = headed(">alpha|>beta|>u|>v1|>v2|>restitution", rows);
     for (trial, swing) in swings {
         if let Some(doubt) = cradle.doubt(trial, swing) {
             let alpha = trial.release.value.to_degrees();

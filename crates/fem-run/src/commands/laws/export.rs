@@ -37,16 +37,16 @@ pub struct Arguments {
     /// Range of speeds to compute, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
     #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
     speeds: Option<(f64, f64)>,
-    /// One table of all pairs of spheres of these materials, the case's or lib:NAME [default: the case's,
-    /// with --diameters]
+    /// Write one table for all pairs of spheres of these materials, of the case or lib:NAME [default with
+    /// --diameters: those of the case]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "data")]
     materials: Vec<String>,
-    /// One table of all pairs of spheres of these diameters, such as '1 mm,2 mm' [default: the case's, with
-    /// --materials]
+    /// Write one table for all pairs of spheres of these diameters, such as '1 mm,2 mm' [default with
+    /// --materials: those of the case]
     #[arg(long, value_name = "LENGTHS", value_delimiter = ',', value_parser = parse_length,
         conflicts_with = "data")]
     diameters: Vec<f64>,
-    /// Largest error of the restitution within which a snippet is valid
+    /// Largest error of the restitution at which a snippet counts as valid
     #[arg(long, value_name = "E", default_value_t = 0.01, value_parser = parse_share)]
     tolerance: f64,
     #[command(flatten)]
@@ -65,28 +65,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =
-        arguments.output.claim(&arguments.input.stem(), "export", &[&case_identity(&case)])?;
+        arguments.output.claim(&arguments.input.stem(), "export", &[case_identity(&case)])?;
     for snippet in &snippets {
         output.write(snippet.name, &snippet.text)?;
     }
     output.write("export.svg", export_figure(&fitted))?;
-    let name = arguments.input.name();
-    let place = output.publish(&fitted.numbers(&name, &snippets))?;
-    if arguments.output.quiet {
-        return Ok(());
-    }
-    let mut note = String::new();
-    if fitted.curve.has_hertz_times {
-        note += "\nThe data have no contact times: the linear models use those of Hertz.\n";
-    }
-    if fitted.export.spheres.len() < 2 {
-        note += "\nA wall is not written for LIGGGHTS and YADE, which require a material or a radius for \
-                 it.\n";
-    }
-    standard_output::print(&format!(
-        "{}{note}\nResult: {place}\n",
-        export_text(&fitted.export, &snippets)
-    ))
+    output.publish(&fitted.numbers(&arguments.input.name(), &snippets), || {
+        let mut text = export_text(&fitted.export, &snippets);
+        if fitted.curve.has_hertz_times {
+            text += "\nThe data have no contact times: the linear models use those of Hertz.\n";
+        }
+        if fitted.export.spheres.len() < 2 {
+            text += "\nA wall is not written for LIGGGHTS and YADE, which require a material or a radius for \
+                     it.\n";
+        }
+        text
+    })
 }
 
 /// Fits to a table in memory and returns the numbers, each snippet with its text.
@@ -99,16 +93,14 @@ pub fn numbers(
         let (export, rows) = pairs(arguments, case)?;
         let mut numbers = pairs_json(&export, &arguments.input.name(), &rows)?;
         let texts = grain_snippets(&export.grains, &export.of_codes());
-        let texts = texts.into_iter().map(|(name, text)| (name.to_string(), text.into()));
-        numbers["texts"] = Value::Object(texts.collect());
+        numbers["texts"] = texts.into_iter().collect();
         return Ok(numbers);
     }
     let table = table.cloned().map(|table| arguments.columns.name_columns(table)).transpose()?;
     let (fitted, snippets) = fitted(arguments, case, table.as_ref())?;
     let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
-    let texts =
-        snippets.iter().map(|snippet| (snippet.name.to_string(), snippet.text.clone().into()));
-    numbers["texts"] = Value::Object(texts.collect());
+    numbers["texts"] =
+        snippets.iter().map(|snippet| (snippet.name, snippet.text.clone())).collect();
     Ok(numbers)
 }
 
@@ -138,21 +130,15 @@ fn pairs(arguments: &Arguments, case: &Case) -> Result<(PairExport, Vec<PairNumb
 fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
     let (export, rows) = pairs(arguments, case)?;
     let grains = format!("{:?} {:?}", arguments.materials, arguments.diameters);
-    let mut output = arguments.output.claim(
-        &arguments.input.stem(),
-        "export",
-        &[&case_identity(case), &grains],
-    )?;
+    let inputs = [case_identity(case), grains];
+    let mut output = arguments.output.claim(&arguments.input.stem(), "export", &inputs)?;
     output.write("pairs.csv", pairs_csv(&rows)?)?;
     for (name, text) in grain_snippets(&export.grains, &export.of_codes()) {
         output.write(name, text)?;
     }
-    let place = output.publish(&pairs_json(&export, &arguments.input.name(), &rows)?)?;
     standard_output::warn(export.warnings());
-    if arguments.output.quiet {
-        return Ok(());
-    }
-    standard_output::print(&format!("{}\nResult: {place}\n", pairs_text(&export, &rows)))
+    let numbers = pairs_json(&export, &arguments.input.name(), &rows)?;
+    output.publish(&numbers, || pairs_text(&export, &rows))
 }
 
 fn fitted(

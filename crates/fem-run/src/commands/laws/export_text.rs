@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use comfy_table::CellAlignment::{Left, Right};
 use fem::fit::dem::{Export, Snippet};
 use fem::laws::{PairExport, PairNumbers};
 use fem_case::engineering::{number, show};
@@ -11,37 +10,37 @@ use serde_json::{Value, json};
 use crate::jobs::value_of;
 use crate::text::failure::Failure;
 use crate::text::standard_output;
-use crate::text::tables::table;
+use crate::text::tables::headed;
 
 /// Returns the text on stdout, one line per snippet.
 pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
-    let header = ["code", "model", "input", "gives e", "valid from, to", "worst error", "file"];
     let row = |snippet: &Snippet| {
         let [from, to, worst] = snippet.validity;
-        let entries = snippet.entries.iter().map(|(key, value)| format!("{key} {}", entry(*value)));
+        let entries =
+            snippet.entries.iter().map(|(key, value)| format!("{key} {}", number(*value, 5)));
         [
             snippet.code.to_string(),
             snippet.model.to_string(),
             entries.collect::<Vec<_>>().join(", "),
             snippet.restitution.map_or("falls with v".to_string(), |e| format!("{e:.4}")),
-            good(Some(from).filter(|from| *from <= to), Some(to)),
+            valid_speeds(Some(from).filter(|from| *from <= to), Some(to)),
             format!("{worst:.4}"),
             snippet.name.to_string(),
         ]
     };
-    let rows = std::iter::once(header.map(String::from)).chain(snippets.iter().map(row));
+    let header = "code|model|input|>gives e|valid from, to|>worst error|file";
     format!(
         "{}, {} to {}; a snippet is valid where its restitution is within {}\n\n{}",
         standard_output::one_line(&export.title),
         show(export.speeds.0, "m/s"),
         show(export.speeds.1, "m/s"),
         export.tolerance,
-        table(&[Left, Left, Left, Right, Left, Right, Left], rows)
+        headed(header, snippets.iter().map(row))
     )
 }
 
 /// Returns the speeds for which a snippet is valid.
-pub fn good(from: Option<f64>, to: Option<f64>) -> String {
+fn valid_speeds(from: Option<f64>, to: Option<f64>) -> String {
     match (from, to) {
         (Some(from), Some(to)) if from == to => format!("only at {}", show(from, "m/s")),
         (Some(from), Some(to)) => format!("{} to {}", show(from, "m/s"), show(to, "m/s")),
@@ -49,14 +48,8 @@ pub fn good(from: Option<f64>, to: Option<f64>) -> String {
     }
 }
 
-/// Returns a number with five digits.
-fn entry(value: f64) -> String {
-    number(value, 5)
-}
-
 /// Returns the text on stdout, one line per pair.
 pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
-    let header = ["first", "second", "e", "valid from, to", "worst error"].map(String::from);
     let row = |row: &PairNumbers| {
         let grain = |material: &str, diameter| format!("{} {material}", show(diameter, "m"));
         [
@@ -64,20 +57,19 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
             grain(&row.second_material, row.second_diameter_m),
             format!("{:.4}", row.restitution),
             match row.unpublished_loss.as_slice() {
-                [] => good(row.good_from_m_s, row.good_to_m_s),
+                [] => valid_speeds(row.good_from_m_s, row.good_to_m_s),
                 materials => format!("no known loss: {}", materials.join(", ")),
             },
             row.worst_error.map_or("not known".to_string(), |error| format!("{error:.4}")),
         ]
     };
     let n = export.grains.len();
-    let cells = std::iter::once(header).chain(rows.iter().map(row));
     format!(
         "{n} {}, {} pairs; one e per pair for all speeds, valid where it is within {}\n\n{}",
         if n == 1 { "grain" } else { "grains" },
         rows.len(),
         export.tolerance,
-        table(&[Left, Left, Right, Left, Right], cells)
+        headed("first|second|>e|valid from, to|>worst error", rows.iter().map(row))
     )
 }
 

@@ -39,14 +39,13 @@ impl From<LawFault> for Failure {
 
 impl From<ParameterError> for Failure {
     fn from(error: ParameterError) -> Self {
-        let failure = Failure::bad_input(error.to_string());
-        match (&error, error.help()) {
-            (ParameterError::Lossless { .. }, _) => {
-                failure.with_help("choose another law; docs/fits.md lists them")
+        let help = match error {
+            ParameterError::Lossless { .. } => {
+                Some("choose another law; docs/fits.md lists them".to_string())
             }
-            (_, Some(help)) => failure.with_help(help),
-            (_, None) => failure,
-        }
+            _ => error.help(),
+        };
+        Failure::bad_input(error.to_string()).with_help_if(help)
     }
 }
 

@@ -62,7 +62,7 @@ pub struct Arguments {
     #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
         value_parser = parse_confidence)]
     confidence: f64,
-    /// Speed of the histories that are drawn [default: the middle of the data]
+    /// Speed for which histories are drawn [default: the middle of the data]
     #[arg(long, value_name = "SPEED", value_parser = parse_speed)]
     at: Option<f64>,
     #[command(flatten)]
@@ -156,9 +156,7 @@ fn fitted<T>(
 
 fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Failure> {
     let Found { fitted, law, ranking } = found;
-    let columns = arguments.columns.text();
-    let inputs = [case_identity(case), arguments.data.display().to_string() + &columns];
-    let inputs = inputs.each_ref().map(String::as_str);
+    let inputs = [case_identity(case), arguments.columns.identity(&arguments.data)];
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
     if let Some(ranking) = ranking {
@@ -168,13 +166,10 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
     let histories = histories_figure(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
-    let place = output.publish(&fitted.numbers(&arguments.input.name()))?;
     standard_output::warn(fitted.warnings());
-    if arguments.output.quiet {
-        return Ok(());
-    }
-    let ranking = ranking.as_ref().map_or(String::new(), ranking_text);
-    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted, law)))
+    output.publish(&fitted.numbers(&arguments.input.name()), || {
+        ranking.as_ref().map_or(String::new(), ranking_text) + &fit_text(fitted, law)
+    })
 }
 
 /// Ranks all laws; options of a single law are rejected.

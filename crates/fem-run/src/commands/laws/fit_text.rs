@@ -1,6 +1,5 @@
 //! The texts of a fit and of a ranking of laws.
 
-use comfy_table::CellAlignment::{Left, Right};
 use fem::fit::{Estimate, Profile};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem_case::engineering::show;
@@ -10,7 +9,7 @@ use fem_laws::LawFamily;
 use fem_report::law_figures::evidence;
 
 use crate::text::standard_output::one_line;
-use crate::text::tables::{show_value, table};
+use crate::text::tables::{headed, show_value};
 
 /// Returns the text on stdout.
 pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
@@ -26,8 +25,8 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         show(slowest, "m/s"),
         show(fastest, "m/s"),
     );
-    let level = format!("{} % interval", 100.0 * fitted.confidence);
-    let header = ["", "best value", "standard error", level.as_str(), "by profile"];
+    let level = 100.0 * fitted.confidence;
+    let header = format!("|>best value|>standard error|{level} % interval|by profile");
     let rows = model.family().parameters().iter().enumerate().map(|(index, parameter)| {
         let shown = |value: f64| show_value(value, parameter.unit);
         let estimate = fit.estimates.iter().find(|estimate| estimate.index == index);
@@ -48,8 +47,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         };
         [parameter.key.to_string(), shown(fit.values[index]), error, interval, profile]
     });
-    let rows: Vec<_> = std::iter::once(header.map(String::from)).chain(rows).collect();
-    text += &table(&[Left, Right, Right, Left, Left], rows);
+    text += &headed(&header, rows);
     text += "\n";
     for i in 0..fit.estimates.len() {
         for j in 0..i {
@@ -94,7 +92,6 @@ fn profile_words(profile: Option<&Profile>, shown: impl Fn(f64) -> String) -> St
 
 /// Returns the text on stdout, the best law first.
 pub fn ranking_text(ranking: &LawRanking) -> String {
-    let header = ["law", "free", "rms error", "ΔAICc", "evidence"].map(String::from);
     let rows = ranking.laws.iter().map(|law| {
         let shown = |value: Option<f64>, digits: usize| {
             value.map_or("too few data".to_string(), |value| format!("{value:.digits$}"))
@@ -107,8 +104,7 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
             law.weight.map_or(String::new(), evidence),
         ]
     });
-    let rows: Vec<_> = std::iter::once(header).chain(rows).collect();
-    let mut text = table(&[Left, Left, Right, Right, Right], rows);
+    let mut text = headed("law|free|>rms error|>ΔAICc|>evidence", rows);
     text += match ranking.laws.iter().any(|law| law.weight.is_some()) {
         true => "evidence: share of each law among these; all of them may be wrong\n",
         false => {

@@ -1,6 +1,5 @@
 //! `fem-run invert CASE --restitution 0.92`: the parameter of a law that gives a restitution.
 
-use comfy_table::CellAlignment::{Left, Right};
 use fem::fit::FitError;
 use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
@@ -12,7 +11,7 @@ use crate::arguments::case::CaseArguments;
 use crate::arguments::law::{LawArguments, find_key, parse_family, parse_share, parse_speed};
 use crate::text::failure::Failure;
 use crate::text::standard_output;
-use crate::text::tables::{show_value, table};
+use crate::text::tables::{headed, show_value};
 
 /// Find the parameter of a law that gives a restitution at one speed
 ///
@@ -56,7 +55,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.quiet {
         return Ok(());
     }
-    let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
+    let mut rows = Vec::new();
     for answer in &answers {
         match answer {
             Answer::Solved(solved) => rows.extend(lines(solved)),
@@ -70,7 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         "restitution {} at {}\n\n{}",
         arguments.restitution,
         show(speed, "m/s"),
-        table(&[Left, Left, Right, Right, Right], rows)
+        headed("law|parameter|>value|>SI|>contact time", rows)
     ))
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "no test file uses all of it")]
 
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -109,23 +110,124 @@ impl Place {
         names
     }
 
+    /// Returns the text of a file.
+    pub fn text(&self, name: impl AsRef<Path>) -> String {
+        String::from_utf8(self.read(name)).unwrap()
+    }
+
     /// Returns the command, to be started in this folder.
-    pub fn command<S: AsRef<std::ffi::OsStr>>(&self, arguments: &[S]) -> Command {
+    pub fn command(&self, words: impl Words) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fem-run"));
-        command.current_dir(self.0.path()).args(arguments);
+        command.current_dir(self.0.path()).args(words.words());
         command
     }
 
     /// Runs the command to its end.
-    pub fn run<S: AsRef<std::ffi::OsStr>>(&self, arguments: &[S]) -> Ran {
-        self.command(arguments).output().unwrap().into()
+    pub fn run(&self, words: impl Words) -> Ran {
+        self.command(words).output().unwrap().into()
     }
 
     /// Runs the command, which must succeed.
-    pub fn succeed<S: AsRef<std::ffi::OsStr>>(&self, arguments: &[S]) -> Ran {
-        let ran = self.run(arguments);
-        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    #[track_caller]
+    pub fn succeed(&self, words: impl Words) -> Ran {
+        self.fails(0, words)
+    }
+
+    /// Runs the command, which must end with this exit status.
+    #[track_caller]
+    pub fn fails(&self, code: i32, words: impl Words) -> Ran {
+        let words = words.words();
+        let ran: Ran = self.command(&words).output().unwrap().into();
+        assert_eq!(ran.code, Some(code), "{words:?}: {}{}", ran.stdout, ran.stderr);
         ran
+    }
+}
+
+impl Ran {
+    /// Checks that stdout contains some texts, parted by `|`.
+    #[track_caller]
+    pub fn prints(&self, expected: impl AsRef<str>) {
+        for part in expected.as_ref().split('|') {
+            assert!(self.stdout.contains(part), "stdout lacks {part}:\n{}", self.stdout);
+        }
+    }
+
+    /// Checks that stderr contains some texts, parted by `|`.
+    #[track_caller]
+    pub fn tells(&self, expected: impl AsRef<str>) {
+        for part in expected.as_ref().split('|') {
+            assert!(self.stderr.contains(part), "stderr lacks {part}:\n{}", self.stderr);
+        }
+    }
+}
+
+/// The words of a command line: a text that is split at spaces outside of 'words in quotes', a list, or several of
+/// these in a tuple.
+pub trait Words {
+    fn words(&self) -> Vec<OsString>;
+}
+
+impl Words for &str {
+    fn words(&self) -> Vec<OsString> {
+        let (mut words, mut rest) = (Vec::new(), self.trim_start());
+        while !rest.is_empty() {
+            let (text, end) = match rest.strip_prefix('\'') {
+                Some(quoted) => (quoted, '\''),
+                None => (rest, ' '),
+            };
+            let (word, after) = text.split_once(end).unwrap_or((text, ""));
+            words.push(word.into());
+            rest = after.trim_start();
+        }
+        words
+    }
+}
+
+impl Words for &String {
+    fn words(&self) -> Vec<OsString> {
+        self.as_str().words()
+    }
+}
+
+impl<S: AsRef<OsStr>> Words for &[S] {
+    fn words(&self) -> Vec<OsString> {
+        self.iter().map(|word| word.as_ref().to_os_string()).collect()
+    }
+}
+
+impl<S: AsRef<OsStr>> Words for &Vec<S> {
+    fn words(&self) -> Vec<OsString> {
+        self.as_slice().words()
+    }
+}
+
+impl<S: AsRef<OsStr>, const N: usize> Words for &[S; N] {
+    fn words(&self) -> Vec<OsString> {
+        self.as_slice().words()
+    }
+}
+
+impl<S: AsRef<OsStr>, const N: usize> Words for [S; N] {
+    fn words(&self) -> Vec<OsString> {
+        self.as_slice().words()
+    }
+}
+
+impl<A: Words, B: Words> Words for (A, B) {
+    fn words(&self) -> Vec<OsString> {
+        [self.0.words(), self.1.words()].concat()
+    }
+}
+
+impl<A: Words, B: Words, C: Words> Words for (A, B, C) {
+    fn words(&self) -> Vec<OsString> {
+        [self.0.words(), self.1.words(), self.2.words()].concat()
+    }
+}
+
+impl<A: Words, B: Words, C: Words, D: Words> Words for (A, B, C, D) {
+    fn words(&self) -> Vec<OsString> {
+        [self.0.words(), self.1.words(), self.2.words(), self.3.words()].concat()
     }
 }
 
