@@ -47,7 +47,7 @@ struct Member {
     case: Case,
 }
 
-/// Finite elements, Ting on half-spaces, Ting with finite spheres.
+/// Restitutions of finite elements, of Ting on half-spaces, and of Ting with finite spheres.
 struct Outcome {
     member: Member,
     run: Arc<Run>,

@@ -35,23 +35,13 @@ impl Quantity {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Force, Self::Approach, Self::Radius, Self::Pressure];
 
-    /// Returns the column of `history.csv`.
-    fn column(self) -> &'static str {
+    /// Returns the column of `history.csv`, the axis label and the unit.
+    fn column(self) -> (&'static str, &'static str, &'static str) {
         match self {
-            Self::Force => "contact_force_n",
-            Self::Approach => "approach_m",
-            Self::Radius => "contact_radius_m",
-            Self::Pressure => "centre_pressure_pa",
-        }
-    }
-
-    /// Returns the axis label and the unit.
-    fn label(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Force => ("Contact force F", "N"),
-            Self::Approach => ("Approach δ", "m"),
-            Self::Radius => ("Contact radius a", "m"),
-            Self::Pressure => ("Pressure on the axis p_0", "Pa"),
+            Self::Force => ("contact_force_n", "Contact force F", "N"),
+            Self::Approach => ("approach_m", "Approach δ", "m"),
+            Self::Radius => ("contact_radius_m", "Contact radius a", "m"),
+            Self::Pressure => ("centre_pressure_pa", "Pressure on the axis p_0", "Pa"),
         }
     }
 
@@ -143,8 +133,8 @@ fn common_hertz(results: &[StoredResult]) -> Option<HertzCurves> {
 pub fn history_chart(results: &[StoredResult], quantity: Quantity) -> Option<Chart> {
     let hertz = common_hertz(results);
     let time = TimeAxis::of(results, hertz.as_ref());
-    let curves: Vec<_> =
-        results.iter().map(|result| time.column(result, quantity.column())).collect();
+    let (column, name, unit) = quantity.column();
+    let curves: Vec<_> = results.iter().map(|result| time.column(result, column)).collect();
     let range = range_with_zero(curves.iter().flatten());
     if range.0 == range.1 {
         return None;
@@ -153,14 +143,14 @@ pub fn history_chart(results: &[StoredResult], quantity: Quantity) -> Option<Cha
         let history = hertz.history();
         history.iter().map(|now| (now.time, quantity.of_hertz(hertz, now))).collect()
     });
-    let (y, hertz_name) = vertical_axis(quantity.label(), range, &hertz_points, "Hertz");
+    let (y, hertz_name) = vertical_axis((name, unit), range, &hertz_points, "Hertz");
     let mut chart = chart_axes(&time.axis, &y);
     for (k, (result, points)) in results.iter().zip(&curves).enumerate() {
         let label = if results.len() == 1 { "this run" } else { &result.name };
         chart = chart.with(Curve::line(label, time.axis.points(&y, points)).like_curve(k));
         if results.len() == 1 {
             let start = result.first_touch();
-            let at = |time: f64| (time - start, result.history.at(quantity.column(), time));
+            let at = |time: f64| (time - start, result.history.at(column, time));
             let times = telling_contacts(result).into_iter().map(|contact| contact.time);
             let dots: Vec<_> = times.map(at).filter(|(_, value)| value.is_finite()).collect();
             chart = chart.with(Curve::points("", time.axis.points(&y, &dots)).like_curve(k));

@@ -7,7 +7,6 @@
 mod cards;
 mod case_keys;
 mod comparison;
-mod contact_radius_kink;
 mod contours;
 mod effects;
 mod hertz_curves;
@@ -89,7 +88,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         price: price(result),
         warnings: warnings(result),
         charts: drawn(charts),
-        kink: contact_radius_kink::explanation(result),
+        kink: effects::contact_radius_kink(result),
         frames: contour.as_ref().map(film).unwrap_or_default(),
         opening: opening(result),
         bar: contour.as_ref().map(Contour::bar).unwrap_or_default(),

@@ -6,16 +6,14 @@
 //! error, and the variants for which no other one has both a smaller error and a shorter run.
 
 mod convergence;
-mod limit;
 mod measurement;
 mod series;
 mod stress_samples;
 mod study;
 mod variants;
 
-pub use convergence::{Convergence, ObservedOrder, PowerLaw};
+pub use convergence::{Convergence, Limit, ObservedOrder, PowerLaw};
 pub use fem_simulation::error::{BarParts, CONDENSED_REFERENCE_TIME, Setting};
-pub use limit::Limit;
 pub use measurement::Measurement;
 pub use series::Series;
 pub use study::{ErrorPart, ErrorSource, Study, VariantErrors, VariantRun};

@@ -3,8 +3,7 @@
 use fem_case::Accuracy;
 use fem_collision::QuantityOfInterest;
 
-use super::convergence::{Convergence, ObservedOrder};
-use super::limit::Limit;
+use super::convergence::{Convergence, Limit, ObservedOrder};
 use super::measurement::Measurement;
 use super::series::Series;
 use super::stress_samples::relative_difference;

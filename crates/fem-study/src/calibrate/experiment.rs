@@ -15,8 +15,7 @@ use super::settings::CalibrationModel;
 use super::speed_span::{SpeedDoubt, SpeedSpan};
 use super::target::Target;
 use crate::measured::{MeasuredPair, MeasuredPairs};
-use fem_simulation::Condensed;
-use fem_simulation::{Model, SharedModels};
+use fem_simulation::{Condensed, Model, SharedModels};
 
 /// The key of the element size, which the error names if no mesh can be made.
 const OF_ELEMENT_SIZE: [&str; 3] =

@@ -1,10 +1,10 @@
 //! Contact laws: fitted to restitutions, inverted for one restitution, ranked, and exported to DEM codes.
 //!
 //! ```text
-//! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ stored_fit
+//! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ stored
 //! keys and                a case's    ├─ law_inversion
 //! values as               law, what   ├─ law_ranking
-//! text                    is given    └─ impact_curve ─ dem_export ─┬─ stored_export
+//! text                    is given    └─ impact_curve ─ dem_export ─┬─ stored
 //!                                        e(v), T(v)                └─ pair_export
 //! ```
 //!
@@ -49,8 +49,7 @@ mod law_inversion;
 mod law_ranking;
 mod pair_export;
 mod parameter;
-mod stored_export;
-mod stored_fit;
+mod stored;
 
 pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of};
 pub use dem_export::{DemExport, FittedLaw};

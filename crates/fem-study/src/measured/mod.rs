@@ -4,7 +4,7 @@
 //! quantity          20 cm ± 1 mm
 //! data_error ─┬─ restitutions ─ pairs ──────── e(v) of one pair of bodies, or of several
 //!             │
-//!             └─ column_roles ─ table ─┬────── restitution_table ─ pair_table
+//!             └─ column_roles ─ table ─┬────── restitution_table
 //!                speed_cm_s     CSV    └────── cradle_trials
 //! ```
 //!
@@ -17,8 +17,6 @@ mod cradle_trials;
 #[cfg(feature = "csv")]
 mod csv_dialect;
 mod data_error;
-#[cfg(feature = "csv")]
-mod pair_table;
 mod pairs;
 mod quantity;
 #[cfg(feature = "csv")]

@@ -1,9 +1,10 @@
-//! Reads restitutions over speeds from a table of a measurement or a sweep.
+//! Reads restitutions over speeds from a table of a measurement or a sweep, of one pair of bodies or of several pairs
+//! that the table distinguishes by their diameters.
 
-use super::column_roles::{CONTACT_TIMES, RESTITUTIONS, SPEEDS, UNCERTAINTIES};
+use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, UNCERTAINTIES};
 use super::data_error::DataError;
-use super::restitutions::LARGEST_UNCERTAINTY;
-use super::restitutions::{Restitutions, UnevenUncertainties};
+use super::pairs::MeasuredPairs;
+use super::restitutions::{LARGEST_UNCERTAINTY, Restitutions, UnevenUncertainties};
 use super::table::Table;
 use crate::fit::Point;
 use crate::sweep::COLUMNS;
@@ -74,7 +75,7 @@ impl Restitutions {
 ///
 /// # Errors
 /// As [`Restitutions::read`].
-pub(super) fn read_rows(
+fn read_rows(
     table: &Table,
     scene: &Scene,
     wanted: Wanted<'_>,
@@ -135,13 +136,14 @@ fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUnce
 
 const SPEED: [i32; 3] = [1, 0, -1];
 const TIME: [i32; 3] = [0, 0, 1];
+const LENGTH: [i32; 3] = [1, 0, 0];
 const NUMBER: [i32; 3] = [0; 3];
 /// Larger restitutions are not the scatter of a measurement.
 const LARGEST: f64 = 1.2;
 
 /// The columns that are read in addition to speeds and restitutions.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Wanted<'a> {
+struct Wanted<'a> {
     /// Whether contact times are read.
     pub contact_times: bool,
     /// Columns that the caller reads; they may differ from row to row.
@@ -151,7 +153,7 @@ pub(super) struct Wanted<'a> {
 }
 
 /// The columns of a table that are read.
-pub(super) struct Columns {
+struct Columns {
     /// Speeds whose sum is the approach speed.
     speeds: Vec<usize>,
     /// Speeds of bodies that have no column, m/s.
@@ -297,4 +299,55 @@ fn positive(
         return Err(table.cell_fault(row, column, value, help));
     }
     Ok(Some(value))
+}
+
+const SIDES: [&str; 2] = ["first", "second"];
+
+impl MeasuredPairs {
+    /// Reads a table as [`Restitutions::read`] does; columns like `diameter_1_mm` and
+    /// `diameter_2_mm` distinguish several pairs. The scene shows which body is a wall.
+    ///
+    /// # Errors
+    /// The table has an error; the first one is returned.
+    pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
+        let columns = diameter_columns(table, scene)?;
+        let others: Vec<usize> = columns.iter().flatten().copied().collect();
+        let names = DIAMETERS.map(|[name, _]| name);
+        let wanted = Wanted { others: &others, names: &names, ..Wanted::default() };
+        let (data, rows) = read_rows(table, scene, wanted)?;
+        let diameters = rows.iter().map(|row| diameters(table, *row, columns));
+        let diameters: Vec<[Option<f64>; 2]> = diameters.collect::<Result<_, _>>()?;
+        Ok(Self::sorted(data, |point| diameters[point]))
+    }
+}
+
+fn diameter_columns(table: &Table, scene: &Scene) -> Result<[Option<usize>; 2], DataError> {
+    let [first, second] = DIAMETERS;
+    let columns = [table.find(&first)?, table.find(&second)?];
+    for ((column, body), side) in columns.iter().zip(scene.bodies()).zip(SIDES) {
+        if let (Some(column), None) = (column, body.diameter()) {
+            let (header, name) = (&table.header()[*column], &body.name());
+            let message = format!("{header} belongs to the {side} body, and \"{name}\" is a wall");
+            let error = table.header_fault(message).in_column(header);
+            return Err(error.with_help("leave the column out, or take a case of two spheres"));
+        }
+    }
+    Ok(columns)
+}
+
+fn diameters(
+    table: &Table,
+    row: usize,
+    columns: [Option<usize>; 2],
+) -> Result<[Option<f64>; 2], DataError> {
+    let mut diameters = [None, None];
+    for (diameter, column) in diameters.iter_mut().zip(columns) {
+        let Some(column) = column else { continue };
+        let value = table.number(row, column, LENGTH)?;
+        if value <= 0.0 {
+            return Err(table.cell_fault(row, column, value, "it must be greater than 0"));
+        }
+        *diameter = Some(value);
+    }
+    Ok(diameters)
 }

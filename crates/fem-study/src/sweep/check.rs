@@ -11,8 +11,7 @@ use fem_case::schema::MeshTable;
 use fem_case::{Case, CaseError, CaseFile};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-use super::identity::Member;
-use super::members::Members;
+use super::members::{Member, Members};
 use fem_simulation::Simulation;
 
 /// Number of members that are made at the same time.

@@ -13,26 +13,22 @@
 
 mod check;
 mod columns;
-mod identity;
 mod key_numbers;
 mod members;
-mod observer;
 mod row;
 mod runner;
 mod variations;
 
 pub use check::{Checked, check, check_some};
 pub use columns::{COLUMNS, Columns, column_unit, column_words, columns, key_column};
-pub use identity::Member;
 pub use key_numbers::{KeyNumbers, NumberColumn};
-pub use members::Members;
 #[cfg(feature = "csv")]
 pub use members::load;
-pub use observer::Observer;
+pub use members::{Member, Members};
 pub use row::Row;
 #[cfg(feature = "files")]
 pub use row::{SWEEP_FILE, sweep_csv};
-pub use runner::{Runner, most_expensive_first};
+pub use runner::{Observer, Runner, most_expensive_first};
 pub use variations::{Variations, sweep};
 
 pub use fem_case::Sweep;

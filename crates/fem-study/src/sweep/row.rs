@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::columns::value_of;
-use super::identity::Member;
+use super::members::Member;
 use fem_simulation::results::Summary;
 
 /// A member that has been computed.

@@ -7,10 +7,10 @@ use super::trial::{Numbers, Trial};
 use crate::error::StudyError;
 use crate::laboratory::Laboratory;
 
-/// Ting's impact of finite spheres.
+/// Ting's model with finite spheres.
 const TING: &str = "ting={finite_size=true}";
 
-/// Numbers of another kind.
+/// Reference values of the dimensionless numbers.
 #[derive(Clone, Copy)]
 pub(super) struct Reference(Numbers);
 

@@ -25,7 +25,7 @@ pub(super) enum Outcome {
     Refused(String),
 }
 
-/// Restitution, of a ball that bounces the product of all; contact time, peak force and peak pressure over Hertz'.
+/// Restitution (the product of all for a bouncing ball); contact time, peak force and peak pressure over Hertz' values.
 pub(super) type Numbers = [Option<f64>; 4];
 
 impl Trial {
@@ -156,7 +156,7 @@ fn largest(so_far: f64, value: f64) -> f64 {
     if value > so_far || value.is_nan() { value } else { so_far }
 }
 
-/// Nothing is drawn: instants that did not occur are no warning here.
+/// Runs a case without snapshots, so that no warning is about instants that did not occur.
 fn run(case: Case) -> Result<(Outcome, Option<u64>), CaseError> {
     let mut simulation = Simulation::new(case)?;
     simulation.skip_snapshots();

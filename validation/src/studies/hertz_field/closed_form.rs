@@ -47,7 +47,7 @@ impl Profile {
     }
 }
 
-/// The value over p₀ at a place over a.
+/// Returns the value over p₀ at a place over a.
 pub fn closed_form(profile: Profile, place: f64, poissons_ratio: f64) -> f64 {
     match profile {
         Profile::Pressure => UNIT.pressure(place),
@@ -79,7 +79,7 @@ fn surface_stress(r: f64, poissons_ratio: f64) -> [f64; 2] {
     let rim = UNIT.rim_tension(poissons_ratio);
     let square = r * r;
     let inside = (1.0 - square).max(0.0);
-    // What the bracket tends to on the axis: 3/2 r²/a².
+    // On the axis the bracket tends to 3/2 r²/a².
     let bracket = if square < 1e-12 { 1.5 } else { (1.0 - inside * inside.sqrt()) / square };
     let radial = rim * bracket - UNIT.pressure(r);
     [radial, -(1.0 + 2.0 * poissons_ratio) * UNIT.pressure(r) - radial]

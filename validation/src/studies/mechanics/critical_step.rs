@@ -156,7 +156,7 @@ impl Pair<'_> {
     }
 }
 
-/// Stiffness and 1/√mass by degree of freedom; masses of what cannot move are infinite.
+/// Stiffness and 1/√mass by degree of freedom; fixed degrees have an infinite mass.
 struct Assembly {
     stiffness: Mat<f64>,
     inverse_root_mass: Vec<f64>,
@@ -230,7 +230,7 @@ impl Assembly {
     }
 }
 
-/// ω² of M^(−1/2) K M^(−1/2), rising, without those of what cannot move.
+/// Returns ω² of M^(−1/2) K M^(−1/2) in ascending order, without those of fixed degrees of freedom.
 fn eigenvalues(assembly: &Assembly) -> Result<Vec<f64>, StudyError> {
     let free: Vec<usize> = (0..assembly.inverse_root_mass.len())
         .filter(|&i| assembly.inverse_root_mass[i] > 0.0)

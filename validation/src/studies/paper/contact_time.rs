@@ -17,7 +17,7 @@ struct Point {
     finite: f64,
 }
 
-/// Speeds of the finite elements, and of condensed ones with more elements.
+/// Speeds of explicit elements, and of condensed bodies with more elements.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {

@@ -18,7 +18,7 @@ pub fn sphere(m: usize) -> Result<SphereMesh, MeshError> {
     let at = |k: usize| k as f64 / m as f64;
     let block: Vec<Vec<u32>> =
         (0..=m).map(|i| (0..=m).map(|j| number(inner(at(i), at(j)))).collect()).collect();
-    // From the axis to the surface: around the free sides of the block, and each ring beyond.
+    // Rows run from the axis to the surface, around the free sides of the block and each ring.
     let outline: Vec<u32> =
         (0..=m).map(|j| block[m][j]).chain((0..m).rev().map(|i| block[i][m])).collect();
     let station = |k: usize| if k <= m { inner(1.0, at(k)) } else { inner(at(2 * m - k), 1.0) };

@@ -9,8 +9,7 @@ use super::bounded::Linear;
 use super::ranges::{Seeker, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
-use super::{MODEL_ERROR, SpectrumFit};
-use super::{SpectrumProblem, root_mean_square};
+use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem, root_mean_square};
 use crate::fit::error::FitError;
 
 /// Step of the differences: weights are of order 1, and collisions are smooth to 1e-7.
