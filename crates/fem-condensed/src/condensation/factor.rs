@@ -208,8 +208,7 @@ impl Factor {
         if let Some(right) = single(right.rb_mut()) {
             let mut below = Vec::new();
             for front in &self.fronts {
-                let (panel, later) = (&self.values[front.values.clone()], front.later.clone());
-                let (columns, later) = (front.columns.clone(), &self.later[later]);
+                let (panel, columns, later) = self.columns(front);
                 solve_front(panel, columns, later, right, &mut below);
             }
             return;
@@ -235,8 +234,7 @@ impl Factor {
         if let Some(right) = single(right.rb_mut()) {
             let mut below = Vec::new();
             for front in self.fronts.iter().rev() {
-                let (panel, later) = (&self.values[front.values.clone()], front.later.clone());
-                let (columns, later) = (front.columns.clone(), &self.later[later]);
+                let (panel, columns, later) = self.columns(front);
                 solve_front_transposed(panel, columns, later, right, &mut below);
             }
             return;
@@ -263,13 +261,15 @@ impl Factor {
         Mat::zeros(longest.unwrap_or(0), n_columns)
     }
 
+    /// Returns the values, the own equations and the later equations of a front.
+    fn columns(&self, front: &Front) -> (&[f64], Range<usize>, &[u32]) {
+        let later = &self.later[front.later.clone()];
+        (&self.values[front.values.clone()], front.columns.clone(), later)
+    }
+
     fn panel(&self, front: &Front) -> MatRef<'_, f64> {
-        let n_rows = front.columns.len() + front.later.len();
-        MatRef::from_column_major_slice(
-            &self.values[front.values.clone()],
-            n_rows,
-            front.columns.len(),
-        )
+        let (values, columns, later) = self.columns(front);
+        MatRef::from_column_major_slice(values, columns.len() + later.len(), columns.len())
     }
 
     /// Returns the size of the factor's values and indices in bytes.

@@ -1,6 +1,8 @@
 //! Against the explicit model on the same meshes with the same penalty springs.
 
-use crate::common::{GLASS, POLYMER, STEEL, Scene, assert_close, glass, material};
+use crate::common::{
+    GLASS, POLYMER, STEEL, Scene, assert_close, assert_restitution, glass, material,
+};
 use fem_collision::{Approach, Collision, Expectation, HistoryRow, OutputRequest};
 use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_explicit::{Model, Settings};
@@ -87,11 +89,7 @@ fn six_scenes_are_the_explicit_ones() {
         // 6e-5 to 9e-5 measured; three times that at 5 m/s, from the modes beyond the twelfth.
         assert_close(name, found_width, reference_width, if name == "fast" { 5e-4 } else { 2e-4 });
         // The explicit contact rattles a little: 1e-5.
-        assert!(
-            (run.restitution.unwrap() - restitution).abs() < 5e-5,
-            "{name}: {}",
-            run.restitution.unwrap()
-        );
+        assert_restitution(name, &run, restitution, 5e-5);
         assert_close(name, run.max_approach.unwrap(), reference.max_approach.unwrap(), 3e-5);
         assert_close(
             name,

@@ -1,6 +1,9 @@
 //! Limits that are known: converged finite elements, Hertz, Ting.
 
-use crate::common::{GLASS, POLYMER, STEEL, Scene, assert_close, collide, glass, material};
+use crate::common::{
+    CONVERGED, CONVERGED_RESTITUTIONS, GLASS, POLYMER, STEEL, Scene, assert_balance, assert_close,
+    assert_pulse, assert_restitution, collide, glass, hertz_pulse, material, ting_pulse,
+};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 
@@ -13,9 +16,7 @@ fn the_glass_pair_is_the_converged_one() {
     let run = scene.collide(&pair);
     // The node set grows in steps of an element: ±0.02 % of T with the place of the edge between two nodes; what
     // F would swing by that, ±0.2 %, is taken off; pressure 0.8 % low, first order in the element size.
-    assert_close("contact time", run.contact_time.unwrap(), 62.818e-6, 1.5e-3);
-    assert_close("peak force", run.peak_force.unwrap(), 107.99, 1e-3);
-    assert_close("approach", run.max_approach.unwrap(), 10.681e-6, 1.5e-3);
+    assert_pulse(&run, CONVERGED, [1.5e-3, 1e-3, 1.5e-3]);
     let modulus = scene.pair().contact_modulus();
     let radius = scene.pair().effective_radius();
     let hertz_radius = (0.75 * run.peak_force.unwrap() * radius / modulus).cbrt();
@@ -25,21 +26,17 @@ fn the_glass_pair_is_the_converged_one() {
     // A third of an element between nodes.
     assert_close("radius", run.max_contact_radius.unwrap(), hertz_radius, 1e-2);
     // Nothing is lost but in the time step: 1e-6.
-    assert!((run.restitution.unwrap() - 1.0).abs() < 1e-5, "{}", run.restitution.unwrap());
+    assert_restitution("elastic", &run, 1.0, 1e-5);
     assert_eq!((run.contact_episodes, run.repeated_contact_solutions), (1, Some(0)));
 
-    for (acts_on, restitution) in [(All, 0.92763), (Shear, 0.94811)] {
+    for (acts_on, restitution) in CONVERGED_RESTITUTIONS {
         let relaxing = material(GLASS, acts_on, &[(1.0, 2708.0)]);
         let series = relaxing.relaxation();
         let run = pair.impact(0.5, [series; 2], CondensedPair::N_STEPS).unwrap();
-        assert!(
-            (run.restitution.unwrap() - restitution).abs() < 4e-4,
-            "{acts_on:?} {}",
-            run.restitution.unwrap()
-        );
+        assert_restitution("relaxing", &run, restitution, 4e-4);
         // The ledger closes to the order of the time step, (ωΔt)²/6 = 4e-5, where dissipation is
         // summed from the state.
-        assert!(run.residual_relative.unwrap() < 1e-4, "{}", run.residual_relative.unwrap());
+        assert_balance("relaxing", &run, 1e-4);
     }
 }
 
@@ -73,10 +70,10 @@ fn the_peak_force_does_not_swing_with_the_edge() {
     }
 }
 
-/// Of bodies that have relaxed by far the nodes' part has relaxed, too: what is left of it, at −0.46 to +0.38 % of the
-/// force, is no share of the elastic force, which is many times as large.
+/// The correction of the force for its oscillation relaxes with the force. At −0.46 to +0.38 % of the relaxed
+/// force it is not a share of the elastic force, which is many times as large.
 #[test]
-fn what_is_taken_off_the_force_relaxes_with_it() {
+fn the_correction_of_the_force_relaxes_with_it() {
     let collide = |decay: f64| {
         let scene = small_contact(All, decay);
         // It grows by far, and stays within the candidates.
@@ -97,10 +94,8 @@ fn a_small_contact_is_hertz() {
     assert!(hertz.max_contact_radius() / 7.95e-3 < 1e-4);
     let pair = scene.condensed(16.0);
     let run = collide(&pair, scene.speed);
-    assert_close("contact time", run.contact_time.unwrap(), hertz.contact_time(), 1e-4);
     // Second order in h/a but for the edge's place between nodes.
-    assert_close("peak force", run.peak_force.unwrap(), hertz.peak_force(), 1e-3);
-    assert_close("approach", run.max_approach.unwrap(), hertz.max_approach(), 3e-4);
+    assert_pulse(&run, hertz_pulse(&hertz), [1e-4, 1e-3, 3e-4]);
     assert_close("radius", run.max_contact_radius.unwrap(), hertz.max_contact_radius(), 3e-3);
     assert_close("pressure", run.peak_pressure.unwrap(), hertz.peak_pressure(), 1e-2);
     // The whole profile at the row of largest force, against Hertz' at that approach.
@@ -125,16 +120,10 @@ fn a_small_contact_is_ting() {
     for (acts_on, restitution) in [(All, 0.92705), (Shear, 0.94713)] {
         let scene = small_contact(acts_on, 2708.0);
         let run = scene.collide(&scene.condensed(16.0));
-        assert!(
-            (run.restitution.unwrap() - restitution).abs() < 1e-4,
-            "{acts_on:?} {}",
-            run.restitution.unwrap()
-        );
         let ting = scene.ting(false);
-        assert!((run.restitution.unwrap() - ting.restitution).abs() < 1e-4);
-        assert_close("contact time", run.contact_time.unwrap(), ting.contact_time.unwrap(), 3e-4);
-        assert_close("peak force", run.peak_force.unwrap(), ting.peak_force, 1e-3);
-        assert_close("approach", run.max_approach.unwrap(), ting.max_approach, 3e-4);
+        assert_restitution("known", &run, restitution, 1e-4);
+        assert_restitution("Ting", &run, ting.restitution, 1e-4);
+        assert_pulse(&run, ting_pulse(&ting), [3e-4, 1e-3, 3e-4]);
     }
 }
 
@@ -147,43 +136,23 @@ fn six_scenes_are_ting_with_finite_size() {
         // The correction is exact to first order in a/R: of its size, some per cent of δ, the next
         // order is a few per cent. Its relaxation is approximated where the bulk modulus stays:
         // 1 % of the loss.
-        let off = (run.restitution.unwrap() - ting.restitution).abs();
-        assert!(off < 1e-4 + 0.01 * (1.0 - run.restitution.unwrap()), "{name}: {off}");
-        assert_close(name, run.contact_time.unwrap(), ting.contact_time.unwrap(), 2e-3);
-        assert_close(name, run.peak_force.unwrap(), ting.peak_force, 3e-3);
-        assert_close(name, run.max_approach.unwrap(), ting.max_approach, 2e-3);
-        assert!(
-            run.residual_relative.unwrap() < 1e-4,
-            "{name}: {}",
-            run.residual_relative.unwrap()
-        );
+        let tolerance = 1e-4 + 0.01 * (1.0 - run.restitution.unwrap());
+        assert_restitution(name, &run, ting.restitution, tolerance);
+        assert_pulse(&run, ting_pulse(&ting), [2e-3, 3e-3, 2e-3]);
+        assert_balance(name, &run, 1e-4);
     }
 }
 
 fn scenes() -> [(&'static str, Scene); 6] {
     let sphere = |diameter, material| Some((diameter, material));
+    let two = |lower, upper, speed| Scene { bodies: [lower, upper], speed };
+    let steel = sphere(20e-3, material(STEEL, All, &[]));
+    let polymer = sphere(12e-3, material(POLYMER, Shear, &[(0.5, 2e3)]));
+    let soft = sphere(15.9e-3, material(POLYMER, All, &[(0.2, 1e3), (0.2, 1e4)]));
     [
-        (
-            "unequal",
-            Scene { bodies: [sphere(22.2e-3, glass()), sphere(10e-3, glass())], speed: 0.3 },
-        ),
-        (
-            "unlike",
-            Scene {
-                bodies: [
-                    sphere(20e-3, material(STEEL, All, &[])),
-                    sphere(12e-3, material(POLYMER, Shear, &[(0.5, 2e3)])),
-                ],
-                speed: 0.2,
-            },
-        ),
-        (
-            "wall",
-            Scene {
-                bodies: [None, sphere(15.9e-3, material(GLASS, All, &[(0.8, 5e3)]))],
-                speed: 0.5,
-            },
-        ),
+        ("unequal", two(sphere(22.2e-3, glass()), sphere(10e-3, glass()), 0.3)),
+        ("unlike", two(steel, polymer, 0.2)),
+        ("wall", two(None, sphere(15.9e-3, material(GLASS, All, &[(0.8, 5e3)])), 0.5)),
         (
             "many terms, elastic bulk",
             Scene::paper(
@@ -198,13 +167,7 @@ fn scenes() -> [(&'static str, Scene); 6] {
                 material(GLASS, Shear, &[(0.7, 1e4)]),
             ),
         ),
-        (
-            "soft on a hard wall",
-            Scene {
-                bodies: [sphere(15.9e-3, material(POLYMER, All, &[(0.2, 1e3), (0.2, 1e4)])), None],
-                speed: 0.1,
-            },
-        ),
+        ("soft on a hard wall", two(soft, None, 0.1)),
     ]
 }
 
@@ -220,9 +183,9 @@ fn a_wall_is_the_mirror_of_a_twin() {
     let twin = collide(&twin_pair, 0.5);
     let wall = collide(&wall_pair, 0.25);
     assert_close("restitution", wall.restitution.unwrap(), twin.restitution.unwrap(), 1e-10);
-    assert_close("contact time", wall.contact_time.unwrap(), twin.contact_time.unwrap(), 1e-10);
-    assert_close("peak force", wall.peak_force.unwrap(), twin.peak_force.unwrap(), 1e-10);
-    assert_close("approach", 2.0 * wall.max_approach.unwrap(), twin.max_approach.unwrap(), 1e-10);
+    let [time, force, approach] =
+        [twin.contact_time, twin.peak_force, twin.max_approach].map(Option::unwrap);
+    assert_pulse(&wall, [time, force, 0.5 * approach], [1e-10; 3]);
 }
 
 /// Hertz under a static force: a³ = 3FR*/4E*, δ = a²/R*, p₀ = 3F/2πa².

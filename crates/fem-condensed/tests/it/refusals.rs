@@ -1,6 +1,8 @@
 //! Rejected input, and regions that are enlarged.
 
-use crate::common::{GLASS, Scene, collide, glass, material};
+use crate::common::{
+    GLASS, Scene, assert_balance, assert_close, assert_restitution, collide, glass, material,
+};
 use fem_collision::{BodyInput, Ending, Monitor, OutputRequest, Progress, Stop};
 use fem_condensed::{CondensedError, CondensedPair, PairSettings};
 use fem_material::ActsOn::{All, Shear};
@@ -14,11 +16,7 @@ fn a_contact_beyond_the_candidates_is_told_and_enlarged() {
     let larger = pair.enlarge(4.0 * pair.candidate_radius()).unwrap();
     let run = collide(&larger, 5.0);
     // Hertz' 25.1 µs·√… less the finite size: 39.1 µs at this speed.
-    assert!(
-        (run.contact_time.unwrap() / 39.1e-6 - 1.0).abs() < 0.01,
-        "{}",
-        run.contact_time.unwrap()
-    );
+    assert_close("contact time", run.contact_time.unwrap(), 39.1e-6, 0.01);
     // What the smaller one could do, the larger one does as well.
     let (a, b) = (scene.collide(&pair), scene.collide(&larger));
     assert!((a.contact_time.unwrap() / b.contact_time.unwrap() - 1.0).abs() < 1e-9);
@@ -49,8 +47,7 @@ fn impossible_inputs_are_refused() {
     }
 }
 
-/// What relaxes completely within the contact keeps nothing that could part the bodies, whichever
-/// moduli relax: the restitution is 0, or nearly.
+/// Bodies that relax completely within the contact stay together: the restitution is 0, or nearly.
 #[test]
 fn bodies_that_stay_together() {
     let scene = Scene::paper(glass(), glass());
@@ -62,21 +59,14 @@ fn bodies_that_stay_together() {
         let frame = pair.frame(0.5).unwrap();
         let run =
             pair.collide(&frame, relaxations, n_steps, &OutputRequest::history(), &mut ()).unwrap();
-        assert!(
-            run.restitution.unwrap() < 1e-4,
-            "{acts_on:?} {rate:e} {}",
-            run.restitution.unwrap()
-        );
+        assert_restitution("together", &run, 0.0, 1e-4);
         if acts_on == All {
             assert_eq!((run.ending.clone(), run.restitution), (Ending::Together, Some(0.0)));
         }
-        assert!(run.residual_relative.unwrap() < 1e-3, "{}", run.residual_relative.unwrap());
+        assert_balance("together", &run, 1e-3);
         // A stiff fluid flows deeper than elastic bodies are pressed.
-        assert!(
-            run.max_approach.unwrap() > 11e-6 && run.max_approach.unwrap() < 1e-4,
-            "{}",
-            run.max_approach.unwrap()
-        );
+        let approach = run.max_approach.unwrap();
+        assert!(approach > 11e-6 && approach < 1e-4, "{approach}");
         assert!(run.history.len() < 5000);
     }
 }

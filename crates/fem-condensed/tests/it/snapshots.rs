@@ -132,7 +132,7 @@ fn velocities_are_the_change_of_displacements() {
     }
 }
 
-/// The energy of vibrations that a run tells is twice the mean kinetic energy, about the mass centre, of the
+/// The reported energy of vibrations is twice the mean kinetic energy, about the mass centre, of the
 /// fields after the contact.
 #[test]
 fn vibration_energy_is_that_of_the_fields() {
@@ -156,12 +156,12 @@ fn vibration_energy_is_that_of_the_fields() {
             0.5 * nodes().map(|(m, v)| m * (v[0] * v[0] + (v[1] - mean).powi(2))).sum::<f64>()
         });
         let of_fields = 2.0 * kinetic.sum::<f64>() / run.snapshots.len() as f64;
-        let told = run.bodies[side].vibration_energy.unwrap();
-        assert!((of_fields / told - 1.0).abs() < 0.05, "{side}: {of_fields:e} {told:e}");
+        let reported = run.bodies[side].vibration_energy.unwrap();
+        assert!((of_fields / reported - 1.0).abs() < 0.05, "{side}: {of_fields:e} {reported:e}");
     }
 }
 
-/// What the stress of a body whose moduli all relax sees is the convolution of its displacements with the
+/// The effective displacement of a body whose moduli all relax is the convolution of its displacements with the
 /// modulus, node by node, in contact and while it vibrates after it:
 ///
 /// w = u − g ∫ (1 − e^(−β(t−s))) u'(s) ds,

@@ -40,14 +40,15 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-/// In series with the bodies a spring is worth its compliance: what it adds to the contact time, and takes of the
-/// force, is of first order in 1/k, which falls with the element size. Measured over the factor and with eight
-/// elements: up to 1.3e-3 and 1.0e-3; stiff ones scatter by 5e-5. A contact that ends at the last point followed has a
+/// A spring in series with the bodies adds its compliance: the changes of contact time and force are of first order
+/// in 1/k, which falls with the element size. Times the factor they are up to 1.3e-3 and 1.0e-3 with eight
+/// elements; those of stiff springs scatter by 5e-5. A contact that ends at the last point has a
 /// time 27 % too long.
 #[test]
-fn what_springs_change_falls_with_their_stiffness() {
+fn the_effect_of_springs_falls_with_their_stiffness() {
     for (name, scene) in scenes() {
-        for elements in [5.0, 8.0, 13.0] {
+        let elements: &[f64] = if name == "pair" { &[5.0, 8.0, 13.0] } else { &[8.0] };
+        for &elements in elements {
             let values = |collision: Collision| {
                 // Up to 2.1e-4, of points that close within a step.
                 let residual = collision.residual_relative.unwrap();

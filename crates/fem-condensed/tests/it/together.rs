@@ -1,4 +1,4 @@
-//! Bodies that stay together, and those that only take their time.
+//! Bodies that stay together, and bodies that separate slowly.
 
 use crate::common::{GLASS, Scene, material};
 use fem_collision::{
@@ -82,7 +82,7 @@ fn bodies_that_are_too_slow_have_not_separated() {
     assert!(matches!(run.stop(), Some(Stop::NoSeparation { .. })), "{:?}", run.ending);
 }
 
-/// What is still in contact has no last contact; the other instants are those of any run.
+/// Bodies that stay in contact have no last contact; the other instants are those of any run.
 #[test]
 fn bodies_that_stay_have_no_last_contact() {
     let relaxing = material(GLASS, All, &[(1.0, 1e7)]);

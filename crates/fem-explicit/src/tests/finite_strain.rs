@@ -3,7 +3,7 @@
 use fem_collision::{Approach, BodyInput, Stop};
 use fem_contact::{ContactInterface, Surface};
 use fem_material::finite::HyperelasticLaw;
-use fem_mesh::Side;
+use fem_mesh::{Side, SphereMesh};
 use nalgebra::DMatrix;
 
 use crate::contact::{Contact, Springs};
@@ -15,7 +15,7 @@ use crate::test_support::{largest_eigenvalue, ragged, settings, unit_glass, unit
 
 /// A sphere alone and at rest, a wall far below.
 fn free(law: HyperelasticLaw, n: f64) -> (Model, State) {
-    let sphere = BodyInput::Sphere { mesh: unit_sphere(n, Side::Above), material: unit_glass() };
+    let sphere = glass_sphere(n, Side::Above);
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let parts = Parts { finite_strain: [None, Some(law)], ..Parts::default() };
     let bodies = [BodyInput::Wall, sphere];
@@ -84,83 +84,68 @@ fn the_critical_step_of_a_deformed_body_is_safe_and_tight() {
     }
 }
 
-/// A sphere that is flattened on a wall by a third, all of its near surface closed: the springs grow with the
-/// area of the surface, and are in the bound. Stiffer and softer than the elements.
+/// Bodies on springs of a stiffness, with the upper one at finite strain.
+fn with_deformed_upper(bodies: [BodyInput; 2], contact_stiffness: f64) -> Model {
+    let settings =
+        Settings { contact_stiffness, candidate_radius: 0.7, step_factor: 1.0, ..settings() };
+    let parts =
+        Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
+    Model::with_parts(bodies, Approach::at(1.0).unwrap(), &settings, parts).unwrap()
+}
+
+fn glass_sphere(n: f64, side: Side) -> BodyInput {
+    BodyInput::Sphere { mesh: unit_sphere(n, side), material: unit_glass() }
+}
+
+/// Returns displacements that widen a sphere by a third and flatten it where it was within 0.8 of the axis, for
+/// `sign` −1 of the lower body and 1 of the upper.
+fn flattened(mesh: &SphereMesh, sign: f64) -> Vec<[f64; 2]> {
+    let displacement = |&[r, y]: &[f64; 2]| {
+        let depth = 1.0 - (1.0 - r * r).max(0.36).sqrt();
+        [0.33 * r, sign * (-depth * (1.0 - (sign * y - depth)).max(0.0) - 1e-3)]
+    };
+    mesh.nodes().iter().map(displacement).collect()
+}
+
+/// Returns the critical step of a state with many closed points.
+fn critical_step_in_contact(model: &Model, state: &State) -> f64 {
+    let mut scratch = Scratch::new(model);
+    let contact = update_forces(model, state, &mut scratch).unwrap();
+    assert!(contact.n_closed > 10, "{contact:?}");
+    step_demand(model, state, &mut scratch).critical_time_step
+}
+
+/// A sphere is flattened on a wall, with all of its near surface in contact: the springs grow with the
+/// area of the surface, and are in the bound. They are stiffer and softer than the elements.
 #[test]
 fn the_critical_step_of_a_flattened_body_is_safe() {
     // As without contact where elements decide; springs that decide are taken twice for opening and closing:
     // a factor √2 more. The springs of the undeformed surface would leave 0.73.
     for (stiffness, range) in [(1.0, 0.6..0.8), (100.0, 0.45..0.6)] {
-        let sphere =
-            BodyInput::Sphere { mesh: unit_sphere(6.0, Side::Above), material: unit_glass() };
-        let settings = Settings {
-            contact_stiffness: stiffness,
-            candidate_radius: 0.7,
-            step_factor: 1.0,
-            ..settings()
-        };
-        let law = Some(HyperelasticLaw::NeoHooke);
-        let parts = Parts { finite_strain: [None, law], ..Parts::default() };
-        let bodies = [BodyInput::Wall, sphere];
-        let approach = Approach::at(1.0).unwrap();
-        let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+        let bodies = [BodyInput::Wall, glass_sphere(6.0, Side::Above)];
+        let model = with_deformed_upper(bodies, stiffness);
         let mut state = State::at_first_touch(&model);
         let body = &model.bodies()[1];
-        let mesh = body.mesh().unwrap();
-        // Wider by a third, and flat where it was within 0.8 of the axis.
-        let place = |[r, y]: [f64; 2]| {
-            let depth = 1.0 - (1.0 - r * r).max(0.36).sqrt();
-            [0.33 * r, -depth * (1.0 - (y - depth)).max(0.0) - 1e-3]
-        };
-        state.bodies[1].displacement = mesh.nodes().iter().map(|node| place(*node)).collect();
-        let mut scratch = Scratch::new(&model);
-        let contact = update_forces(&model, &state, &mut scratch).unwrap();
-        assert!(contact.n_closed > 10, "{contact:?}");
-        let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
+        state.bodies[1].displacement = flattened(body.mesh().unwrap(), 1.0);
+        let critical = critical_step_in_contact(&model, &state);
         let ratio = critical * largest_eigenvalue(&tangent(&model, &state), &[body]).sqrt() / 2.0;
         assert!(range.contains(&ratio), "{stiffness}: {ratio}");
     }
 }
 
-/// Bodies on stiff springs, of which the upper one is beyond small strain.
-fn with_deformed_upper(bodies: [BodyInput; 2]) -> Model {
-    let settings = Settings {
-        contact_stiffness: 100.0,
-        candidate_radius: 0.7,
-        step_factor: 1.0,
-        ..settings()
-    };
-    let parts =
-        Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
-    let approach = Approach::at(1.0).unwrap();
-    Model::with_parts(bodies, approach, &settings, parts).unwrap()
-}
-
-/// A fine sphere at small strain beside a coarse one beyond it, on stiff springs, both flat and wider by a
-/// third: the springs that grow with the area of the surfaces are in the step of the one that does not change
-/// its own stiffness, and whose light nodes ask for the shortest.
+/// A fine sphere at small strain and a coarse one at finite strain, on stiff springs, both flattened: the springs that
+/// grow with the area of the surfaces are in the step of the fine one, which does not change its own stiffness, and
+/// whose light nodes need the shortest step.
 #[test]
 fn the_critical_step_beside_a_deformed_body_is_safe() {
-    let sphere = |n: f64, side: Side| BodyInput::Sphere {
-        mesh: unit_sphere(n, side),
-        material: unit_glass(),
-    };
-    let bodies = [sphere(8.0, Side::Below), sphere(4.0, Side::Above)];
-    let model = with_deformed_upper(bodies);
+    let bodies = [glass_sphere(8.0, Side::Below), glass_sphere(4.0, Side::Above)];
+    let model = with_deformed_upper(bodies, 100.0);
     let mut state = State::at_first_touch(&model);
     for (side, sign) in [(0, -1.0), (1, 1.0)] {
         let mesh = model.bodies()[side].mesh().unwrap();
-        let place = |[r, y]: [f64; 2]| {
-            let depth = 1.0 - (1.0 - r * r).max(0.36).sqrt();
-            let height = sign * y;
-            [0.33 * r, sign * (-depth * (1.0 - (height - depth)).max(0.0) - 1e-3)]
-        };
-        state.bodies[side].displacement = mesh.nodes().iter().map(|node| place(*node)).collect();
+        state.bodies[side].displacement = flattened(mesh, sign);
     }
-    let mut scratch = Scratch::new(&model);
-    let contact = update_forces(&model, &state, &mut scratch).unwrap();
-    assert!(contact.n_closed > 10, "{contact:?}");
-    let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
+    let critical = critical_step_in_contact(&model, &state);
     let bodies = model.bodies();
     let stiffness =
         largest_eigenvalue(&tangent_of(&model, &state, &[0, 1]), &[&bodies[0], &bodies[1]]);
@@ -169,16 +154,12 @@ fn the_critical_step_beside_a_deformed_body_is_safe() {
     assert!((0.4..0.5).contains(&ratio), "{ratio}");
 }
 
-/// A rigid sphere that weighs nothing beside its dashpots, on a ball beyond small strain that has become wider
-/// by a third under it: the step is that of the sphere, and shorter as the area of the surface is larger.
+/// A very light rigid sphere with dashpots, under a ball at finite strain that has become wider by a third: the step is
+/// that of the sphere, and shorter as the area of the surface is larger.
 #[test]
 fn the_critical_step_of_a_rigid_sphere_knows_the_area_of_its_partner() {
-    let mass = 1e-6;
-    let bodies = [
-        BodyInput::Rigid { radius: 1.0, mass },
-        BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() },
-    ];
-    let model = with_deformed_upper(bodies);
+    let rigid = BodyInput::Rigid { radius: 1.0, mass: 1e-6 };
+    let model = with_deformed_upper([rigid, glass_sphere(8.0, Side::Above)], 100.0);
     let mut state = State::at_first_touch(&model);
     // Onto the rigid sphere, and into it a little.
     let place = |[r, y]: [f64; 2]| {
@@ -189,11 +170,7 @@ fn the_critical_step_of_a_rigid_sphere_knows_the_area_of_its_partner() {
     };
     let nodes = model.bodies()[1].mesh().unwrap().nodes();
     state.bodies[1].displacement = nodes.iter().map(|node| place(*node)).collect();
-    let mut scratch = Scratch::new(&model);
-    let contact = update_forces(&model, &state, &mut scratch).unwrap();
-    assert!(contact.n_closed > 10, "{contact:?}");
-    let critical = step_demand(&model, &state, &mut scratch).critical_time_step;
-    let ratio = critical / model.time_step();
+    let ratio = critical_step_in_contact(&model, &state) / model.time_step();
     // What springs add to dashpots is 2e-5 of the step. Without the sphere it would be 2e4 times as long.
     assert!((ratio * 1.33f64.powi(2) - 1.0).abs() < 1e-4, "{ratio}");
 }
@@ -201,7 +178,7 @@ fn the_critical_step_of_a_rigid_sphere_knows_the_area_of_its_partner() {
 /// Every step of a collision is below the critical one of the bodies as they are then, springs included.
 #[test]
 fn every_step_of_a_collision_is_stable() {
-    let sphere = BodyInput::Sphere { mesh: unit_sphere(4.0, Side::Above), material: unit_glass() };
+    let sphere = glass_sphere(4.0, Side::Above);
     // St Venant and Kirchhoff's law does not bear it: it softens in compression.
     for law in HyperelasticLaw::ALL.into_iter().take(3) {
         // Half of the speed of shear waves.
@@ -238,7 +215,7 @@ fn every_step_of_a_collision_is_stable() {
 /// the step would have one in three steps.
 #[test]
 fn the_step_is_bounded_now_and_then() {
-    let sphere = BodyInput::Sphere { mesh: unit_sphere(16.0, Side::Above), material: unit_glass() };
+    let sphere = glass_sphere(16.0, Side::Above);
     let law = Some(HyperelasticLaw::NeoHooke);
     let parts = Parts { finite_strain: [None, law], ..Parts::default() };
     let settings = Settings { candidate_radius: 0.9, ..settings() };
@@ -260,12 +237,8 @@ fn the_step_is_bounded_now_and_then() {
 /// both, their contact included; and flanks that touch nothing ask for no shorter one.
 #[test]
 fn every_step_of_bulging_spheres_is_stable() {
-    let sphere = |n: f64, side: Side| BodyInput::Sphere {
-        mesh: unit_sphere(n, side),
-        material: unit_glass(),
-    };
     for (stiffness, range, least) in [(1.0, 0.7..0.8, 0.5), (20.0, 0.42..0.5, 0.9)] {
-        let bodies = [sphere(4.0, Side::Below), sphere(5.0, Side::Above)];
+        let bodies = [glass_sphere(4.0, Side::Below), glass_sphere(5.0, Side::Above)];
         let approach = Approach::new([0.6, -0.6], 0.0).unwrap();
         let law = Some(HyperelasticLaw::NeoHooke);
         let parts = Parts { finite_strain: [law; 2], ..Parts::default() };

@@ -1,5 +1,7 @@
 //! A glass ball on a half-space.
 
+use std::sync::LazyLock;
+
 use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest,
     far_radius_of_waves,
@@ -128,7 +130,10 @@ impl Ball {
     }
 }
 
-/// 1 − e².
+/// The collision of the default ball, with which several tests compare theirs.
+static DEFAULT_RUN: LazyLock<Collision> = LazyLock::new(|| Ball::default().run());
+
+/// Returns 1 − e².
 fn loss(run: &Collision) -> f64 {
     let e = run.restitution.unwrap();
     1.0 - e * e
@@ -140,7 +145,10 @@ fn loss(run: &Collision) -> f64 {
 #[test]
 fn what_a_ball_loses_is_hunters_radiation() {
     for (speed, radiated, tolerance) in [(5.0, 1.7307e-2, 0.06), (1.0, 6.589e-3, 0.04)] {
-        let run = Ball { speed, ..Ball::default() }.run();
+        let run = match speed == Ball::default().speed {
+            true => DEFAULT_RUN.clone(),
+            false => Ball { speed, ..Ball::default() }.run(),
+        };
         assert_eq!(run.ending, Ending::Parted);
         assert!(run.warnings.is_empty(), "{:?}", run.warnings);
         let found = loss(&run);
@@ -190,10 +198,9 @@ fn a_partner_forty_times_larger_is_a_half_space() {
     let large = Model::new(bodies, *model.approach(), &settings).unwrap();
     let expected = Ball::default().expected();
     let large = collide(&large, expected, &OutputRequest::quantities(), &mut ());
-    let here = collide(&model, expected, &OutputRequest::quantities(), &mut ());
     // R* is 1/41 smaller: 1.5 % less at the power 3/5 of the loss on R*. The sphere's curvature has a
     // part in its waves, a per cent as well.
-    let ratio = loss(&large) / loss(&here);
+    let ratio = loss(&large) / loss(&DEFAULT_RUN);
     assert!(ratio > 0.97 && ratio < 1.0, "{ratio}");
 }
 
@@ -215,7 +222,7 @@ fn a_slow_ball_is_hertz() {
 #[test]
 fn nothing_comes_back() {
     let loss_of = |ball: Ball| loss(&ball.run());
-    let here = loss_of(Ball::default());
+    let here = loss(&DEFAULT_RUN);
     for ball in [Ball { reach: 0.5, ..Ball::default() }, Ball { reach: 2.0, ..Ball::default() }] {
         let there = loss_of(ball);
         assert!((there / here - 1.0).abs() < 1e-3, "{there:e} {here:e}");

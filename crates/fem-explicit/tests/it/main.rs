@@ -3,9 +3,7 @@
 mod bulk_viscosity;
 mod collision;
 mod common;
-mod ending;
 mod finite_strain;
-mod flanks;
 mod half_space;
 mod lanes;
 mod massless;

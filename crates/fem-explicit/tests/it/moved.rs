@@ -20,10 +20,6 @@ fn of_pair(pair: &Pair, bodies: [BodyInput; 2]) -> [Model; 2] {
     [false, true].map(|moved| model(bodies.clone(), pair.approach(), &pair.settings(), moved))
 }
 
-fn coarse() -> Pair {
-    Pair { element_size: 80e-6, candidate_radius: 0.45e-3, ..Pair::default() }
-}
-
 fn check_balance(found: &Quantities) {
     // Leapfrog's order and rounding, as of the other contact.
     assert!(found.residual < 2e-6, "{}", found.residual);
@@ -122,15 +118,11 @@ fn a_rigid_sphere_can_be_met() {
 /// The dashpots' force and work are history: a run in pieces is the same.
 #[test]
 fn a_run_can_be_resumed() {
-    let pair = Pair { element_size: 110e-6, ..coarse() };
+    let pair = Pair::small();
     let [plain, moved] = of_pair(&pair, [0, 1].map(|body| pair.sphere(body)));
-    let mut run = Run::new(&moved, pair.expected(), &pair.request());
-    let first = run.restart_state().clone();
-    assert!(Run::resume(&plain, first).is_err(), "a memory of another contact");
-    while run.advance(97).is_none() {
-        run = Run::resume(&moved, run.restart_state().clone()).unwrap();
-    }
-    assert_eq!(run.finish(), pair.run_model(&moved));
+    let start = Run::new(&moved, pair.expected(), &pair.request()).restart_state().clone();
+    assert!(Run::resume(&plain, start).is_err(), "a restart state of another contact");
+    assert_eq!(pair.in_pieces(&moved, 97), pair.run_model(&moved));
 }
 
 /// A rubber ball of 30 mm, E 5 MPa, ν 0.45, on a wall.

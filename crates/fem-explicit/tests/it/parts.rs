@@ -3,9 +3,7 @@
 use std::any::Any;
 
 use crate::common::{Pair, quantities};
-use fem_collision::{
-    Account, BodyInput, CandidateRegion, Collision, SnapshotInstant, SnapshotRequest,
-};
+use fem_collision::{Account, BodyInput, CandidateRegion, SnapshotInstant, SnapshotRequest};
 use fem_contact::{ContactForces, ContactInterface, Profile, Surface};
 use fem_explicit::{
     Accounts, Contact, Field, Model, ModelError, Motion, MotionMut, NodalField, NodeForce, Part,
@@ -14,7 +12,7 @@ use fem_explicit::{
 
 fn small() -> Pair {
     let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
-    Pair { element_size: 110e-6, candidate_radius: 0.45e-3, snapshots, ..Pair::default() }
+    Pair { snapshots, ..Pair::small() }
 }
 
 fn model(pair: &Pair, parts: Parts) -> Model {
@@ -27,17 +25,7 @@ fn on_both<F: NodeForce + Clone>(force: &F) -> Parts {
     Parts { node_forces: [list(), list()], contact: None, ..Parts::default() }
 }
 
-/// The run stored, read back and resumed every 97 steps.
-fn in_pieces(pair: &Pair, model: &Model) -> Collision {
-    let mut run = Run::new(model, pair.expected(), &pair.request());
-    while run.advance(97).is_none() {
-        let bytes = postcard::to_stdvec(run.restart_state()).unwrap();
-        run = Run::resume(model, postcard::from_bytes(&bytes).unwrap()).unwrap();
-    }
-    run.finish()
-}
-
-/// Bytes of the memory before the first step.
+/// Returns the size of the restart state before the first step, in bytes.
 fn n_bytes(pair: &Pair, model: &Model) -> usize {
     let run = Run::new(model, pair.expected(), &pair.request());
     postcard::to_stdvec(run.restart_state()).unwrap().len()
@@ -176,7 +164,7 @@ fn a_force_with_history_balances_and_resumes() {
         assert_eq!(n_bytes(&pair, &model), n_bytes(&pair, &plain) + 16 * n_nodes + 2 * 2);
 
         let run = pair.run_model(&model);
-        assert_eq!(run, in_pieces(&pair, &model));
+        assert_eq!(run, pair.in_pieces(&model, 97));
         let (found, free) = (quantities(&run), quantities(&pair.run_model(&plain)));
         // The ground slows them down: 5 % are measured, of an elastic pair.
         assert!(found.restitution < 0.97 * free.restitution, "{}", found.restitution);
@@ -313,7 +301,7 @@ fn a_contact_with_history_takes_the_place_of_the_penalty() {
         assert_eq!(other.candidate_radius(), plain.candidate_radius());
         let run = pair.run_model(&plain);
         assert_eq!(pair.run_model(&other), run);
-        assert_eq!(in_pieces(&pair, &other), run);
+        assert_eq!(pair.in_pieces(&other, 97), run);
         let n_nodes: usize = plain.bodies().iter().map(|body| body.n_nodes()).sum();
         assert_eq!(n_bytes(&pair, &other), n_bytes(&pair, &plain) + 16 * n_nodes + 2 * 2);
         // A memory with more fields is of another model.

@@ -1,26 +1,27 @@
-//! A run that is stopped between two steps and resumed from its memory is the same run.
+//! Runs that are stopped, resumed from a restart state, or ended.
 
-use crate::common::{CONTACT_MODULUS, Pair, quantities};
+use std::sync::Arc;
+
+use crate::common::{CONTACT_MODULUS, Pair, quantities, stored};
 use fem_collision::{
-    BodyInput, Collision, Ending, Monitor, Progress, SnapshotInstant, SnapshotRequest, Stop,
+    BodyInput, Collision, Ending, Monitor, OutputRequest, Progress, SnapshotInstant,
+    SnapshotRequest, Stop,
 };
-use fem_explicit::{Model, ModelError, RestartState, Run, Settings, collide};
+use fem_explicit::{Model, ModelError, Run, Settings, collide};
 use fem_material::ActsOn;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
-/// About 1900 steps a contact and 270 elements.
-fn small() -> Pair {
-    Pair { element_size: 110e-6, candidate_radius: 0.45e-3, ..Pair::default() }
-}
-
 /// Elastic, relaxing with constant Poisson's ratio, relaxing in shear with two terms, and that at finite
 /// strain.
 fn materials() -> [Pair; 4] {
-    let shear =
-        Pair { relaxation: Some(ActsOn::Shear), terms: &[(0.3, 2e-5), (0.5, 1e-3)], ..small() };
+    let shear = Pair {
+        relaxation: Some(ActsOn::Shear),
+        terms: &[(0.3, 2e-5), (0.5, 1e-3)],
+        ..Pair::small()
+    };
     let finite = Pair { law: Some(HyperelasticLaw::NeoHooke), ..shear.clone() };
-    [small(), Pair { relaxation: Some(ActsOn::All), ..small() }, shear, finite]
+    [Pair::small(), Pair { relaxation: Some(ActsOn::All), ..Pair::small() }, shear, finite]
 }
 
 fn requests() -> [SnapshotRequest; 3] {
@@ -29,38 +30,10 @@ fn requests() -> [SnapshotRequest; 3] {
     [SnapshotRequest::Labels(labels), SnapshotRequest::Count(5), SnapshotRequest::Times(times)]
 }
 
-/// The memory as another process would have it.
-fn stored(memory: &RestartState) -> RestartState {
-    let bytes = postcard::to_stdvec(memory).unwrap();
-    let (read, rest) = postcard::take_from_bytes::<RestartState>(&bytes).unwrap();
-    assert!(rest.is_empty());
-    assert_eq!(&read, memory);
-    read
-}
-
 /// Everything is a number, so that equality is that of the bits but for the sign of zero.
 fn assert_same(one: &Collision, other: &Collision) {
     assert!(one.history.iter().all(|row| row.residual.unwrap().is_finite()));
     assert_eq!(one, other);
-}
-
-/// Runs in pieces of a number of steps, each in a new [`Run`], and collects a value from each restart state.
-fn in_pieces(
-    pair: &Pair,
-    model: &Model,
-    n_steps: u64,
-    mut look: impl FnMut(&RestartState, Progress),
-) -> Collision {
-    let mut memory = Run::new(model, pair.expected(), &pair.request()).restart_state().clone();
-    loop {
-        let mut run = Run::resume(model, stored(&memory)).unwrap();
-        let has_ended = run.advance(n_steps).is_some();
-        look(run.restart_state(), run.progress());
-        if has_ended {
-            return run.finish();
-        }
-        memory = run.restart_state().clone();
-    }
 }
 
 /// All bodies and requests, before the first force, in compression, in separation and in flight.
@@ -72,17 +45,20 @@ fn a_resumed_run_is_the_same_to_the_bit() {
             let model = pair.model();
             let whole = pair.run_model(&model);
             let last = whole.last_contact.unwrap();
-            let mut seen = [0; 4];
-            let mut force = 0.0;
-            let resumed = in_pieces(&pair, &model, 97, |memory, progress| {
-                let phase = match progress.contact_force {
-                    0.0 if memory.time() > last => 3,
+            let (mut seen, mut force) = ([0; 4], 0.0);
+            let mut run = Run::new(&model, pair.expected(), &pair.request());
+            while run.advance(97).is_none() {
+                let now = run.progress().contact_force;
+                let phase = match now {
+                    0.0 if run.restart_state().time() > last => 3,
                     0.0 => 0,
                     now => 1 + usize::from(now < force),
                 };
-                force = progress.contact_force;
                 seen[phase] += 1;
-            });
+                force = now;
+                run = Run::resume(&model, stored(run.restart_state())).unwrap();
+            }
+            let resumed = run.finish();
             assert_same(&whole, &resumed);
             assert!(seen[1..].iter().all(|&n| n >= 2), "{seen:?}");
         }
@@ -93,7 +69,7 @@ fn a_resumed_run_is_the_same_to_the_bit() {
 #[test]
 fn a_run_resumes_from_its_first_steps() {
     let times = SnapshotRequest::Times(vec![1e-6, 2.1e-6]);
-    let pair = Pair { gap: 1e-6, snapshots: times, ..small() };
+    let pair = Pair { gap: 1e-6, snapshots: times, ..Pair::small() };
     let model = pair.model();
     let whole = pair.run_model(&model);
     assert_eq!(whole.snapshots[0].time, 1e-6);
@@ -110,19 +86,19 @@ fn a_run_resumes_from_its_first_steps() {
 /// A history that is thinned, a wall that moves, a contact that stops the run or does not end.
 #[test]
 fn odd_runs_resume_alike() {
-    let wall = Pair { velocities: [1.5, 1.0], ..small() };
+    let wall = Pair { velocities: [1.5, 1.0], ..Pair::small() };
     let bodies = [BodyInput::Wall, wall.sphere(1)];
     let wall_model = wall.model_of(bodies);
-    let thinned = Pair { history_rows: 16, max_time: 150e-6, ..small() };
-    let outgrown = Pair { candidate_radius: 0.15e-3, ..small() };
-    let endless = Pair { max_time: 30e-6, ..small() };
+    let thinned = Pair { history_rows: 16, max_time: 150e-6, ..Pair::small() };
+    let outgrown = Pair { candidate_radius: 0.15e-3, ..Pair::small() };
+    let endless = Pair { max_time: 30e-6, ..Pair::small() };
     for (pair, model) in [
         (&wall, &wall_model),
         (&thinned, &thinned.model()),
         (&outgrown, &outgrown.model()),
         (&endless, &endless.model()),
     ] {
-        assert_same(&pair.run_model(model), &in_pieces(pair, model, 211, |_, _| ()));
+        assert_same(&pair.run_model(model), &pair.in_pieces(model, 211));
     }
     assert!(outgrown.run().outgrown_radius().is_some());
     assert!(matches!(endless.run().stop(), Some(Stop::NoSeparation { .. })));
@@ -151,7 +127,7 @@ fn one_step_at_a_time_is_many_at_once() {
 /// No step is no step.
 #[test]
 fn nothing_happens_by_itself() {
-    let (pair, model) = (small(), small().model());
+    let (pair, model) = (Pair::small(), Pair::small().model());
     let mut run = Run::new(&model, pair.expected(), &pair.request());
     let start = run.restart_state().clone();
     assert_eq!((start.request(), start.expected()), (&pair.request(), pair.expected()));
@@ -160,20 +136,20 @@ fn nothing_happens_by_itself() {
 }
 
 #[test]
-fn a_memory_of_another_model_is_refused() {
-    let pair = small();
+fn a_restart_state_of_another_model_is_refused() {
+    let pair = Pair::small();
     let model = pair.model();
     let mut run = Run::new(&model, pair.expected(), &pair.request());
     assert_eq!(run.advance(300), None);
     assert!(Run::resume(&model, run.restart_state().clone()).is_ok());
     let wall = pair.model_of([BodyInput::Wall, pair.sphere(1)]);
     for (other, what) in [
-        (Pair { element_size: 100e-6, ..small() }.model(), "a finer mesh"),
-        (Pair { step_factor: 0.8, ..small() }.model(), "a shorter step"),
-        (Pair { candidate_radius: 0.6e-3, ..small() }.model(), "a larger region of contact"),
-        (Pair { relaxation: Some(ActsOn::All), ..small() }.model(), "a relaxing body"),
-        (Pair { velocities: [0.6, 0.0], ..small() }.model(), "another speed"),
-        (Pair { gap: 1e-9, ..small() }.model(), "another gap"),
+        (Pair { element_size: 100e-6, ..Pair::small() }.model(), "a finer mesh"),
+        (Pair { step_factor: 0.8, ..Pair::small() }.model(), "a shorter step"),
+        (Pair { candidate_radius: 0.6e-3, ..Pair::small() }.model(), "a larger region of contact"),
+        (Pair { relaxation: Some(ActsOn::All), ..Pair::small() }.model(), "a relaxing body"),
+        (Pair { velocities: [0.6, 0.0], ..Pair::small() }.model(), "another speed"),
+        (Pair { gap: 1e-9, ..Pair::small() }.model(), "another gap"),
         (wall, "a wall"),
     ] {
         let refused = Run::resume(&other, run.restart_state().clone()).err();
@@ -183,8 +159,8 @@ fn a_memory_of_another_model_is_refused() {
 
 /// Changes that leave sizes, step and approach as they are, and still change results.
 #[test]
-fn a_memory_of_a_model_that_differs_in_little_is_refused() {
-    let pair = small();
+fn a_restart_state_of_a_slightly_different_model_is_refused() {
+    let pair = Pair::small();
     let soft =
         Settings { contact_stiffness: CONTACT_MODULUS, mass_scaling: 0.0, ..pair.settings() };
     // The mesh with the node that is nearest to a place moved outward, m.
@@ -230,7 +206,7 @@ impl Monitor for StopAt {
 #[test]
 fn an_interrupted_run_is_the_beginning_of_the_whole() {
     for snapshots in requests() {
-        let pair = Pair { snapshots, ..small() };
+        let pair = Pair { snapshots, ..Pair::small() };
         let model = pair.model();
         let whole = pair.run_model(&model);
         let n_half = quantities(&whole).steps / 2;
@@ -250,4 +226,86 @@ fn an_interrupted_run_is_the_beginning_of_the_whole() {
             assert_eq!((times.len(), run.warnings.len()), (2, 2));
         }
     }
+}
+
+/// Runs that part, outgrow their region of contact, or do not part in time.
+fn endings() -> [Pair; 3] {
+    let outgrown = Pair { candidate_radius: 0.15e-3, ..Pair::small() };
+    [Pair::small(), outgrown, Pair { max_time: 30e-6, ..Pair::small() }]
+}
+
+#[test]
+fn an_ended_run_does_no_step_more() {
+    let mut names = Vec::new();
+    for pair in endings() {
+        let model = pair.model();
+        let mut run = Run::new(&model, pair.expected(), &pair.request());
+        assert_eq!(run.advance(10), None);
+        assert_eq!(run.restart_state().ending(), None);
+        let ending = run.advance(u64::MAX).unwrap().clone();
+        let state = run.restart_state().clone();
+        assert_eq!(state.ending(), Some(&ending));
+        for n_steps in [0, 1, u64::MAX] {
+            assert_eq!(run.advance(n_steps), Some(&ending));
+            assert_eq!(run.restart_state(), &state);
+        }
+        // Nor does one that is resumed.
+        let mut resumed = Run::resume(&model, stored(&state)).unwrap();
+        assert_eq!(resumed.advance(100), Some(&ending));
+        assert_eq!(resumed.restart_state(), &state);
+        let whole = pair.run_model(&model);
+        assert_eq!(whole.ending, ending);
+        assert_eq!(run.finish(), whole);
+        assert_eq!(resumed.finish(), whole);
+        names.push(match ending {
+            Ending::Stopped(Stop::ContactBeyondCandidates { .. }) => "outgrown",
+            Ending::Stopped(Stop::NoSeparation { .. }) => "endless",
+            Ending::Parted => "parted",
+            other => panic!("{other:?}"),
+        });
+    }
+    assert_eq!(names, ["parted", "outgrown", "endless"]);
+}
+
+/// At the start, in contact and in the flight after it; with rows and without.
+#[test]
+fn a_run_that_is_left_is_interrupted_where_it_is() {
+    let pair = Pair::small();
+    let model = pair.model();
+    let n_steps = pair.run_model(&model).steps.unwrap();
+    for step in [0, 1, n_steps / 2, n_steps - 1] {
+        for request in [
+            pair.request(),
+            OutputRequest { history_rows: 7, ..pair.request() },
+            OutputRequest::quantities(),
+        ] {
+            let mut run = Run::new(&model, pair.expected(), &request);
+            assert_eq!(run.advance(step), None);
+            let time = run.restart_state().time();
+            let left = run.finish();
+            assert_eq!(left.ending, Ending::Stopped(Stop::Interrupted { time, step }));
+            assert_eq!([left.restitution, left.contact_time], [None; 2]);
+            assert!(left.energies.entries().count() > 2 && left.residual.is_some());
+            assert_eq!(left.history.is_empty(), request.history_rows == 0);
+            if let Some(row) = left.history.last() {
+                assert_eq!((row.time, row.energies), (time, left.energies));
+            }
+        }
+    }
+}
+
+/// A run that owns a share of its model can be handed on.
+#[test]
+fn a_run_can_hold_its_model() {
+    fn begun(pair: &Pair) -> Run<Arc<Model>> {
+        Run::new(Arc::new(pair.model()), pair.expected(), &pair.request())
+    }
+    fn finished(mut run: Run<Arc<Model>>) -> Collision {
+        while run.advance(64).is_none() {}
+        assert_eq!(run.model().n_elements(), Pair::small().model().n_elements());
+        run.finish()
+    }
+    let run = begun(&Pair::small());
+    let elsewhere = std::thread::spawn(|| finished(run)).join().unwrap();
+    assert_eq!(elsewhere, Pair::small().run());
 }

@@ -5,15 +5,10 @@ use fem_collision::{Collision, Expectation, OutputRequest, Stop};
 use fem_explicit::{Model, collide};
 use fem_material::ActsOn;
 
-/// About 1900 steps a contact and 270 elements.
-fn small() -> Pair {
-    Pair { element_size: 110e-6, candidate_radius: 0.45e-3, ..Pair::default() }
-}
-
 /// Elastic, and relaxing in shear.
 fn pairs() -> [Pair; 2] {
     let relaxation = Some(ActsOn::Shear);
-    [small(), Pair { relaxation, terms: &[(0.3, 2e-5), (0.5, 1e-3)], ..small() }]
+    [Pair::small(), Pair { relaxation, terms: &[(0.3, 2e-5), (0.5, 1e-3)], ..Pair::small() }]
 }
 
 /// All but the rows; numbers are printed so that they read back to the same bits.
@@ -50,10 +45,10 @@ fn quantities_are_those_of_a_run_with_history() {
 /// Runs that stop, and one that takes so much longer than expected that instants are given up.
 #[test]
 fn so_are_those_of_odd_runs() {
-    let outgrown = Pair { candidate_radius: 0.15e-3, ..small() };
-    let endless = Pair { max_time: 30e-6, ..small() };
+    let outgrown = Pair { candidate_radius: 0.15e-3, ..Pair::small() };
+    let endless = Pair { max_time: 30e-6, ..Pair::small() };
     for (pair, contact_time) in
-        [(&outgrown, HERTZ_TIME), (&endless, HERTZ_TIME), (&small(), HERTZ_TIME / 1e3)]
+        [(&outgrown, HERTZ_TIME), (&endless, HERTZ_TIME), (&Pair::small(), HERTZ_TIME / 1e3)]
     {
         let model = pair.model();
         let expected = Expectation { contact_time, ..pair.expected() };
@@ -80,7 +75,7 @@ fn so_are_those_of_odd_runs() {
 /// Rows between the instants that are observed lie on the same curves.
 #[test]
 fn more_rows_show_the_same_run() {
-    let pair = Pair { relaxation: Some(ActsOn::All), step_factor: 0.3, ..small() };
+    let pair = Pair { relaxation: Some(ActsOn::All), step_factor: 0.3, ..Pair::small() };
     let model = pair.model();
     let few = run_for(&model, pair.expected(), pair.request(), 1000).history;
     let many = run_for(&model, pair.expected(), pair.request(), 5000).history;

@@ -1,6 +1,6 @@
 //! Collisions of unlike bodies whose surfaces slip on each other.
 
-use fem_collision::{BodyInput, Collision};
+use fem_collision::BodyInput;
 use fem_explicit::{ContactMethod, Model, ModelError, Parts, Run, Settings};
 use fem_material::{ElasticModuli, Material};
 
@@ -32,17 +32,6 @@ fn model(pair: &Pair, material: Option<Material>, surface_slip: bool) -> Model {
     let parts = Parts { surface_slip, method: pair.method, ..Parts::default() };
     let settings = Settings { contact_stiffness: 60e9, ..pair.settings() };
     Model::with_parts(bodies, pair.approach(), &settings, parts).unwrap()
-}
-
-fn in_pieces(pair: &Pair, model: &Model) -> Collision {
-    let mut memory = Run::new(model, pair.expected(), &pair.request()).restart_state().clone();
-    loop {
-        let mut run = Run::resume(model, memory).unwrap();
-        if run.advance(4001).is_some() {
-            return run.finish();
-        }
-        memory = run.restart_state().clone();
-    }
 }
 
 /// In first order a spring in series with Hertz' contact (`fem-laws`, `surface_slip.rs`): with a of the
@@ -137,7 +126,7 @@ fn a_run_in_pieces_is_the_same() {
 fn is_the_same_in_pieces(pair: &Pair) {
     let (slipping, plain) = (model(pair, Some(soft()), true), model(pair, Some(soft()), false));
     let run = pair.run_model(&slipping);
-    assert_eq!(in_pieces(pair, &slipping), run);
+    assert_eq!(pair.in_pieces(&slipping, 4001), run);
     assert_ne!(pair.run_model(&plain), run);
     let memory = Run::new(&plain, pair.expected(), &pair.request()).restart_state().clone();
     assert_eq!(Run::resume(&slipping, memory).err(), Some(ModelError::ForeignRestartState));

@@ -55,21 +55,19 @@ impl Scene {
         HertzImpact::new(&self.pair(), self.speed).unwrap()
     }
 
-    /// Ting's impact, with the finite size of the spheres if asked for.
+    /// Returns Ting's impact, with the finite size of the spheres on request.
     pub fn ting(&self, finite_size: bool) -> Impact {
         let [first, second] = self.bodies.each_ref().map(|b| b.as_ref().map(|(_, m)| m));
         let ting = Ting::new(&self.pair(), PairRelaxation::new(first, second).unwrap());
-        let ting = if finite_size {
-            let [first, second] =
-                self.bodies.each_ref().map(|b| b.as_ref().map(|(d, m)| (0.5 * d, m)));
-            ting.with_finite_size(FiniteSize::new(first, second).unwrap())
-        } else {
-            ting
-        };
-        ting.impact(self.speed).unwrap()
+        if !finite_size {
+            return ting.impact(self.speed).unwrap();
+        }
+        let [first, second] = self.bodies.each_ref().map(|b| b.as_ref().map(|(d, m)| (0.5 * d, m)));
+        let finite_size = FiniteSize::new(first, second).unwrap();
+        ting.with_finite_size(finite_size).impact(self.speed).unwrap()
     }
 
-    /// Mesh of a body with so many elements across Hertz' contact radius.
+    /// Returns the mesh of a body with a number of elements per Hertz' contact radius.
     pub fn mesh(&self, side: usize, elements: f64) -> Option<SphereMesh> {
         let contact_radius = self.hertz().max_contact_radius();
         let (diameter, _) = self.bodies[side].as_ref()?;
@@ -95,7 +93,7 @@ impl Scene {
         PairSettings::new(1.5 * self.hertz().max_contact_radius())
     }
 
-    /// Condensed with so many elements across the contact, exact contact, no vibration.
+    /// Condenses the pair with a number of elements per contact radius, exact contact and no vibration.
     pub fn condensed(&self, elements: f64) -> CondensedPair {
         CondensedPair::new(self.inputs(elements), self.settings()).unwrap()
     }
@@ -105,12 +103,12 @@ impl Scene {
     }
 }
 
-/// A collision with the relaxations of the bodies' own materials.
+/// Computes the collision with the relaxations of the bodies' own materials.
 pub fn collide(pair: &CondensedPair, speed: f64) -> Collision {
     collide_in(pair, speed, CondensedPair::N_STEPS)
 }
 
-/// The same in so many steps.
+/// The same with a number of steps per contact time.
 pub fn collide_in(pair: &CondensedPair, speed: f64, n_steps: usize) -> Collision {
     pair.impact(speed, pair.relaxations(), n_steps).unwrap()
 }
@@ -122,3 +120,39 @@ pub fn assert_close(what: &str, found: f64, expected: f64, relative: f64) {
         "{what}: found {found:e}, expected {expected:e}, off by {error:.2e} of {relative:.0e}"
     );
 }
+
+/// Asserts that a restitution is an expected one, to an absolute tolerance.
+pub fn assert_restitution(what: &str, run: &Collision, expected: f64, tolerance: f64) {
+    let found = run.restitution.unwrap();
+    assert!((found - expected).abs() < tolerance, "{what}: {found} {expected}");
+}
+
+/// Asserts that energy balances to a share of the initial one.
+pub fn assert_balance(what: &str, run: &Collision, limit: f64) {
+    let residual = run.residual_relative.unwrap();
+    assert!(residual < limit, "{what}: {residual:e}");
+}
+
+/// Asserts that contact time, peak force and approach are expected ones, to relative tolerances.
+pub fn assert_pulse(run: &Collision, expected: [f64; 3], tolerances: [f64; 3]) {
+    let found = [run.contact_time, run.peak_force, run.max_approach].map(Option::unwrap);
+    for (k, what) in ["contact time", "peak force", "approach"].into_iter().enumerate() {
+        assert_close(what, found[k], expected[k], tolerances[k]);
+    }
+}
+
+/// Contact time, peak force and approach of Hertz' impact.
+pub fn hertz_pulse(hertz: &HertzImpact) -> [f64; 3] {
+    [hertz.contact_time(), hertz.peak_force(), hertz.max_approach()]
+}
+
+/// Contact time, peak force and approach of Ting's impact.
+pub fn ting_pulse(ting: &Impact) -> [f64; 3] {
+    [ting.contact_time.unwrap(), ting.peak_force, ting.max_approach]
+}
+
+/// Converged quasi-static finite elements of another code for the glass pair, h = 3.75 µm: contact time, peak force
+/// and approach, and restitutions.
+pub const CONVERGED: [f64; 3] = [62.818e-6, 107.99, 10.681e-6];
+pub const CONVERGED_RESTITUTIONS: [(ActsOn, f64); 2] =
+    [(ActsOn::All, 0.92763), (ActsOn::Shear, 0.94811)];

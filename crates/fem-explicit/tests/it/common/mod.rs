@@ -2,8 +2,10 @@
 
 #![allow(dead_code, reason = "each test file uses its share")]
 
+use std::sync::LazyLock;
+
 use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
-use fem_explicit::{ContactMethod, Model, Parts, Settings, collide};
+use fem_explicit::{ContactMethod, Model, Parts, RestartState, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side};
@@ -60,7 +62,20 @@ impl Default for Pair {
     }
 }
 
+/// The elastic collision of the coarse pair, with which several tests compare theirs.
+pub static COARSE_RUN: LazyLock<Collision> = LazyLock::new(|| Pair::coarse().run());
+
 impl Pair {
+    /// About three elements per contact radius.
+    pub fn coarse() -> Self {
+        Self { element_size: 80e-6, candidate_radius: 0.4e-3, ..Self::default() }
+    }
+
+    /// About 1900 steps per contact and 270 elements.
+    pub fn small() -> Self {
+        Self { element_size: 110e-6, candidate_radius: 0.45e-3, ..Self::default() }
+    }
+
     pub fn material(&self) -> Material {
         let [length, time, mass] = self.units;
         let pressure = mass / (length * time * time);
@@ -137,6 +152,22 @@ impl Pair {
     pub fn run_model(&self, model: &Model) -> Collision {
         collide(model, self.expected(), &self.request(), &mut ())
     }
+
+    /// Runs in pieces of some steps, each from the stored restart state of the one before.
+    pub fn in_pieces(&self, model: &Model, n_steps: u64) -> Collision {
+        let mut run = Run::new(model, self.expected(), &self.request());
+        while run.advance(n_steps).is_none() {
+            run = Run::resume(model, stored(run.restart_state())).unwrap();
+        }
+        run.finish()
+    }
+}
+
+/// Returns a restart state as another process would read it.
+pub fn stored(state: &RestartState) -> RestartState {
+    let read = postcard::from_bytes(&postcard::to_stdvec(state).unwrap()).unwrap();
+    assert_eq!(&read, state);
+    read
 }
 
 /// The quantities of a run that has ended, which are all there.
