@@ -1,16 +1,15 @@
-//! Effects: what a scene calls for, what a model has of it, and what follows.
+//! Effects: which of them a run computes, and the error of those that it neglects.
 //!
 //! ```text
-//! Effect  a file each: name, key in [effects], the number that decides   ─┐
-//! Answer  what a model has of it                                          ├─ decide ─ Verdict, warnings,
-//! Switch  what the case says: auto, on, off                              ─┘           or a refusal
+//! Relevance  does the scene call for the effect?       ─┐
+//! Support    does the model include the effect?         ├─ decide ─ EffectDecision, warnings or a rejection
+//! Switch     what does the case say: auto, on, off?    ─┘
 //! ```
 //!
-//! An effect acts where that is cheapest, some in two ways: it transforms the scene (a rigid partner,
-//! terms of relaxation that are folded), it is a decision of the plan (mass scaling), it is a part of
-//! a step (relaxation, gravity), or it goes on after the collision (gravity, from bounce to bounce). Mirror
-//! symmetry, too, transforms the scene, but has a way back to both bodies: methods with meshes call it
-//! themselves. [`EFFECTS`] lists them all, in the order in which results show them.
+//! An effect acts in the cheapest place. It transforms the scene (a rigid partner, folded relaxation terms), is a
+//! decision of the plan (mass scaling), is a part of the step (relaxation, gravity), or continues after the collision
+//! (gravity, from bounce to bounce). Mirror symmetry transforms the scene too, but the results of both bodies have to be
+//! restored, so methods with meshes call it themselves. [`EFFECTS`] lists all effects.
 
 mod bodies;
 mod effect;
@@ -68,8 +67,8 @@ impl EffectDecisions {
         self.verdicts.iter().any(|verdict| verdict.name == name && verdict.active)
     }
 
-    /// Replaces decisions by what the finished collision shows.
-    pub(crate) fn take_what_was_found(&mut self, scene: &Scene, collision: &Collision) {
+    /// Replaces decisions by those that the finished collision shows.
+    pub(crate) fn take_result(&mut self, scene: &Scene, collision: &Collision) {
         for verdict in &mut self.verdicts {
             let found = effect_named(verdict.name)
                 .and_then(|effect| effect.support_in_result(scene, collision));
@@ -100,8 +99,7 @@ pub fn decide(
         let Some(answer) = answer else { continue };
         let relevance = effect.relevance(scene, estimate).unwrap_or_default();
         let obeys = answer.obeys();
-        let (is_called_for, model_form_error) =
-            (relevance.is_called_for, relevance.warning.clone());
+        let (is_called_for, note) = (relevance.is_called_for, relevance.warning.clone());
         let is_inherent = matches!(answer, Support::Inherent { .. });
         let (active, reason, warnings) = answer.of(relevance, switch);
         if switch == Some(Switch::Off) && active {
@@ -120,8 +118,8 @@ pub fn decide(
         if switch == Some(Switch::Off) && obeys && is_called_for {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let mut warning = neglect_error.warning(effect.name());
-            if let Some(model_form_error) = model_form_error {
-                warning += &format!(": {model_form_error}");
+            if let Some(note) = note {
+                warning += &format!(": {note}");
             }
             decisions.warnings.push(warning);
         }

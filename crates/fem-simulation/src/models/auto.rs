@@ -56,7 +56,7 @@ fn with_chosen_model(scene: &Scene) -> Result<Scene, Rejection> {
     }
 }
 
-/// Expected error of a model, as magnitudes; `None` where it cannot be estimated.
+/// Expected error of a model, as magnitudes; `None` if it cannot be estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ExpectedError {
     /// Error of the restitution.
@@ -125,8 +125,8 @@ impl SelectedModel {
                 reason: match judged.unfit {
                     Some(why) if k == best => format!("{why}; it comes closest"),
                     Some(why) => why,
-                    None if k == best => "the cheapest that serves".to_string(),
-                    None => "serves, and costs more".to_string(),
+                    None if k == best => "the cheapest within the tolerance".to_string(),
+                    None => "within the tolerance, but more expensive".to_string(),
                 },
             })
             .collect();
@@ -257,7 +257,8 @@ impl Candidate {
         let impossible = disobeyed(scene, estimate, is_fem, support)
             .map(|name| format!("cannot obey the switch of {name}"))
             .or_else(|| {
-                (!has_fields && asks_for_fields(scene)).then(|| "has no fields to draw".to_string())
+                (!has_fields && asks_for_fields(scene))
+                    .then(|| "cannot write the requested snapshots or probes".to_string())
             })
             .or_else(|| {
                 let size = is_first_order.then(|| scene.finite_size().ok()).flatten()?;

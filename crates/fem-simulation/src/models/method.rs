@@ -1,7 +1,7 @@
 //! The interface of a method: the traits `Method` and `Model`, and a model's setup and cost.
 //!
-//! A [`Method`] turns a scene into a [`Model`], which computes its collision at any approach. There
-//! is one file a method in `models/`, where [`METHODS`](crate::METHODS) lists them.
+//! A [`Method`] turns a scene into a [`Model`], which computes its collision at any approach. [`METHODS`](crate::METHODS)
+//! lists all methods.
 
 use std::fmt;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::rejection::Rejection;
 
 /// A way to compute collisions.
 pub trait Method: Sync {
-    /// Its key under `[model]`.
+    /// Returns the method's key under `[model]`.
     fn name(&self) -> &'static str;
 
     /// Makes the model of a scene.
@@ -72,8 +72,7 @@ impl SharedModels {
     }
 }
 
-/// A scene ready to be computed, at any approach and from any number of threads: what a collision
-/// gives does not depend on those before it.
+/// A scene ready to be computed at any approach and from any number of threads. A collision does not depend on earlier ones.
 pub trait Model: fmt::Debug + Send + Sync {
     /// Returns the decisions on the scene.
     fn setup(&self) -> &ModelSetup;
@@ -82,9 +81,8 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// has no use for the effect.
     fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support>;
 
-    /// Computes a collision of the scene's bodies, as far as it gets; one that asks for what no run
-    /// keeps ([`OutputRequest::check`]) does not begin. Where the contact outgrows the region in which it is
-    /// looked for, the collision is computed again with a larger one.
+    /// Computes a collision of the scene's bodies to its end or failure. An invalid request ([`OutputRequest::check`]) stops
+    /// it at the start. If the contact outgrows the candidate region, the collision is computed again with a larger one.
     fn collide(
         &self,
         approach: &Approach,
@@ -92,29 +90,27 @@ pub trait Model: fmt::Debug + Send + Sync {
         monitor: &mut dyn Monitor,
     ) -> Collision;
 
-    /// Begins a collision that goes on in steps, as far as whoever has the course lets it go; `None` of
-    /// a model that computes all in one go.
+    /// Begins a collision that is computed in pieces; `None` for a model without steps.
     fn start(&self, _: &Approach, _: &OutputRequest) -> Option<Box<dyn Stepper>> {
         None
     }
 
-    /// Goes on from what a course of the same model knew and was asked for, to the same bits.
+    /// Continues a collision of the same model from a restart state, to the same bits.
     ///
     /// # Errors
-    /// A memory of another model, or a model that goes on from none.
+    /// A restart state of another model, or a model without restart states.
     fn resume(&self, _: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        let message = format!("{} cannot go on from a restart state", self.setup().description);
-        Err(Rejection::new("model", message).with_help("compute the collision anew"))
+        let message = format!("{} cannot continue from a restart state", self.setup().description);
+        Err(Rejection::new("model", message).with_help("compute the collision from its start"))
     }
 
-    /// The contact of the scene's bodies under a force (N) that stays, all having relaxed; `None` of
-    /// bodies that flow under it for ever.
+    /// Returns the contact of the relaxed bodies under a constant force (N); `None` if the bodies flow without limit.
     ///
     /// # Errors
     /// A contact that the model cannot compute.
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection>;
 
-    /// The meshes; a wall has none, nor has a model without elements.
+    /// Returns the meshes; `None` for a wall, or in a model without elements.
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         [None, None]
     }
@@ -136,15 +132,15 @@ pub(crate) fn begun(
 /// The decisions on a scene before its collision is computed.
 #[derive(Clone, Debug)]
 pub struct ModelSetup {
-    /// In a few words: what computes the collision.
+    /// Short description of the model.
     pub description: String,
-    /// How the scene's bodies meet.
+    /// Approach of the scene's bodies.
     pub approach: Approach,
     /// Output request of the run.
     pub request: OutputRequest,
     /// Closed-form estimate.
     pub estimate: Estimate,
-    /// Which effects are on, and why.
+    /// Decisions on the effects, with their reasons.
     pub decisions: EffectDecisions,
     /// Warnings about keys that the case sets and the model does not read.
     pub unread: Vec<String>,
@@ -166,9 +162,9 @@ impl ModelSetup {
 pub struct ElementSetup {
     /// Mesh, contact and time step.
     pub plan: Plan,
-    /// Whether springs keep the surfaces apart.
+    /// Whether the contact has penalty springs.
     pub has_springs: bool,
-    /// Mass that is moved for a longer step, over that of the lighter body: the larger one of both bodies'.
+    /// Larger moved mass of both bodies over the lighter body's mass.
     pub added_share: f64,
     /// Advice against contact noise.
     pub noise_advice: ContactNoiseAdvice,
@@ -183,11 +179,11 @@ pub enum Cost {
         elements: u64,
         /// Nodes of both bodies.
         nodes: u64,
-        /// Duration until separation.
+        /// Number of steps until separation.
         steps: u64,
         /// Elements times steps.
         element_updates: u64,
-        /// On one core of 3 GHz, s; an order of magnitude.
+        /// Order of magnitude of the time on one core of 3 GHz, in seconds.
         seconds: f64,
         /// Memory of the run, bytes.
         memory: u64,
@@ -202,23 +198,23 @@ pub enum Cost {
     Factors {
         /// Elements of both bodies.
         elements: u64,
-        /// Points that can touch.
+        /// Number of contact points.
         contact_points: u64,
-        /// Until the contact ends.
+        /// Number of steps until the contact ends.
         steps: u64,
-        /// Bytes of the factors.
+        /// Memory of the factors, bytes.
         factor_bytes: u64,
         /// Memory of the run, bytes.
         memory: u64,
     },
-    /// Milliseconds, without any mesh.
+    /// The run has no mesh and takes milliseconds.
     Little {
-        /// The force law, if it is one of the overlap and its rate.
+        /// The force law, if it is a function of the overlap and its rate.
         force: Option<ForceLaw>,
     },
 }
 
-/// F = K ξ^γ + C ξⁿ ξ̇, SI.
+/// The force law F = K ξ^γ + C ξⁿ ξ̇ in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceLaw {
     /// Stiffness coefficient K.

@@ -17,7 +17,7 @@ use crate::models::stepper::{RestartState, Stepper, stopped};
 use crate::plan::{Plan, candidate_radius};
 use crate::rejection::Rejection;
 
-/// The whole of a scene of which half is computed.
+/// The model of a whole scene of which half is computed.
 #[derive(Debug)]
 pub(super) struct Mirrored<M> {
     half: M,
@@ -25,7 +25,7 @@ pub(super) struct Mirrored<M> {
     image: Option<SphereMesh>,
 }
 
-/// The plan of the half of a scene: meshes, snapshots and limits of the whole.
+/// Returns the plan of half of a scene, with the meshes, snapshots and limits of the whole.
 pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Rejection> {
     let Plan { estimate, contact_stiffness, gap, .. } = Plan::of(half)?;
     let candidate_radius = candidate_radius(&estimate, whole.contact_element_size);
@@ -88,7 +88,7 @@ impl<M: Model> Model for Mirrored<M> {
         match half_of(approach) {
             Ok(half) => {
                 let half = self.half.start(&half, &in_half(request))?;
-                Some(Box::new(MirroredCourse { half, whole }))
+                Some(Box::new(MirroredStepper { half, whole }))
             }
             Err(stop) => Some(stopped(*approach, stop)),
         }
@@ -98,10 +98,10 @@ impl<M: Model> Model for Mirrored<M> {
         let whole = memory.met;
         let met = half_of(&whole).map_err(|stop| Rejection::new("body", stop.to_string()))?;
         let half = self.half.resume(RestartState { met, ..memory })?;
-        Ok(Box::new(MirroredCourse { half, whole: Whole::of(&whole) }))
+        Ok(Box::new(MirroredStepper { half, whole: Whole::of(&whole) }))
     }
 
-    /// No gravity leaves both bodies alike.
+    /// Gravity makes bodies differ, so it never meets mirror symmetry.
     fn static_contact(&self, _: f64) -> Result<Option<StaticContact>, Rejection> {
         Ok(None)
     }
@@ -120,20 +120,20 @@ fn in_half(request: &OutputRequest) -> OutputRequest {
     request
 }
 
-/// How the lower body meets the plane between both.
+/// Returns the approach of the lower body to the plane between both.
 fn half_of(approach: &Approach) -> Result<Approach, Stop> {
-    // Half of a speed that is positive and finite is so, or has vanished.
+    // Half of a positive speed may underflow to zero.
     Approach::new([0.5 * approach.speed(), 0.0], 0.5 * approach.gap())
         .map_err(|error| Stop::NotMade(error.to_string()))
 }
 
-/// The whole of a collision of which half is under way.
-struct MirroredCourse {
+/// A collision under way of which half is computed.
+struct MirroredStepper {
     half: Box<dyn Stepper>,
     whole: Whole,
 }
 
-impl Stepper for MirroredCourse {
+impl Stepper for MirroredStepper {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         self.half.advance(monitor)
     }
@@ -151,7 +151,7 @@ impl Stepper for MirroredCourse {
     }
 }
 
-/// From the half to the whole.
+/// The transformation of the half's results to those of both bodies.
 struct Whole {
     approach: Approach,
     /// Velocity of the mass centre along +y, m/s.
@@ -166,7 +166,7 @@ impl Whole {
 
     fn collision(&self, half: Collision) -> Collision {
         let body = half.bodies[0];
-        // Of both bodies in the frame in which the half was computed, 2 m V²/2.
+        // Kinetic energy of the mass centre of both bodies, 2 m V²/2.
         let of_centre = body.mass.unwrap_or(0.0) * self.velocity * self.velocity;
         let after = |side: usize| BodyResult {
             velocity_after: body.velocity_after.map(|v| self.velocities(v)[side]),
@@ -191,7 +191,7 @@ impl Whole {
         }
     }
 
-    /// Velocities of both bodies of that of the lower one relative to the plane, m/s.
+    /// Returns the velocities of both bodies from that of the lower one relative to the plane, m/s.
     fn velocities(&self, lower: f64) -> [f64; 2] {
         [self.velocity + lower, self.velocity - lower]
     }
@@ -220,7 +220,7 @@ impl Whole {
             stress: lower.stress.iter().map(|&[rr, yy, tt, ry]| [rr, yy, tt, sign * ry]).collect(),
         };
         let carried = [half.carried[0] + shift, shift - half.carried[0]];
-        // The plane between both does not move along r, the image as the body itself.
+        // The plane does not move along r, and both bodies move alike.
         let place = |place: &ContactProfilePoint| ContactProfilePoint {
             gap: 2.0 * place.gap,
             radial: [place.radial[0]; 2],

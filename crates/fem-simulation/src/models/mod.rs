@@ -1,4 +1,4 @@
-//! The methods, one file or folder each, and which of them a scene chooses.
+//! The methods, one file or folder each, and the method that a scene uses.
 
 mod auto;
 mod bouncing;
@@ -30,7 +30,7 @@ pub use reduced::{HertzMethod, LawMethod, Reduced, TingMethod};
 pub const METHODS: [&dyn Method; 6] =
     [&HertzMethod, &LawMethod, &TingMethod, &CondensedMethod, &ExplicitMethod, &AutoMethod];
 
-/// The method that a scene chooses.
+/// Returns the method of a scene.
 pub fn method_of(scene: &Scene) -> &'static dyn Method {
     match scene.model() {
         ModelChoice::Hertz { .. } => &HertzMethod,
@@ -42,11 +42,10 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
     }
 }
 
-/// Makes the model of a scene, of which effects may leave less to compute; with gravity, of all its
-/// contacts.
+/// Makes the model of a scene after the transformations by effects; with gravity, the model of all contacts.
 ///
 /// # Errors
-/// What effects and the scene's method refuse.
+/// A scene that an effect or the method rejects.
 pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
     let ComputedScene { scene: computed, answers } = ComputedScene::of(scene)?;
     let computed = SelectedModel::of(&computed)?.scene;
@@ -61,10 +60,10 @@ pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, 
     }
 }
 
-/// The model that a scene chooses, which models were considered, and what is to be known of it.
+/// Returns the automatically chosen model, if the scene leaves the choice open.
 ///
 /// # Errors
-/// What effects refuse; a scene whose closed-form estimates are not finite.
+/// A scene that an effect rejects, or whose closed-form estimates are not finite.
 pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
     match scene.model() {
         ModelChoice::Auto => SelectedModel::of(&ComputedScene::of(scene)?.scene).map(Some),
@@ -72,7 +71,7 @@ pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
     }
 }
 
-/// Element updates to come, of all contacts; see [`Method::price`].
+/// Returns the number of element updates of all contacts ([`Method::price`]).
 ///
 /// # Errors
 /// As [`Method::price`].
@@ -82,7 +81,7 @@ pub(crate) fn price_of(scene: &Scene) -> Result<u64, Rejection> {
     Ok(one.saturating_mul(contacts))
 }
 
-/// The case as written with every default of its method filled in.
+/// Returns the case as written with every default of its method filled in.
 ///
 /// # Errors
 /// As [`Method::resolve`].

@@ -1,35 +1,33 @@
-//! Where explicit bodies are computed: in the frame of their mass centre, from first touch on.
+//! Explicit bodies are computed in the frame of their mass centre, from first touch on.
 //!
-//! Nothing in the mechanics of a collision knows where the origin is or how fast it moves, and the
-//! arithmetic should not either: strains are differences of displacements, and of 10⁶ m of free flight
-//! or of a common speed of 10⁹ m/s rounding leaves none. With V the velocity of the mass centre and t₀ the
-//! time of first touch,
+//! Strains are differences of displacements, which rounding would destroy after 10⁶ m of free flight or at a common speed of
+//! 10⁹ m/s. With the velocity V of the mass centre and the time t₀ of first touch,
 //!
 //! ```math
 //! t = t_0 + t', \qquad v = v' + V, \qquad
 //! E = E' + V \sum_i m_i v_i' + \tfrac12 V^2 \sum_i m_i .
 //! ```
 //!
-//! A wall has an infinite mass and is at rest here; its work is V times the momentum that it gives.
+//! A wall has an infinite mass and is at rest in this frame. Its work is V times the momentum that it transfers.
 
 use fem_collision::{
     Account, Approach, ApproachError, BodyResult, Collision, Ending, EnergyLedger, HistoryRow,
     OutputRequest, Progress, Snapshot, SnapshotRequest,
 };
 
-/// Two ways to look at the same bodies.
+/// The transformation between the frame of the case and that of the mass centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct OwnFrame {
-    /// How the bodies meet in the case.
+    /// Approach in the case.
     met: Approach,
-    /// The same in the frame of the mass centre, touching at time 0.
+    /// Approach in the frame of the mass centre, with first touch at time 0.
     own: Approach,
-    /// Of the mass centre along +y, m/s.
+    /// Velocity of the mass centre along +y, m/s.
     velocity: f64,
 }
 
 impl OwnFrame {
-    /// Of bodies with these masses, kg; `None` of a wall, a half-space and what is held.
+    /// Returns the frame of bodies with these masses, kg; `None` for a wall, a half-space and a held body.
     ///
     /// # Errors
     /// Speeds that leave the range of f64.
@@ -39,17 +37,17 @@ impl OwnFrame {
         Ok(Self { met: *met, own, velocity })
     }
 
-    /// How the bodies meet in the frame of the mass centre.
+    /// Returns the approach in the frame of the mass centre.
     pub fn own(&self) -> &Approach {
         &self.own
     }
 
-    /// How the bodies meet in the case.
+    /// Returns the approach in the case.
     pub fn met(&self) -> &Approach {
         &self.met
     }
 
-    /// What is asked for, at times since first touch.
+    /// Returns the output request with times since first touch.
     pub fn request(&self, request: &OutputRequest) -> OutputRequest {
         let mut request = request.clone();
         if let SnapshotRequest::Times(times) = &mut request.snapshots {
@@ -58,12 +56,12 @@ impl OwnFrame {
         request
     }
 
-    /// How far a run is, in the time of the case.
+    /// Returns the progress of a run in the time of the case.
     pub fn progress(&self, own: Progress) -> Progress {
         Progress { time: self.delay() + own.time, ..own }
     }
 
-    /// What came out, as the case sees it.
+    /// Returns the collision in the frame of the case.
     pub fn collision(&self, own: Collision) -> Collision {
         if self.met == self.own {
             return own;
@@ -73,7 +71,7 @@ impl OwnFrame {
         let scale = |approach: &Approach| momentum_scale(approach, masses);
         let initial =
             own.initial_energy.map(|energy| energy + self.gained(masses, self.own.velocities()));
-        // After the contact the bodies keep theirs; where a run knows none, the balance is the same with any.
+        // Bodies keep their velocities after the contact. Where they are unknown the balance is the same with any.
         let after = own.bodies.map(|body| body.velocity_after);
         let [lower, upper] = self.own.velocities();
         let last = own.history.last().map(|row| row.velocity);
@@ -107,20 +105,19 @@ impl OwnFrame {
         }
     }
 
-    /// Time of first touch, s.
+    /// Returns the time of first touch, s.
     fn delay(&self) -> f64 {
         self.met.first_touch()
     }
 
-    /// What the bodies' kinetic energy is more in the case's frame at velocities of this one, J.
+    /// Returns the additional kinetic energy in the frame of the case at velocities in this frame, J.
     fn gained(&self, masses: [Option<f64>; 2], velocities: [f64; 2]) -> f64 {
         let bodies = masses.into_iter().zip(velocities);
         let moving = bodies.filter_map(|(mass, v)| Some(mass? * (v + 0.5 * self.velocity)));
         self.velocity * moving.sum::<f64>()
     }
 
-    /// Work of a body that keeps its velocity on the other one, which has reached this velocity of this
-    /// frame, J.
+    /// Returns the work of a wall on the other body, which has reached this velocity in this frame, J.
     fn wall_work(&self, masses: [Option<f64>; 2], velocities: [f64; 2]) -> f64 {
         let before = self.own.velocities();
         match masses {
@@ -160,7 +157,7 @@ impl OwnFrame {
     }
 }
 
-/// Σ m|v| at the start, N s; that of the relative motion if a wall strikes a body at rest.
+/// Returns Σ m|v| at the start, N s, or that of the relative motion if a wall strikes a body at rest.
 fn momentum_scale(approach: &Approach, masses: [Option<f64>; 2]) -> f64 {
     let masses = masses.map(|mass| mass.unwrap_or(0.0));
     let scale: f64 = masses.iter().zip(approach.velocities()).map(|(m, v)| m * v.abs()).sum();

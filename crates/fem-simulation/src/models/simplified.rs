@@ -1,5 +1,5 @@
-//! A scene that effects have simplified, computed by the model of what they left of it: the collision
-//! is the model's, what is decided and said is of the scene as it is given.
+//! The model of a scene that effects have transformed: the collision is that of the transformed scene, and decisions and
+//! warnings belong to the given scene.
 
 use fem_case::Scene;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
@@ -20,10 +20,10 @@ pub(super) struct Simplified {
 }
 
 impl Simplified {
-    /// Of the model of what effects left of a scene, and what they say of it.
+    /// Makes the model of a given scene from that of the transformed scene and the answers of the effects.
     ///
     /// # Errors
-    /// An effect that the case switches and the model cannot obey.
+    /// A switch of an effect that the model cannot obey.
     pub fn new(
         model: Box<dyn Model>,
         given: &Scene,
@@ -38,7 +38,7 @@ impl Simplified {
     }
 }
 
-/// What the effects that simplified the scene say, and else what the model has.
+/// Returns the answer of the effects that transformed the scene, or else the model's support.
 fn support(
     effect: &dyn Effect,
     answers: &[(&'static str, Support)],

@@ -79,7 +79,7 @@ pub struct RestartState {
     pub(crate) met: Approach,
     /// Refinement: elements per length over those of the first plan.
     pub(crate) refinement: f64,
-    /// Coarser meshes of earlier computations.
+    /// Coarser meshes of earlier computations of the collision.
     pub(crate) levels: Vec<RefinementLevel>,
 }
 

@@ -108,7 +108,8 @@ impl Simulation {
         let open = SelectedModel::of(&scene.clone().with_model(ModelChoice::Auto)).ok()?;
         // Condensed bodies have fields to draw, as explicit elements do.
         let serves = |it: &&ModelCandidate| {
-            it.model.starts_with("condensed") && (it.chosen || it.reason.starts_with("serves"))
+            it.model.starts_with("condensed")
+                && (it.chosen || it.reason.starts_with("within the tolerance"))
         };
         let other = open.considered.iter().find(serves).filter(|_| open.warning.is_none())?;
         Some(format!(

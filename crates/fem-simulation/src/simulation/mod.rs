@@ -393,7 +393,7 @@ impl Simulation {
             decide(self.case.scene(), &estimate, support).ok()
         });
         let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
-        decisions.take_what_was_found(self.case.scene(), collision);
+        decisions.take_result(self.case.scene(), collision);
         decisions
     }
 }

@@ -91,7 +91,7 @@ fn table() -> Vec<Row> {
             scene(RELAXING, pair, "0.5 m/s"),
             &["output.snapshots=[\"maximum\"]"],
             "condensed = {}",
-            "has no fields to draw",
+            "cannot write the requested snapshots",
             0.01,
         ),
         // What relaxes changes the force by 3 %, the restitution by 5 %.

@@ -311,7 +311,7 @@ fn what_the_model_leaves_out_is_said() {
     for model in ["model.hertz={}", "model.law.falcon.c=300"] {
         let (effects, warnings) = said(&[model]);
         assert!(effects.iter().any(|e| e.name == "viscoelasticity" && !e.active));
-        assert!(warnings.contains("does not know it"), "{warnings}");
+        assert!(warnings.contains("does not include it"), "{warnings}");
     }
     let (effects, warnings) = said(&["model.ting={}"]);
     assert!(effects.iter().any(|e| e.name == "viscoelasticity" && e.active));

@@ -251,7 +251,7 @@ fn relaxation_switched_off_is_the_elastic_case() {
         assert_eq!(off.run(&mut ()), run(&elastic, &[model]), "{model}");
         let warnings = off.setup().warnings().join("\n");
         assert!(warnings.contains("viscoelasticity is called for, but switched off"), "{warnings}");
-        assert!(warnings.contains("leaves out about 0.07"), "{warnings}");
+        assert!(warnings.contains("neglects about 0.07"), "{warnings}");
         // It is what the resolved case says again.
         let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();
         assert_eq!(again.run(&mut ()), off.run(&mut ()), "{model}");

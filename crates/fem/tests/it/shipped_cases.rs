@@ -65,7 +65,7 @@ const ROWS: [Row; 14] = [
         case: "ball_on_block",
         model: "fem",
         active: &["partner waves"],
-        why: &[("partner waves", "diameter of block = 0.00")],
+        why: &[("partner waves", "cross block 0.00 times")],
         warnings: &[],
     },
     Row {
@@ -100,8 +100,8 @@ const ROWS: [Row; 14] = [
         model: "condensed",
         active: &["viscoelasticity"],
         why: &[
-            ("viscoelasticity", "3 of 10 terms followed in time"),
-            ("viscoelasticity", "2 over before the contact and 5 too slow for it"),
+            ("viscoelasticity", "3 of 10 terms are integrated"),
+            ("viscoelasticity", "2 faster and 5 slower than the contact"),
         ],
         warnings: &[],
     },

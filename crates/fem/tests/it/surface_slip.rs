@@ -125,7 +125,7 @@ fn like_bodies_have_none() {
     for model in ["fem", "condensed", "ting"] {
         let [plain, off] = ["effects={}", OFF].map(|switch| coarse::simulation(model, &[switch]));
         let own = verdict(&plain);
-        assert!(!own.active && own.reason.contains("move alike"), "{}", own.reason);
+        assert!(!own.active && own.reason.contains("do not slip"), "{}", own.reason);
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
         let wall = "body.0={ name = 'block', wall = {} }";
         let [plain, off] = [ON, OFF].map(|switch| {

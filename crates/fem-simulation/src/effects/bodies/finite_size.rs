@@ -1,4 +1,4 @@
-//! A sphere is stiffer than the half-space of Hertz: its own compliance, in series, to first order.
+//! A sphere deforms otherwise than the half-space of Hertz: its own compliance is in series, to first order.
 
 use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
@@ -12,18 +12,18 @@ use crate::effects::effect::{Effect, FiniteSizeEffect, Vibration};
 use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
 use crate::estimate::Estimate;
 
-/// Second order of the contact's size over the spheres', of contact time and peak force: Ting's with
-/// finite size is within 0.02 % of finite elements at a/R* = 0.05.
+/// Coefficient of (a/R*)² in the errors of contact time and peak force: Ting's model with finite size agrees with finite
+/// elements to 0.02 % at a/R* = 0.05.
 const SECOND_ORDER: f64 = 0.1;
 
+/// Relative error of the half-space pressure over strain times 1 − 2ν.
 const PRESSURE: f64 = 0.15;
 
-/// What the spheres' own compliance adds to Hertz' approach, over it, up to which its first order is
-/// right to 1 % in contact time and force, and half-spaces without it to 5 %. Materials that are harder
-/// to shear than to compress go beyond, at Poisson's ratios below −0.9.
+/// Largest share of the spheres' own compliance in Hertz' approach up to which its first order has errors of 1 % in contact
+/// time and force, and half-spaces without it errors of 5 %. Poisson's ratios below −0.9 exceed it.
 const LARGEST_SHARE: f64 = 0.1;
 
-/// The same up to which what it changes is told at all: spheres of up to 0.18 were compared.
+/// Largest share up to which the error is estimated; spheres up to 0.18 were compared.
 const LARGEST_KNOWN: f64 = 0.25;
 
 impl FiniteSizeEffect {
@@ -36,12 +36,12 @@ impl FiniteSizeEffect {
     ) -> Support {
         let share = Self::share(scene, estimate).unwrap_or_default();
         let warning = (share > LARGEST_SHARE).then(|| {
-            let model_form_error = match is_there {
-                true => "its first order, which is all that this model has, is in doubt",
-                false => "half-spaces, which this model takes the spheres for, are in doubt",
+            let inaccurate = match is_there {
+                true => "the first order, which this model uses, is not accurate",
+                false => "half-spaces, which this model uses, are not accurate",
             };
             format!(
-                "the spheres' own compliance adds {} to Hertz' approach; above {} {model_form_error}: use model {}",
+                "the spheres' own compliance adds {} to Hertz' approach; above {} {inaccurate}: use model {}",
                 percent(share),
                 percent(LARGEST_SHARE),
                 Vibration::models_that_serve(estimate)
@@ -50,10 +50,10 @@ impl FiniteSizeEffect {
         Support::is(is_there, reason).warning(warning)
     }
 
-    /// What it changes where its first order does not go through the collision, as of contacts that relaxation makes
-    /// wide: a share s of the approach makes a contact stiffer or softer by (1 − s)^(−3/2), of which contact time and
-    /// force follow with the power 2/5. Spheres that relax to 3 % and less are 5 to 10 % off without it where this
-    /// has 6 to 12 %. What relaxation takes of the restitution changes with the time it has.
+    /// Returns the error of neglecting the effect for contacts that relaxation makes too wide for its first order: a share
+    /// s of the approach changes the stiffness by (1 − s)^(−3/2), and contact time and force follow with the power 2/5.
+    /// For spheres that relax to 3 % and less it gives 6 to 12 % where 5 to 10 % were computed. The loss of restitution
+    /// by relaxation changes with the contact time.
     fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let share = Self::share(scene, estimate).filter(|share| *share < LARGEST_KNOWN)?;
         let change = 0.6 * share;
@@ -90,7 +90,7 @@ impl Effect for FiniteSizeEffect {
         }
     }
 
-    /// Where it is a term it is its first order; of the pressure no model of half-spaces has it.
+    /// A model with the first order has the error of the second. The pressure has the error of half-spaces in any case.
     fn model_form_error(
         &self,
         scene: &Scene,

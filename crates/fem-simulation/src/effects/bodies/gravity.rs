@@ -1,16 +1,15 @@
 //! Weight of the bodies.
 //!
-//! Within a contact it is small where the weight is small beside the contact force and the ball falls
-//! slowly over the approach: two numbers decide,
+//! Within a contact the weight matters little if it is small beside the contact force and a fall through the approach is
+//! slow beside the impact:
 //!
 //! ```math
 //! \frac{m g}{F_{\max}}, \qquad \frac{\sqrt{g\,\delta_{\max}}}{v},
 //! ```
 //!
-//! with Hertz' largest force and approach. Whatever they are, it is on where the case has it: it brings
-//! the ball back. To first order in the square x of the second, Hertz' contact becomes longer by 0.375 x and
-//! its largest force larger by 1.2 x: the first from the integral of the motion, the second from
-//! the balance of energy at the largest approach.
+//! with Hertz' largest force and approach. Gravity is on if the case has it, since it brings the ball back. To first order
+//! in the square x of the second number, contact time grows by the share 0.375 x (integral of the motion) and peak force by
+//! 1.2 x (energy at the largest approach).
 
 use fem_case::Scene;
 use fem_case::engineering::number;
@@ -23,7 +22,7 @@ use crate::estimate::Estimate;
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.
 const TIME_SHARE: f64 = 0.375;
 const FORCE_SHARE: f64 = 1.2;
-/// The first number and the square of the second below this: the contact is as without gravity, to rounding of what is printed.
+/// Largest first number and square of the second at which gravity does not change the printed results of the contact.
 const NEGLIGIBLE: f64 = 1e-6;
 
 impl Effect for Gravity {
@@ -39,11 +38,11 @@ impl Effect for Gravity {
         let fall = (gravity.acceleration * hertz.max_approach()).sqrt() / hertz.approach_speed();
         let ratios = [weight, fall].map(|ratio| number(ratio, 2));
         let mut number = format!(
-            "the weight is {} of the peak force; a fall through the approach makes {} of the speed",
+            "weight / peak force = {}; speed of a fall through the approach / approach speed = {}",
             ratios[0], ratios[1]
         );
         if weight.max(fall * fall) < NEGLIGIBLE {
-            number += "; in the contact it changes nothing, the flight needs it";
+            number += "; it acts in flight and does not change the contact";
         }
         Some(Relevance { is_called_for: true, number, ..Relevance::default() })
     }

@@ -1,9 +1,8 @@
-//! Waves that a contact sends into a body so large that they do not come back within the contact: they
-//! take energy along. Elements have them; Ting's model and condensed bodies have the loss as a term of their
-//! own; closed forms and laws have not.
+//! Waves radiated into a body so large that they do not return within the contact, which takes energy. Elements include
+//! them; Ting's model and condensed bodies have a radiation term; closed forms and contact laws lack them.
 //!
-//! Decided by the contact time over the time that shear waves take through a body, T c_s/D. The loss is
-//! that of a half-space ([`radiated_share`]).
+//! Decided by the number of times that shear waves cross the body during the contact, T c_s/D. The loss is that of a
+//! half-space ([`radiated_share`]).
 
 use fem_case::engineering::number;
 use fem_case::{Body, ModelChoice, Scene, Switch};
@@ -21,36 +20,34 @@ use crate::effects::ting_prediction::{TingPrediction, relaxes};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{EffectiveModuli, left_at};
 
-/// Above this T c_s/D waves come back in time and give back what they took.
+/// Above this T c_s/D waves return in time and give their energy back.
 const RETURN_LIMIT: f64 = 2.0;
-/// Below this T c_s/D nothing comes back in time: pressure waves, the first, take c_s/c_p of twice the
-/// passage, 1.15 at ν = 1/4. Ting's model with what a half-space takes is within 4 % of the loss of elements
-/// below 0.6, and within 12 % at 0.93.
+/// Below this T c_s/D no wave returns in time: the first ones, pressure waves, need c_s/c_p of twice the passage, 1.15 at
+/// ν = 1/4. The loss of Ting's model with radiation differs from that of elements by 4 % below 0.6, and by 12 % at 0.93.
 const RADIATION_LIMIT: f64 = 1.0;
-/// Above this T c_s/D twelve modes of a body carry its waves: condensed bodies with them lose what elements
-/// do within 5 % on spheres eight and ten times as large at 3 m/s, at 1.2 and 0.9.
+/// Above this T c_s/D twelve modes of a body resolve its waves: the loss of condensed bodies with them differs from that of
+/// elements by 5 % on spheres eight and ten times as large at 3 m/s, where it is 1.2 and 0.9.
 const RESOLVED_BY_MODES: f64 = 0.8;
-/// Share of the loss that a radiating body's own motion may be where it moves at once.
+/// Largest energy of a radiating body's own motion over the loss at which the condensed model may move it as a whole.
 const OWN_MOTION: f64 = 0.1;
-/// Loss of restitution by waves that is worth a warning.
+/// Loss of restitution by waves above which a warning is given.
 const SMALL_LOSS: f64 = 1e-4;
 
 /// Relative error of a radiation term for elastic bodies.
 const RADIATION_ERROR: f64 = 0.15;
-/// Terms are smoothed over some of the times that waves take across the contact, for the stiffness that bodies have
-/// at once: of those that relax to the share κ of it they take too little by this times the share of the energy
-/// that waves take, over κ, squared. Balls on blocks that keep 0.1: 0.8 of what Ting's model takes and 1.0 of what
-/// condensed bodies do are missing, where elements lose 0.027 of the restitution.
+/// Coefficient of the loss that radiation terms miss for relaxing bodies. The terms are smoothed over the times that waves
+/// take across the contact at the instantaneous stiffness; bodies that relax to the share κ of it lose more by the square
+/// of this times the radiated share of the energy over κ. Balls on blocks that keep 0.1: 0.8 of the loss of Ting's model
+/// and 1.0 of that of condensed bodies are missing, where elements lose 0.027 of the restitution.
 const SMOOTHED: f64 = 2.0;
-/// Change of contact time and peak force over that of the restitution: 0.1 of balls on a half-space of their
-/// own material at a/R* = 0.7.
+/// Relative change of contact time and peak force over the change of restitution; 0.1 was found for balls on a half-space of
+/// their own material at a/R* = 0.7.
 const SHARE_OF_LOSS: f64 = 0.2;
 
 impl PartnerWaves {
-    /// The materials of bodies that radiate, of a model that has their loss as a term: those whose waves do
-    /// not come back within the contact, as long as the loss is a correction; and the largest body in
-    /// any case where the case forces it. As they are to waves of the contact: elastic, with what is left of their
-    /// moduli in it.
+    /// Returns the materials of the bodies that radiate in a model with a radiation term: bodies whose waves do not return
+    /// within the contact, as long as the loss is a correction, or the largest body if the case forces the effect. The
+    /// materials are elastic, with the effective moduli of the contact.
     pub(crate) fn radiating(scene: &Scene, estimate: &Estimate) -> [Option<Material>; 2] {
         match scene.effects().partner_waves {
             Some(Switch::Off) => [None, None],
@@ -70,9 +67,9 @@ impl PartnerWaves {
         }
     }
 
-    /// As [`PartnerWaves::radiating`], of condensed bodies. One that radiates moves as a whole at once there:
-    /// only if it is so heavy that its own motion, part of the waves' energy, is next to nothing of the
-    /// loss. Modes of vibration are a sphere's own waves, and in place of the term.
+    /// Returns the materials of the radiating bodies of the condensed model ([`PartnerWaves::radiating`]). A body that
+    /// radiates must be so heavy that the energy of its own motion is small beside the loss, since it moves as a whole
+    /// without delay. Vibration modes replace the term.
     pub(crate) fn radiating_at_rest(scene: &Scene, estimate: &Estimate) -> [Option<Material>; 2] {
         let radiating = Self::radiating(scene, estimate);
         let is_forced = scene.effects().partner_waves == Some(Switch::On);
@@ -90,13 +87,12 @@ impl PartnerWaves {
         })
     }
 
-    /// Restitution that waves which do not come back in time take of elastic bodies.
+    /// Returns the loss of restitution by waves that do not return in time, for elastic bodies.
     pub(crate) fn loss(scene: &Scene, estimate: &Estimate) -> f64 {
         lost(radiated(&crossed(scene, estimate), estimate))
     }
 
-    /// Restitution that waves take which come back within the contact, but not in its time: of elastic bodies, in
-    /// whose vibrations it stays.
+    /// Returns the loss of restitution by waves that return within the contact and stay in vibrations of elastic bodies.
     pub(in crate::effects) fn left_ringing(scene: &Scene, estimate: &Estimate) -> f64 {
         lost(taken(&crossed(scene, estimate), estimate, |passage| passage >= RETURN_LIMIT))
     }
@@ -113,7 +109,7 @@ impl PartnerWaves {
         estimate: &Estimate,
         radiating: fn(&Scene, &Estimate) -> [Option<Material>; 2],
     ) -> Support {
-        // Where it is switched off it is there to be switched off.
+        // A term that the case switches off is available.
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
         match radiating(&PartnerWaves.switched(scene, switch), estimate) {
             [None, None] => Support::Lacks,
@@ -157,10 +153,9 @@ impl Effect for PartnerWaves {
         let term = Self::of_term(scene, estimate, Self::radiating) != Support::Lacks;
         let warning = (lost > SMALL_LOSS).then(|| {
             format!(
-                "{name} is so large that waves from the contact do not come back within it (contact \
-                 time × shear wave speed / diameter = {least:.2}, below {RETURN_LIMIT}): they take \
-                 {} of the energy, {} of the restitution, which this model leaves out; {} \
-                 them",
+                "shear waves cross {name} only {least:.2} times during the contact, less than {RETURN_LIMIT}: \
+                 they do not return and take {} of the energy, {} of the restitution, which this model leaves out; \
+                 {} them",
                 percent(share),
                 number(lost, 2),
                 if term { "models fem and ting have" } else { "model fem has" }
@@ -168,18 +163,15 @@ impl Effect for PartnerWaves {
         });
         Some(Relevance {
             is_called_for: least < RETURN_LIMIT,
-            number: format!(
-                "contact time × shear wave speed / diameter of {name} = {least:.2}, the times that a wave \
-                 crosses it within the contact"
-            ),
-            otherwise: "waves come back within the contact".to_string(),
-            left_open: format!("they take {} of the restitution", number(lost, 2)),
+            number: format!("shear waves cross {name} {least:.2} times during the contact"),
+            otherwise: "no energy is radiated".to_string(),
+            left_open: format!("radiated waves take {} of the restitution", number(lost, 2)),
             warning,
         })
     }
 
-    /// Between Ting's impacts with and without; where they are no term, or no correction any more, what
-    /// a half-space takes of the restitution.
+    /// Difference between Ting's impacts with and without radiation. Without a term, or if radiation is more than a
+    /// correction, it is the loss of restitution by a half-space.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
         let with = ComputedScene::quiet(&self.switched(scene, switch))?;
@@ -187,18 +179,18 @@ impl Effect for PartnerWaves {
         let speed = estimate.hertz.approach_speed();
         let estimate = Estimate::at(&with, speed).ok()?;
         if Self::radiating(&with, &estimate) != [None, None] {
-            // A model without the term lacks what another one has.
+            // A model without the term has the error of a model with it.
             let is_term = Self::radiating_at_rest(&with, &estimate) != [None, None];
             let whole = with.clone().with_model(ModelChoice::Fem);
             let own = if is_term { &with } else { &whole };
             let impacts = [own, &without].map(|scene| TingPrediction::of(scene, speed, false));
             if let [Ok(one), Ok(without)] = impacts {
                 let missing = missing_of_term(&crossed(&with, &estimate), &estimate);
-                let told = one.change_from(&without);
+                let change = one.change_from(&without);
                 let whole = |part: f64| (part * (1.0 + missing)).clamp(-1.0, 1.0);
-                return Some(NeglectError { restitution: told.restitution.map(whole), ..told });
+                return Some(NeglectError { restitution: change.restitution.map(whole), ..change });
             }
-            // What relaxes takes part of what the waves would.
+            // Relaxation takes part of the energy of the waves.
             if relaxes(&with) {
                 return None;
             }
@@ -220,28 +212,28 @@ impl Effect for PartnerWaves {
             return ModelFormError::NOTHING;
         };
         let part = if is_lacking { 1.0 } else { Self::error_of_term(scene, estimate) };
-        // Where closed forms tell the loss alone.
+        // Closed forms may give the loss alone.
         let others = SHARE_OF_LOSS * neglect_error.restitution.unwrap_or(f64::NAN);
         let shares = NeglectError::shares(estimate, others, others);
-        let told = NeglectError {
+        let complete = NeglectError {
             contact_time_s: neglect_error.contact_time_s.or(shares.contact_time_s),
             peak_force_n: neglect_error.peak_force_n.or(shares.peak_force_n),
             ..neglect_error
         };
-        ModelFormError::of(&told, estimate).times(part)
+        ModelFormError::of(&complete, estimate).times(part)
     }
 }
 
 /// A body that waves cross.
 struct Crossed<'a> {
     body: &'a Body,
-    /// Elastic, with what is left of its moduli in the contact.
+    /// Elastic material with the effective moduli of the contact.
     material: Material,
-    /// T c_s/D; nothing comes back from a half-space.
+    /// T c_s/D, zero for a half-space.
     passage: f64,
 }
 
-/// The bodies that waves cross: those of a material.
+/// Returns the bodies that waves cross, which are those with a material.
 fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2] {
     let EffectiveModuli { after, hertz, .. } = &estimate.effective;
     scene.bodies().each_ref().map(|body| {
@@ -260,20 +252,20 @@ fn missing_of_term(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
     (SMOOTHED * radiated(crossed, estimate)).powi(2) * (kept.powi(-2) - 1.0).max(0.0)
 }
 
-/// Share of the energy that bodies take along from which nothing comes back in time.
+/// Returns the share of the energy that is radiated into bodies from which no wave returns in time.
 fn radiated(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
     taken(crossed, estimate, |passage| passage < RETURN_LIMIT)
 }
 
-/// Share of the energy that bodies of such passages keep.
+/// Returns the share of the energy that waves leave in bodies whose number of passages counts.
 fn taken(crossed: &[Option<Crossed>; 2], estimate: &Estimate, counts: fn(f64) -> bool) -> f64 {
     let hertz = &estimate.effective.hertz;
     let bodies = crossed.iter().flatten().filter(|body| counts(body.passage));
     bodies.map(|body| radiated_share(hertz, &body.material) * kept(body.passage)).sum()
 }
 
-/// Share of what a half-space takes that a body keeps: elements lost 0.35 of it at T c_s/D = 1.45, 0.023 at 2.99, 0.010
-/// and 0.006 at 4.4 and 4.6, and 0.003 at 8.0, balls of a tenth to two thirds of its size on a softer one.
+/// Returns the share of a half-space's loss that a body keeps. Elements kept 0.35 of it at T c_s/D = 1.45, 0.023 at 2.99,
+/// 0.010 and 0.006 at 4.4 and 4.6, and 0.003 at 8.0, for balls of a tenth to two thirds of the size of a softer body.
 fn kept(passage: f64) -> f64 {
     passage.max(RADIATION_LIMIT).powi(-3)
 }

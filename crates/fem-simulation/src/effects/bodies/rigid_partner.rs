@@ -1,10 +1,9 @@
-//! A body that is much stiffer than its partner is taken as rigid, with its own mass and curvature: one
-//! degree of freedom in place of its elements.
+//! A body that is much stiffer than its partner is computed as rigid, with its own mass and curvature: one degree of freedom
+//! replaces its elements. A stiff half-space becomes a wall.
 //!
-//! Decided by the body's share s of the contact's compliance, s = k/(k₁+k₂), k = (1 − ν²)/E. Leaving it out
-//! makes the contact modulus larger by 1/(1 − s), and what that changes of elastic bodies Hertz' powers say
-//! ([`fem_laws::rigid_partner`]); what the body relaxes and radiates goes with it. A half-space that hardly
-//! gives way is a wall.
+//! Decided by the body's share s of the contact's compliance, s = k/(k₁+k₂), k = (1 − ν²)/E. Neglecting the share multiplies
+//! the contact modulus by 1/(1 − s), and Hertz' powers give the change for elastic bodies ([`fem_laws::rigid_partner`]). The
+//! relaxation and radiation of the body are neglected, too.
 
 use fem_case::engineering;
 use fem_case::{Body, Scene, Switch};
@@ -23,7 +22,7 @@ use crate::rejection::Rejection;
 const RIGID_SHARE: f64 = 1e-4;
 
 impl Effect for RigidPartner {
-    /// It saves work and changes next to nothing: a scene may allow it, none calls for it.
+    /// It saves work: a scene may allow the effect, but none calls for it.
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number =
             stiffer(scene).map_or_else(|| "the partner is rigid".to_string(), |s| s.number());
@@ -47,7 +46,8 @@ impl Effect for RigidPartner {
             return Err(refused("rigid_partner and mirror_symmetry are both \"on\""));
         }
         let number = stiffer.number();
-        let answer = Support::is(true, format!("{number}: it is rigid, with its own mass"));
+        let answer =
+            Support::is(true, format!("{number}: it is computed as rigid, with its own mass"));
         let mut shapes = scene.bodies().each_ref().map(|body| body.shape().clone());
         shapes[stiffer.side] = stiffer.body.rigid();
         let scene = RigidPartner.switched(scene, None).with_shapes(shapes);
@@ -58,10 +58,10 @@ impl Effect for RigidPartner {
         let is_forced = scene.effects().rigid_partner == Some(Switch::On);
         let stiffer = stiffer(scene).filter(|stiffer| is_forced && !stiffer.is_rigid())?;
         let (number, change) = (stiffer.number(), change(scene, estimate));
-        Some(format!("{number}, and is forced to be rigid, which changes {change}"))
+        Some(format!("{number} and is forced to be rigid, which changes {change}"))
     }
 
-    /// Nature has none: it is what taking a body as rigid changes.
+    /// Returns the error of taking a body as rigid, in any model.
     fn model_form_error(
         &self,
         _: &Scene,
@@ -71,7 +71,7 @@ impl Effect for RigidPartner {
         ModelFormError::of(&status.neglect_error.unwrap_or_default(), estimate)
     }
 
-    /// Of a body that is taken as rigid: what it gives way, relaxes and radiates.
+    /// Returns the error of a body that is taken as rigid: its compliance, relaxation and radiation are missing.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().rigid_partner;
         let taken = stiffer(scene).filter(|stiffer| match switch {
@@ -95,15 +95,14 @@ fn refused(message: &str) -> Rejection {
         .with_help("write \"auto\" or \"off\", or leave it out")
 }
 
-/// Returns the index of the stiffer body.
+/// The stiffer body and its share of the compliance.
 struct Stiffer<'a> {
     body: &'a Body,
     side: usize,
-    /// Of the compliance.
     share: f64,
 }
 
-/// None beside a rigid body.
+/// Returns the stiffer body, or `None` if a body is rigid already.
 fn stiffer(scene: &Scene) -> Option<Stiffer<'_>> {
     let [lower, upper] = scene.bodies();
     let [below, above] = [lower, upper].map(|body| body.partner().plane_strain_modulus());

@@ -1,13 +1,12 @@
-//! Surfaces of unlike materials move by different amounts along their common tangent, and the interface
-//! is curved: contact between the points that faced each other at first is off by the slope of the
-//! interface times the difference. A part of the explicit step, and in first order a spring in series with
-//! the contact ([`fem_laws::SurfaceSlip`]), which condensed bodies and Ting's model have.
+//! Tangential slip: surfaces of unlike materials move by different amounts along a curved interface, so the gap between
+//! points that faced each other at first changes by the slope of the interface times the difference. Explicit elements
+//! include the slip in their step. Condensed bodies and Ting's model have its first order, a spring in series with the
+//! contact ([`fem_laws::SurfaceSlip`]).
 //!
-//! Decided by κβ, the curvature of the interface times Dundurs' second parameter: on wherever it is not
-//! rounding, or bodies relax differently. It is nothing between like bodies and against a plane that does
-//! not give way. What leaving it out changes is first order in a/R: 0.24 aκβ of the contact time and
-//! 0.32 aκβ of the peak force. Above a/R* = 0.2 what explicit elements have of the second order may be
-//! larger where β is small, as of rubber.
+//! Decided by κβ, the curvature of the interface times Dundurs' second parameter. The effect is on unless κβ is rounding and
+//! the bodies relax alike; it is zero between like bodies and against a rigid plane. Neglecting it changes 0.24 aκβ of the
+//! contact time and 0.32 aκβ of the peak force, of first order in a/R. Above a/R* = 0.2 the second order, which explicit
+//! elements include, may be larger where β is small, as for rubber.
 
 use fem_case::engineering::number;
 use fem_case::{Body, ModelChoice, Scene, Switch};
@@ -22,10 +21,10 @@ use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
 use crate::estimate::quasi_static::materials_mismatch;
 
-/// What a spring in series with the contact lacks of it, over a/R* of what it changes: explicit elements change 3 % less
-/// of approach, time and force at 0.03, 7 to 26 % less at 0.08 to 0.2.
+/// Relative error of the series spring over a/R*: explicit elements change approach, time and force less, by 3 % at 0.03 and
+/// by 7 to 26 % at 0.08 to 0.2.
 const NEXT_ORDER: f64 = 2.0;
-/// Change of the contact time that is worth a warning where it is left out.
+/// Neglected change of the contact time above which a warning is given.
 const SMALL_SHARE: f64 = 1e-3;
 
 impl Effect for SurfaceSlip {
@@ -35,9 +34,8 @@ impl Effect for SurfaceSlip {
         let slope = estimate.contact_radius * mismatch(scene, estimate).abs();
         let warning = (contact_time.abs() > SMALL_SHARE).then(|| {
             format!(
-                "the surfaces of unlike materials slip on each other, which changes the contact time \
-                 by about {time} and the peak force by {force} and which this model leaves out; models \
-                 fem, condensed and ting have it"
+                "the surfaces of unlike materials slip on each other, which this model leaves out: it changes the \
+                 contact time by about {time} and the peak force by {force}; models fem, condensed and ting have it"
             )
         });
         Some(Relevance {
@@ -46,7 +44,7 @@ impl Effect for SurfaceSlip {
                 "slope of the interface × mismatch of the materials = {}",
                 number(slope, 2)
             ),
-            otherwise: "facing points move alike".to_string(),
+            otherwise: "the surfaces do not slip".to_string(),
             left_open: format!("{time} of the contact time is open"),
             warning,
         })

@@ -35,7 +35,7 @@ impl ModelFormError {
     /// No error.
     pub const NOTHING: Self = Self([Some(0.0); 6]);
 
-    /// Returns the error with the size of each quantity given by `size`.
+    /// Returns the error whose size for each quantity `size` gives.
     pub fn by(size: impl FnMut(QuantityOfInterest) -> Option<f64>) -> Self {
         Self(QuantityOfInterest::ALL.map(size))
     }
@@ -49,7 +49,7 @@ impl ModelFormError {
         let both = time.zip(force);
         // Bodies that stay together have no contact time, and come as much closer as they press less.
         let softer = time.or(force);
-        let model_form_error = Self::by(|headline| match headline {
+        let error = Self::by(|headline| match headline {
             QuantityOfInterest::Restitution => restitution,
             QuantityOfInterest::ContactTime => contact_time_s,
             QuantityOfInterest::PeakForce => peak_force_n,
@@ -61,7 +61,7 @@ impl ModelFormError {
                 both.or(force.zip(force)).map(|(time, force)| (time + force) * sizes.peak_pressure)
             }
         });
-        model_form_error.checked()
+        error.checked()
     }
 
     /// Returns the error of an unknown loss: the restitution is unknown. The other quantities depend on the
@@ -84,13 +84,13 @@ impl ModelFormError {
 
     /// Replaces values that are not finite by `None`.
     pub(in crate::effects) fn checked(self) -> Self {
-        Self(self.0.map(|model_form_error| model_form_error.filter(|size| size.is_finite())))
+        Self(self.0.map(|error| error.filter(|size| size.is_finite())))
     }
 
     /// Multiplies all errors by a factor.
     #[must_use]
     pub fn times(self, share: f64) -> Self {
-        Self(self.0.map(|model_form_error| model_form_error.map(|size| share * size)))
+        Self(self.0.map(|error| error.map(|size| share * size)))
     }
 
     /// Adds two errors; `None` if either is.
@@ -104,6 +104,6 @@ impl ModelFormError {
     /// Replaces unknown errors by zero: sums of these are lower bounds.
     #[must_use]
     pub fn told(self) -> Self {
-        Self(self.0.map(|model_form_error| model_form_error.or(Some(0.0))))
+        Self(self.0.map(|error| error.or(Some(0.0))))
     }
 }

@@ -44,7 +44,7 @@ impl NeglectError {
 
     /// Returns the warning for an effect that is called for but switched off.
     pub(crate) fn warning(&self, effect: &str) -> String {
-        format!("{effect} is called for, but switched off, which leaves out {self}")
+        format!("{effect} is called for, but switched off, which neglects {self}")
     }
 
     /// Returns a change of the restitution, with the other two unknown.
@@ -63,14 +63,14 @@ impl fmt::Display for NeglectError {
         ];
         let known: Vec<_> =
             parts.into_iter().filter_map(|(change, unit, of)| Some((change?, unit, of))).collect();
-        let told = |(change, unit, of): &(f64, &'static str, &str)| match *unit {
+        let shown = |(change, unit, of): &(f64, &'static str, &str)| match *unit {
             "" => format!("{} {of}", number(*change, 2)),
             unit => {
                 let rounded = format!("{change:.1e}").parse().unwrap_or(*change);
                 format!("{} {of}", Unit::fitting(rounded, unit).with_digits(2).show(rounded))
             }
         };
-        let parts: Vec<String> = known.iter().filter(|part| part.0 != 0.0).map(told).collect();
+        let parts: Vec<String> = known.iter().filter(|part| part.0 != 0.0).map(shown).collect();
         match (known.is_empty(), parts.is_empty()) {
             (true, _) => write!(f, "an unknown amount"),
             (false, true) => write!(f, "nothing"),
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_name_what_is_known() {
+    fn unknown_changes_are_not_shown() {
         assert_eq!(
             NeglectError::restitution(-0.0123).to_string(),
             "about 0.012 of the restitution"

@@ -36,7 +36,7 @@ pub const QUASI_STATIC_LIMIT: f64 = 5e-3;
 /// Approach speed over shear wave speed above which an impact sends shocks.
 pub(in crate::effects) const MACH_LIMIT: f64 = 0.02;
 
-/// Returns the approach speed over the shear wave speed, as the deciding number in words.
+/// Returns the approach speed over the shear wave speed, as text.
 pub(in crate::effects) fn number(estimate: &Estimate) -> String {
     format!(
         "approach speed / shear wave speed = {}",
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shares_of_any_size_are_short() {
+    fn percentages_of_any_size_are_short() {
         let shares = [0.0, 1e-11, 4.9e-5, 5.1e-5, 0.01, 1.5, -1e60, f64::NAN, f64::INFINITY];
         let words = [
             "0.00 %",

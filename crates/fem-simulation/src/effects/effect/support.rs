@@ -1,4 +1,4 @@
-//! A model's support for an effect, combined with the scene's need for it.
+//! A model's support for an effect, combined with its relevance.
 
 use fem_case::Switch;
 
@@ -73,7 +73,7 @@ impl Support {
                 (false, joined([&number, &otherwise, idle]), none())
             }
             Self::Lacks if is_called_for => {
-                let lacking = "called for, but not available in this model";
+                let lacking = "called for, but this model lacks it";
                 let warnings = warning.into_iter().collect();
                 (false, joined([&number, lacking, &left_open]), warnings)
             }
@@ -105,27 +105,27 @@ mod tests {
     }
 
     #[test]
-    fn reasons_say_the_number_and_what_follows() {
+    fn reasons_give_the_number_and_its_consequence() {
         let computes = || Support::Computes { idle: "nothing is kept" };
         let none = Vec::new;
         let auto = Some(Switch::Auto);
         assert_eq!(computes().of(relevance(true), auto), (true, "x = 1".into(), none()));
         let idle = "x = 1; small; nothing is kept";
         assert_eq!(computes().of(relevance(false), None), (false, idle.into(), none()));
-        let model_form_error = vec!["x is large".to_string()];
+        let warned = vec!["x is large".to_string()];
         assert_eq!(
             Support::Lacks.of(relevance(false), auto),
-            (false, "x = 1; small".into(), model_form_error)
+            (false, "x = 1; small".into(), warned)
         );
         let (active, reason, warnings) = Support::Lacks.of(relevance(true), auto);
-        assert!(!active && reason.contains("not available") && reason.contains("all of it"));
+        assert!(!active && reason.contains("lacks it") && reason.contains("all of it"));
         assert_eq!(warnings, ["x is large"]);
         let own = Support::is(true, "always").warning(["beware".to_string()]);
         assert_eq!(own.of(relevance(true), None), (true, "always".into(), vec!["beware".into()]));
     }
 
     #[test]
-    fn what_a_model_computes_obeys_its_switch() {
+    fn a_computed_effect_obeys_its_switch() {
         let of = |is_called_for, switch| {
             Support::Computes { idle: "" }.of(relevance(is_called_for), Some(switch))
         };
@@ -133,7 +133,7 @@ mod tests {
         assert!(active && reason.contains("forced on") && warnings.is_empty());
         let (active, reason, warnings) = of(true, Switch::Off);
         assert!(!active && reason.contains("switched off") && reason.contains("all of it"));
-        assert!(warnings.is_empty(), "who decides on all effects warns, with the number");
+        assert!(warnings.is_empty(), "`decide` warns, with the number");
         assert!(!of(false, Switch::Off).0 && of(true, Switch::On).0);
     }
 }

@@ -1,8 +1,7 @@
-//! Plastic yield, which no model here computes: its onset, and how strongly it matters.
+//! Plastic yield, which no model computes: its onset, and an estimate of the loss.
 //!
-//! Decided by the peak pressure of Hertz over that of first yield ([`FirstYield`]). Without a yield
-//! strength the strength that would be reached is told, and a peak pressure that few materials bear
-//! is warned about.
+//! Decided by the peak pressure of Hertz over that of first yield ([`FirstYield`]). Without a yield strength the largest
+//! von Mises stress is reported, with a warning if few materials withstand the peak pressure.
 
 use fem_case::engineering::show;
 use fem_case::{Body, Scene};
@@ -14,11 +13,11 @@ use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::{Effect, PlasticYield};
 use crate::estimate::Estimate;
 
-/// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do
-/// not yield: glass at 0.5 m/s is at 1/32, steel at 5 m/s at 1/13.
+/// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do not yield: 1/32 for
+/// glass at 0.5 m/s, 1/13 for steel at 5 m/s.
 const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
-/// Young's modulus (Pa) below which are elastomers, gels and foams, which tear and do not yield (Ashby 2011, chart of
-/// modulus and strength).
+/// Largest Young's modulus (Pa) of elastomers, gels and foams, which tear and do not yield (Ashby 2011, chart of modulus and
+/// strength).
 const ELASTOMER: f64 = 0.1e9;
 
 impl Effect for PlasticYield {
@@ -54,8 +53,8 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevanc
     let (low, high) = first.restitutions();
     let warning = is_called_for.then(|| {
         format!(
-            "{name} yields from {} on, and meets at {}: closed forms of plastic \
-             impact give a restitution from {low:.2} to {high:.2}, and no model here flows",
+            "{name} yields from {} on, and the impact is at {}: no model computes plastic flow; closed forms give a \
+             restitution from {low:.2} to {high:.2}",
             show(first.speed, "m/s"),
             show(estimate.hertz.approach_speed(), "m/s"),
         )
@@ -64,7 +63,7 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevanc
         is_called_for,
         number: format!("peak pressure / pressure of first yield of {name} = {ratio:.2}"),
         otherwise: format!("it yields from {} on", show(first.speed, "m/s")),
-        left_open: format!("the restitution is from {low:.2} to {high:.2}"),
+        left_open: format!("closed forms give a restitution from {low:.2} to {high:.2}"),
         warning,
     }
 }
@@ -79,7 +78,7 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
     let share = peak / estimate.hertz.pair().contact_modulus();
     let reached = |body: &Body| {
         let material = body.material().filter(|material| may_yield(material))?;
-        // Beside a softer body a stiff one bears little.
+        // A stiff body beside a softer one is stressed little.
         let own = 0.5 * material.instantaneous().plane_strain_modulus();
         if share > PRESSURE_LIMIT && peak <= PRESSURE_LIMIT * own {
             return None;
@@ -91,9 +90,8 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
     let reached = reached.join(", ");
     let warning = (share > PRESSURE_LIMIT && !reached.is_empty()).then(|| {
         format!(
-            "the peak pressure is {} of the contact modulus, which few materials bear without \
-             plastic flow: the stress reaches {reached}; give material.NAME.yield_strength to see \
-             what follows",
+            "the peak pressure is {} of the contact modulus, which few materials withstand without plastic flow: the \
+             stress reaches {reached}; set material.NAME.yield_strength for an estimate",
             if share < 0.5 { format!("1/{:.0}", 1.0 / share) } else { percent(share) }
         )
     });
@@ -101,12 +99,11 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
         is_called_for: false,
         number: format!("peak pressure / contact modulus = {share:.3}"),
         otherwise: match reached.is_empty() {
-            true => "what is as soft as rubber, has a law beyond Hooke's or is far stiffer than its partner \
-                     does not yield"
+            true => "bodies that are rubber-like, hyperelastic or far stiffer than their partner do not yield"
                 .to_string(),
-            false => format!(
-                "the stress reaches {reached}; a material that yields below that would flow"
-            ),
+            false => {
+                format!("the stress reaches {reached}; materials with a lower yield strength flow")
+            }
         },
         left_open: String::new(),
         warning,

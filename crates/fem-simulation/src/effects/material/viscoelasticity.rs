@@ -1,8 +1,7 @@
-//! Relaxation of the materials: a part of the step of models that have fields, and of Ting's.
+//! Relaxation of the materials, computed by elements and by Ting's model.
 //!
-//! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)), and a term at
-//! a time: one that is over before the force has risen, or has not begun when the contact ends, is folded
-//! into the moduli ([`FastSlowLimits`]).
+//! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)). Single terms that are much
+//! faster or slower than the contact are folded into the moduli ([`FastSlowLimits`]).
 
 use fem_case::{Body, Scene, Switch};
 use fem_laws::{FastSlowLimits, RelativeError};
@@ -18,14 +17,14 @@ use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};
 use crate::rejection::Rejection;
 
-/// What terms that are not followed may change, all together, of restitution (absolute), contact time and
-/// peak force: a hundredth of the usual tolerance.
+/// Largest error by all folded terms in restitution (absolute), contact time and peak force: a hundredth of the default
+/// tolerance.
 const LARGEST_FOLDED: f64 = 1e-4;
-/// The same over what relaxation takes of the restitution, so that small losses stay right themselves.
+/// Largest error by folded terms over the loss of restitution by relaxation, which keeps small losses accurate.
 const SHARE_OF_LOSS: f64 = 0.01;
-/// Smallest tolerance.
+/// Smallest tolerance of the folded terms.
 const LEAST_FOLDED: f64 = 1e-7;
-/// Accuracy of the loss that decides on it.
+/// Accuracy of the loss that decides on the tolerance.
 const LOSS_TOLERANCE: f64 = 1e-5;
 
 impl Effect for Viscoelasticity {
@@ -46,8 +45,8 @@ impl Effect for Viscoelasticity {
         Some(Relevance { is_called_for: true, number, ..Relevance::default() })
     }
 
-    /// What is switched off is not there: the materials are elastic. What is left to the plan follows
-    /// only the terms that matter within the contact.
+    /// Makes the materials elastic if the effect is switched off, and folds the terms that do not matter within the contact
+    /// if the plan decides.
     fn transform(
         &self,
         scene: &Scene,
@@ -98,9 +97,9 @@ impl Effect for Viscoelasticity {
 }
 
 impl Viscoelasticity {
-    /// Returns the materials without the terms that need not be followed, or `None` if all are followed.
+    /// Returns the materials without the folded terms, or `None` if no term is folded.
     fn folded(&self, scene: &Scene, estimate: &Estimate) -> Option<FastSlowLimits> {
-        // What is too slow for a contact is not for a ball that rests on it.
+        // Terms that are too slow for an impact still act on a ball at rest.
         if scene.gravity().is_some() {
             return None;
         }
@@ -112,7 +111,7 @@ impl Viscoelasticity {
             let n_folded: usize = folded.n_fast.into_iter().chain(folded.n_slow).sum();
             (n_folded > 0).then_some(folded)
         };
-        // What relaxation is worth takes a while to tell, and most scenes have nothing to fold.
+        // The loss is expensive to compute, and most scenes have no term to fold.
         fold(LARGEST_FOLDED)?;
         let loss = loss(scene, estimate)?;
         fold((SHARE_OF_LOSS * loss).clamp(LEAST_FOLDED, LARGEST_FOLDED))
@@ -128,7 +127,7 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
     Some((relaxing - hertz.restitution()).abs())
 }
 
-/// Returns how many terms are followed and the effect of the others, as text.
+/// Returns the numbers of integrated and folded terms and the error of folding, as text.
 fn in_words(
     relevance: &Relevance,
     folded: &FastSlowLimits,
@@ -143,8 +142,8 @@ fn in_words(
         ..NeglectError::shares(estimate, contact_time, peak_force)
     };
     format!(
-        "{}; {n_kept} of {} terms followed in time, {n_fast} over before the contact and {n_slow} too \
-         slow for it, which changes {error}",
+        "{}; {n_kept} of {} terms are integrated; {n_fast} faster and {n_slow} slower than the contact are folded \
+         into the moduli, which changes {error}",
         relevance.number,
         n_kept + n_fast + n_slow
     )

@@ -1,15 +1,13 @@
-//! Artificial viscosity that spreads steep fronts over some elements: a part of the step.
+//! Artificial viscosity that spreads steep fronts over several elements, a part of the step.
 //!
-//! Decided by the approach speed over the shear wave speed. Bodies of effective radius R* overlap out to
-//! a = √(R* v t), which at first spreads faster than shear waves run, out to R* v/(2 c_s): a steep front,
-//! behind which a mesh rings. At the limit that is about a third of an element, of eight that a contact
-//! radius has, and grows against them as v^(3/5). Of an elastic glass pair at default settings ringing
-//! raises the largest force of a step by 1.3 % at 6e-3, by 6 % at the limit and by 8 % at 0.05, against a run with
-//! viscosity, where springs pull at nodes that have mass. It is these that ring: with a boundary without
-//! mass force and pressure agree with those with viscosity to 0.1 % up to 0.06, and it is not called for.
+//! Decided by the approach speed over the shear wave speed. The contact edge a = √(R* v t) first moves faster than shear
+//! waves, up to R* v/(2 c_s): a steep front, behind which a mesh rings. At the limit of the speed that is a third of an
+//! element, with eight elements across the contact radius, and it grows as v^(3/5). For an elastic glass pair with springs
+//! on nodes with mass, ringing raises the largest force of a step by 1.3 % at 6e-3, 6 % at the limit and 8 % at 0.05. With a
+//! massless boundary force and pressure agree with those with viscosity to 0.1 % up to 0.06, so it is not called for.
 //!
-//! What it takes itself grows as v^(3/5): a strain rate (a/R*)(c_s/c_p)²/T of the volume a³ over T, in elements
-//! that are a share of a; a share of the energy
+//! Its own loss grows as v^(3/5): the strain rate is (a/R*)(c_s/c_p)²/T in the volume a³ over the time T, and elements are a
+//! share of a, so that the share of the energy is
 //!
 //! ```math
 //! \frac{\Delta e}{e_0} \propto \frac{\rho c_p h}{\frac12 m v^2}\Bigl(\frac a{R^*T}\,\frac{c_s^2}{c_p^2}\Bigr)^2 a^3 T
@@ -30,13 +28,13 @@ use crate::effects::effect::{BulkViscosity, Effect, FiniteStrain};
 use crate::effects::numerics::contact_method_of_case;
 use crate::estimate::Estimate;
 
-/// What it takes of the peak force, over v/c_s to the 3/5: ringing is not in it, which is a mean; of the
-/// largest force of a single step it takes 0.6.
+/// Relative decrease of the peak force, which is a mean without ringing, over (v/c_s)^(3/5); the largest force of a single
+/// step decreases by 0.6.
 const SMOOTHING: f64 = 0.02;
-/// What it takes of the restitution, over (v/c_s)^(3/5) (c_s/c_p)⁴.
+/// Loss of restitution over (v/c_s)^(3/5) (c_s/c_p)⁴.
 const LOSS: f64 = 0.005;
 
-/// Approach speed over shear wave speed above which these say nothing.
+/// Largest approach speed over shear wave speed for these coefficients, which were measured on pairs, walls and half-spaces.
 const LARGEST_MACH: f64 = 0.1;
 
 impl BulkViscosity {
@@ -69,8 +67,8 @@ impl Effect for BulkViscosity {
             false => "no steep fronts to spread",
         };
         let warning = is_called_for.then(|| {
-            let model_form_error = above(estimate, MACH_LIMIT);
-            format!("{model_form_error} steep fronts ring in the mesh, in pressure above all")
+            let speed = above(estimate, MACH_LIMIT);
+            format!("{speed} steep fronts ring in the mesh, mostly in pressure")
         });
         Some(Relevance {
             is_called_for,
@@ -86,8 +84,8 @@ impl Effect for BulkViscosity {
         ModelFormError::NOTHING
     }
 
-    /// The contact time changes by no more than the ringing that ends it. At finite strain the contact
-    /// itself damps what rings, and nothing is foretold.
+    /// The change of the contact time is not known, since ringing ends the contact. At finite strain the contact damps the
+    /// ringing, and there is no estimate.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         if FiniteStrain::laws(scene, estimate) != [None; 2] {
             return None;

@@ -1,9 +1,9 @@
-//! Mass moved to the lightest nodes for a longer time step: a decision of the plan.
+//! Mass moved to the lightest nodes for a longer time step, a decision of the plan.
 //!
-//! Mass m that is moved to the contact of body i goes with it: by the share s_i of the approach by which that body gives
-//! way, and so its mass centre is off by (m/m_i) s_i of the approach, beside m/m_light s_i² of the energy. Bodies that
-//! give way by as much have s = ½; of a body that gives way by less than ⅛ as much more mass is moved as s is smaller, for a
-//! quarter of the change, up to a share of its own mass.
+//! Mass m that is moved to the contact of body i moves with it, by the share s_i of the approach that the body deforms. The
+//! mass centre has an error of (m/m_i) s_i of the approach, and the energy one of m/m_light s_i². Equally compliant bodies
+//! have s = ½. A body with s < ⅛ gets more mass in inverse proportion to s, up to a share of its own mass, at a quarter of
+//! the error.
 
 use fem_case::engineering::number;
 use fem_case::{Body, Scene};
@@ -15,16 +15,16 @@ use crate::effects::effect::support::Support;
 use crate::effects::effect::{Effect, MassScaling};
 use crate::estimate::Estimate;
 
-/// Moved mass over the lighter body's mass: of 1 % the peak force is off by up to half of that.
+/// Largest moved mass over the lighter body's mass; at 1 % the error of the peak force is up to half of that.
 const LARGEST_ADDED_MASS: f64 = 1e-2;
-/// Moved mass over that mass up to which it is a rounding of the node that decides on the step.
+/// Moved mass over that mass below which it is rounding of the node that determines the time step.
 const ROUNDING: f64 = 1e-12;
 const NOTHING: &str = "no mass is moved";
 
-/// Share of the approach by which a body gives way below which more than a share of the lighter body's mass is moved.
+/// Share of the approach below which more mass is moved in a body.
 const LITTLE_SHARE: f64 = 0.125;
 
-/// Share of a body's moduli that is left when all has relaxed.
+/// Returns the equilibrium modulus of a body over its instantaneous one.
 fn left(body: &Body) -> f64 {
     let series = body.material().and_then(Material::relaxation);
     let terms = series.into_iter().flat_map(PronySeries::terms);
@@ -36,7 +36,7 @@ impl MassScaling {
     pub(crate) fn times(scene: &Scene) -> [f64; 2] {
         let moduli = scene.bodies().each_ref().map(|body| body.partner().plane_strain_modulus());
         std::array::from_fn(|side| {
-            // The most that it gives way, when all has relaxed that does.
+            // The body is most compliant at equilibrium.
             let own = moduli[side] * left(&scene.bodies()[side]);
             let share = moduli[1 - side] / (own + moduli[1 - side]);
             let times = LITTLE_SHARE / share;
@@ -81,7 +81,12 @@ impl MassScaling {
             true => Support::is(false, NOTHING),
             false => {
                 let moved = moved.join(" and ");
-                Support::is(true, format!("moves {moved} for a {longer:.1} times longer step"))
+                Support::is(
+                    true,
+                    format!(
+                        "moves {moved} to light nodes; the time step is {longer:.1} times longer"
+                    ),
+                )
             }
         }
     }

@@ -1,15 +1,14 @@
-//! Identical bodies that meet are each other's mirror image: one of them, against a rigid plane at
-//! rest, is the whole collision. A transformation of the scene.
+//! Identical bodies are mirror images of each other, so one of them against a rigid plane at rest gives the whole collision.
 //!
-//! In the frame of the mass centre the bodies come with v/2 each, the plane between them does not
-//! move, and neither surface passes it. With ' for the half scene
+//! In the frame of the mass centre each body has the speed v/2, and no surface passes the plane between them. With ' for the
+//! half scene and the velocity V of the mass centre
 //!
 //! ```math
 //! T = T', \quad F = F', \quad p = p', \quad \delta = 2\delta', \quad E = 2E' + \tfrac12 (2m) V^2,
 //! ```
 //!
-//! V the velocity of the mass centre. The pair's contact modulus is half of that of a body on a rigid
-//! plane, so penalty springs are twice as stiff over half of the overlap.
+//! The pair's contact modulus is half of that of a body on a rigid plane, so penalty springs are twice as stiff over half of
+//! the overlap.
 
 use fem_case::{Scene, Switch};
 
@@ -21,8 +20,8 @@ use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
 impl MirrorSymmetry {
-    /// Half of a scene whose bodies are identical: the lower one, against a rigid plane. `None` of a
-    /// scene that has none, or that is to be computed whole.
+    /// Returns the lower half of a scene with identical bodies, a body against a rigid plane; `None` if the bodies differ or
+    /// the case switches the symmetry off.
     ///
     /// # Errors
     /// Bodies that differ, where the case forces the symmetry.
@@ -33,7 +32,7 @@ impl MirrorSymmetry {
             None if switch == Some(Switch::On) => {
                 let message = "mirror_symmetry is \"on\", and the bodies differ";
                 Err(Rejection::new("effects.mirror_symmetry", message).with_help(
-                    "it wants two spheres of one diameter, one material and the built-in mesh; \
+                    "it needs two spheres of one diameter, one material and the built-in mesh; \
                      write \"auto\" or \"off\"",
                 ))
             }
@@ -59,10 +58,10 @@ impl MirrorSymmetry {
 }
 
 impl Effect for MirrorSymmetry {
-    /// It saves work and changes nothing: a scene may allow it, none calls for it.
+    /// It saves work: a scene may allow the effect, but none calls for it.
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let number = match scene.has_identical_bodies() {
-            true => "the bodies are identical; both are computed all the same",
+            true => "the bodies are identical; both are computed",
             false => "the bodies differ",
         };
         Some(Relevance { number: number.to_string(), ..Relevance::default() })

@@ -17,7 +17,7 @@ pub(crate) struct Bounces {
     pub(super) request: OutputRequest,
     /// Results of the finished contacts.
     pub(super) so_far: Bounced,
-    /// Speed (m/s) of the contact for which the present model was made anew, if it was.
+    /// Speed (m/s) of the contact for which the present model was refined, if it was.
     pub(super) made_at: Option<f64>,
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Bounced {
     ending: Ending,
     steps: Option<u64>,
     element_updates: Option<u64>,
-    /// Energy (J) left in vibrations by the contact before, and the largest bound of what they do.
+    /// Energy (J) left in vibrations by the contact before, and the largest bound of their influence.
     vibration: f64,
     phase: Option<(usize, f64)>,
     sinks: bool,
@@ -57,12 +57,12 @@ impl Bounced {
         }
     }
 
-    /// The contact under way has first touched here, s; after the last one when that ended.
+    /// Returns the time of first touch of the contact under way, or the end of the last one, s.
     pub fn time(&self) -> f64 {
         self.chain.time()
     }
 
-    /// First touch of all, s.
+    /// Returns the time of the first touch of all, s.
     pub fn first_touch(&self) -> f64 {
         self.chain.first_touch()
     }
@@ -71,18 +71,18 @@ impl Bounced {
         self.element_updates.unwrap_or_default()
     }
 
-    /// Contacts that are over.
+    /// Returns the number of finished contacts.
     pub fn n_contacts(&self) -> usize {
         self.bounces.len()
     }
 
-    /// Results of the first contact.
+    /// Returns the snapshots of the first contact.
     pub fn snapshots(&self) -> &[Snapshot] {
         self.first.as_ref().map_or(&[], |first| &first.snapshots)
     }
 
-    /// Whether a ball under this gravity can have left it like this, a contact being under way.
-    pub fn is_sound(&self, gravity: &Gravity) -> bool {
+    /// Returns whether the state is consistent with a ball under this gravity during a contact.
+    pub fn is_consistent(&self, gravity: &Gravity) -> bool {
         self.gravity == *gravity
             && self.n_contacts() < gravity.bounces
             && self.first.is_some() == (self.n_contacts() > 0)
@@ -101,7 +101,7 @@ impl Bounced {
         }
     }
 
-    /// It flows under its weight for ever.
+    /// Records that the ball flows under its weight without limit.
     pub fn sink(&mut self) {
         self.sinks = true;
     }
@@ -110,7 +110,7 @@ impl Bounced {
         self.rest = Some(rest);
     }
 
-    /// m g, N.
+    /// Returns the weight m g, N.
     pub fn weight(&self) -> Option<f64> {
         Some(self.gravity.acceleration * self.first.as_ref()?.bodies[1].mass?)
     }
@@ -119,7 +119,7 @@ impl Bounced {
         self.ending = Ending::Stopped(stop);
     }
 
-    /// Takes a contact; the speed (m/s) at which the ball comes down again, if it does.
+    /// Takes the result of a contact and returns the speed (m/s) of the next landing, if there is one.
     pub fn take(&mut self, mut collision: Collision, request: &OutputRequest) -> Option<f64> {
         let add = |sum: Option<u64>, more: Option<u64>| {
             more.map(|more| sum.unwrap_or_default().saturating_add(more)).or(sum)
@@ -127,7 +127,7 @@ impl Bounced {
         self.steps = add(self.steps, collision.steps);
         self.element_updates = add(self.element_updates, collision.element_updates);
         let time = self.time();
-        // A ball that stays after some bounces is at rest, and the first contact's keys are of one that left.
+        // Bodies that stay together after a bounce are a ball at rest, which has its own warning.
         let is_first = self.bounces.is_empty();
         for warning in std::mem::take(&mut collision.warnings) {
             if is_first || warning != STAY_TOGETHER {
@@ -155,8 +155,8 @@ impl Bounced {
         self.bound_phase(&collision, &bounce);
         let is_parted = collision.ending == Ending::Parted;
         let end = rows.last().copied().filter(|_| is_parted);
-        if end.is_some_and(|end| !Chain::is_sound(&end)) {
-            let what = format!("the flight after contact {} is no number", self.bounces.len());
+        if end.is_some_and(|end| !Chain::is_finite(&end)) {
+            let what = format!("the flight after contact {} is not finite", self.bounces.len());
             self.ending = Ending::Stopped(Stop::OutOfRange(what));
             self.chain.keep(&rows, f64::INFINITY);
             self.first.get_or_insert(collision);
@@ -164,7 +164,7 @@ impl Bounced {
         }
         let landing = end.and_then(|end| self.chain.landing(&end, self.gravity.acceleration));
         if let Some(bounce) = self.bounces.last_mut() {
-            // As fast as it comes down again: the speed after is that at the height of first touch.
+            // The speed after is that at the height of first touch, which equals the landing speed.
             let after = landing.as_ref().map_or(0.0, |landing| landing.speed);
             bounce.restitution = after / bounce.speed_before;
         }
@@ -185,7 +185,7 @@ impl Bounced {
 
     /// Returns the bound on the influence of the previous contact's vibrations.
     fn bound_phase(&mut self, collision: &Collision, bounce: &Bounce) {
-        // Waves in what has no end are gone.
+        // Waves in a half-space, which has no mass, do not return.
         let bodies = collision.bodies.iter().filter(|body| body.mass.is_some());
         let left: f64 = bodies.filter_map(|body| body.vibration_energy).sum();
         let initial = collision.initial_energy.unwrap_or(f64::INFINITY);
@@ -201,7 +201,7 @@ impl Bounced {
         let Some(first) = self.first.take() else {
             let stop = match self.ending {
                 Ending::Stopped(stop) => stop,
-                _ => Stop::NotMade("the ball never came down".to_string()),
+                _ => Stop::NotMade("the ball never landed".to_string()),
             };
             return Collision::stopped(approach, stop);
         };
@@ -236,7 +236,7 @@ impl Bounced {
     }
 }
 
-/// A stop of the contact under way with the element updates of all contacts.
+/// Returns the stop of a contact with the element updates of all contacts.
 fn of_all(stop: &Stop, element_updates: Option<u64>) -> Stop {
     match (stop, element_updates) {
         (&Stop::TooManyUpdates { time, step, .. }, Some(element_updates)) => {

@@ -1,52 +1,51 @@
-//! Contact after contact as one history and one ledger.
+//! The history and energy ledger of all contacts.
 //!
-//! A contact's own ledger begins with nothing but the motion of the ball. Here what earlier contacts have
-//! lost goes on to count as lost, and what they have left in the bodies stands in an account of its own,
-//! so that all energy since the first touch is in the ledger.
+//! The ledger of a contact begins with the motion of the ball. Losses of earlier contacts are added to it, and the energy
+//! that they left in the bodies has its own account, so that the ledger has all energy since the first touch.
 
 use fem_collision::{
     Account, BalanceSide, Collision, EnergyLedger, HistoryRow, nan_aware_max, nan_aware_max_abs,
 };
 use serde::{Deserialize, Serialize};
 
-/// Rows of a flight.
+/// Number of rows per flight.
 const FLIGHT_ROWS: usize = 8;
 
-/// When and how fast a ball comes down.
+/// Time and speed of a landing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Landing {
-    /// After first touch of the contact that it left, s.
+    /// Time after first touch of the contact before, s.
     pub time: f64,
-    /// Speed, in m/s.
+    /// Speed at the landing, m/s.
     pub speed: f64,
 }
 
 /// Contacts and flights so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Chain {
-    /// First touch of all, and of the contact under way, since the start of the case, s.
+    /// Times of the first touch of all and of the contact under way, since the start of the case, s.
     first_touch: f64,
     time: f64,
     /// Energy lost or supplied in earlier contacts, in joules.
     lost: EnergyLedger,
-    /// What they have left in the bodies, J; `None` in the first contact.
+    /// Energy that earlier contacts left in the bodies, J; `None` in the first contact.
     left: Option<f64>,
     /// Energy residual of earlier contacts, in joules.
     residual: f64,
-    /// Energy of the ball's motion and weight that the flight before has handed on, J.
+    /// Kinetic and potential energy of the ball at the start of the flight before, J.
     handed_on: Option<f64>,
     /// Energy at stake in the first contact, J.
     initial: Option<f64>,
     worst_residual: Option<f64>,
     growth: Option<f64>,
-    /// At the end of the contact under way.
+    /// Energies at the end of the contact under way.
     energies: EnergyLedger,
     residual_at_end: Option<f64>,
     rows: Vec<HistoryRow>,
 }
 
 impl Chain {
-    /// A ball that first touches at a time, s.
+    /// Makes the history of a ball that first touches at a time, s.
     pub fn new(first_touch: f64) -> Self {
         Self {
             first_touch,
@@ -64,17 +63,17 @@ impl Chain {
         }
     }
 
-    /// First touch of the contact under way, s; of a ball at rest the time at which that was seen.
+    /// Returns the time of first touch of the contact under way, or the time at which the ball came to rest, s.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// First touch of all, s.
+    /// Returns the time of the first touch of all, s.
     pub fn first_touch(&self) -> f64 {
         self.first_touch
     }
 
-    /// Takes the ledger of the contact under way, of a ball of some weight, N.
+    /// Takes the ledger of the contact under way, for a ball of a weight, N.
     pub fn take(&mut self, collision: &Collision, rows: &[HistoryRow], weight: f64) {
         if let (Some(handed_on), Some(initial)) = (self.handed_on, collision.initial_energy) {
             self.residual += initial - handed_on;
@@ -93,13 +92,12 @@ impl Chain {
         self.residual_at_end = collision.residual.map(|residual| residual + self.residual);
     }
 
-    /// Whether the motion of a row is a number.
-    pub fn is_sound(row: &HistoryRow) -> bool {
+    /// Returns whether the motion of a row is finite.
+    pub fn is_finite(row: &HistoryRow) -> bool {
         row.velocity.iter().chain([&row.approach, &row.time]).all(|number| number.is_finite())
     }
 
-    /// Where a ball comes down that flies as in this row; `None` of one that does not rise to where it
-    /// first touched.
+    /// Returns the landing of a ball that flies as in this row; `None` if it does not rise to the height of first touch.
     pub fn landing(&self, end: &HistoryRow, gravity: f64) -> Option<Landing> {
         let velocity = end.velocity[1] - end.velocity[0];
         let squared = velocity * velocity - 2.0 * gravity * end.approach;
@@ -123,7 +121,7 @@ impl Chain {
         self.rows.extend(kept);
     }
 
-    /// The flight from the last row of a contact to the next one; with rows, if they are wanted.
+    /// Adds the flight from the last row of a contact to the next landing, with rows if requested.
     pub fn fly(&mut self, end: &HistoryRow, landing: &Landing, has_rows: bool) {
         let is_inner = |account: Account| {
             account.side() == BalanceSide::Held
@@ -147,12 +145,12 @@ impl Chain {
         self.time += landing.time;
     }
 
-    /// A ball that stays: the last contact has no end.
+    /// Ends the history with a ball that stays.
     pub fn stay(&mut self, end: Option<&HistoryRow>) {
         self.time += end.map_or(0.0, |row| row.time);
     }
 
-    /// The ball so long (s) after the last row of a contact.
+    /// Returns the row of a flight at a time (s) after the last row of a contact.
     fn flying(&self, end: &HistoryRow, landing: &Landing, time: f64) -> HistoryRow {
         let upward = end.velocity[1] - end.velocity[0];
         // g (t_landing − t_end) = u + v.
@@ -213,17 +211,17 @@ impl Chain {
         self.residual_at_end
     }
 
-    /// Worst imbalance over the kinetic energy at first touch of all.
+    /// Returns the largest energy residual over the energy at first touch of all.
     pub fn worst_residual(&self) -> Option<f64> {
         self.worst_residual
     }
 
-    /// The growth of energy in the worst contact.
+    /// Returns the largest growth of energy in a contact.
     pub fn growth(&self) -> Option<f64> {
         self.growth
     }
 
-    /// All rows, in the order of time.
+    /// Returns all rows in the order of time.
     pub fn into_rows(self) -> Vec<HistoryRow> {
         self.rows
     }

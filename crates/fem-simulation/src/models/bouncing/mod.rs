@@ -1,23 +1,16 @@
-//! A ball that gravity brings back: contact, flight, contact, until it rests or has bounced as often as
-//! was asked.
+//! A bouncing ball: contacts and flights until the ball rests or has bounced as often as the case asks.
 //!
-//! Every contact is a collision of the scene's model at the speed at which the ball comes down. Between
-//! two contacts it flies, in closed form: a ball that leaves with the velocity u at the height y, of its
-//! mass centre above that at first touch, comes down after a time t with a speed v,
+//! Each contact is a collision by the scene's model at the landing speed. Flights are closed forms: a ball that leaves with
+//! the velocity u at the height y, of its mass centre above that at first touch, lands after a time t with a speed v,
 //!
 //! ```math
 //! v^2 = u^2 + 2 g y, \qquad g t = u + v .
 //! ```
 //!
-//! One that does not come up to y = 0 is at rest: it leaves no more than a dent. Each contact begins with
-//! bodies that neither vibrate nor remember. What the contact before has left in them stays in an account
-//! of its own ([`Account::LeftBefore`](fem_collision::Account)); what its phase could have done is
-//! bounded ([`phase`]).
-//!
-//! Elements that the plan has chosen are chosen anew where the contacts have become too small for them.
-//!
-//! A collision under way is a [`BouncingCourse`]: it knows what came of the contacts so far, and the
-//! contact under way has its own course.
+//! A ball that does not rise to y = 0 is at rest. Each contact begins with bodies without vibration or strain history. The
+//! energy that earlier contacts left in them has its own account ([`Account::LeftBefore`](fem_collision::Account)), and the
+//! influence of its phase is bounded ([`phase`]). Meshes chosen by the plan are refined when contacts become too small for
+//! them.
 
 mod bounced;
 mod chain;
@@ -43,15 +36,15 @@ use crate::models::stepper::{RestartState, Stepper, stopped};
 use crate::rejection::Rejection;
 use bounced::Bounced;
 pub(crate) use bounced::Bounces;
-use stepper::BouncingCourse;
+use stepper::BouncingStepper;
 
-/// Contact radius at rest over effective radius beyond which a sphere is no sphere any more.
+/// Largest contact radius at rest over effective radius.
 const LARGEST_DENT: f64 = 0.5;
-/// Expected contact radius over the one for which a mesh was made below which it is made anew.
+/// Contact radius over that for which a mesh was made below which the mesh is made again.
 const SMALLEST_SHARE: f64 = 0.75;
-/// Rows of all contacts after the first one together are at most so many times those of the first.
+/// Largest number of rows of all later contacts over that of the first.
 const ROWS_OF_ALL: usize = 10;
-/// Rows of a contact that show its course.
+/// Least number of rows per contact.
 const FEWEST_ROWS: usize = 20;
 
 /// All contacts of a scene with gravity.
@@ -94,14 +87,14 @@ impl Bouncing {
         }
     }
 
-    /// A collision under way, of a want that has been checked.
-    fn course(&self, approach: &Approach, request: &OutputRequest) -> BouncingCourse {
-        BouncingCourse::new(&self.ball, approach, request)
+    /// Begins a collision with a request that has been checked.
+    fn stepper(&self, approach: &Approach, request: &OutputRequest) -> BouncingStepper {
+        BouncingStepper::new(&self.ball, approach, request)
     }
 }
 
 impl Ball {
-    /// Speed (m/s) and time (s) of first touch, and the height of the fall, m.
+    /// Returns speed (m/s) and time (s) of first touch, and the height of the fall, m.
     fn fall(&self, approach: &Approach) -> (f64, f64, f64) {
         if *approach == self.first.setup().approach {
             let height = self.scene.gap().unwrap_or_default();
@@ -113,8 +106,12 @@ impl Ball {
         (impact, (impact - speed) / acceleration, height)
     }
 
-    /// The model for a contact at a speed (m/s), if the present one's elements are too large for it.
-    fn anew(&self, present: &dyn Model, speed: f64) -> Result<Option<Box<dyn Model>>, Stop> {
+    /// Returns a model for a contact at a speed (m/s), if the elements of the present one are too large for it.
+    fn refined_model(
+        &self,
+        present: &dyn Model,
+        speed: f64,
+    ) -> Result<Option<Box<dyn Model>>, Stop> {
         let Some(elements) = &present.setup().elements else { return Ok(None) };
         let is_given = self.scene.mesh().contact_element_size.is_some();
         if is_given || !elements.plan.makes_meshes {
@@ -128,7 +125,7 @@ impl Ball {
         self.made_at(speed).map(Some)
     }
 
-    /// The model for a contact at a speed, m/s.
+    /// Returns the model for a contact at a speed, m/s.
     fn made_at(&self, speed: f64) -> Result<Box<dyn Model>, Stop> {
         let scene = self.scene.touching_at(speed);
         let no_speed = || Stop::NotMade(format!("the ball comes down at {speed:?} m/s"));
@@ -172,22 +169,22 @@ impl Model for Bouncing {
             return Collision::stopped(*approach, error.into());
         }
         monitor.enter(Phase::Collision);
-        let mut course = self.course(approach, request);
-        // A contact that is computed in one go reports by itself.
+        let mut stepper = self.stepper(approach, request);
+        // A contact without steps reports its own progress.
         let goes_in_steps = matches!(self.setup().cost, Cost::Steps { .. });
-        while course.advance(monitor) && (!goes_in_steps || monitor.report(course.progress())) {}
-        Box::new(course).finish()
+        while stepper.advance(monitor) && (!goes_in_steps || monitor.report(stepper.progress())) {}
+        Box::new(stepper).finish()
     }
 
     fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
         Some(match request.check() {
-            Ok(()) => Box::new(self.course(approach, request)),
+            Ok(()) => Box::new(self.stepper(approach, request)),
             Err(error) => stopped(*approach, error.into()),
         })
     }
 
     fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        Ok(Box::new(BouncingCourse::resume(&self.ball, memory)?))
+        Ok(Box::new(BouncingStepper::resume(&self.ball, memory)?))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
@@ -230,8 +227,8 @@ fn later_request(
     }
 }
 
-/// A first contact at time 0 as that of a case in which it came after a fall, s and m.
-fn fallen(collision: Collision, time: f64, height: f64) -> Collision {
+/// Returns the first contact, which was computed from time 0, after a fall of a duration (s) and height (m).
+fn after_fall(collision: Collision, time: f64, height: f64) -> Collision {
     let lowered = |mut snapshot: Snapshot| {
         snapshot.time += time;
         snapshot.carried[1] -= height;

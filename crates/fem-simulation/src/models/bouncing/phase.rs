@@ -1,8 +1,7 @@
 //! Influence of the vibrations that a contact leaves on the next one.
 //!
-//! The energy E₁ that a contact force leaves in the vibrations of bodies at rest is that of amplitudes
-//! which it makes. In linear bodies that vibrate already, with the energy E₀, the same force adds them to
-//! those that are there, in whatever phase, and at the end
+//! A contact force leaves the energy E₁ in the vibrations of bodies at rest. In linear bodies that vibrate already with the
+//! energy E₀, the same force adds its amplitudes to theirs in an unknown phase, and at the end
 //!
 //! ```math
 //! |E - E_0 - E_1| \le 2\sqrt{E_0E_1}, \qquad
@@ -10,15 +9,15 @@
 //! |\Delta e| \le \frac{\sqrt{E_0E_1}}{e\,\tfrac12mv^2},
 //! ```
 //!
-//! since what the vibrations gain the ball loses: amplitudes of one mode add as complex numbers, and the
-//! sum over the modes is bounded by Cauchy and Schwarz. Limits: the force is that of bodies at rest, so it
-//! is a bound to first order; vibrations that decay in flight do less.
+//! since the ball loses the energy that the vibrations gain. Amplitudes of one mode add as complex numbers, and the
+//! Cauchy–Schwarz inequality bounds the sum over the modes. The force is that of bodies at rest, so the bound is of first
+//! order; vibrations that decay in flight have less influence.
 
 /// Bounds above this are reported.
 pub(super) const LARGEST: f64 = 1e-3;
 
-/// The bound of Δe, of energies (J) that the contact before has left in vibrations and that this one
-/// leaves, and of the kinetic energy (J) before this one. 0 where nothing vibrates or parts.
+/// Returns the bound of Δe from the energies (J) that the contact before and this one leave in vibrations, and the kinetic
+/// energy (J) before this one. It is 0 if nothing vibrates or the bodies stay together.
 pub(super) fn bound(before: f64, left: f64, kinetic: f64, restitution: f64) -> f64 {
     if before <= 0.0 || restitution <= 0.0 {
         return 0.0;
@@ -30,10 +29,10 @@ pub(super) fn bound(before: f64, left: f64, kinetic: f64, restitution: f64) -> f
 mod tests {
     use super::*;
 
-    /// A ball of 1 kg and a mode of mass 1 kg and frequency ω under the same half-sine force: the
-    /// amplitudes add, and what the ball loses does not exceed the bound, but reaches it.
+    /// A ball of 1 kg and a mode of mass 1 kg and frequency ω under the same half-sine force: the amplitudes add, and the
+    /// change of restitution reaches the bound but does not exceed it.
     #[test]
-    fn no_phase_does_more() {
+    fn the_bound_holds_for_every_phase() {
         let (omega, speed, n) = (2.0_f64, 1.0, 4000);
         // The impulse 2 v of a force that acts for a time π.
         let force = |time: f64| speed * time.sin();

@@ -5,7 +5,7 @@ use fem_collision::{Bounce, Ending, StaticContact};
 use crate::effects::percent;
 use crate::rejection::Rejection;
 
-/// A restitution so near to 1 that a ball does not come to rest.
+/// Restitution above which a ball does not come to rest.
 const LOSSLESS: f64 = 1.0 - 1e-4;
 /// Contact radius over effective radius up to which strains are small.
 const LARGEST_STRAIN: f64 = 0.1;
@@ -17,15 +17,15 @@ pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)
     let mut said = Vec::new();
     if *ending == Ending::AtRest {
         said.push(format!(
-            "the ball comes to rest: after {n} contact{} it does not leave any more",
+            "the ball comes to rest: after {n} contact{} it does not leave again",
             if n == 1 { "" } else { "s" }
         ));
     }
     let least = bounces.iter().map(|bounce| bounce.restitution).fold(f64::INFINITY, f64::min);
     if *ending == Ending::Parted && n > 1 && least > LOSSLESS {
         said.push(format!(
-            "the ball never rests: it loses nothing that would bring it to rest (no restitution is below \
-             {least:.6}); the run ends after the {n} contacts that stop.bounces asks for"
+            "the ball never rests, since it loses almost no energy (no restitution is below {least:.6}); the run \
+             ends after the {n} contacts of stop.bounces"
         ));
     }
     if let Some((contact, bound)) = phase {
@@ -43,7 +43,7 @@ pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Optio
     (share > LARGEST_STRAIN).then(|| {
         format!(
             "at rest the contact radius is {} of the effective radius; above {} the small-strain \
-             model is in doubt",
+             model is not accurate",
             percent(share),
             percent(LARGEST_STRAIN)
         )
@@ -53,13 +53,13 @@ pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Optio
 /// Warns of bodies without equilibrium modulus, after a number of contacts.
 pub(super) fn sinks(n_contacts: usize) -> String {
     format!(
-        "the ball sinks: after {n_contacts} contact{} it does not leave any more, and a body relaxes to \
-         nothing, so it flows under the weight for ever, and no contact bears it at rest",
+        "the ball sinks: after {n_contacts} contact{} it does not leave again, and a body without equilibrium \
+         modulus flows under the weight without limit",
         if n_contacts == 1 { "" } else { "s" }
     )
 }
 
 /// Warns of a static contact that could not be computed.
 pub(super) fn unknown(refusal: &Rejection) -> String {
-    format!("what bears the ball at rest could not be computed: {refusal}")
+    format!("the contact of the ball at rest could not be computed: {refusal}")
 }

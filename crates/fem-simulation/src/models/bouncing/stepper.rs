@@ -1,4 +1,4 @@
-//! A ball that bounces, under way.
+//! The stepper of a bouncing ball.
 
 use std::sync::Arc;
 
@@ -8,46 +8,46 @@ use fem_mesh::SphereMesh;
 
 use super::bounced::{Bounced, Bounces};
 use super::chain::Chain;
-use super::{Ball, fallen, first_request, later_request};
+use super::{Ball, after_fall, first_request, later_request};
 use crate::models::method::{Model, begun};
 use crate::models::stepper::{RestartState, Stepper};
 use crate::rejection::Rejection;
 
-/// A ball that bounces, under way.
-pub(super) struct BouncingCourse {
+/// A bouncing ball under way.
+pub(super) struct BouncingStepper {
     ball: Arc<Ball>,
     known: Bounces,
     /// Computes the contact under way.
     present: Arc<dyn Model>,
-    /// None once there is no further one.
+    /// The contact under way; `None` after the last one.
     contact: Option<Box<dyn Stepper>>,
 }
 
 impl Bounces {
-    /// Output request of the present contact.
-    fn asked(&self, ball: &Ball) -> OutputRequest {
+    /// Returns the output request of the present contact.
+    fn request(&self, ball: &Ball) -> OutputRequest {
         match self.so_far.n_contacts() {
             0 => first_request(&self.request, self.so_far.time()),
             _ => later_request(&self.request, ball.gravity.bounces, self.so_far.element_updates()),
         }
     }
 
-    /// Whether it can be of this ball in this contact. What was computed is not computed again.
+    /// Returns whether the state can belong to this ball in this contact.
     fn fits(&self, ball: &Ball, contact: &fem_explicit::RestartState, met: &Approach) -> bool {
         let (speed, time, _) = ball.fall(&self.approach);
         let is_first = self.so_far.n_contacts() == 0;
         self.request.check().is_ok()
-            && self.so_far.is_sound(&ball.gravity)
+            && self.so_far.is_consistent(&ball.gravity)
             && self.so_far.snapshots().iter().all(|one| has_sizes(one, ball.first.meshes()))
             && self.so_far.first_touch() == time
             && (!is_first || met.speed() == speed)
             && met.velocities()[0] == 0.0
             && met.gap() == 0.0
-            && *contact.request() == self.asked(ball)
+            && *contact.request() == self.request(ball)
     }
 }
 
-/// Whether a snapshot has a value for every node.
+/// Returns whether a snapshot has a value for every node.
 fn has_sizes(snapshot: &Snapshot, meshes: [Option<&SphereMesh>; 2]) -> bool {
     snapshot.bodies.iter().zip(meshes).all(|(fields, mesh)| {
         let n = mesh.map_or(0, |mesh| mesh.nodes().len());
@@ -57,8 +57,8 @@ fn has_sizes(snapshot: &Snapshot, meshes: [Option<&SphereMesh>; 2]) -> bool {
     })
 }
 
-impl BouncingCourse {
-    /// A ball about to fall.
+impl BouncingStepper {
+    /// Makes a ball at its start.
     pub fn new(ball: &Arc<Ball>, approach: &Approach, request: &OutputRequest) -> Self {
         let (speed, time, _) = ball.fall(approach);
         let so_far = Bounced::new(Chain::new(time), ball.gravity);
@@ -70,10 +70,10 @@ impl BouncingCourse {
         course
     }
 
-    /// Goes on from a memory.
+    /// Continues from a restart state.
     ///
     /// # Errors
-    /// A memory of another ball; one whose parts contradict each other.
+    /// A restart state of another ball, or one whose parts contradict each other.
     pub fn resume(ball: &Arc<Ball>, memory: RestartState) -> Result<Self, Rejection> {
         let another = || Rejection::new("gravity", ModelError::ForeignRestartState.to_string());
         let known = memory.bounces.clone().ok_or_else(another)?;
@@ -88,7 +88,7 @@ impl BouncingCourse {
         Ok(Self { ball: ball.clone(), known: *known, present, contact })
     }
 
-    /// The ball comes down at a speed, m/s.
+    /// Begins the contact at a landing speed, m/s.
     fn touch(&mut self, speed: f64) {
         match self.begin(speed) {
             Ok(contact) => self.contact = Some(contact),
@@ -96,25 +96,25 @@ impl BouncingCourse {
         }
     }
 
-    /// The contact at a speed, m/s.
+    /// Returns the stepper of the contact at a speed, m/s.
     fn begin(&mut self, speed: f64) -> Result<Box<dyn Stepper>, Stop> {
         if self.known.so_far.n_contacts() > 0
-            && let Some(model) = self.ball.anew(self.present.as_ref(), speed)?
+            && let Some(model) = self.ball.refined_model(self.present.as_ref(), speed)?
         {
             self.present = Arc::from(model);
             self.known.made_at = Some(speed);
         }
         let contact =
             Approach::new([0.0, -speed], 0.0).map_err(|error| Stop::NotMade(error.to_string()))?;
-        Ok(begun(&self.present, &contact, &self.known.asked(&self.ball)))
+        Ok(begun(&self.present, &contact, &self.known.request(&self.ball)))
     }
 
-    /// A contact is over: the speed (m/s) at which the ball comes down again, if it does.
+    /// Takes the result of a contact and returns the speed (m/s) of the next landing, if there is one.
     fn take(&mut self, collision: Collision) -> Option<f64> {
         let collision = match self.known.so_far.n_contacts() {
             0 => {
                 let (_, time, height) = self.ball.fall(&self.known.approach);
-                fallen(collision, time, height)
+                after_fall(collision, time, height)
             }
             _ => collision,
         };
@@ -122,10 +122,10 @@ impl BouncingCourse {
     }
 }
 
-impl Stepper for BouncingCourse {
+impl Stepper for BouncingStepper {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         let Some(contact) = &mut self.contact else { return false };
-        let mut one = OneOfMany::of(&self.known.so_far, &self.ball, monitor);
+        let mut one = ContactMonitor::of(&self.known.so_far, &self.ball, monitor);
         if contact.advance(&mut one) {
             return true;
         }
@@ -143,7 +143,9 @@ impl Stepper for BouncingCourse {
         let so_far = &self.known.so_far;
         let over = Progress { time: 0.0, step: 0, fraction: 1.0, contact_force: 0.0 };
         match &self.contact {
-            Some(contact) => OneOfMany::of(so_far, &self.ball, &mut ()).whole(contact.progress()),
+            Some(contact) => {
+                ContactMonitor::of(so_far, &self.ball, &mut ()).whole(contact.progress())
+            }
             None => Progress { time: so_far.time(), ..over },
         }
     }
@@ -166,17 +168,17 @@ impl Stepper for BouncingCourse {
     }
 }
 
-/// Looks on for one that looks on at all contacts.
-struct OneOfMany<'a> {
+/// The monitor of one contact, which reports to the monitor of all contacts.
+struct ContactMonitor<'a> {
     monitor: &'a mut dyn Monitor,
     k: usize,
     n: usize,
-    /// First touch since the start of the case, s.
+    /// Time of first touch of the contact, s.
     time: f64,
 }
 
-impl<'a> OneOfMany<'a> {
-    /// Returns the approach of the next contact.
+impl<'a> ContactMonitor<'a> {
+    /// Makes the monitor of the present contact.
     fn of(so_far: &Bounced, ball: &Ball, monitor: &'a mut dyn Monitor) -> Self {
         Self { monitor, k: so_far.n_contacts(), n: ball.gravity.bounces, time: so_far.time() }
     }
@@ -188,8 +190,8 @@ impl<'a> OneOfMany<'a> {
     }
 }
 
-impl Monitor for OneOfMany<'_> {
-    /// All contacts are one collision.
+impl Monitor for ContactMonitor<'_> {
+    /// Reports the phase of the first contact alone, since all contacts are one collision.
     fn enter(&mut self, phase: Phase) {
         if self.k == 0 {
             self.monitor.enter(phase);

@@ -1,10 +1,10 @@
-//! Linear finite elements that are condensed to their contact nodes: the meshes and the materials of
-//! the explicit model, milliseconds instead of seconds.
+//! Linear finite elements condensed to their contact nodes, with the meshes and materials of the explicit model. A collision
+//! takes milliseconds instead of seconds.
 
 pub(crate) mod bytes;
 
 mod effects;
-mod pace;
+mod n_steps;
 pub(super) mod static_contact;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -22,7 +22,7 @@ use fem_material::engineering::Unit;
 use fem_mesh::SphereMesh;
 
 use self::bytes::relaxes_in_shear;
-use self::pace::{Foretold, n_steps};
+use self::n_steps::{ExpectedProgress, n_steps};
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::effects::{Effect, MirrorSymmetry, PartnerWaves, Support, Vibration, decide};
 use crate::estimate::Estimate;
@@ -36,11 +36,11 @@ use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::pair_cache::PairKey;
 use crate::rejection::Rejection;
 
-/// Growth of the condensed region where the contact needs a larger one.
+/// Growth factor of the condensed region if the contact needs a larger one.
 const CANDIDATE_GROWTH: f64 = 2.0;
 /// Half-width of the condensed region over that of the fine block.
 const CANDIDATES_OVER_REFINED: f64 = 1.125;
-/// Least half-width of the condensed region over the contact radius that Hertz expects.
+/// Least half-width of the condensed region over Hertz' contact radius.
 const CANDIDATES_OVER_CONTACT: f64 = 1.3;
 /// Least half-width of the condensed region, in elements of the contact.
 const CANDIDATE_ELEMENTS: f64 = 3.0;
@@ -75,7 +75,7 @@ impl Method for CondensedMethod {
         check_memory(&plan, &BodySource::of_scene(scene, &plan)?).map(|()| 0)
     }
 
-    /// Tables that the model does not read stay as they are.
+    /// Returns the case with the defaults of the tables that the model reads.
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let options = options(scene);
         let (time, contact) = (file.time.clone(), file.contact.clone());
@@ -100,18 +100,18 @@ pub struct Condensed {
     setup: ModelSetup,
     scene: Scene,
     pair: Arc<CondensedPair>,
-    /// The same bodies condensed out to other radii, as collisions have asked for them.
+    /// The same bodies condensed out to other radii, for collisions that needed them.
     others: Mutex<Vec<Arc<CondensedPair>>>,
     options: CondensedOptions,
 }
 
 impl Condensed {
-    /// Meshes and condenses, or takes the same pair from those that are shared without making a mesh.
-    /// A scene of another model is condensed with the options that a case has by default.
+    /// Meshes and condenses the bodies, or takes the same pair from the shared ones without a mesh. A scene of another model
+    /// is condensed with default options.
     ///
     /// # Errors
-    /// What the plan refuses; meshes that cannot be made or read; more elements or memory than the
-    /// limits allow; a stiffness that cannot be factored.
+    /// A scene that the plan rejects; meshes that cannot be made or read; more elements or memory than the limits allow; a
+    /// stiffness that cannot be factored.
     pub fn new(scene: &Scene, shared: &SharedModels) -> Result<Self, Rejection> {
         Self::with_plan(scene, Plan::of(scene)?, shared)
     }
@@ -121,7 +121,7 @@ impl Condensed {
         let options = options(scene);
         let sources = BodySource::of_scene(scene, &plan)?;
         check_memory(&plan, &sources)?;
-        // Only the collision reads relaxations.
+        // Condensation does not depend on relaxation.
         let bodies = sources.map(BodySource::without_relaxation);
         let asks_for_fields = !plan.snapshots.is_empty() || !scene.probes().is_empty();
         let settings = PairSettings {
@@ -161,21 +161,21 @@ impl Condensed {
         Ok(Self { setup, scene: scene.clone(), pair, others: Mutex::default(), options })
     }
 
-    /// Those of the warnings that the speed causes.
+    /// Returns the warnings about the speed.
     pub fn speed_warnings(&self) -> Vec<String> {
-        Vibration::doubts_of_speed(&self.setup.estimate, self.options.vibration_modes)
+        Vibration::warnings_of_speed(&self.setup.estimate, self.options.vibration_modes)
     }
 
-    /// The condensed bodies.
+    /// Returns the condensed bodies.
     pub fn pair(&self) -> &CondensedPair {
         &self.pair
     }
 
-    /// The restitution of the same bodies at another speed, m/s, with other relaxations, lower body
-    /// first: the factors are kept.
+    /// Computes the restitution of the same bodies at another speed, m/s, and with other relaxations, lower body first. The
+    /// factors are used again.
     ///
     /// # Errors
-    /// What stops the collision before its end.
+    /// A collision that stops before its end.
     pub fn restitution(
         &self,
         speed: f64,
@@ -191,7 +191,7 @@ impl Condensed {
         }
     }
 
-    /// Condenses further out as long as the contact reaches the end.
+    /// Computes the collision, with a larger condensed region as long as the contact outgrows it.
     fn follow(
         &self,
         approach: &Approach,
@@ -246,7 +246,7 @@ impl Condensed {
         Ok(radiating.map(|material| Some(radiation_damping(&material?))))
     }
 
-    /// The bodies condensed as far out as an approach asks for at first.
+    /// Returns the bodies with the condensed region that an approach needs at first.
     fn pair_at(&self, approach: &Approach) -> Result<Arc<CondensedPair>, Stop> {
         let own = self.pair.settings().candidate_radius;
         let Some(elements) = &self.setup.elements else { return Ok(self.pair.clone()) };
@@ -263,10 +263,9 @@ impl Condensed {
             .map_err(|error| stop_of(error, approach))
     }
 
-    /// The bodies condensed further out than a pair: as far as it takes for more points, which in a mesh
-    /// that is coarse there lie far out.
+    /// Returns the bodies with a larger condensed region, so large that it has more contact points.
     fn larger(&self, pair: &CondensedPair) -> Result<Arc<CondensedPair>, CondensedError> {
-        // Where the pole is the only point, the last one lies at 0.
+        // The pole may be the only point, at radius 0.
         let reached = Some(pair.candidate_radius()).filter(|radius| *radius > 0.0);
         let mut radius = CANDIDATE_GROWTH * reached.unwrap_or(pair.settings().candidate_radius);
         loop {
@@ -281,7 +280,7 @@ impl Condensed {
         }
     }
 
-    /// The bodies condensed out to another radius, m: the same for all collisions that ask for it.
+    /// Returns the bodies condensed out to another radius, m, which all collisions share.
     fn other(
         &self,
         candidate_radius: f64,
@@ -325,8 +324,8 @@ impl Model for Condensed {
         let slower = slower(&self.scene, &estimate, approach);
         let n_steps = n_steps(self.options, slower, estimate.relaxed);
         let duration = slower.end * (1.0 + FLIGHT_AFTER) * estimate.hertz.contact_time();
-        let mut foretold = Foretold { monitor, begin: approach.first_touch(), duration };
-        self.follow(approach, relaxations, n_steps, request, &mut foretold)
+        let mut monitor = ExpectedProgress { monitor, begin: approach.first_touch(), duration };
+        self.follow(approach, relaxations, n_steps, request, &mut monitor)
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
@@ -338,7 +337,7 @@ impl Model for Condensed {
     }
 }
 
-/// Why a collision could not begin, as the stop of one: at first touch.
+/// Returns the stop at first touch of a collision that could not begin.
 fn stop_of(error: CondensedError, approach: &Approach) -> Stop {
     match error {
         CondensedError::ContactBeyondCandidates { radius } => {
@@ -376,8 +375,8 @@ fn inputs(key: &PairKey) -> Result<[BodyInput; 2], Rejection> {
     Ok([lower.build(0)?, upper.build(1)?])
 }
 
-/// The condensed region goes by the fine block, so that all speeds that share a mesh share a
-/// factor; a contact that is expected further out doubles it.
+/// Returns the radius of the condensed region. It depends on the fine block, so that all speeds that share a mesh share a
+/// factor; a contact that is expected to be wider doubles it.
 fn candidate_radius(plan: &Plan, estimate: &Estimate) -> f64 {
     let needed = (CANDIDATES_OVER_CONTACT * estimate.hertz.max_contact_radius())
         .max(CANDIDATE_ELEMENTS * plan.contact_element_size);
@@ -406,7 +405,7 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
     }
 }
 
-/// Whether a collision needs more of the bodies than their compliance, even if no fields are asked for.
+/// Returns whether a collision needs the factors of the bodies even without fields.
 fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
     options.vibration_modes > 0 || scene.bodies().iter().any(relaxes_in_shear)
 }

@@ -1,8 +1,7 @@
-//! The contact of finite elements under a force that stays, all having relaxed.
+//! The contact of relaxed finite elements under a constant force.
 //!
-//! Explicit elements cannot be stepped there: relaxation times may be far above their time step. The
-//! same meshes and elements are condensed with equilibrium moduli, elements at the contact as the plan
-//! chooses them for Hertz' contact radius under that force, and pressed together.
+//! Relaxation times may be far above the time step of explicit elements. The same bodies are condensed with equilibrium
+//! moduli, on a mesh that the plan chooses for Hertz' contact radius under the force, and pressed together.
 
 use fem_case::{CondensedOptions, ModelChoice, Scene};
 use fem_collision::StaticContact;
@@ -15,11 +14,10 @@ use crate::plan::body_source::BodySource;
 use crate::plan::pair_cache::PairKey;
 use crate::rejection::Rejection;
 
-/// The contact of a scene's bodies with gravity; `None` of bodies that flow.
+/// Computes the static contact of a scene's bodies; `None` if they flow.
 ///
 /// # Errors
-/// Closed forms that leave the range of f64; a mesh or factor that cannot be made; a contact that
-/// reaches as far as the smaller body.
+/// Closed forms that leave the range of f64; a mesh or factor that cannot be made; a contact as wide as the smaller body.
 pub(in crate::models) fn of_elements(
     scene: &Scene,
     force: f64,
@@ -28,7 +26,7 @@ pub(in crate::models) fn of_elements(
     let Some(relaxed) = scene.at_equilibrium() else { return Ok(None) };
     let hertz = relaxed.pair().and_then(|pair| Ok((pair, StaticHertz::new(&pair, force)?)));
     let (pair, hertz) = hertz.map_err(|error| refuse(error.to_string()))?;
-    // At this speed Hertz' largest approach, (1.25 m v²/K)^(2/5), is the static one.
+    // At this speed Hertz' largest approach, (1.25 m v²/K)^(2/5), equals the static one.
     let stiffness = force / (hertz.approach * hertz.approach.sqrt());
     let speed =
         hertz.approach * (0.8 * stiffness * hertz.approach.sqrt() / pair.effective_mass()).sqrt();
@@ -38,7 +36,7 @@ pub(in crate::models) fn of_elements(
             hertz.contact_radius
         )));
     };
-    // At rest the mesh of a half-space has to reach further than for waves.
+    // A static contact needs a larger mesh of a half-space than waves do.
     let relaxed = relaxed.with_model(ModelChoice::Condensed(CondensedOptions::default()));
     let plan = Plan::of(&relaxed)?;
     let bodies = BodySource::of_scene(&relaxed, &plan)?;

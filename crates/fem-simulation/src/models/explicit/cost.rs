@@ -14,20 +14,19 @@ use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_
 use crate::plan::penalty_compliance::lengthening;
 use crate::rejection::Rejection;
 
-/// Seconds of an update of an element on one core of 3 GHz, as docs/effects.md has them: at small
-/// strain, ...
+/// Seconds per element update at small strain on one core of 3 GHz, from docs/effects.md. Other machines differ by a factor.
 const SECONDS_AN_UPDATE: f64 = 6e-9;
-/// ... of each of its Prony terms, ...
+/// Additional seconds per Prony term at small strain.
 const SECONDS_A_BRANCH: f64 = 1e-9;
-/// ... at finite strain, with the bounds of its step, ...
+/// Seconds per element update at finite strain, with the bounds of the time step.
 const SECONDS_AT_FINITE_STRAIN: f64 = 20e-9;
-/// ... of each Prony term there, ...
+/// Additional seconds per Prony term at finite strain.
 const SECONDS_A_BRANCH_AT_FINITE_STRAIN: f64 = 7e-9;
-/// ... and of bulk viscosity. Other machines differ by a factor.
+/// Additional seconds per element update with bulk viscosity.
 const SECONDS_OF_BULK_VISCOSITY: f64 = 5e-9;
-/// Seconds of a step that springs between moved surfaces take, and what is read of them.
+/// Seconds per step of springs between moved surfaces.
 const SECONDS_OF_MOVED_CONTACT: f64 = 6e-6;
-/// Seconds of the condensed reference runs for each element.
+/// Seconds of the condensed reference runs per element.
 const SECONDS_OF_CONDENSED_REFERENCE: f64 = 30e-6;
 
 /// Returns the cost of a run, within the limits.
@@ -62,19 +61,19 @@ pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, R
     })
 }
 
-/// Element updates of the coarser reference run over those of the collision: elements are twice as long.
+/// Element updates of the reference run with elements twice as long over those of the collision.
 pub(crate) const REFERENCE_UPDATES: f64 = 0.125;
-/// Impact speed over the shear wave speed from which condensed bodies do not have the discretisation error of explicit
-/// elements: at twice this speed rubber on a wall is off by 1.4 % of the contact time where they have 0.3 %.
+/// Impact speed over the shear wave speed from which condensed bodies underestimate the discretisation error of explicit
+/// elements: at twice this speed it is 1.4 % of the contact time for rubber on a wall, where they have 0.3 %.
 const SLOW: f64 = 0.02;
-/// Contact radius over effective radius from which they do not have it at finite strain.
+/// Contact radius over effective radius from which they underestimate it at finite strain.
 const FLAT: f64 = 0.1;
 
 /// Returns whether the discretisation error of explicit elements needs a reference run of explicit elements: condensed
 /// bodies have neither large strains nor waves.
 pub(crate) fn needs_own_reference(estimate: &Estimate, is_at_finite_strain: bool) -> bool {
     let Estimate { mach, strain, .. } = *estimate;
-    // A strain that is no number is not small.
+    // A strain that is NaN counts as large.
     let is_large = is_at_finite_strain && (strain.is_nan() || strain >= FLAT);
     is_large || mach >= SLOW
 }
@@ -100,7 +99,7 @@ fn reference_memory(scene: &Scene, model: &Bodies, plan: &Plan) -> Option<u64> {
         .then(|| bytes::expected([(lower, of_lower), (upper, of_upper)], false))
 }
 
-/// Seconds that a step of both bodies takes.
+/// Returns the seconds per step of both bodies.
 fn seconds_a_step(scene: &Scene, model: &Bodies, plan: &Plan) -> f64 {
     let is_finite = model.changes_stiffness();
     let whole = mach(scene, scene.approach_speed() / plan.speed_share);
@@ -117,7 +116,7 @@ fn seconds_a_step(scene: &Scene, model: &Bodies, plan: &Plan) -> f64 {
     seconds.sum::<f64>() + of_contact
 }
 
-/// Prony terms whose history is kept of a body.
+/// Returns the number of Prony terms of a body that have a history.
 fn n_branches(body: &Body) -> u64 {
     let series = body.material().and_then(Material::relaxation);
     let terms = series.into_iter().flat_map(PronySeries::terms);

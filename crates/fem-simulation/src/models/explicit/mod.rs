@@ -35,7 +35,7 @@ use crate::plan::contact_method::unread;
 use crate::plan::{Plan, candidate_radius};
 use crate::rejection::Rejection;
 
-/// Growth of the searched region when the contact leaves it.
+/// Growth factor of the candidate region if the contact leaves it.
 const CANDIDATE_GROWTH: f64 = 1.5;
 
 /// Explicit finite elements, `[model] fem = {}`.
@@ -64,7 +64,7 @@ impl Method for ExplicitMethod {
         let plan = Plan::of(scene)?;
         let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
         let mut file = plan.resolve(file);
-        // Surfaces that are where they have moved have springs of their own.
+        // Contact between moved surfaces has springs of its own.
         if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
             contact.method = None;
         }
@@ -77,9 +77,9 @@ impl Method for ExplicitMethod {
 pub struct Explicit {
     setup: ModelSetup,
     made: Arc<Made>,
-    /// In which the scene's bodies are computed.
+    /// Frame in which the scene's bodies are computed.
     frame: OwnFrame,
-    /// Approach of the scene's bodies.
+    /// Bodies and contact at the approach of the scene.
     bodies: Arc<Bodies>,
 }
 
@@ -88,22 +88,22 @@ pub struct Explicit {
 struct Made {
     scene: Scene,
     settings: Settings,
-    /// Length, in metres.
+    /// Element size at the contact, m.
     contact_element_size: f64,
     method: ContactMethod,
-    /// Penalty factor of its springs over the default.
+    /// Penalty factor of the contact springs over the default.
     penalty_factor: f64,
-    /// See [`Plan::speed_share`].
+    /// Speed of these bodies over that of the whole scene ([`Plan::speed_share`]).
     speed_share: f64,
     inputs: [BodyInput; 2],
 }
 
 impl Explicit {
-    /// Decides, meshes, and builds the bodies.
+    /// Plans the run, makes the meshes and builds the bodies.
     ///
     /// # Errors
-    /// What the plan refuses; meshes that cannot be made or read; more elements, steps or memory
-    /// than the limits allow.
+    /// A scene that the plan rejects; meshes that cannot be made or read; more elements, steps or memory than the limits
+    /// allow.
     pub fn new(scene: &Scene) -> Result<Self, Rejection> {
         Self::with_plan(scene, Plan::of(scene)?)
     }
@@ -153,13 +153,12 @@ impl Explicit {
         Ok(Self { setup, made: Arc::new(made), frame, bodies: Arc::new(bodies) })
     }
 
-    /// Bodies and contact, as the scene's bodies meet.
+    /// Returns bodies and contact at the approach of the scene.
     pub fn bodies(&self) -> &Bodies {
         &self.bodies
     }
 
-    /// Bodies and contact as they computed a collision, however they met and however far contact was
-    /// looked for.
+    /// Returns bodies and contact that computed a collision, with its approach and candidate region.
     ///
     /// # Errors
     /// A collision of other bodies.
@@ -169,8 +168,7 @@ impl Explicit {
         self.bodies_at(frame.own(), candidate_region.radius)
     }
 
-    /// Bodies that meet like this in their own frame and look for contact out to a radius, m: the model's
-    /// own if they do.
+    /// Returns bodies with an approach in their own frame and a candidate radius, m, which may be the model's own.
     fn bodies_at(&self, approach: &Approach, radius: f64) -> Result<Arc<Bodies>, ModelError> {
         if *approach == *self.frame.own() && radius == self.bodies.candidate_radius() {
             return Ok(self.bodies.clone());
@@ -178,21 +176,21 @@ impl Explicit {
         self.made.bodies(approach, radius).map(Arc::new)
     }
 
-    /// A collision under way.
-    fn course(&self, approach: &Approach, request: &OutputRequest) -> Box<dyn Stepper> {
+    /// Begins a collision.
+    fn stepper(&self, approach: &Approach, request: &OutputRequest) -> Box<dyn Stepper> {
         match request.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
                 let (expected, request) = (estimate.expectation(), frame.request(request));
                 let duration = expected_duration(&self.made.scene, &estimate, approach);
                 let run = Run::new(bodies, expected, &request);
                 let made = self.made.clone();
-                Box::new(ExplicitCourse { made, frame, expected, duration, request, run })
+                Box::new(ExplicitStepper { made, frame, expected, duration, request, run })
             }
             Err(stop) => stopped(*approach, stop),
         }
     }
 
-    /// The bodies that meet in another way, their frame, and what closed forms say of it.
+    /// Returns the bodies at an approach, their frame, and the closed-form estimate.
     fn meeting(&self, approach: &Approach) -> Result<(Arc<Bodies>, OwnFrame, Estimate), Stop> {
         if *approach == self.setup.approach {
             return Ok((self.bodies.clone(), self.frame, self.setup.estimate));
@@ -208,13 +206,13 @@ impl Explicit {
 }
 
 impl Made {
-    /// The frame in which bodies are computed that meet like this.
+    /// Returns the frame in which bodies with this approach are computed.
     fn own_frame(&self, approach: &Approach) -> Result<OwnFrame, ModelError> {
         let masses = frame_of(&self.scene, approach, 0.0).masses;
         Ok(OwnFrame::of(approach, masses)?)
     }
 
-    /// Bodies that look for contact out to a radius, m, with the parts that effects ask for.
+    /// Builds bodies with a candidate radius, m, and the parts that the effects need.
     fn bodies(&self, approach: &Approach, candidate_radius: f64) -> Result<Bodies, ModelError> {
         let settings = Settings { candidate_radius, ..self.settings };
         let parts = parts(
@@ -227,7 +225,7 @@ impl Made {
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
-    /// The same bodies with a larger searched region, if there is one.
+    /// Returns the same bodies with a larger candidate region, if there is one.
     fn larger(&self, bodies: &Bodies) -> Option<Bodies> {
         let before = bodies.candidate_radius();
         let larger = self.bodies(bodies.approach(), CANDIDATE_GROWTH * before).ok()?;
@@ -251,11 +249,11 @@ impl Model for Explicit {
         monitor: &mut dyn Monitor,
     ) -> Collision {
         monitor.enter(Phase::Collision);
-        to_the_end(self.course(approach, request), monitor)
+        to_the_end(self.stepper(approach, request), monitor)
     }
 
     fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        Some(self.course(approach, request))
+        Some(self.stepper(approach, request))
     }
 
     fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
@@ -274,7 +272,7 @@ impl Model for Explicit {
             .map_err(|error| Rejection::new("body", error.to_string()))?;
         let duration = expected_duration(scene, &estimate, &approach);
         let made = self.made.clone();
-        Ok(Box::new(ExplicitCourse { made, frame, expected, duration, request, run }))
+        Ok(Box::new(ExplicitStepper { made, frame, expected, duration, request, run }))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
@@ -286,9 +284,8 @@ impl Model for Explicit {
     }
 }
 
-/// A collision of explicit elements under way: a run, begun again where the contact outgrows the region
-/// in which it is looked for.
-struct ExplicitCourse {
+/// A collision of explicit elements under way: a run that restarts if the contact outgrows the candidate region.
+struct ExplicitStepper {
     made: Arc<Made>,
     frame: OwnFrame,
     expected: Expectation,
@@ -298,7 +295,7 @@ struct ExplicitCourse {
     run: Run<Arc<Bodies>>,
 }
 
-impl Stepper for ExplicitCourse {
+impl Stepper for ExplicitStepper {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         match self.run.advance(STEPS_BETWEEN_REPORTS) {
             None => return true,
@@ -329,7 +326,7 @@ impl Stepper for ExplicitCourse {
     }
 }
 
-/// Bodies that cannot be made of a scene.
+/// Returns the rejection of a scene whose bodies cannot be built.
 fn refused(error: ModelError) -> Rejection {
     let refusal = Rejection::new("body", error.to_string());
     match error {
@@ -369,7 +366,7 @@ fn parts(
     Ok(parts)
 }
 
-/// Of a body's elements, none of which is compressed faster than the bodies approach, m/s.
+/// Returns the bulk viscosity of a body's elements, which are compressed at most at the approach speed, m/s.
 fn bulk_viscosity(input: &BodyInput, speed: f64) -> Result<Option<Box<dyn NodeForce>>, ModelError> {
     let (Some(mesh), Some(material)) = (input.mesh(), input.material()) else { return Ok(None) };
     let usual = ViscosityCoefficients::default();
@@ -408,9 +405,9 @@ fn support(
     bodies: Option<&Bodies>,
 ) -> Option<Support> {
     Some(match effect.name() {
-        Viscoelasticity::NAME => Support::Inherent { idle: "no history is kept" },
+        Viscoelasticity::NAME => Support::Inherent { idle: "" },
         HourglassControl::NAME => {
-            let why = "elements with one mean stress need the stiffness of their bending modes";
+            let why = "elements with one mean strain need stiffness against hourglass modes";
             Support::is(true, why)
         }
         ContactSearch::NAME => ContactSearch::within(&bodies?.candidate_region()),
@@ -429,7 +426,7 @@ fn support(
     })
 }
 
-/// Whether mass is added, and to whom.
+/// Returns the decision on mass scaling with the moved masses.
 fn mass_scaling(scene: &Scene, model: &Bodies) -> Support {
     let masses = model.bodies().each_ref().map(|body| Some(body.mass()).filter(|m| m.is_finite()));
     let added = model.bodies().each_ref().map(|body| Some(body.added_mass()));

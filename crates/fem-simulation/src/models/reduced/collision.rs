@@ -1,4 +1,4 @@
-//! From a relative motion to what is asked of every model.
+//! The collision of two bodies from their relative motion.
 
 use fem_collision::{
     Account, BodyResult, Collision, Ending, EnergyLedger, Frame, HistoryRow, OutputRequest,
@@ -7,12 +7,12 @@ use fem_collision::{
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, ImpactInstant, ImpactPath, Pair};
 
-/// The history goes on after the contact for this part of its rows.
+/// Rows of the history within the contact per row after it.
 const ROWS_PER_ROW_AFTER: usize = 5;
-/// Hertz' exponent: what has it has Hertz' contact radius.
+/// Exponent of Hertz' force law; a law with it has Hertz' contact radius.
 pub(super) const HERTZ_EXPONENT: f64 = 1.5;
 
-/// The collision of both bodies of a frame.
+/// Returns the collision of both bodies of a frame.
 pub(super) fn of_impact(
     impact: &Impact,
     frame: &Frame,
@@ -74,14 +74,14 @@ pub(super) fn of_impact(
     }
 }
 
-/// Makes rows of instants.
+/// Makes history rows from instants of the motion.
 struct Rows<'a> {
     frame: &'a Frame,
     has_radius: bool,
 }
 
 impl Rows<'_> {
-    /// `n` rows at equal times over the contact and a fifth of it after; a contact without an end
+    /// Returns `n` rows at equal intervals over the contact and a fifth of its duration after it; a contact without an end
     /// has none after.
     fn of(
         &self,
@@ -94,7 +94,7 @@ impl Rows<'_> {
         let path = ImpactPath::new(impact, pair, law).with_gravity(self.frame.gravity);
         let after = if impact.contact_time.is_some() { n / ROWS_PER_ROW_AFTER } else { 0 };
         (0..=n + after)
-            // The last contact instant comes exactly.
+            // The last instant of the contact is exact.
             .map(|k| if k == n { last.time } else { last.time * (k as f64 / n as f64) })
             .filter_map(|time| Some(self.row(&path.at(time)?)))
             .collect()

@@ -13,7 +13,7 @@ use crate::estimate::Estimate;
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
-/// Hertz, `[model] hertz = {}`.
+/// Hertz' model, `[model] hertz = {}`.
 #[derive(Clone, Copy, Debug)]
 pub struct HertzMethod;
 
@@ -57,7 +57,7 @@ pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
         return Err(Rejection::chose_another(scene, "hertz"));
     };
     let estimate = Estimate::checked(scene)?;
-    // Elastic bodies under Ting are Hertz', and Ting knows their size.
+    // Ting's model of elastic bodies is Hertz' with finite size and gravity.
     let is_closed = !finite_size && scene.gravity().is_none();
     let tolerance = Ting::DEFAULT_TOLERANCE;
     let motion: Box<dyn Motion> = match is_closed {

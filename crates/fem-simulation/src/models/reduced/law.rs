@@ -47,7 +47,7 @@ impl Method for LawMethod {
     }
 }
 
-/// The speed (m/s) at which Hunt and Crossley's restitution is wanted, if left to the case.
+/// Returns the law with Hunt and Crossley's speed (m/s) filled in, at which their restitution holds.
 fn with_speed(mut law: LawTable, speed: f64) -> LawTable {
     if let Some(keys) = &mut law.hunt_crossley {
         keys.v.get_or_insert(Quantity::from_si(speed));
@@ -55,7 +55,7 @@ fn with_speed(mut law: LawTable, speed: f64) -> LawTable {
     law
 }
 
-/// A law, its numbers, and its integration.
+/// A law, its parameters, and its integration.
 #[derive(Debug)]
 struct LawMotion {
     impact: LawImpact,

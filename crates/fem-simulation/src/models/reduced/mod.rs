@@ -1,5 +1,5 @@
-//! Models of one degree of freedom, the approach of the mass centres. What is asked of all models comes
-//! from the relative motion and the conservation of momentum.
+//! Models of one degree of freedom, the approach of the mass centres. Results follow from the relative motion and the
+//! conservation of momentum.
 
 pub(super) mod hertz;
 pub(super) mod law;
@@ -27,22 +27,22 @@ use crate::models::method::{Cost, ForceLaw, Model, ModelSetup};
 use crate::rejection::Rejection;
 use collision::HERTZ_EXPONENT;
 
-/// What computes a relative motion.
+/// A method that computes the relative motion.
 pub(super) trait Motion: fmt::Debug + Send + Sync {
-    /// The relative motion at an approach speed, m/s.
+    /// Computes the relative motion at an approach speed, m/s.
     fn impact(&self, speed: f64) -> Result<Impact, LawError>;
 
-    /// Share of the contact modulus that never relaxes, 0 to 1.
+    /// Returns the share of the contact modulus that never relaxes, 0 to 1.
     fn equilibrium_weight(&self) -> f64 {
         1.0
     }
 
-    /// Stiffness and dashpot of a law of the overlap.
+    /// Returns the stiffness and dashpot of a law of the overlap.
     fn law(&self) -> Option<&ContactLaw> {
         None
     }
 
-    /// The law's numbers, SI, in the order of its family's parameters.
+    /// Returns the law's parameters in SI units, in the order of its family.
     fn law_numbers(&self) -> Option<&[f64]> {
         None
     }
@@ -91,25 +91,25 @@ impl Reduced {
         Ok(Self { setup, scene: scene.clone(), motion, pair })
     }
 
-    /// The scene.
+    /// Returns the scene of the model.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Stiffness and dashpot of a law.
+    /// Returns the stiffness and dashpot of a law.
     pub fn law(&self) -> Option<&ContactLaw> {
         self.motion.law()
     }
 
-    /// The law's numbers, SI, in the order of its family's parameters.
+    /// Returns the law's parameters in SI units, in the order of its family.
     pub fn law_numbers(&self) -> Option<&[f64]> {
         self.motion.law_numbers()
     }
 
-    /// The relative motion at an approach speed, m/s, the law's numbers those of the case.
+    /// Computes the relative motion at an approach speed, m/s, with the law's parameters of the case.
     ///
     /// # Errors
-    /// Those of the model.
+    /// A speed at which the model has no solution.
     pub fn impact(&self, speed: f64) -> Result<Impact, LawError> {
         self.motion.impact(speed)
     }
@@ -124,7 +124,7 @@ impl Model for Reduced {
         effects::support(effect, &self.scene, estimate, self.law())
     }
 
-    /// Closed forms and short integrations: nobody needs to look on.
+    /// Computes the collision without reports of progress, since it takes milliseconds.
     fn collide(
         &self,
         approach: &Approach,
@@ -190,12 +190,12 @@ fn stop_of(error: &LawError) -> Stop {
     }
 }
 
-/// What a law of the scene refuses.
+/// Returns the rejection of a scene by its law.
 pub(super) fn refused(scene: &Scene, error: &LawError) -> Rejection {
     Rejection::new(scene.model().path(), error.to_string())
 }
 
-/// The start that all reduced models fill in; what they do not read stays as it is.
+/// Returns the case with the start filled in, which all reduced models read.
 pub(super) fn resolve_start(scene: &Scene, mut file: CaseFile) -> CaseFile {
     let gap = scene.gap().unwrap_or_default();
     file.start = Some(StartTable { gap: Some(Quantity::from_si(gap)) });

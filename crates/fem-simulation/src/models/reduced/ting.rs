@@ -14,7 +14,7 @@ use crate::estimate::viscous_flow;
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
-/// Ting, `[model] ting = {}`.
+/// Ting's model, `[model] ting = {}`.
 #[derive(Clone, Copy, Debug)]
 pub struct TingMethod;
 
@@ -53,17 +53,17 @@ impl Motion for Ting {
     }
 }
 
-/// Ting's model with the waves that do not come back at the speed at which bodies meet.
+/// Ting's model with radiated waves, which depend on the approach speed.
 #[derive(Debug)]
-struct WithWaves {
-    /// Without them.
+struct WithRadiation {
+    /// The model without radiation.
     ting: Ting,
     scene: Scene,
     finite_size: bool,
     tolerance: f64,
 }
 
-impl Motion for WithWaves {
+impl Motion for WithRadiation {
     fn impact(&self, speed: f64) -> Result<Impact, LawError> {
         let estimate = Estimate::at(&self.scene, speed)?;
         let radiating = PartnerWaves::radiating(&self.scene, &estimate);
@@ -71,7 +71,7 @@ impl Motion for WithWaves {
             [None, None] => self.ting.impact(speed),
             _ => {
                 let Self { scene, finite_size, tolerance, .. } = self;
-                let finish = |ting: Ting| weighed(ting, scene)?.with_tolerance(*tolerance);
+                let finish = |ting: Ting| with_gravity(ting, scene)?.with_tolerance(*tolerance);
                 radiating_impact(scene, &radiating, speed, *finite_size, finish)
             }
         }
@@ -82,8 +82,8 @@ impl Motion for WithWaves {
     }
 }
 
-/// With the gravity of a scene, if it has any.
-fn weighed(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
+/// Returns the model with the gravity of a scene, if it has gravity.
+fn with_gravity(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
     match scene.gravity() {
         Some(gravity) => ting.with_gravity(gravity.acceleration),
         None => Ok(ting),
@@ -101,12 +101,12 @@ pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
     let estimate = Estimate::checked(scene)?;
     viscous_flow::check(scene, &estimate)?;
     let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
-    let motion = Box::new(WithWaves { ting, scene: scene.clone(), finite_size, tolerance });
+    let motion = Box::new(WithRadiation { ting, scene: scene.clone(), finite_size, tolerance });
     let description = "model ting, one degree of freedom".to_string();
     Reduced::of(scene, estimate, *estimate.hertz.pair(), motion, description)
 }
 
-/// Ting's model of a scene, of the materials or of elastic ones with the same instantaneous moduli.
+/// Returns Ting's model of a scene; without relaxation its materials are elastic with the instantaneous moduli.
 ///
 /// # Errors
 /// A contact too large for the correction of the spheres' size; numbers that the law refuses.
@@ -126,5 +126,5 @@ pub(super) fn motion(
         })?;
     }
     let ting = ting_of(scene, estimate.hertz.pair(), relaxes, size).map_err(refuse)?;
-    weighed(ting, scene).and_then(|ting| ting.with_tolerance(tolerance)).map_err(refuse)
+    with_gravity(ting, scene).and_then(|ting| ting.with_tolerance(tolerance)).map_err(refuse)
 }

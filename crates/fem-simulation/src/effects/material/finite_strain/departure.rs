@@ -13,7 +13,7 @@ use super::measured::{CHANGES, POISSONS_RATIOS, STRAINS};
 /// Contact radius over sphere radius of the flattest computed sphere.
 pub(super) const FLATTEST: f64 = STRAINS[STRAINS.len() - 1];
 
-/// What finite strain changes: of the restitution as it is, of the others as shares.
+/// Change of a collision by finite strain: absolute for the restitution, relative for the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Departure {
     pub restitution: f64,
@@ -25,23 +25,23 @@ pub(super) struct Departure {
 /// Deformation of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Deformation {
-    /// Of the contact radius over the effective radius the share that it has of the compliance.
+    /// Contact radius over effective radius, times the body's share of the compliance.
     pub strain: f64,
     /// Contact radius over the radius of a sphere, or its strain if that is more.
     pub flatness: f64,
 }
 
 impl Departure {
-    /// Of an elastic body of a law and a Poisson's ratio: the first order goes with its strain, which is what
-    /// it gives way by, and all beyond with how flat it is.
+    /// Returns the change for an elastic body. Its first order is proportional to the strain, and higher orders depend on the
+    /// flatness.
     pub fn of(law: HyperelasticLaw, poissons_ratio: f64, body: Deformation) -> Self {
         let first_order = Self::on_a_wall(law, poissons_ratio, STRAINS[0]);
         let less = (body.flatness - body.strain) / STRAINS[0];
         Self::on_a_wall(law, poissons_ratio, body.flatness) + -less * first_order
     }
 
-    /// The most by which one law changes more or less than another on the way to a deformation, as sizes: what
-    /// changes its sign on the way is not small again where it does. No law is small strain.
+    /// Returns the largest difference between two laws up to a deformation, as magnitudes, so that a difference that
+    /// reverses its sign does not count as small. `None` is small strain.
     pub fn up_to(
         laws: [Option<HyperelasticLaw>; 2],
         poissons_ratio: f64,
@@ -68,8 +68,8 @@ impl Departure {
         }
     }
 
-    /// Of an elastic sphere on a rigid wall, its contact radius a share of its radius as Hertz foretells it:
-    /// linear between the collisions of [`CHANGES`], proportional to less strain, and beyond them that of the flattest.
+    /// Returns the change for an elastic sphere on a rigid wall with Hertz' contact radius over sphere radius. It is linear
+    /// between the collisions of [`CHANGES`], proportional below them, and constant beyond the flattest.
     fn on_a_wall(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
         let law = HyperelasticLaw::ALL.iter().position(|one| *one == law).unwrap_or(0);
         let (row, weight) = place(&POISSONS_RATIOS, poissons_ratio);
@@ -95,7 +95,7 @@ impl Departure {
     }
 
     /// "1.00 % of the contact time, 1.80 % of the peak force and 5.00 % of the peak pressure".
-    pub fn in_words(&self) -> String {
+    pub fn as_text(&self) -> String {
         let shares = [self.contact_time, self.peak_force, self.peak_pressure];
         let [time, force, pressure] = shares.map(|share| percent(share.abs()));
         format!(
@@ -104,7 +104,7 @@ impl Departure {
     }
 }
 
-/// What was computed; where the sphere collapsed, of the largest strain that it bore, in proportion.
+/// Returns the computed change, or an extrapolation from the largest computed strain if the sphere collapsed.
 fn computed(law: usize, row: usize, k: usize) -> Departure {
     let row = &CHANGES[law][row];
     let borne = (0..=k).rev().find_map(|j| Some((j, row[j]?)));
@@ -113,8 +113,7 @@ fn computed(law: usize, row: usize, k: usize) -> Departure {
     })
 }
 
-/// Where a number stands in an ascending grid: the point before it, and its share of the way to the next;
-/// the ends for what lies beyond.
+/// Returns the index of the grid point before a number and the linear weight of the next point, clamped to the grid.
 fn place(grid: &[f64], x: f64) -> (usize, f64) {
     let before = grid.partition_point(|point| *point <= x).saturating_sub(1);
     let before = before.min(grid.len() - 2);
@@ -180,14 +179,14 @@ mod tests {
     }
 
     #[test]
-    fn passes_through_what_was_computed() {
+    fn interpolation_passes_through_the_table() {
         let mut n_collapsed = 0;
         for (law, changes) in HyperelasticLaw::ALL.into_iter().zip(&CHANGES) {
             for (nu, row) in POISSONS_RATIOS.into_iter().zip(changes) {
                 for (strain, change) in STRAINS.into_iter().zip(row) {
                     let found = Departure::of(law, nu, like(strain));
                     let Some(change) = change else {
-                        // St Venant and Kirchhoff's sphere collapsed: it softens further.
+                        // St Venant and Kirchhoff's sphere collapsed, and the extrapolation softens further.
                         n_collapsed += 1;
                         let before = Departure::of(law, nu, like(0.7 * strain));
                         assert!(found.contact_time > before.contact_time, "{nu} {strain}");
@@ -228,9 +227,9 @@ mod tests {
         }
     }
 
-    /// A faster impact is not decided on otherwise than a slower one.
+    /// A faster impact has a larger change, so that decisions do not alternate with the speed.
     #[test]
-    fn what_a_strain_calls_for_a_larger_one_does() {
+    fn changes_grow_with_the_strain() {
         let accuracy = Accuracy::within(0.01);
         for law in HyperelasticLaw::ALL {
             for nu in [-0.5, 0.0, 0.1, 0.25, 0.33, 0.4, 0.45, 0.47, 0.49, 0.495] {

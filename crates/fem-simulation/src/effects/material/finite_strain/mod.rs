@@ -1,9 +1,8 @@
-//! Large strains and rotations, with the energy that a material stores beyond Hooke's law
-//! ([`HyperelasticLaw`]).
+//! Large strains and rotations with a hyperelastic law ([`HyperelasticLaw`]).
 //!
-//! Decided by what leaving it out would change ([`Departure`]), which depends on the law, on Poisson's
-//! ratio and on the strain of the body, its share of the contact radius over the effective radius. Beyond
-//! the first order, the slope k, it depends on how flat a sphere is, a/R_b, if that is more:
+//! Decided by the change of the collision ([`Departure`]), a function of the law, Poisson's ratio, and the strain s of the
+//! body, its share of the contact radius over the effective radius. Terms beyond the first order, with the slope k, depend
+//! on the flatness a/R_b of a sphere instead, if that is larger:
 //!
 //! ```math
 //! s_b = w_b \frac{a}{R^*}, \qquad w_b = \frac{E^*}{E_b/(1-\nu_b^2)}, \qquad
@@ -11,14 +10,13 @@
 //! \frac{\Delta T}{T} = \sum_b w_b \Bigl[\left.\frac{\Delta T}{T}\right|_{\text{wall}}(g_b) - k\,(g_b - s_b)\Bigr]
 //! ```
 //!
-//! so that half of a collision of like bodies is as strained as the whole. A body that hardly strains
-//! stays at small strain beside one that does. The loss 1 − e that waves take away into a half-space or a
-//! large partner goes as the contact time to the power of −2, and adds 2 (1 − e) ΔT/T.
+//! Half of a collision of like bodies is thus as strained as the whole. A body that strains little stays at small strain
+//! beside one that strains more. The loss 1 − e by radiated waves is proportional to T⁻² and adds 2 (1 − e) ΔT/T.
 //!
-//! Held against runs at a/R* from 0.1 to 0.7 and ν of 0.2 and 0.45, of like, softer, stiffer and steel balls
-//! on a half-space, unlike ones of a size, and like ones of sizes 1:3 (`validation/finite_strain_tables.md`): where it matters
-//! never less than a third of what is found, and at most three times as much but of half-spaces at ν = 0.2 or
-//! pressed by a harder ball, and where a change has turned its sign.
+//! Compared with runs at a/R* from 0.1 to 0.7 and ν of 0.2 and 0.45, of like, softer, stiffer and steel balls on a
+//! half-space, unlike balls of one size, and like balls of sizes 1:3 (`validation/finite_strain_tables.md`). Where it
+//! matters, the estimate is between a third and three times the computed change; it is larger for half-spaces at ν = 0.2 or
+//! under a harder ball, and where a change has reversed its sign.
 
 mod departure;
 mod measured;
@@ -41,47 +39,47 @@ use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
-/// What laws differ by is said from this share of the contact time on.
+/// Smallest difference between laws that is reported, as a share of the contact time.
 const ROUNDING: f64 = 5e-5;
-/// d ln(1 − e) over −d ln T of what relaxes, about.
+/// Approximate ratio of d ln(1 − e) to −d ln T for the loss by relaxation.
 const RELAXED_OVER_TIME: f64 = 0.5;
-/// What large strains change of that loss at most, over the square of how flat a body is: 1.0 % of it was found at
-/// 0.2, 3.6 % at 0.35, of either sign, of spheres on a wall at ν from 0 to 0.49, whatever became of the contact time.
+/// Largest relative change of that loss by large strain over the square of the flatness: 1.0 % was found at 0.2 and 3.6 %
+/// at 0.35, of either sign, for spheres on a wall at ν from 0 to 0.49 with any change of the contact time.
 const OF_RELAXED_LOSS: f64 = 0.3;
-/// The same of what waves take: energy as T⁻³, of the impulse as it is.
+/// The same ratio for the loss by waves: their energy is proportional to T⁻³ at the same impulse.
 const RADIATED_OVER_TIME: f64 = 2.0;
 
-/// Contact radius over effective radius from which on all elements of a body are at finite strain: it ends where
-/// strains have hardly fallen.
+/// Contact radius over effective radius from which all elements of a body are at finite strain, since strains fall little
+/// up to the body's end.
 const FLAT: f64 = 0.1;
-/// Approach speed over that of shear waves from which on they are, too: waves bring strains of its size anywhere.
+/// Approach speed over the shear wave speed from which all elements are, too, since waves carry strains of this size
+/// through the body.
 const SLOW: f64 = 1e-3;
-/// Share of what a case allows of a number that may be left out in elements far from the contact. Of elastic glass
-/// 7 % of what finite strain changes of the peak force was left out beyond two contact radii, 2.8 % beyond three and
-/// 0.5 % beyond five and a half: 0.6 to 0.9 of (a/R)³.
+/// Largest error by elements far from the contact that stay at small strain, as a share of the tolerance. For elastic glass
+/// 7 % of the change of the peak force came from beyond two contact radii, 2.8 % from beyond three and 0.5 % from beyond
+/// five and a half: 0.6 to 0.9 of (a/R)³.
 const LEFT_FAR_AWAY: f64 = 0.03;
-/// Contact radii within which all elements are at finite strain, whatever the case allows.
+/// Number of contact radii within which all elements are at finite strain at any tolerance.
 const NEAREST: f64 = 3.0;
 
 impl FiniteStrain {
-    /// The laws of both bodies of a scene whose strains are those of an estimate; `None` of one that is
-    /// computed at small strain.
+    /// Returns the laws of both bodies at the strains of an estimate; `None` for a body that is computed at small strain.
     pub fn laws(scene: &Scene, estimate: &Estimate) -> [Option<HyperelasticLaw>; 2] {
         let is_called_for = is_called_for(scene, estimate);
         let is_finite = |strained: &Strained| match scene.effects().finite_strain {
             Some(Switch::On) => true,
             Some(Switch::Off) => false,
             None | Some(Switch::Auto) => {
-                is_called_for && strained.is_borne() && strained.matters(scene)
+                is_called_for && strained.is_supported() && strained.matters(scene)
             }
         };
         let of_both = Strained::of_both(scene, estimate);
         of_both.map(|strained| Some(strained.filter(is_finite)?.material.law()))
     }
 
-    /// Distance from first touch (m) within which elements are at finite strain: what it changes falls with the
-    /// third power of that distance over the contact radius (`fem-explicit/src/stress/partly_finite.rs`). None
-    /// where all are: where the case forces it on, in flat contacts and beside waves.
+    /// Returns the distance from first touch (m) within which elements are at finite strain; the change by farther elements
+    /// falls with its third power (`fem-explicit/src/stress/partly_finite.rs`). It is `None` if all elements are: if the case
+    /// forces the effect on, in flat contacts and beside waves.
     pub(crate) fn within(scene: &Scene, estimate: &Estimate) -> Option<f64> {
         let is_near = estimate.strain < FLAT && estimate.mach < SLOW && !is_forced_on(scene);
         let change = departure(scene, estimate).over(&scene.accuracy());
@@ -89,15 +87,15 @@ impl FiniteStrain {
         is_near.then_some(radii * estimate.contact_radius)
     }
 
-    /// A scene that is forced to large strain must be one that the elements bear.
+    /// Checks that elements can compute a scene at forced large strain.
     ///
     /// # Errors
-    /// A Poisson's ratio too near 1/2, or too many terms of relaxation.
+    /// A Poisson's ratio too near 1/2, or too many relaxation terms.
     pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
         let mut strained = Strained::of_both(scene, estimate).into_iter().flatten();
-        let unborne = strained.find(|strained| !strained.is_borne());
-        let Some(strained) = unborne.filter(|_| is_forced_on(scene)) else { return Ok(()) };
-        let message = format!("finite strain is forced on, and {}", strained.not_borne());
+        let unsupported = strained.find(|strained| !strained.is_supported());
+        let Some(strained) = unsupported.filter(|_| is_forced_on(scene)) else { return Ok(()) };
+        let message = format!("finite strain is forced on, and {}", strained.why_unsupported());
         let help = "change the material, or write \"auto\" or \"off\"";
         Err(Rejection::new("effects.finite_strain", message).with_help(help))
     }
@@ -105,16 +103,16 @@ impl FiniteStrain {
     /// Returns the answer of explicit elements.
     pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Support {
         let strained = Strained::of_both(scene, estimate).into_iter().flatten();
-        let mut unborne =
-            strained.filter(|strained| !strained.is_borne() && strained.matters(scene));
+        let mut unsupported =
+            strained.filter(|strained| !strained.is_supported() && strained.matters(scene));
         let is_open = scene.effects().finite_strain.is_none_or(|switch| switch == Switch::Auto);
         let is_asked = is_open && is_called_for(scene, estimate);
-        let Some(strained) = unborne.next().filter(|_| is_asked) else {
+        let Some(strained) = unsupported.next().filter(|_| is_asked) else {
             let answer = Self::of_stability(scene, estimate);
             let answer = answer.or_else(|| Self::of_nearness(scene, estimate));
             return answer.unwrap_or(Support::Computes { idle: "" });
         };
-        let why = format!("called for, but {}", strained.not_borne());
+        let why = format!("called for, but {}", strained.why_unsupported());
         let neglect_error = FiniteStrain.neglect_error(scene, estimate).unwrap_or_default();
         let warning = format!("{} is {why}; small strain leaves out {neglect_error}", Self::NAME);
         let active = Self::laws(scene, estimate).iter().any(Option::is_some);
@@ -135,8 +133,8 @@ impl FiniteStrain {
             .then_some(())?;
         let number = FiniteStrain.relevance(scene, estimate)?.number;
         let nearness = format!(
-            "elements within {} of first touch, {:.1} contact radii, have it, and those farther away stay at small \
-             strain, which leaves out at most {} % of the tolerance",
+            "elements within {} of first touch, {:.1} contact radii, are at finite strain; the others stay at small \
+             strain, with an error of at most {} % of the tolerance",
             show(within, "m"),
             within / estimate.contact_radius,
             100.0 * LEFT_FAR_AWAY,
@@ -154,13 +152,13 @@ impl FiniteStrain {
         let both = Strained::of_both(scene, estimate).into_iter().zip(computed);
         let mut unstable = both.filter_map(|(body, law)| {
             law?;
-            body.filter(|body| body.gives_way(pressure))
+            body.filter(|body| body.is_unstable(pressure))
         });
         let Strained { name, material, .. } = unstable.next()?;
         let warning = format!(
-            "{}, the law of {name}, is foretold to lose its stability under the contact's pressure: elements give \
-             way, and the run may stop; name another material.NAME.hyperelastic, as neo-hooke, which is stable at \
-             any deformation",
+            "{}, the law of {name}, is expected to lose its stability under the contact's pressure: elements \
+             collapse, and the run may stop; use another material.NAME.hyperelastic, such as neo-hooke, which is \
+             stable at any deformation",
             material.law().name()
         );
         let number = FiniteStrain.relevance(scene, estimate)?.number;
@@ -208,15 +206,15 @@ fn is_beyond(scene: &Scene, estimate: &Estimate) -> bool {
 }
 
 /// Returns the error of neglecting it, as text.
-fn in_words(scene: &Scene, estimate: &Estimate) -> String {
+fn error_text(scene: &Scene, estimate: &Estimate) -> String {
     match is_beyond(scene, estimate) {
         true => "an amount that cannot be estimated".to_string(),
-        false => departure(scene, estimate).in_words(),
+        false => departure(scene, estimate).as_text(),
     }
 }
 
 /// Returns the laws of the bodies, and how much they would matter if the case names none.
-fn laws_in_words(scene: &Scene, estimate: &Estimate) -> String {
+fn laws_text(scene: &Scene, estimate: &Estimate) -> String {
     let materials: Vec<&Material> = scene.bodies().iter().filter_map(Body::material).collect();
     let mut names: Vec<&str> = materials.iter().map(|material| material.law().name()).collect();
     names.dedup();
@@ -225,7 +223,7 @@ fn laws_in_words(scene: &Scene, estimate: &Estimate) -> String {
     match spread > ROUNDING {
         false => names,
         true => format!(
-            "{names}, which the case does not say: laws differ by {} {} of the contact time",
+            "{names} by default (other laws change the contact time by {} {})",
             if is_beyond(scene, estimate) { "more than" } else { "up to" },
             percent(spread)
         ),
@@ -234,7 +232,7 @@ fn laws_in_words(scene: &Scene, estimate: &Estimate) -> String {
 
 impl Effect for FiniteStrain {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
-        let open = in_words(scene, estimate);
+        let open = error_text(scene, estimate);
         let is_called_for = is_called_for(scene, estimate);
         let warning = is_called_for.then(|| {
             format!(
@@ -248,9 +246,9 @@ impl Effect for FiniteStrain {
             number: format!(
                 "contact radius / effective radius = {:.3}, law {}{}",
                 estimate.strain,
-                laws_in_words(scene, estimate),
+                laws_text(scene, estimate),
                 match is_beyond(scene, estimate) {
-                    true => ", flatter than closed forms foretell anything of",
+                    true => "; the contact is too wide for an estimate by closed forms",
                     false => "",
                 }
             ),
@@ -269,8 +267,8 @@ impl Effect for FiniteStrain {
         Some(NeglectError { restitution: Some(change.restitution), ..shares })
     }
 
-    /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
-    /// their laws may differ from those that were computed where the case names none.
+    /// At small strain it is the largest change by any law that the materials may follow. At finite strain it is the
+    /// largest difference from the computed law, if the case does not name it.
     fn model_form_error(
         &self,
         scene: &Scene,
@@ -281,11 +279,11 @@ impl Effect for FiniteStrain {
         let both = Strained::of_both(scene, estimate);
         let both =
             || both.iter().zip(computed).filter_map(|(body, law)| Some((body.as_ref()?, law)));
-        // Of a law that is named and computed nothing is left.
+        // A law that is named and computed has no error.
         if both().any(|(body, law)| body.is_beyond() && body.may_differ_from(law)) {
             return ModelFormError::default();
         }
-        let change = both().map(|(body, law)| body.model_form_error(law)).sum();
+        let change = both().map(|(body, law)| body.law_error(law)).sum();
         let change = with_waves(scene, estimate, change);
         let Departure { restitution, contact_time, peak_force, peak_pressure } =
             with_relaxation(scene, estimate, change);
@@ -304,7 +302,7 @@ impl Effect for FiniteStrain {
             .checked()
     }
 
-    /// The estimate warns before the run; this warns of the strains that occurred.
+    /// Warns of the strains that occurred; the estimate warns before the run.
     fn warnings_of_result(
         &self,
         scene: &Scene,
@@ -314,31 +312,31 @@ impl Effect for FiniteStrain {
         let radius = estimate.hertz.pair().effective_radius();
         let strain = collision.max_contact_radius.unwrap_or_default() / radius;
         let found = Estimate { strain, ..*estimate };
-        let is_news = !is_called_for(scene, estimate) && is_called_for(scene, &found);
+        let is_larger = !is_called_for(scene, estimate) && is_called_for(scene, &found);
         let is_small = Self::laws(scene, estimate) == [None; 2];
-        let remedy = match scene.model() {
+        let advice = match scene.model() {
             ModelChoice::Fem => "force finite strain on (effects.finite_strain)",
             _ => "use model fem, which has finite strain",
         };
-        let news = (is_news && is_small).then(|| {
+        let strain_warning = (is_larger && is_small).then(|| {
             format!(
                 "the contact radius grew to {:.0} % of the effective radius, where small strain is off \
-                 by {}; {remedy}",
+                 by {}; {advice}",
                 100.0 * strain,
-                in_words(scene, &found)
+                error_text(scene, &found)
             )
         });
         let spread = spread(scene, &found);
-        // A contact that does not end has no time to change.
+        // A contact that does not end has no contact time.
         let has_end = collision.contact_time.is_some();
         let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
             format!(
-                "how the materials go on beyond Hooke's law changes the contact time by {} {}, and the case does \
-                 not say: name a law (material.NAME.hyperelastic)",
+                "strains are large enough for the elastic law to matter, by {} {} of the contact time, and the case \
+                 does not name a law: set material.NAME.hyperelastic",
                 if is_beyond(scene, &found) { "more than" } else { "up to" },
                 percent(spread)
             )
         });
-        news.into_iter().chain(law).collect()
+        strain_warning.into_iter().chain(law).collect()
     }
 }

@@ -8,11 +8,10 @@ use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 use super::departure::{Deformation, Departure, FLATTEST};
 use crate::estimate::Estimate;
 
-/// Largest Poisson's ratio that the elements bear at large strain: a step there is a seventh of that at 0.495,
-/// with K = 5000 G, as of natural rubber. Beyond it the volume is nearly fixed and the step of time next to
-/// nothing.
+/// Largest Poisson's ratio that elements can compute at large strain. Its time step is a seventh of that at 0.495, with
+/// K = 5000 G as for natural rubber; beyond it the volume is nearly fixed and the time step vanishes.
 const LARGEST_POISSONS_RATIO: f64 = 0.4999;
-/// Share of the tolerance below which a body's own strain is left small.
+/// Change over the tolerance below which a body stays at small strain.
 const OWN_SHARE: f64 = 0.1;
 
 /// A deformable body to which finite strain matters.
@@ -69,18 +68,17 @@ impl<'a> Strained<'a> {
         self.share * (most - least)
     }
 
-    /// Returns the largest distance of a possible law from the computed one; with no law it is small
-    /// strain.
-    pub fn model_form_error(&self, computed: Option<HyperelasticLaw>) -> Departure {
+    /// Returns the largest difference of a possible law from the computed one; `None` is small strain.
+    pub fn law_error(&self, computed: Option<HyperelasticLaw>) -> Departure {
         let nu = self.material.instantaneous().poissons_ratio();
         let laws = self.possible_laws().into_iter();
         let each = laws.map(|law| Departure::up_to([Some(law), computed], nu, self.deformation));
         self.share * each.fold(Departure::default(), Departure::or)
     }
 
-    /// Whether its law loses ellipticity at the strain that Hooke's law has under the middle of Hertz' contact, σ_yy =
-    /// −p and σ_rr = σ_θθ = −(½ + ν) p (Johnson 1985, section 3.4).
-    pub fn gives_way(&self, pressure: f64) -> bool {
+    /// Returns whether the law loses ellipticity at the linear strain under the middle of Hertz' contact, σ_yy = −p and
+    /// σ_rr = σ_θθ = −(½ + ν) p (Johnson 1985, section 3.4).
+    pub fn is_unstable(&self, pressure: f64) -> bool {
         if self.material.law().is_always_elliptic() {
             return false;
         }
@@ -91,13 +89,13 @@ impl<'a> Strained<'a> {
         let strain = AxisymmetricTensor { rr, yy, tt: rr, ry: 0.0, yr: 0.0 };
         let stiffness =
             Hyperelastic::new(self.material.law(), moduli).least_acoustic_stiffness(&strain);
-        // What is pressed beyond nothing gives way, too.
+        // A strain that inverts the material counts as unstable.
         !stiffness.is_ok_and(|stiffness| stiffness > 0.0)
     }
 
     /// Returns whether elements can compute the body at large strain.
-    pub fn is_borne(&self) -> bool {
-        // Made of two moduli it is rounded.
+    pub fn is_supported(&self) -> bool {
+        // A ratio that follows from two moduli is rounded.
         let nu = self.material.instantaneous().poissons_ratio();
         nu <= LARGEST_POISSONS_RATIO + 1e-9 && self.n_terms() <= MOST_FINITE_STRAIN_TERMS
     }
@@ -107,11 +105,11 @@ impl<'a> Strained<'a> {
         self.material.relaxation().map_or(0, |series| series.terms().len())
     }
 
-    pub fn not_borne(&self) -> String {
+    pub fn why_unsupported(&self) -> String {
         let n_terms = self.n_terms();
         if n_terms > MOST_FINITE_STRAIN_TERMS {
             return format!(
-                "{} relaxes with {n_terms} terms, of which elements bear {MOST_FINITE_STRAIN_TERMS} at \
+                "{} relaxes with {n_terms} terms, but elements support only {MOST_FINITE_STRAIN_TERMS} at \
                  large strain",
                 self.name
             );
@@ -119,7 +117,7 @@ impl<'a> Strained<'a> {
         let nu = (self.material.instantaneous().poissons_ratio() * 1e9).round() / 1e9;
         format!(
             "Poisson's ratio {nu} of {} is above {LARGEST_POISSONS_RATIO}, the largest that elements \
-             bear at large strain",
+             support at large strain",
             self.name
         )
     }

@@ -5,18 +5,18 @@ use fem_collision::{Monitor, Phase, Progress};
 
 use crate::estimate::viscous_flow::Slower;
 
-/// Steps over the elastic contact time: no fewer of bodies that flow.
+/// Least number of steps per elastic contact time for bodies that flow.
 const FEWEST_STEPS: usize = 10;
 
-/// Bodies that lose more than this share of their moduli over the contact press hardest early, ...
+/// Loss of the moduli over the contact above which the force peaks early and needs smaller steps.
 const MUCH: f64 = 0.8;
-/// ... which takes so many times the steps, ...
+/// Factor on the number of steps of such bodies.
 const MORE_OF_SOFTENED: usize = 4;
-/// ... up to so many.
+/// Largest number of steps that the factor leads to.
 const ENOUGH: usize = 1000;
 
-/// Steps over the elastic contact time, of bodies that lose this share of their moduli in it: as many over the time in
-/// which the bodies are stopped, if that is longer, and more of those that relax to little.
+/// Returns the number of steps per elastic contact time for bodies that lose a share of their moduli in it. The steps are
+/// longer if the bodies stop later, and shorter if they relax to little.
 pub(super) fn n_steps(options: CondensedOptions, slower: Slower, relaxed: f64) -> usize {
     let steps = match relaxed > MUCH {
         true => (MORE_OF_SOFTENED * options.steps).min(ENOUGH).max(options.steps),
@@ -26,8 +26,8 @@ pub(super) fn n_steps(options: CondensedOptions, slower: Slower, relaxed: f64) -
     slowed.max(FEWEST_STEPS.min(steps))
 }
 
-/// Reports the share of the predicted time to a monitor.
-pub(super) struct Foretold<'a> {
+/// A monitor that reports the share of the expected duration.
+pub(super) struct ExpectedProgress<'a> {
     pub monitor: &'a mut dyn Monitor,
     /// Time of the case, in seconds.
     pub begin: f64,
@@ -35,7 +35,7 @@ pub(super) struct Foretold<'a> {
     pub duration: f64,
 }
 
-impl Monitor for Foretold<'_> {
+impl Monitor for ExpectedProgress<'_> {
     fn enter(&mut self, phase: Phase) {
         self.monitor.enter(phase);
     }
