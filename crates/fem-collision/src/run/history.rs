@@ -26,7 +26,6 @@ pub struct History {
     essential: Vec<bool>,
     /// Index of the row of the last contact so far.
     last_contact: Option<usize>,
-    #[serde(rename = "cadence")]
     interval: SamplingInterval,
     /// For a run that offers a row at every step: the last row, if it was not due, and whether the contact was closed.
     skipped: Option<HistoryRow>,

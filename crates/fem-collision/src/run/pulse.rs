@@ -48,10 +48,8 @@ struct Sample {
 /// Samples of a contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForcePulse {
-    #[serde(rename = "beats")]
     samples: Vec<Sample>,
     /// Number of observed instants, of which one per stride is kept.
-    #[serde(rename = "told")]
     n_observed: u64,
     stride: u64,
 }

@@ -26,7 +26,7 @@ pub(crate) fn unresolved_warning(simulation: &Simulation, contact_radius: f64) -
     }
     let edge = longest_contact_edge(simulation.model().meshes(), contact_radius)?;
     let across = contact_radius / edge;
-    let size = show(contact_radius / ADVISED, "m");
+    let size = advised_size(contact_radius);
     let advice = match plan.makes_meshes {
         true => format!("set mesh.contact_element_size = \"{size}\" or less, or leave it out"),
         false => format!("use meshes with edges of {size} or less there"),
@@ -42,11 +42,11 @@ pub(crate) fn early_pressure_warning(
     collision: &Collision,
 ) -> Option<String> {
     let radius = early_pressure_radius(simulation, collision)?;
-    let size = Unit::fitting(radius / ADVISED, "m").with_digits(2).show(radius / ADVISED);
     Some(format!(
         "the pressure is largest early, when the contact radius is {} and spans few elements: the peak pressure is not \
-         resolved; set mesh.contact_element_size = \"{size}\"",
-        show(radius, "m")
+         resolved; set mesh.contact_element_size = \"{}\"",
+        show(radius, "m"),
+        advised_size(radius)
     ))
 }
 
@@ -114,6 +114,14 @@ pub(crate) fn tolerance_warning(
         miss.described(),
         others(&missed)
     ))
+}
+
+/// Returns the advised element size for a contact radius (m), rounded down to two digits.
+fn advised_size(contact_radius: f64) -> String {
+    let size = contact_radius / ADVISED;
+    let step = 10f64.powf(size.log10().floor() - 1.0);
+    let size = (size / step).floor() * step;
+    Unit::fitting(size, "m").with_digits(2).show(size)
 }
 
 /// Lists the misses after the first one.

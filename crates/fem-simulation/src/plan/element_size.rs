@@ -70,7 +70,7 @@ pub struct MeshRule {
     pub across: f64,
     /// Largest added mass over the lighter body's mass.
     pub mass_scaling: f64,
-    /// The error of the force on the finest mesh, if the tolerance of the case is out of reach.
+    /// The error of the force on the finest mesh, if the tolerance of the case cannot be met.
     pub reached: Option<f64>,
     /// The quantity that needs the smallest elements, and its tolerance.
     pub asked_by: (QuantityOfInterest, f64),

@@ -94,7 +94,7 @@ pub struct Plan {
     pub give_up_after: f64,
     /// Memory above which a run is refused, bytes.
     pub max_memory: u64,
-    /// Warnings about unread keys and a tolerance out of reach.
+    /// Warnings about unread keys and a tolerance that cannot be met.
     pub warnings: Vec<String>,
 }
 
@@ -141,8 +141,8 @@ impl Plan {
         let out_of_reach = rule.reached.filter(|_| is_chosen);
         if let Some(reached) = out_of_reach {
             warnings.push(format!(
-                "accuracy.tolerance is out of reach: {:.0} elements across the contact give an error of about {} of the \
-                 peak force: allow more of it",
+                "accuracy.tolerance cannot be met: {:.0} elements across the contact give an error of about {} of the peak \
+                 force: allow more of it",
                 rule.across,
                 percent(reached)
             ));

@@ -1,4 +1,4 @@
-//! The library from outside, in one program: linked once, its tests run side by side.
+//! Tests of the library through its public interface, in one program.
 
 mod accuracy;
 mod any_scene;
@@ -24,7 +24,7 @@ mod half_space;
 mod inertia;
 mod laws;
 mod measured;
-mod memory;
+
 mod mirror_symmetry;
 mod models;
 mod neglect_error;
@@ -36,15 +36,12 @@ mod plan;
 mod plastic_yield;
 mod probes;
 mod ranges;
-mod refusals_in_code;
 mod relaxed;
-mod remedies;
-mod remedies_tried;
+mod restart_state;
 mod rigid_partner;
-mod ringing;
 mod run_cost;
 mod shipped_cases;
-mod stress;
+mod stop_advice;
 mod surface_slip;
 mod sweep;
 mod together;
@@ -52,4 +49,4 @@ mod tolerance;
 mod uncertainty;
 mod unequal_bodies;
 mod unresolved_contact;
-mod warnings_tried;
+mod warning_advice;

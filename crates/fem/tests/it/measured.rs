@@ -1,4 +1,4 @@
-//! Tables of measured data: every spelling of the same data is the same, faults have their place.
+//! Tables of measured data: every spelling gives the same data, and faults have their place.
 
 use fem::measured::{MeasuredPairs, Restitutions, Table};
 use fem::schema::{BodyTable, MaterialTable};
@@ -21,14 +21,14 @@ fn units_and_columns_of_sweeps_are_read() {
         "# a comment\nSpeed_cm_s, e\n50, 0.95\n75, 0.92\n",
         "v,restitution_percent\n50 cm/s,95\n0.75 m/s,92\n",
         "speed,restitution,\nmm/s,-,\n500,0.95,\n750,0.92,\n",
-        // The other body has 0.25 m/s.
+        // The other body moves at 0.25 m/s.
         "body.0.approach_speed,restitution,complete\n0.25,0.95,true\n0.5,0.92,true\n1,,false\n",
     ] {
         let table = Table::parse("e.csv", text).unwrap();
         let read = Restitutions::read(&table, spheres().scene()).unwrap();
         assert_eq!(read.points.len(), 2);
         for (point, (speed, restitution)) in read.points.iter().zip([(0.5, 0.95), (0.75, 0.92)]) {
-            // Units round.
+            // Conversion of units rounds.
             let is_it = point.speed == speed && (point.restitution - restitution).abs() < 1e-15;
             assert!(is_it, "{text}: {point:?}");
         }
@@ -37,9 +37,9 @@ fn units_and_columns_of_sweeps_are_read() {
     }
 }
 
-/// A unit that is not known is no row without a value, and columns of nothing are no columns.
+/// An unknown unit is a fault and not a missing value; empty columns are ignored.
 #[test]
-fn no_unit_is_passed_over() {
+fn an_unknown_unit_is_a_fault() {
     let read =
         |text: &str| Restitutions::read(&Table::parse("e.csv", text).unwrap(), spheres().scene());
     let error = read("speed,restitution\nfurlong,-\n500,0.95\n750,0.92\n").unwrap_err();
@@ -49,7 +49,7 @@ fn no_unit_is_passed_over() {
 }
 
 #[test]
-fn contact_times_are_read_where_they_are_wanted() {
+fn contact_times_are_read_on_request() {
     let text = "speed_m_s,e,contact_time_us,humidity\n0.5,0.95,65,0.4\n";
     let table = Table::parse("e.csv", text).unwrap();
     let case = spheres();
@@ -57,7 +57,7 @@ fn contact_times_are_read_where_they_are_wanted() {
     assert_eq!(read.points[0].contact_time, None);
     assert_eq!(read.warnings(), ["columns that are not read: humidity"]);
     let read = Restitutions::read_with_contact_times(&table, case.scene()).unwrap();
-    // 65 × 1e-6 rounds.
+    // The product 65 × 1e-6 is rounded.
     assert!((read.points[0].contact_time.unwrap() - 65e-6).abs() < 1e-19);
 }
 
@@ -101,9 +101,9 @@ fn faults_have_name_line_and_column() {
     assert_eq!(error.message, "diameter_1_mm belongs to the first body, and \"floor\" is a wall");
 }
 
-/// What spreadsheets and instruments write: one set of data in eight spellings.
+/// The formats of spreadsheets and instruments give the same data.
 #[test]
-fn data_are_read_as_people_have_them() {
+fn all_common_formats_are_read() {
     let names: [(&str, &str); 3] = [("speed", "v"), ("restitution", "COR"), ("uncertainty", "u")];
     for (text, names) in [
         ("v;COR;u\n0,5;0,95;0,01\n0,75;0,92;0,02\n", &names[..]),
@@ -131,7 +131,7 @@ fn data_are_read_as_people_have_them() {
         assert_eq!(read.n_left_out, n_missing, "{text}");
         assert_eq!(read.warnings().iter().any(|text| text.starts_with("3 rows")), n_missing > 0);
     }
-    // Lines are those of the file.
+    // Line numbers are those of the file.
     let table = Table::parse("e.csv", "sep=;\n# x\nv;e\n0,5;0,9\n1;viel\n").unwrap();
     let error = Restitutions::read(&table, spheres().scene()).unwrap_err();
     assert_eq!(error.place(), "e.csv:5");
@@ -147,10 +147,10 @@ fn data_are_read_as_people_have_them() {
     assert_eq!(error.to_string(), "e.csv:1: there is no column COR; found are v, e");
 }
 
-/// Cells of an uncertainty that are empty cost their rows, or the uncertainties if most are; what was done is told.
+/// Rows without an uncertainty are left out, or all uncertainties are if most rows have none; a warning reports it.
 #[test]
 fn rows_without_an_uncertainty_are_counted() {
-    for (cells, n_points, is_weighed, said) in [
+    for (cells, n_points, is_weighed, words) in [
         (["0.01", "", "0.02"], 2, true, "1 row without an uncertainty left out"),
         (["", "nan", "0.02"], 3, false, "only 1 row with an uncertainty, of 3: none is used"),
         (["0.01", "0.01", "0.02"], 3, true, ""),
@@ -164,11 +164,8 @@ fn rows_without_an_uncertainty_are_counted() {
         let weighed = read.points.iter().filter(|p| p.restitution_uncertainty.is_some()).count();
         assert_eq!(weighed, if is_weighed { n_points } else { 0 }, "{text}");
         assert_eq!(read.n_left_out, 0);
-        let told = read.warnings();
-        assert_eq!(
-            told.iter().any(|warning| warning.starts_with(said)),
-            !said.is_empty(),
-            "{told:?}"
-        );
+        let warnings = read.warnings();
+        let is_reported = warnings.iter().any(|warning| warning.starts_with(words));
+        assert_eq!(is_reported, !words.is_empty(), "{warnings:?}");
     }
 }

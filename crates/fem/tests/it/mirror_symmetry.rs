@@ -1,4 +1,4 @@
-//! Identical bodies: half of the scene gives the whole.
+//! Mirror symmetry: identical bodies are computed as one, with the results of both.
 
 use std::path::Path;
 
@@ -56,11 +56,11 @@ fn close(a: f64, b: f64, scale: f64, relative: f64) {
 }
 
 #[test]
-fn half_of_the_work_gives_the_whole() {
+fn half_of_the_scene_gives_the_same_results() {
     for (model, relative) in [
-        // The same steps of the same numbers but for rounding, which nothing enlarges.
+        // The steps are the same, and rounding does not grow.
         ("model.fem={}", 1e-8),
-        // One factor in place of a sum of two.
+        // One factor replaces a sum of two.
         ("model.condensed={vibration_modes=4}", 1e-8),
         ("model.condensed={penalty_springs=true}", 1e-8),
     ] {
@@ -137,7 +137,7 @@ fn snapshots_are_those_of_the_whole(half: &Simulation, mirrored: &Collision, who
     }
 }
 
-/// Bodies that differ are computed both, and cannot be forced; nor can a model without meshes.
+/// Different bodies are both computed, and mirror symmetry cannot be forced on them, nor on a model without meshes.
 #[test]
 fn only_identical_bodies_are_mirrored() {
     for difference in [
@@ -156,7 +156,7 @@ fn only_identical_bodies_are_mirrored() {
     assert!(is_on(&Simulation::new(case(&["effects.mirror_symmetry='on'"])).unwrap()));
 }
 
-/// A resolved case is mirrored as the first was, to the same bits.
+/// A resolved case is mirrored too, with the same bits.
 #[test]
 fn a_resolved_case_computes_the_same() {
     let (first, expected) = run(&[]);

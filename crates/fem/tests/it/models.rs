@@ -1,4 +1,4 @@
-//! `[model]`: what it takes, what it refuses and where, how overrides choose, what is resolved.
+//! The table `[model]`: its values, faults and their places, overrides, and resolved cases.
 
 use std::path::Path;
 
@@ -29,7 +29,7 @@ fn input(family: LawFamily, values: &[(&'static str, f64)]) -> LawInput {
     LawInput { family, values: values.to_vec() }
 }
 
-/// The case with this `[model]`, in which «» enclose what must be underlined, has this fault.
+/// Asserts that the case with this `[model]` has this fault, at the place between «».
 #[track_caller]
 fn fault(marked: &str, message: &str, help: &str) {
     let (before, rest) = marked.split_once('«').expect("a mark");
@@ -156,12 +156,12 @@ fn faults_point_at_their_key() {
     fault("condensed = { vibration_modes = «101» }", "vibration_modes is 101", "whole number");
     fault("condensed = { steps = «49.0» }", "steps is 49", "whole number");
     fault("condensed = { steps = «\"many\"» }", "not a whole number", "such as 12");
-    // Only the relaxation that is there has a slow limit, and this glass flows.
+    // The slow limit needs an equilibrium modulus, and this glass flows.
     fault("law = { kuwabara_kono = «{}» }", "flows", "give a");
 }
 
 #[test]
-fn an_override_of_another_model_takes_the_place_of_the_first() {
+fn an_override_of_another_model_replaces_the_first() {
     let with_model = format!("{GLASS}\n[model.law.kuwabara_kono]\na = 1e-6\n");
     for text in [GLASS, &with_model] {
         let chosen = |overrides: &[&str]| parse(text, overrides).unwrap().scene().model().clone();
@@ -209,7 +209,7 @@ fn a_resolved_case_computes_the_same() {
         let (found, expected) = (again.run(&mut ()), run(&[value]));
         assert_eq!(found.restitution, expected.restitution);
         assert_eq!(found.history, expected.history);
-        // Nothing of finite elements is decided.
+        // The resolved case has no keys of finite elements.
         assert!(!text.contains("[mesh]") && !text.contains("[time]"), "{text}");
     }
 }
@@ -224,16 +224,16 @@ fn finite_elements_are_for_the_model_fem() {
 
 #[test]
 fn the_slow_limit_of_the_materials() {
-    // A tenth of the modulus decays in 0.1 µs: slow is the contact of 60 µs.
+    // A tenth of the modulus decays in 0.1 µs, and the contact takes 60 µs.
     let slow = "material.glass.relaxation.terms=[{weight=0.1, relaxation_time='0.1 us'}]";
     let kelvin = run(&[slow, "model.law.kuwabara_kono={}"]);
     let ting = run(&[slow, "model.ting={}"]);
     let loss = |collision: &Collision| 1.0 - collision.restitution.unwrap();
-    // Next order: τ/T.
+    // The difference is of the next order, τ/T.
     assert!((loss(&kelvin) / loss(&ting) - 1.0).abs() < 5e-3);
     let times = [&kelvin, &ting].map(|collision| collision.contact_time.unwrap());
     assert!((times[0] / times[1] - 1.0).abs() < 1e-4, "{times:?}");
-    // From viscosities as from the series: G∞ = 0.9 G, so η = ΣG_k τ_k of relaxed moduli.
+    // The viscosities of the series are η = ΣG_k τ_k, with the equilibrium modulus G∞ = 0.9 G.
     let viscosities = [
         "material.glass={density=2390, youngs_modulus=56.7e9, poissons_ratio=0.244}",
         "model.law.kuwabara_kono={eta_1=253.215434, eta_2=410.15625}",
@@ -265,7 +265,7 @@ fn energies_velocities_and_walls() {
             let last = *collision.history.last().unwrap();
             assert!((last.velocity[0] - after[0]).abs() < 1e-12);
             assert!(collision.residual_relative.unwrap() < 1e-8, "{model} {frame:?}");
-            // Both velocities are made from one: nothing that could fail.
+            // Both velocities follow from the relative one, so momentum is conserved by construction.
             assert_eq!(collision.momentum_residual_relative, None);
             let energy = |account| last.energy(account).unwrap_or_default();
             let lost = energy(Account::ViscousDissipation)
@@ -276,7 +276,7 @@ fn energies_velocities_and_walls() {
                 energy(Account::Kinetic) + lost - collision.initial_energy.unwrap() - work;
             let scale = collision.initial_energy.unwrap() + work.abs();
             assert!(balance.abs() < 1e-8 * scale, "{model} {frame:?}: {balance:e}");
-            // About a thousand rows over the contact, both ends among them.
+            // The contact has a thousand intervals, with a row at both ends.
             let contact_time = collision.contact_time.unwrap();
             let is_contact = |time: f64| time <= contact_time * (1.0 + 1e-12);
             assert_eq!(collision.history.iter().filter(|row| is_contact(row.time)).count(), 1001);
@@ -303,28 +303,27 @@ fn bodies_may_change_places() {
 }
 
 #[test]
-fn what_the_model_leaves_out_is_said() {
-    let said = |overrides: &[&str]| {
+fn neglected_effects_are_reported() {
+    let reported = |overrides: &[&str]| {
         let simulation = Simulation::new(parse(GLASS, overrides).unwrap()).unwrap();
         (simulation.setup().decisions.verdicts.clone(), simulation.setup().warnings().join("\n"))
     };
     for model in ["model.hertz={}", "model.law.falcon.c=300"] {
-        let (effects, warnings) = said(&[model]);
+        let (effects, warnings) = reported(&[model]);
         assert!(effects.iter().any(|e| e.name == "viscoelasticity" && !e.active));
         assert!(warnings.contains("does not include it"), "{warnings}");
     }
-    let (effects, warnings) = said(&["model.ting={}"]);
+    let (effects, warnings) = reported(&["model.ting={}"]);
     assert!(effects.iter().any(|e| e.name == "viscoelasticity" && e.active));
     assert!(effects.iter().any(|e| e.name == "finite size" && !e.active));
     assert_eq!(warnings, "");
-    let (effects, warnings) = said(&["model.ting.finite_size=true", "output.snapshots=3"]);
+    let (effects, warnings) = reported(&["model.ting.finite_size=true", "output.snapshots=3"]);
     assert!(effects.iter().any(|e| e.name == "finite size" && e.active));
     assert!(warnings.contains("output.snapshots has no effect"), "{warnings}");
 }
 
 #[test]
-fn a_creep_without_end_is_a_reason() {
-    // Twice: 100 000 steps take their time.
+fn endless_creep_stops_the_run() {
     for model in [
         "model.law.tsuji={alpha=1e4, end='zero_overlap'}",
         "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}",
@@ -336,7 +335,7 @@ fn a_creep_without_end_is_a_reason() {
 }
 
 #[test]
-fn extremes_give_numbers_or_a_reason() {
+fn extreme_scenes_give_numbers_or_a_reason() {
     let models = [
         "model.ting={}",
         "model.hertz={}",
@@ -348,7 +347,7 @@ fn extremes_give_numbers_or_a_reason() {
     ];
     for model in models {
         for speed in ["1e-9", "1", "1e3"] {
-            // 1.2e-12 kg, 10 g and 1.2e6 kg.
+            // The masses are 1.2e-12 kg, 10 g and 1.2e6 kg.
             for diameter in ["1e-5", "0.02", "10"] {
                 let speed = format!("body.0.approach_speed={speed}");
                 let diameter = format!("body.0.sphere.diameter={diameter}");

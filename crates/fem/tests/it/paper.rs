@@ -1,7 +1,6 @@
-//! What the shipped cases must give at default settings, against numbers that this program did
-//! not make: the source paper (Bordbar & Hyppänen 2007), Hertz, and quasi-static finite elements
-//! and Ting's theory with the same material (a converged small-strain solution: T = 62.818 µs,
-//! F = 107.99 N; e = 0.92763 at constant Poisson's ratio and 0.94811 with elastic bulk modulus).
+//! Results of the shipped cases at default settings against independent numbers: the source paper (Bordbar & Hyppänen 2007),
+//! Hertz, and quasi-static finite elements and Ting's theory with the same material (converged at small strain:
+//! T = 62.818 µs, F = 107.99 N; e = 0.92763 at constant Poisson's ratio and 0.94811 with elastic bulk modulus).
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -39,12 +38,11 @@ impl Run {
         self.collision.restitution.unwrap()
     }
 
-    /// Every run keeps energy and momentum.
+    /// Asserts that energy and momentum are conserved.
     fn assert_balanced(&self) {
-        // Trapezoidal dissipation over a thousand rows and a penalty that opens and closes; the
-        // contract asks 1e-3, measured is 3e-7.
+        // The residual is 3e-7, from trapezoidal dissipation over a thousand rows and the opening contact.
         assert!(self.collision.residual_relative.unwrap() < 1e-5);
-        // Internal forces cancel in each element, contact forces in each point: rounding only.
+        // Internal forces cancel in each element, contact forces at each point; rounding remains.
         assert!(self.collision.momentum_residual_relative.unwrap() < 1e-12);
     }
 }
@@ -61,12 +59,15 @@ fn constant_poissons_ratio() -> &'static Run {
 
 fn assert_near(value: f64, reference: f64, relative: f64) {
     let difference = value / reference - 1.0;
-    assert!(difference.abs() <= relative, "{value:e} is off {reference:e} by {difference:.2e}");
+    assert!(
+        difference.abs() <= relative,
+        "{value:e} differs from {reference:e} by {difference:.2e}"
+    );
 }
 
 #[test]
 fn paper_elastic_restitution() {
-    // The paper prints 0.994, which is its own numerical loss; nature's is 2e-6.
+    // The paper prints 0.994, which includes its numerical loss; the physical loss is 2e-6.
     let e = elastic().restitution();
     assert!((0.994..=1.0 + 1e-5).contains(&e), "{e}");
     assert!(1.0 - e < 1e-4, "{e}");
@@ -81,7 +82,7 @@ fn paper_viscoelastic_restitution() {
 
 #[test]
 fn paper_contact_time_is_near_hertz() {
-    // The paper's own finite elements are 1.6 % off, by the compliance of their penalty.
+    // The paper's finite elements differ by 1.6 % because of their penalty compliance.
     assert_near(elastic().contact_time(), elastic().hertz.contact_time(), 0.015);
 }
 
@@ -116,14 +117,14 @@ fn sphere_on_wall_against_hertz() {
 }
 
 #[test]
-fn papers_mesh_runs_from_its_files() {
+fn the_mesh_files_of_the_paper_run() {
     let run = Run::of("glass_0.5ms_14um.toml");
     assert_near(run.contact_time(), 62.818e-6, 2e-3);
     assert_near(run.collision.peak_force.unwrap(), 107.99, 5e-3);
 }
 
 #[test]
-fn the_work_of_the_default_case_does_not_grow_unseen() {
-    // 2,620 elements and about 13,700 steps: a third more is a decision, not an accident.
+fn the_cost_of_the_default_case_is_bounded() {
+    // The case has 2,620 elements and about 13,700 steps; the bound is a third higher.
     assert!(constant_poissons_ratio().collision.element_updates.unwrap() < 48_000_000);
 }

@@ -1,4 +1,4 @@
-//! Finite strain near the contact: what it leaves out, and what it spares.
+//! Finite strain only near the contact: its error, and the elements that it saves.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use fem::{Case, Collision, Explicit, QuantityOfInterest, Simulation};
 
 const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const RELAXING: &str = include_str!("../../../../cases/glass_0.5ms.toml");
-/// Four elements across the contact, and the tolerance of eight.
+/// Settings with four elements across the contact, and the tolerance of eight.
 const AT_A_THOUSANDTH: [&str; 3] =
     ["accuracy.tolerance='0.1 %'", "mesh.contact_element_size='56 um'", "output.snapshots=[]"];
 const EVERYWHERE: &str = "effects.finite_strain='on'";
@@ -17,23 +17,23 @@ fn simulation(case: &str, set: &[&str]) -> Simulation {
     Simulation::new(Case::parse("glass.toml", case, Path::new("."), &set).unwrap()).unwrap()
 }
 
-/// Differences of the restitution, of all others as shares.
-fn apart(one: &Collision, other: &Collision) -> [f64; 6] {
+/// Returns the differences of two collisions: the restitution's absolute, others relative.
+fn differences(one: &Collision, other: &Collision) -> [f64; 6] {
     QuantityOfInterest::ALL.map(|headline| {
         let [one, other] = [one, other].map(|collision| headline.of(collision).unwrap());
         (one - other).abs() / headline.scale(other)
     })
 }
 
-/// What small strain leaves out far away is three hundredths of the tolerance at most, beside what it leaves out
-/// everywhere.
+/// Small strain away from the contact changes the results by at most three hundredths of the tolerance; small strain
+/// everywhere changes the force by more than the tolerance.
 #[test]
-fn what_is_left_out_far_away_is_three_hundredths_of_the_tolerance() {
+fn small_strain_away_from_the_contact_is_negligible() {
     for case in [ELASTIC, RELAXING] {
         let run = |set: &[&str]| simulation(case, set).run(&mut ());
         let [near, everywhere, nowhere] = [run(&[]), run(&[EVERYWHERE]), run(&[NOWHERE])];
         assert_ne!(near, everywhere);
-        let [left, whole] = [apart(&near, &everywhere), apart(&nowhere, &everywhere)];
+        let [left, whole] = [differences(&near, &everywhere), differences(&nowhere, &everywhere)];
         for headline in [
             QuantityOfInterest::Restitution,
             QuantityOfInterest::ContactTime,
@@ -49,8 +49,7 @@ fn what_is_left_out_far_away_is_three_hundredths_of_the_tolerance() {
     }
 }
 
-/// Elements at finite strain, each of which costs three at small strain: counted, so that the plan's choice of them is
-/// no dearer than it was.
+/// The number of elements at finite strain, each of which costs as much as three at small strain, is bounded.
 #[test]
 fn a_third_of_the_elements_is_at_finite_strain() {
     let share = |set: &[&str]| {
@@ -65,13 +64,13 @@ fn a_third_of_the_elements_is_at_finite_strain() {
     assert!((0.3..0.4).contains(&share(&[])), "{}", share(&[]));
     assert_eq!(share(&[EVERYWHERE]), 1.0);
     assert_eq!(share(&[NOWHERE]), 0.0);
-    // What a looser tolerance bears is not at finite strain at all.
+    // A larger tolerance needs no finite strain.
     assert_eq!(share(&["accuracy.tolerance='1 %'"]), 0.0);
 }
 
-/// The reason says how far from the contact elements have it, where not all do.
+/// The effect's reason reports the distance from the contact within which elements are at finite strain.
 #[test]
-fn results_say_how_far_it_reaches() {
+fn the_reason_reports_the_distance() {
     let reason = |set: &[&str]| {
         let simulation = simulation(ELASTIC, set);
         let verdicts = &simulation.setup().decisions.verdicts;

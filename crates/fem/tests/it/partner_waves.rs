@@ -1,12 +1,12 @@
-//! A ball on spheres so large that waves do not come back: the loss that the plan foretells is what
-//! elements lose, and models without waves say so.
+//! A ball on spheres so large that waves do not return: the estimated loss agrees with that of elements, and models without
+//! waves report it.
 
 use std::path::Path;
 
 use fem::{Account, QuantityOfInterest, Simulation};
 use fem_case::Case;
 
-/// A 10 mm ball of a soft, light glass, on one of the same material.
+/// A 10 mm glass ball on a large one of the same material.
 const BALL: &str = r#"
 [material.glass]
 density = "2390 kg/m^3"
@@ -34,30 +34,30 @@ fn simulation(overrides: &[&str]) -> Simulation {
     Simulation::new(case).unwrap()
 }
 
-/// What the plan says, as the number in "they take … of the restitution".
-fn foretold(simulation: &Simulation) -> f64 {
+/// Returns the loss of restitution that the warning reports.
+fn reported_loss(simulation: &Simulation) -> f64 {
     let warnings = simulation.setup().warnings().join("\n");
     let (_, rest) = warnings.split_once("of the energy, ").unwrap_or_else(|| panic!("{warnings}"));
     rest.split_once(' ').unwrap().0.parse().unwrap()
 }
 
 #[test]
-fn elements_lose_what_is_foretold() {
+fn elements_lose_the_reported_energy() {
     let fem = simulation(&["mesh.contact_element_size='40 um'"]);
     let lost = 1.0 - fem.run(&mut ()).restitution.unwrap();
-    let foretold = foretold(&simulation(&["model.hertz={}"]));
-    // A ball of finite size, and a speed that is no limit: v/c₀ = 6e-4.
-    assert!((foretold / lost - 1.0).abs() < 0.15, "{foretold:e} {lost:e}");
-    // And the model that has no waves loses nothing.
+    let reported = reported_loss(&simulation(&["model.hertz={}"]));
+    // The ball has a finite size, and v/c₀ = 6e-4 is not a limit.
+    assert!((reported / lost - 1.0).abs() < 0.15, "{reported:e} {lost:e}");
+    // The model without waves loses nothing.
     let blind = simulation(&["model.hertz={}"]).run(&mut ()).restitution.unwrap();
     assert!(1.0 - blind < 1e-4);
 }
 
 #[test]
-fn models_without_waves_say_so_and_the_others_need_not() {
+fn models_without_waves_report_the_loss() {
     for model in ["model.hertz={}", "model.law.hertz={}"] {
-        assert!(foretold(&simulation(&[model])) > 1e-3, "{model}");
-        // In a pair of like size waves run to and fro many times.
+        assert!(reported_loss(&simulation(&[model])) > 1e-3, "{model}");
+        // In bodies of similar size waves return many times.
         let pair = simulation(&[model, "body.0.sphere.diameter='20 mm'"]);
         assert!(!pair.setup().warnings().join("").contains("waves"), "{model}");
     }
@@ -68,10 +68,10 @@ fn models_without_waves_say_so_and_the_others_need_not() {
     assert!(verdict.active && verdict.reason.contains("block"), "{}", verdict.reason);
 }
 
-/// Ting's model and condensed bodies have the loss as a term of their own, from the size at which it counts on
-/// to one at which waves begin to come back.
+/// Ting's model and condensed bodies have a term for the loss, down to the size of the partner at which waves begin to
+/// return.
 #[test]
-fn models_with_a_term_lose_what_elements_lose() {
+fn models_with_radiation_lose_what_elements_lose() {
     for (size, tolerance) in [("3 m", 0.07), ("0.6 m", 0.07), ("0.15 m", 0.1), ("0.1 m", 0.2)] {
         let size = format!("body.0.sphere.diameter='{size}'");
         let lost = |set: &[&str]| {
@@ -99,14 +99,14 @@ fn models_with_a_term_lose_what_elements_lose() {
     }
 }
 
-/// A half-space radiates as Hunter (1957) has it: 1.11 (v/c₀)^(3/5) at ν = 1/4, c₀² = E/ρ, his 1.04 with
-/// the pulse that he rounds.
+/// The energy radiated into a half-space is Hunter's (1957), 1.11 (v/c₀)^(3/5) at ν = 1/4 with c₀² = E/ρ. He prints 1.04
+/// because he approximates the pulse.
 #[test]
-fn a_half_space_takes_what_hunter_says() {
+fn a_half_space_radiates_as_hunter_predicts() {
     let bar_speed = (63e9f64 / 2390.0).sqrt();
     for (model, speeds, tolerance) in [
         ("model.ting={}", &[0.05, 0.5, 3.0][..], 0.05),
-        // Eight elements across the contact, and steps that see a loss of 1e-3.
+        // The tolerance needs eight elements across the contact and steps for a loss of 1e-3.
         ("model.condensed={}", &[0.5, 3.0], 0.05),
         ("model.fem={}", &[1.0, 3.0], 0.1),
     ] {
@@ -128,9 +128,9 @@ fn a_half_space_takes_what_hunter_says() {
     }
 }
 
-/// What relaxes at once sends waves through what is left of it: Hunter's loss of balls and blocks of half the modulus.
+/// Bodies that relax at once radiate with their equilibrium moduli: the loss is Hunter's for half the modulus.
 #[test]
-fn a_half_space_takes_what_hunter_says_of_what_is_left_of_its_moduli() {
+fn a_relaxed_half_space_radiates_with_its_equilibrium_modulus() {
     let bar_speed = (0.5 * 63e9f64 / 2390.0).sqrt();
     let hunter = 1.11 * (3.0 / bar_speed).powf(0.6);
     let body = "body.0={ name = 'block', half_space = {}, material = 'glass' }";
@@ -145,7 +145,7 @@ fn a_half_space_takes_what_hunter_says_of_what_is_left_of_its_moduli() {
     }
 }
 
-/// And where it relaxes within the contact, or to little: models with a term are within their bars of elements.
+/// On half-spaces that relax during the contact, or strongly, models with radiation are within their error bars of elements.
 #[test]
 #[ignore = "27 s; .ci/run runs it"]
 fn half_spaces_that_relax_are_within_their_bars() {
@@ -167,10 +167,10 @@ fn half_spaces_that_relax_are_within_their_bars() {
                 (collision.restitution.unwrap(), bar)
             });
         for (found, bar) in [ting, condensed] {
-            let off = (found - fem.0).abs();
-            assert!(off < bar + fem.1, "{weight} {time}: {found} ± {bar}, elements {fem:?}");
+            let error = (found - fem.0).abs();
+            assert!(error < bar + fem.1, "{weight} {time}: {found} ± {bar}, elements {fem:?}");
         }
-        // Waves of what it was at first took a tenth of the loss.
+        // Radiation with instantaneous moduli would give a tenth of the loss.
         assert!(1.0 - ting.0 > 0.25 * (1.0 - fem.0), "{weight} {time}");
     }
 }
@@ -185,10 +185,9 @@ fn switches_that_a_model_cannot_obey_are_refused() {
     }
 }
 
-/// Between waves that never come back and waves that all do no model but elements has the loss: it is
-/// named, and within a factor of three.
+/// If waves return in part, only elements have the loss; other models report it within a factor of three.
 #[test]
-fn what_comes_back_in_part_is_named() {
+fn waves_that_return_in_part_are_reported() {
     for (size, speed) in [("60 mm", "3"), ("100 mm", "0.3"), ("30 mm", "3")] {
         let (size, speed) =
             (format!("body.0.sphere.diameter='{size}'"), format!("body.1.approach_speed={speed}"));
@@ -201,7 +200,7 @@ fn what_comes_back_in_part_is_named() {
             let is_right = (found - lost).abs() < 0.15 * lost;
             assert!(is_right || lost < 2e-4 || warnings.contains("waves"), "{size}: {lost:e}");
             if !is_right && warnings.contains("waves") {
-                let ratio = foretold(&blind) / lost;
+                let ratio = reported_loss(&blind) / lost;
                 assert!((1.0 / 3.0..3.0).contains(&ratio), "{size} {speed}: {ratio}");
             }
         }

@@ -1,14 +1,15 @@
-//! The plan and the model made of it: defaults, limits, effects, imported meshes.
+//! The plan and the model that follows from it: defaults, limits, effects, imported meshes, rejections.
 
 use std::path::Path;
 
-use fem::{Explicit, Model, ModelSetup, Plan, Simulation};
-use fem_case::schema::LawTable;
-use fem_case::{Case, CaseError};
+use fem::{Explicit, METHODS, Model, ModelSetup, Plan, SharedModels, Simulation};
+use fem_case::schema::{LawTable, MeshTable, ModelTable};
+use fem_case::{Case, CaseError, CaseFile};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+const RELAXING: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
-/// Eight elements across the contact.
+/// A tolerance with eight elements across the contact.
 const FINE: &str = "accuracy.tolerance='0.1 %'";
 
 fn case(overrides: &[&str]) -> Case {
@@ -23,9 +24,9 @@ fn refusal(overrides: &[&str]) -> CaseError {
 #[test]
 fn defaults_follow_from_hertz() {
     let plan = Plan::of_case(&case(&[])).unwrap();
-    // Printed digits of the closed form for this pair at 0.5 m/s.
+    // The closed form gives 63.235 µs for this pair at 0.5 m/s.
     assert!((plan.estimate.hertz.contact_time() * 1e6 - 63.235).abs() < 5e-4);
-    // Four elements across the contact of 1 %, the larger sphere's a 3.75th and the smaller's a 4.25th.
+    // A tolerance of 1 % needs four elements across the contact: 3.75 in the larger sphere, 4.25 in the smaller one.
     assert!((plan.contact_element_size * 4.0 * 1e3 - 0.22307).abs() < 5e-6);
     let [larger, smaller] = plan.element_sizes().map(|size| 0.22307e-3 / size);
     assert!((larger - 3.75).abs() < 1e-3 && (smaller - 4.25).abs() < 1e-3, "{larger} {smaller}");
@@ -36,7 +37,7 @@ fn defaults_follow_from_hertz() {
 
 /// The block of equal elements is as wide as the contact, up to the whole sphere.
 #[test]
-fn the_fine_block_follows_a_wide_contact() {
+fn the_block_of_equal_elements_follows_the_contact() {
     let smallest = 7.95e-3;
     for (speed, least) in [("0.5", 0.02), ("500", 0.3), ("3000", 1.0)] {
         let plan = Plan::of_case(&case(&[&format!("body.0.approach_speed={speed}")])).unwrap();
@@ -48,8 +49,7 @@ fn the_fine_block_follows_a_wide_contact() {
 
 #[test]
 fn relaxation_widens_the_expected_contact() {
-    let text = include_str!("../../../../cases/glass_0.5ms.toml");
-    let relaxing = Case::parse("glass.toml", text, Path::new("."), &[]).unwrap();
+    let relaxing = Case::parse("glass.toml", RELAXING, Path::new("."), &[]).unwrap();
     let [relaxing, elastic] =
         [relaxing, case(&[])].map(|case| Simulation::new(case).unwrap().setup().clone());
     assert!(relaxing.estimate.contact_radius > elastic.estimate.contact_radius);
@@ -72,8 +72,8 @@ fn the_resolved_case_makes_the_same_problem() {
 }
 
 #[test]
-fn what_is_too_dear_is_refused_with_the_estimate() {
-    // Two million, and more than can be numbered at all.
+fn a_run_above_a_limit_is_refused_with_its_cost() {
+    // The meshes have two million elements, and more than indices can number.
     for size in ["0.2 um", "5 nm"] {
         let error = refusal(&[&format!("mesh.contact_element_size='{size}'")]);
         assert_eq!(error.source_name(), "--set mesh.contact_element_size=…");
@@ -96,7 +96,7 @@ fn what_is_too_dear_is_refused_with_the_estimate() {
 }
 
 #[test]
-fn elements_and_blocks_that_do_not_fit_are_refused() {
+fn elements_and_blocks_larger_than_the_body_are_refused() {
     assert!(refusal(&["mesh.contact_element_size='50 mm'"]).message().contains("too large"));
     let error = refusal(&["mesh.refined_radius='8 mm'"]);
     assert_eq!(error.source_name(), "--set mesh.refined_radius=…");
@@ -114,18 +114,18 @@ fn scenes_beyond_the_model_are_warned_about() {
     let set = ["body.0.approach_speed=100", "effects.bulk_viscosity='off'", small];
     let faster = warnings(&[&set[..], &["contact.method='penalty'"]].concat());
     assert!(faster.contains("shear wave speed"), "{faster}");
-    // Without mass at the contact fronts do not make it ring.
+    // A massless boundary does not ring with steep fronts.
     assert!(!warnings(&set).contains("shear wave speed"));
     assert_eq!(warnings(&[]), "");
 }
 
 #[test]
-fn extreme_scenes_plan_or_are_refused() {
+fn extreme_scenes_are_planned_or_refused() {
     for speed in ["1e-9", "1e-6", "1e3"] {
         for diameter in ["1e-6", "1e-3", "10", "1e6"] {
             let speed = format!("body.0.approach_speed={speed}");
             let diameter = format!("body.0.sphere.diameter={diameter}");
-            // Either a plan with finite numbers or an error; never a panic.
+            // The result is a finite plan or an error, never a panic.
             if let Ok(plan) = Plan::of_case(&case(&[&speed, &diameter])) {
                 assert!(plan.contact_element_size > 0.0 && plan.contact_element_size.is_finite());
                 assert!(plan.candidate_radius > 0.0 && plan.candidate_radius.is_finite());
@@ -135,7 +135,7 @@ fn extreme_scenes_plan_or_are_refused() {
 }
 
 #[test]
-fn a_mesh_that_is_not_there_points_at_its_key() {
+fn a_missing_mesh_file_points_at_its_key() {
     let error = refusal(&["body.1.sphere.mesh='nowhere.vtu'"]);
     assert_eq!(error.source_name(), "--set body.1.sphere.mesh=…");
     assert!(error.message().contains("nowhere.vtu"), "{error}");
@@ -143,7 +143,7 @@ fn a_mesh_that_is_not_there_points_at_its_key() {
 }
 
 #[test]
-fn a_contact_that_outgrows_the_searched_region_is_run_again() {
+fn a_contact_wider_than_the_candidate_region_is_computed_again() {
     let case = case(&["mesh.contact_element_size='60 um'"]);
     let mut plan = Plan::of_case(&case).unwrap();
     // Half of the largest contact radius, 0.223 mm.
@@ -153,14 +153,14 @@ fn a_contact_that_outgrows_the_searched_region_is_run_again() {
     let collision = explicit.collide(&approach, &request, &mut ());
     assert!(collision.is_complete());
     assert!(collision.candidate_region.unwrap().radius > 0.223e-3);
-    // The model stays as it was built.
+    // The model itself does not change.
     assert!(explicit.bodies().candidate_radius() < 0.12e-3);
     assert!((collision.restitution.unwrap() - 1.0).abs() < 1e-3);
 }
 
 /// Every TOML example of the case reference is a valid case.
 #[test]
-fn the_case_reference_is_true() {
+fn the_examples_of_the_case_reference_are_valid() {
     let reference = include_str!("../../../../docs/cases.md");
     let examples: Vec<&str> =
         reference.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
@@ -172,5 +172,57 @@ fn the_case_reference_is_true() {
     }
     for law in LawTable::NAMES {
         assert!(reference.contains(&format!("| `{law}` |")), "{law}");
+    }
+}
+
+fn refused(case: Case) -> CaseError {
+    Simulation::new(case).map(|_| ()).unwrap_err()
+}
+
+fn mesh(file: &mut CaseFile) -> &mut MeshTable {
+    file.mesh.get_or_insert_default()
+}
+
+#[test]
+fn a_fault_in_the_text_keeps_its_line() {
+    let text = format!("{RELAXING}\n[mesh]\nrefined_radius = \"20 mm\"\n");
+    let case = Case::parse("pair.toml", &text, Path::new("."), &[]).unwrap();
+    let faster = case.edited(|file| file.body[0].approach_speed = Some(0.6.into())).unwrap();
+    let error = refused(faster);
+    assert_eq!(error.key(), Some("mesh.refined_radius"));
+    assert_eq!(error.line(), Some(text.lines().count()), "{error}");
+    let wider = case.edited(|file| mesh(file).refined_radius = Some("30 mm".into())).unwrap();
+    let error = refused(wider);
+    assert_eq!((error.source_name(), error.line()), ("mesh.refined_radius", None), "{error}");
+}
+
+#[test]
+fn a_fault_of_a_default_names_its_key() {
+    let file = Case::parse("pair.toml", RELAXING, Path::new("."), &[]).unwrap().file().clone();
+    let case = Case::of(file).unwrap();
+    let fine = case.edited(|file| mesh(file).contact_element_size = Some("20 nm".into())).unwrap();
+    assert_eq!(refused(fine).source_name(), "mesh.contact_element_size");
+    let many = case.edited(|file| {
+        mesh(file).contact_element_size = Some("1 um".into());
+        file.model = Some(ModelTable::condensed());
+        file.limits.get_or_insert_default().elements = Some(1e9.into());
+    });
+    assert_eq!(refused(many.unwrap()).source_name(), "limits.memory");
+}
+
+#[test]
+fn a_method_refuses_a_scene_of_another_model() {
+    for model in ["fem={}", "condensed={}", "hertz={}", "ting={}", "law.falcon.c=300"] {
+        let set = [format!("model.{model}")];
+        let case = Case::parse("pair.toml", RELAXING, Path::new("."), &set).unwrap();
+        let scene = case.scene();
+        for method in METHODS {
+            let made = method.build(scene, &SharedModels::default());
+            if method.name() == scene.model().name() {
+                made.unwrap();
+            } else {
+                assert_eq!(made.unwrap_err().key, scene.model().path(), "{}", method.name());
+            }
+        }
     }
 }

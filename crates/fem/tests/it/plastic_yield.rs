@@ -1,4 +1,4 @@
-//! Materials that would yield: what the plan says of them, in every model.
+//! Warnings about plastic yield, in every model.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use fem::Simulation;
 use fem::effects::EffectDecision;
 use fem_case::Case;
 
-/// 5 mm steel spheres at 5 m/s: real steel yields at some cm/s.
+/// Steel spheres of 5 mm at 5 m/s; real steel yields at some cm/s.
 const STEEL: &str = r#"
 [material.steel]
 density = "7850 kg/m^3"
@@ -33,7 +33,7 @@ const MODELS: [&str; 5] = [
     "model.law.falcon.c=0",
 ];
 
-fn told(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
+fn decision(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     let case = Case::parse("pair.toml", text, Path::new("."), &overrides).unwrap();
     let simulation = Simulation::new(case).unwrap();
@@ -44,10 +44,10 @@ fn told(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
 }
 
 #[test]
-fn a_pressure_that_no_steel_bears_is_warned_about() {
+fn an_impossible_pressure_is_reported() {
     for model in MODELS {
-        let (verdict, warnings) = told(STEEL, &[model]);
-        // 9 GPa, a thirteenth of E*; 0.62 of it is the stress.
+        let (verdict, warnings) = decision(STEEL, &[model]);
+        // The pressure is 9 GPa, a thirteenth of E*; the stress is 0.62 of it.
         assert!(warnings.contains("1/13 of the contact modulus"), "{model}: {warnings}");
         assert!(warnings.contains("yield_strength"), "{warnings}");
         assert!(!verdict.active && verdict.reason.contains("Pa"), "{}", verdict.reason);
@@ -57,7 +57,8 @@ fn a_pressure_that_no_steel_bears_is_warned_about() {
 #[test]
 fn a_yield_strength_gives_the_speed_and_the_range() {
     for model in MODELS {
-        let (verdict, warnings) = told(STEEL, &[model, "material.steel.yield_strength='1 GPa'"]);
+        let (verdict, warnings) =
+            decision(STEEL, &[model, "material.steel.yield_strength='1 GPa'"]);
         // Johnson's ½mv² = 53 R³Y⁵/E*⁴ is 0.067 m/s; then Thornton and Johnson at 72 times that.
         assert!(warnings.contains("yields from 69.1"), "{model}: {warnings}");
         assert!(warnings.contains("from 0.41 to 0.78"), "{warnings}");
@@ -66,53 +67,52 @@ fn a_yield_strength_gives_the_speed_and_the_range() {
 }
 
 #[test]
-fn what_does_not_yield_is_not_warned_about() {
+fn no_warning_without_yield() {
     let glass = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
     for overrides in [&[][..], &["material.glass.yield_strength='3 GPa'"]] {
-        let (verdict, warnings) = told(glass, overrides);
+        let (verdict, warnings) = decision(glass, overrides);
         assert_eq!(warnings, "");
         assert!(!verdict.active);
     }
     let slow = ["material.steel.yield_strength='1 GPa'", "body.0.approach_speed='1 cm/s'"];
-    let (verdict, warnings) = told(STEEL, &slow);
+    let (verdict, warnings) = decision(STEEL, &slow);
     assert_eq!(warnings, "");
     assert!(verdict.reason.contains("it yields from"), "{}", verdict.reason);
 }
 
-/// The weaker of two bodies decides.
 #[test]
 fn the_body_that_yields_first_is_named() {
     let soft = "material.soft={density=7850, youngs_modulus=210e9, poissons_ratio=0.3, \
                 yield_strength=1e8}";
     let overrides = ["material.steel.yield_strength=1e9", soft, "body.1.material='soft'"];
-    let (_, warnings) = told(STEEL, &overrides);
+    let (_, warnings) = decision(STEEL, &overrides);
     assert!(warnings.contains("upper yields from"), "{warnings}");
     assert!(!warnings.contains("lower yields"), "{warnings}");
 }
 
-/// Rubber is strained by as much and does not flow: what is as soft, or has a hyperelastic law, is not warned about;
-/// what stands beside it, and what has a yield strength, is.
+/// Soft materials and those with a hyperelastic law are strained without yield and have no warning; their partner, and
+/// materials with a yield strength, have one.
 #[test]
-fn rubber_has_no_yield_strength_to_give() {
+fn rubber_does_not_yield() {
     let soft = "material.steel={density=1100, youngs_modulus='50 MPa', poissons_ratio=0.45}";
     let slow = "body.0.approach_speed='5 m/s'";
     let beside = "material.hard={density=1100, youngs_modulus='200 MPa', poissons_ratio=0.4}";
     let stiff = "material.hard={density=8000, youngs_modulus='200 GPa', poissons_ratio=0.3}";
     for model in MODELS {
-        let (verdict, warnings) = told(STEEL, &[model, soft, slow]);
+        let (verdict, warnings) = decision(STEEL, &[model, soft, slow]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         assert!(verdict.reason.contains("do not yield"), "{}", verdict.reason);
-        let (_, warnings) = told(STEEL, &[model, "material.steel.hyperelastic='hencky'"]);
+        let (_, warnings) = decision(STEEL, &[model, "material.steel.hyperelastic='hencky'"]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
-        // The stiff one of both.
+        // The stiffer body yields.
         let fast = "body.0.approach_speed='30 m/s'";
-        let (_, warnings) = told(STEEL, &[model, soft, beside, "body.1.material='hard'", fast]);
+        let (_, warnings) = decision(STEEL, &[model, soft, beside, "body.1.material='hard'", fast]);
         assert!(warnings.contains("plastic flow: the stress reaches upper"), "{model}: {warnings}");
-        // Far stiffer than the rubber that presses on it.
-        let (_, warnings) = told(STEEL, &[model, soft, stiff, "body.1.material='hard'", slow]);
+        // A body far stiffer than the rubber does not yield.
+        let (_, warnings) = decision(STEEL, &[model, soft, stiff, "body.1.material='hard'", slow]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         let strength = "material.steel.yield_strength='1 MPa'";
-        let (_, warnings) = told(STEEL, &[model, soft, slow, strength]);
+        let (_, warnings) = decision(STEEL, &[model, soft, slow, strength]);
         assert!(warnings.contains("yields from"), "{model}: {warnings}");
     }
 }

@@ -1,11 +1,11 @@
-//! Bodies that relax to little: what is read of them, and what they are judged by.
+//! Strongly relaxing bodies: their results, and the effective moduli by which effects are judged.
 
 use std::path::Path;
 
 use fem::results::Summary;
 use fem::{Case, QuantityOfInterest, Simulation};
 
-/// Two spheres of 10 mm that relax in no time beside the contact they have in the end.
+/// Two spheres of 10 mm that relax much faster than their contact.
 const PAIR: &str = "
 [material.a]
 density = 1200
@@ -42,9 +42,9 @@ fn run(set: &[&str]) -> Summary {
     simulation.summary(collision)
 }
 
-/// A Maxwell sphere presses hardest while the approach is v t, δ = v t and F = K δ^(3/2) with E e^(−βt): on the axis
-/// p = (E*/πR) ∫ e^(−β(t−s)) d(2 √(R v s)) = (2 E*/πR) √(R v/β) D(√(βt)), of which Dawson's D is 0.54104 at most.
-/// Far below are the largest force and the largest contact.
+/// The pressure of a Maxwell sphere is largest while the approach is still δ = v t: on the axis
+/// p = (E*/πR) ∫ e^(−β(t−s)) d(2 √(R v s)) = (2 E*/πR) √(R v/β) D(√(βt)), where Dawson's D is at most 0.54104.
+/// Force and contact radius are largest much later.
 #[test]
 fn the_pressure_of_a_fluid_is_largest_while_the_contact_is_small() {
     let (contact_modulus, radius, speed, rate) = (0.5 * 10e6 / (1.0 - 0.16), 2.5e-3, 0.1, 6e4);
@@ -54,25 +54,25 @@ fn the_pressure_of_a_fluid_is_largest_while_the_contact_is_small() {
     let ting = run(&[FLUID, "model.ting={}"]).collision.peak_pressure_pa.unwrap();
     assert!((ting / exact - 1.0).abs() < 2e-3, "{ting} {exact}");
     for (set, largest) in [
-        // Five elements across the contact of that time.
+        // This mesh has five elements across the contact at that time.
         (&["model.condensed.steps=8000", "mesh.contact_element_size='12 um'"][..], 0.1),
-        // As the plan has it, and as coarse as nothing of it is seen.
+        // The planned mesh and a coarse one do not resolve it.
         (&["model.condensed={}"], f64::INFINITY),
         (&["model.condensed={}", "mesh.contact_element_size='80 um'"], f64::INFINITY),
     ] {
         let summary = run(&[set, &[FLUID]].concat());
-        let told = summary.collision.peak_pressure_pa.unwrap();
-        let off =
+        let pressure = summary.collision.peak_pressure_pa.unwrap();
+        let bar =
             summary.uncertainty.parts(QuantityOfInterest::PeakPressure).discretisation.unwrap();
-        assert!((told - exact).abs() < off, "{set:?}: {told} ± {off}, {exact}");
-        assert!(off / told < largest, "{set:?}: {told} ± {off}");
+        assert!((pressure - exact).abs() < bar, "{set:?}: {pressure} ± {bar}, {exact}");
+        assert!(bar / pressure < largest, "{set:?}: {pressure} ± {bar}");
     }
 }
 
-/// What inertia and the spheres' own compliance are worth is judged by what is left of the moduli: the words are those
-/// of elastic bodies that are as soft.
+/// Warnings about inertia and the spheres' own compliance follow from the effective moduli: they are those of equally soft
+/// elastic bodies.
 #[test]
-fn bodies_that_have_relaxed_are_warned_of_as_soft_ones_are() {
+fn relaxed_bodies_have_the_warnings_of_soft_ones() {
     let kinds = ["of the shear wave speed", "the spheres' own compliance adds"];
     for model in ["model.condensed={}", "model.ting={}", "model.ting.finite_size=false"] {
         let of = |set: &[&str]| {
@@ -83,41 +83,41 @@ fn bodies_that_have_relaxed_are_warned_of_as_soft_ones_are() {
         assert_eq!(relaxed, soft, "{model}");
         assert_ne!(relaxed, stiff, "{model}");
     }
-    // Of instantaneous moduli no vibration is worth a mode.
+    // With instantaneous moduli no modes would be selected.
     let chosen = simulation(&["model.auto={}"]).resolved().model.clone().unwrap();
     let modes = chosen.condensed.and_then(|condensed| condensed.vibration_modes);
     assert!(chosen.fem.is_some() || modes.is_some_and(|modes| modes.si() == Ok(12.0)));
 }
 
-/// Error bars are those of the collision as it is, not of an impact a thousand times as stiff: none is missing, models
-/// are within them, and the force's is a share of the force.
+/// Error bars belong to the computed collision, not to an impact a thousand times as stiff: models agree within them, and
+/// all are small shares.
 #[test]
-fn model_bars_are_of_the_collision_as_it_is() {
+fn models_agree_within_their_bars() {
     let fem = run(&["model.fem={}"]);
     let ting = run(&["model.ting={}"]);
-    for headline in QuantityOfInterest::ALL {
+    for quantity in QuantityOfInterest::ALL {
         let bar = |summary: &Summary| {
-            let parts = summary.uncertainty.parts(headline);
+            let parts = summary.uncertainty.parts(quantity);
             parts.discretisation.unwrap() + parts.model.unwrap()
         };
-        let [one, other] = [&fem, &ting].map(|it| it.collision.number(headline).unwrap());
-        let off = bar(&fem) + bar(&ting);
-        assert!((one - other).abs() < off, "{headline:?}: {one} {other} ± {off}");
-        let share = bar(&fem) / headline.scale(one);
-        // The pressure comes while the contact is a third of an element wide.
-        let is_seen = headline != QuantityOfInterest::PeakPressure;
-        assert!(!is_seen || share < 0.12, "{headline:?}: {one} ± {share}");
+        let [one, other] = [&fem, &ting].map(|it| it.collision.number(quantity).unwrap());
+        let bars = bar(&fem) + bar(&ting);
+        assert!((one - other).abs() < bars, "{quantity:?}: {one} {other} ± {bars}");
+        let share = bar(&fem) / quantity.scale(one);
+        // The pressure peaks while the contact is a third of an element wide.
+        let is_resolved = quantity != QuantityOfInterest::PeakPressure;
+        assert!(!is_resolved || share < 0.12, "{quantity:?}: {one} ± {share}");
     }
 }
 
-/// The stress that is announced is that of the collision: 17 kPa of pressure, where elastic bodies have 480.
+/// The stress for plastic yield follows from the effective moduli: a pressure of 17 kPa, where elastic bodies have 480 kPa.
 #[test]
-fn the_stress_that_is_announced_is_that_of_the_collision() {
-    let words = |set: &[&str]| {
+fn yield_is_judged_with_effective_moduli() {
+    let reason = |set: &[&str]| {
         let effects = run(&[set, &["model.ting={}"]].concat()).effects;
         let plastic = effects.into_iter().find(|it| it.verdict.name == "plastic yield").unwrap();
         plastic.verdict.reason
     };
-    assert!(words(&[]).contains("contact modulus = 0.003"), "{}", words(&[]));
-    assert!(words(&[ELASTIC]).contains("contact modulus = 0.080"), "{}", words(&[ELASTIC]));
+    assert!(reason(&[]).contains("contact modulus = 0.003"), "{}", reason(&[]));
+    assert!(reason(&[ELASTIC]).contains("contact modulus = 0.080"), "{}", reason(&[ELASTIC]));
 }

@@ -1,11 +1,11 @@
-//! A partner that hardly gives way, as a rigid one.
+//! A very stiff partner is computed as a rigid one.
 
 use std::path::Path;
 
 use fem::effects::EffectDecision;
 use fem::{Case, CaseError, Collision, Simulation};
 
-/// A soft ball between elastic and relaxing, and a steel one: 1 to 4e4 in stiffness.
+/// A soft relaxing ball and a steel one, with a ratio of stiffness of 1 to 4e4.
 const SOFT: &str = r#"
 [material.gel]
 density = "1050 kg/m^3"
@@ -49,9 +49,9 @@ fn verdict(simulation: &Simulation) -> &EffectDecision {
     verdicts.iter().find(|verdict| verdict.name == "rigid partner").unwrap()
 }
 
-/// Against the bodies as they are: a compliance of 2.4e-5 is worth 1e-5 of the contact time.
+/// The compliance of the partner is 2.4e-5 of the whole, which changes the contact time by 1e-5: the results stay.
 #[test]
-fn what_hardly_gives_way_is_rigid_and_the_answer_stays() {
+fn a_very_stiff_partner_is_rigid_with_the_same_results() {
     for model in MODELS {
         let set = [model, "mesh.contact_element_size='0.3 mm'"];
         let plain = simulation(&set).unwrap();
@@ -61,7 +61,7 @@ fn what_hardly_gives_way_is_rigid_and_the_answer_stays() {
         assert!(!warnings.contains("rigid"), "{warnings}");
         let whole = run(&[set[0], set[1], "effects.rigid_partner='off'"]);
         let rigid = plain.run(&mut ());
-        // Explicit elements have three a contact radius, and springs between two meshes or one.
+        // Explicit runs have three elements across the contact, and springs between two meshes or on one.
         let is_coarse = model == MODELS[0];
         let close = |a: Option<f64>, b: Option<f64>, coarse: f64, what: &str| {
             let change = a.unwrap() / b.unwrap() - 1.0;
@@ -77,18 +77,18 @@ fn what_hardly_gives_way_is_rigid_and_the_answer_stays() {
         close(ours, theirs, 2e-3, "velocity of the anvil");
         if model == MODELS[0] {
             let updates = |collision: &Collision| collision.element_updates.unwrap();
-            // Steel is stiff: its elements alone make the step 30 times shorter.
+            // Elements of steel make the time step 30 times shorter.
             assert!(10 * updates(&rigid) < updates(&whole), "{}", updates(&rigid));
         }
     }
 }
 
-/// A rigid body of a stiffness that matters is told, with what it changes; and that is what it changes.
+/// A warning reports a partner that is forced to be rigid, and its estimate of the change is right.
 #[test]
-fn what_is_forced_changes_what_is_foretold() {
+fn a_forced_rigid_partner_changes_the_results_as_estimated() {
     for model in MODELS {
         let stiff = "material.steel.youngs_modulus='200 MPa'";
-        // Without viscosity elements ring by 2 % of the peak force, two meshes more than one.
+        // Without viscosity elements ring by 2 % of the peak force.
         let smooth = match model {
             "model.fem={}" => "effects.bulk_viscosity='on'",
             _ => "effects.bulk_viscosity='auto'",
@@ -100,13 +100,13 @@ fn what_is_forced_changes_what_is_foretold() {
         let warnings = forced.setup().warnings().join("\n");
         assert!(warnings.contains("forced to be rigid"), "{model}: {warnings}");
         let setup = forced.setup();
-        let foretold = forced.neglect_error(verdict(&forced), &setup.estimate).unwrap();
+        let estimated = forced.neglect_error(verdict(&forced), &setup.estimate).unwrap();
         let (rigid, whole) = (forced.run(&mut ()), run(&set));
         let found = (rigid.contact_time.unwrap() - whole.contact_time.unwrap()).abs();
-        let ratio = found / foretold.contact_time_s.unwrap();
+        let ratio = found / estimated.contact_time_s.unwrap();
         assert!((1.0 / 3.0..3.0).contains(&ratio), "{model}: T {ratio}");
         let found = (rigid.peak_force.unwrap() - whole.peak_force.unwrap()).abs();
-        let ratio = found / foretold.peak_force_n.unwrap();
+        let ratio = found / estimated.peak_force_n.unwrap();
         assert!((1.0 / 3.0..3.0).contains(&ratio), "{model}: F {ratio}");
     }
 }
@@ -122,10 +122,10 @@ fn switches_that_contradict_the_scene_are_refused() {
     assert!(error.message().contains("both \"on\""), "{error}");
 }
 
-/// A steel ball on a soft block, and a soft ball on a steel one that is held: what is rigid by itself is so
-/// beside a half-space and where it is held, and elements and condensed bodies agree.
+/// A steel ball on a soft half-space, and a soft ball on a held steel one, have a rigid partner, and elements and condensed
+/// bodies agree.
 #[test]
-fn a_rigid_ball_on_a_block_and_a_rigid_one_that_is_held() {
+fn rigid_balls_on_a_half_space_and_held_ones() {
     const BLOCK: &str = "body.0={name='block', half_space={}, material='gel'}";
     const BALL: [&str; 2] = ["body.1.sphere.diameter='5 mm'", "body.1.material='steel'"];
     const HELD: [&str; 2] = ["body.0.held=true", "gravity.acceleration=9.81"];
@@ -143,10 +143,10 @@ fn a_rigid_ball_on_a_block_and_a_rigid_one_that_is_held() {
     }
 }
 
-/// A ball of 2 mm on a sphere of 60 mm that weighs three thousand times as much: what may be moved towards the contact is
-/// a share of the ball's mass, of the sphere's it would be sixteen times the ball.
+/// Added mass is a share of the lighter body. For a ball of 2 mm on a sphere of 60 mm, a share of the sphere would be sixteen
+/// times the ball.
 #[test]
-fn a_small_rigid_ball_is_not_outweighed_by_what_is_moved() {
+fn added_mass_is_a_share_of_a_small_rigid_ball() {
     let set = |model| {
         let body = |name, diameter, material, speed| {
             format!(
@@ -160,11 +160,11 @@ fn a_small_rigid_ball_is_not_outweighed_by_what_is_moved() {
         run(&[model, rubber, &format!("body=[{bodies}]")])
     };
     let [explicit, condensed] = [set("model.fem={}"), set("model.condensed={}")];
-    let moved = explicit.bodies[0].added_mass.unwrap();
-    assert!(moved < 0.0051 * explicit.bodies[1].mass.unwrap(), "{moved:e}");
-    // 0.9928 and 0.9925; with the sphere's mass it was 0.7601, and the contact lasted 14 % longer.
-    let off = explicit.restitution.unwrap() - condensed.restitution.unwrap();
-    assert!(off.abs() < 1e-3, "{off:e}");
-    let off = explicit.contact_time.unwrap() / condensed.contact_time.unwrap() - 1.0;
-    assert!(off.abs() < 1e-2, "{off:e}");
+    let added = explicit.bodies[0].added_mass.unwrap();
+    assert!(added < 0.0051 * explicit.bodies[1].mass.unwrap(), "{added:e}");
+    // The values are 0.9928 and 0.9925. With a share of the sphere's mass it was 0.7601, and the contact 14 % longer.
+    let difference = explicit.restitution.unwrap() - condensed.restitution.unwrap();
+    assert!(difference.abs() < 1e-3, "{difference:e}");
+    let difference = explicit.contact_time.unwrap() / condensed.contact_time.unwrap() - 1.0;
+    assert!(difference.abs() < 1e-2, "{difference:e}");
 }

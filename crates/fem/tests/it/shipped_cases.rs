@@ -1,4 +1,4 @@
-//! The cases of the repository: the model that each takes, and the effects that it calls for.
+//! The cases of the repository: their models, effects and warnings.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,21 +6,21 @@ use std::path::{Path, PathBuf};
 
 use fem::{Case, Simulation};
 
-/// What the plan of a case must be.
+/// The expected plan of a case.
 struct Row {
-    /// The file in `cases`, without its ending.
+    /// File name in `cases`, without extension.
     case: &'static str,
-    /// Which computes it.
+    /// Name of the model.
     model: &'static str,
-    /// Effects that are on, beside [`MESHED`] ones; all others are off.
+    /// Active effects without [`MESHED`]; all others are off.
     active: &'static [&'static str],
-    /// What the reason of an effect says.
+    /// Words in the reason of an effect.
     why: &'static [(&'static str, &'static str)],
-    /// What each warning before the run says.
+    /// Words in each warning before the run.
     warnings: &'static [&'static str],
 }
 
-/// What explicit elements have in every scene.
+/// Effects that explicit elements have in every scene.
 const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"];
 
 const ROWS: [Row; 14] = [
@@ -49,14 +49,14 @@ const ROWS: [Row; 14] = [
         why: &[("mirror symmetry", "one is computed")],
         warnings: &[],
     },
-    // 3.4e-5: steel has E/(1 − ν²) = 231 GPa, rubber 7.9 MPa.
+    // The ratio is 3.4e-5: steel has E/(1 − ν²) = 231 GPa, rubber 7.9 MPa.
     Row {
         case: "steel_on_rubber",
         model: "condensed",
         active: &["viscoelasticity", "surface slip", "rigid partner"],
         why: &[
             ("rigid partner", "steel has 3.4e-5 of the compliance"),
-            // β = (1 − 2ν)/(2 − 2ν) = 0.02, which makes steel's slope on rubber nothing to speak of.
+            // β = (1 − 2ν)/(2 − 2ν) = 0.02 makes surface slip negligible.
             ("surface slip", "= 0.0015"),
         ],
         warnings: &[],
@@ -75,7 +75,7 @@ const ROWS: [Row; 14] = [
         why: &[],
         warnings: &[],
     },
-    // 20 m/s over √(G/ρ) = √(1.154 MPa / 950 kg/m³) = 34.9 m/s.
+    // The speed ratio is 20 m/s over √(G/ρ) = √(1.154 MPa / 950 kg/m³) = 34.9 m/s.
     Row {
         case: "fast_impact",
         model: "fem",
@@ -136,7 +136,7 @@ fn every_case_has_the_plan_of_its_row() {
     }
 }
 
-/// A sweep has no bodies of its own.
+/// Every case file with bodies has a row (sweeps have none).
 #[test]
 fn every_case_has_a_row() {
     let mut cases = BTreeSet::new();

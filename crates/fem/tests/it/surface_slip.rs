@@ -1,4 +1,4 @@
-//! Surfaces of unlike bodies that slip on each other: where a scene calls for it, and what it changes.
+//! Surface slip of unlike bodies: the scenes that need it, and the change that it makes.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 use crate::coarse;
 
-/// A steel ball on a soft sphere ten times larger; the contact grows to 0.073 of the ball's radius.
+/// A steel ball on a soft sphere ten times as large; the contact radius becomes 0.073 of the ball's radius.
 const STEEL_ON_SOFT: &str = r#"
 [material.soft]
 density = "1200 kg/m^3"
@@ -36,9 +36,9 @@ snapshots = []
 
 const OFF: &str = "effects.surface_slip='off'";
 const ON: &str = "effects.surface_slip='on'";
-/// The same springs with slip and without.
+/// Springs that are possible with and without slip.
 const PENALTY: &str = "contact.method='penalty'";
-/// Eight elements across the contact, and hardly any mass moved.
+/// Mesh with eight elements across the contact, and little added mass.
 const FINE: &str = "mesh.contact_element_size='18.2 um'";
 const LITTLE_MASS: &str = "time.mass_scaling=2e-4";
 const LAW: &str = "model.law.hertz={}";
@@ -58,7 +58,7 @@ fn verdict(simulation: &Simulation) -> EffectDecision {
     verdicts.iter().find(|verdict| verdict.name == "surface slip").unwrap().clone()
 }
 
-/// Of contact time, peak force, approach, contact radius and pressure.
+/// Returns the relative changes of contact time, peak force, approach, contact radius and pressure.
 fn change(with: &Collision, without: &Collision) -> [f64; 5] {
     let numbers = |c: &Collision| {
         [c.contact_time, c.peak_force, c.max_approach, c.max_contact_radius, c.peak_pressure]
@@ -68,10 +68,10 @@ fn change(with: &Collision, without: &Collision) -> [f64; 5] {
     std::array::from_fn(|k| with[k] / without[k] - 1.0)
 }
 
-/// Explicit elements have the gap and the forces between the surfaces as they lie, the other models their
-/// first order: it is within a tenth, a share of a/R = 0.073.
+/// Explicit elements follow the deformed surfaces, the other models have slip to first order in a/R = 0.073: they agree
+/// within a tenth or so.
 #[test]
-fn every_model_that_has_it_changes_alike() {
+fn models_with_slip_agree() {
     let [fem, condensed, ting] =
         ["model.fem={}", "model.condensed={}", "model.ting={}"].map(|model| {
             change(
@@ -79,22 +79,22 @@ fn every_model_that_has_it_changes_alike() {
                 &run(&[model, PENALTY, FINE, LITTLE_MASS, OFF]),
             )
         });
-    // Found with explicit elements of a 1/8 and of a 1/14: −0.60 and −0.58 %, 0.79 and 0.76 %.
+    // Explicit elements of a/8 and a/14 give −0.60 and −0.58 %, 0.79 and 0.76 %.
     assert!((fem[0] + 5.9e-3).abs() < 3e-4 && (fem[1] - 7.8e-3).abs() < 4e-4, "{fem:?}");
     for other in [condensed, ting] {
         for k in 0..3 {
-            // The force of condensed bodies swings by 4e-4 with the edge's place between nodes.
+            // The force of condensed bodies oscillates by 4e-4 with the place of the edge.
             assert!((other[k] / fem[k] - 1.0).abs() < 0.15, "{k}: {other:?} {fem:?}");
         }
     }
-    // The surfaces have moved together: more pressure on less area. Contact radii are read to a thousandth.
+    // Slip gives more pressure on a smaller area.
     assert!((condensed[3] - fem[3]).abs() < 2e-3, "{condensed:?} {fem:?}");
     assert!((condensed[4] / fem[4] - 1.0).abs() < 0.12, "{condensed:?} {fem:?}");
     assert!(fem[4] > 1.7e-2, "{fem:?}");
 }
 
 #[test]
-fn unlike_bodies_call_for_it_and_a_switch_is_obeyed() {
+fn unlike_bodies_need_slip_and_a_switch_is_obeyed() {
     let words = |simulation: &Simulation| simulation.setup().warnings().join("\n");
     for model in ["model.fem={}", "model.condensed={}", "model.ting={}"] {
         let (plain, off) = (simulation(&[model]), simulation(&[model, OFF]));
@@ -102,26 +102,26 @@ fn unlike_bodies_call_for_it_and_a_switch_is_obeyed() {
         assert!(!words(&plain).contains("slip"), "{}", words(&plain));
         assert!(!verdict(&off).active);
         assert!(words(&off).contains("surface slip is called for, but switched off"));
-        // The resolved case says the same again.
+        // The resolved case has the same decision.
         let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();
         assert!(!verdict(&again).active);
     }
-    // Models that lack it say how much that is.
+    // Models without slip report the neglected change.
     for model in ["model.hertz={}", "model.hertz.finite_size=true", LAW] {
         let (plain, off) = (simulation(&[model]), simulation(&[model, OFF]));
         assert!(!verdict(&plain).active);
-        let said = words(&plain);
+        let words = words(&plain);
         assert!(
-            said.contains("contact time by about 0.63 % and the peak force by 0.84 %"),
-            "{said}"
+            words.contains("contact time by about 0.63 % and the peak force by 0.84 %"),
+            "{words}"
         );
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
     }
 }
 
-/// Like bodies, and a wall, have nothing of it, to the bits; nor is there a word.
+/// Slip between like bodies and on a wall changes no bit.
 #[test]
-fn like_bodies_have_none() {
+fn like_bodies_do_not_slip() {
     for model in ["fem", "condensed", "ting"] {
         let [plain, off] = ["effects={}", OFF].map(|switch| coarse::simulation(model, &[switch]));
         let own = verdict(&plain);
@@ -135,10 +135,10 @@ fn like_bodies_have_none() {
     }
 }
 
-/// Forced on between like bodies it is nothing in first order, and of explicit elements what their sizes
-/// make of it: 4e-4 of the force on this coarse mesh, which is noise, and 1e-6 of the approach.
+/// Slip that is forced on between like bodies is zero to first order. Explicit elements of different sizes change the force by
+/// 4e-4 on this coarse mesh, which is noise, and the approach by 1e-6.
 #[test]
-fn forced_on_between_like_bodies_it_changes_nothing() {
+fn forced_slip_between_like_bodies_changes_nothing() {
     for (model, allowed) in [("fem", 1e-3), ("condensed", 1e-7), ("ting", 1e-7)] {
         let [on, off] = [ON, OFF].map(|switch| coarse::simulation(model, &[switch, PENALTY]));
         assert!(verdict(&on).active, "{model}");
@@ -148,9 +148,9 @@ fn forced_on_between_like_bodies_it_changes_nothing() {
     }
 }
 
-/// Materials that relax differently slip once they have, even if they are alike at first.
+/// Materials with the same instantaneous moduli slip if they relax differently.
 #[test]
-fn bodies_that_relax_differently_call_for_it() {
+fn bodies_that_relax_differently_slip() {
     let relaxing = "material.steel={ density = 1200, youngs_modulus = '3 GPa', poissons_ratio = 0.2, \
                     relaxation = { acts_on = 'shear', terms = [{ weight = 0.8, decay_rate = 3e4 }] } }";
     let [condensed, ting] = ["model.condensed={}", "model.ting={}"].map(|model| {
@@ -161,11 +161,11 @@ fn bodies_that_relax_differently_call_for_it() {
     assert!((condensed[1] / ting[1] - 1.0).abs() < 0.2, "{condensed:?} {ting:?}");
 }
 
-/// What slip changes of contact time, peak force and approach, by condensed bodies and by explicit elements at a tolerance
-/// of 0.2 % and small strain, recorded; a/R* is 0.136, 0.196, 0.139 and 0.041. Their difference is the next order, which
-/// condensed bodies and Ting's model tell, elements have and models without slip do not know.
+/// The recorded values are the changes of contact time, peak force and approach by slip, from condensed bodies and from
+/// explicit elements at a tolerance of 0.2 % and small strain; a/R* is 0.136, 0.196, 0.139 and 0.041. Their difference is
+/// the second order, which is a model-form error of condensed bodies and Ting's model.
 #[test]
-fn the_next_order_is_a_doubt_of_models_that_have_the_first() {
+fn the_second_order_is_a_model_form_error() {
     let scenes = [
         (["1.3 GPa", "0.12", "30 mm"], ["200 GPa", "0.28", "6 mm"], "1.1 m/s"),
         (["4 GPa", "0.05", "12 mm"], ["70 GPa", "0.2", "9 mm"], "6 m/s"),

@@ -1,5 +1,4 @@
-//! The sweep engine as a library user has it: members from a file and from code, their order, who
-//! looks on, what comes out.
+//! The sweep engine of the library: members from a file and from code, their order, observers and results.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -16,7 +15,7 @@ use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, SharedModels, S
 
 const SPEEDS: [f64; 3] = [0.3, 0.1, 0.2];
 
-/// A pair of glass spheres with elements for some hundred microseconds of computation.
+/// Returns a pair of glass spheres with a coarse mesh.
 fn pair(model: ModelTable) -> Case {
     let glass = MaterialTable::from_youngs_modulus_poissons_ratio(2390.0, 63e9, 0.244)
         .relaxing(ActsOn::All, [TermTable::with_decay_rate(1.0, 2708.0)]);
@@ -41,7 +40,7 @@ fn pool(n_threads: usize) -> rayon::ThreadPool {
 }
 
 #[test]
-fn summaries_come_in_the_order_of_the_values_and_are_those_of_the_cases_alone() {
+fn summaries_are_in_order_and_equal_those_of_single_runs() {
     let case = pair(ModelTable::condensed());
     let alone = SPEEDS.map(|speed| {
         let case = case.edited(|file| set_speed(file, speed)).unwrap();
@@ -59,12 +58,12 @@ fn summaries_come_in_the_order_of_the_values_and_are_those_of_the_cases_alone() 
 }
 
 #[test]
-fn a_value_that_makes_no_case_is_an_error_of_its_own() {
+fn an_invalid_value_gives_one_error() {
     let summaries = sweep(&pair(ModelTable::ting()), [0.1, -1.0, 0.2], set_speed);
     let errors: Vec<Option<&str>> =
         summaries.iter().map(|summary| summary.as_ref().err().and_then(CaseError::key)).collect();
     assert_eq!(errors, [None, Some("body.0.approach_speed"), None]);
-    // So is one that the model refuses.
+    // A value that the model rejects gives one error too.
     let summaries = sweep(&pair(ModelTable::fem()), [1e6, 10.0], |file, elements| {
         file.limits = Some(LimitsTable { elements: Some(elements.into()), ..Default::default() });
     });
@@ -72,7 +71,7 @@ fn a_value_that_makes_no_case_is_an_error_of_its_own() {
     assert_eq!(summaries[1].as_ref().unwrap_err().key(), Some("mesh.contact_element_size"));
 }
 
-/// A sweep file and code make the same members, and one engine runs both.
+/// A sweep file and code make the same members and results.
 #[test]
 fn members_of_a_file_are_those_of_code() {
     let case = pair(ModelTable::condensed());
@@ -109,13 +108,13 @@ fn members_of_a_file_are_those_of_code() {
 }
 
 #[test]
-fn a_member_is_known_by_what_it_computes() {
+fn the_identity_of_a_member_depends_on_its_values() {
     let case = pair(ModelTable::condensed());
     let identity = |case: &Case| Member::of(0, case).unwrap().identity();
     let edited = |change: fn(&mut CaseFile)| identity(&case.edited(change).unwrap());
     let own = identity(&case);
     assert_eq!(own.len(), 16);
-    // What is written otherwise, or the default, computes the same.
+    // Another spelling and a default value have the same identity.
     assert_eq!(edited(|file| file.body[0].approach_speed = Some("50 cm/s".into())), own);
     let default = |file: &mut CaseFile| {
         let table = CondensedTable { steps: Some(250.into()), ..Default::default() };
@@ -127,10 +126,10 @@ fn a_member_is_known_by_what_it_computes() {
 }
 
 #[test]
-fn the_most_expensive_run_first_each_once() {
+fn the_most_expensive_run_is_first_and_each_runs_once() {
     let case = pair(ModelTable::fem());
     let ting = ModelTable::ting;
-    // The finer the mesh, the dearer; the cheap ones keep their order.
+    // Finer meshes are more expensive; the cheap members keep their order.
     let values = [(1.0, ting()), (2.0, ModelTable::fem()), (1.0, ModelTable::fem()), (1.0, ting())];
     let members = Variations::of(&case, values, |file, (factor, model)| {
         let mesh = file.mesh.as_mut().unwrap();
@@ -147,15 +146,14 @@ fn the_most_expensive_run_first_each_once() {
     assert_eq!(all.left, [2, 1, 0]);
     let rest = check(&members, |_| true, |member| member.index == 2, |_, _| ()).unwrap();
     assert_eq!(rest.left, [1, 0]);
-    // A shard.
+    // A shard has half of the members.
     let half = check(&members, |index| index % 2 == 1, |_| false, |_, _| ()).unwrap();
     assert_eq!((half.members.len(), half.left), (4, vec![1, 3]));
 }
 
-/// The first fault in the order of the sweep is told, however many members are looked at at once; those of
-/// others may be unable to run, but are cases.
+/// The first fault in the order of the sweep is reported, however many members are checked at once.
 #[test]
-fn the_first_fault_of_many_members_is_told() {
+fn the_first_fault_of_many_members_is_reported() {
     let case = pair(ModelTable::ting());
     let speeds = (0..300).map(|k| if k == 70 || k == 200 { -f64::from(k) } else { 0.1 });
     let members = Variations::of(&case, speeds, set_speed);
@@ -166,22 +164,22 @@ fn the_first_fault_of_many_members_is_told() {
 }
 
 #[test]
-fn condensed_members_with_meshes_of_their_own_are_told_of() {
+fn condensed_members_with_different_meshes_get_advice() {
     let condensed = pair(ModelTable::condensed());
     let open = condensed.edited(|file| file.mesh = None).unwrap();
-    for (case, is_told) in [(&condensed, false), (&open, true)] {
+    for (case, is_advised) in [(&condensed, false), (&open, true)] {
         let members = Variations::of(case, SPEEDS, set_speed);
         let checked = check(&members, |_| true, |_| false, |_, _| ()).unwrap();
-        assert_eq!(checked.advice.is_some(), is_told);
-        // Not of members that are done.
+        assert_eq!(checked.advice.is_some(), is_advised);
+        // Finished members get no advice.
         let done = check(&members, |_| true, |_| true, |_, _| ()).unwrap();
         assert_eq!(done.advice, None);
     }
 }
 
-/// Sees members begin, go on and end, and wants no more of them after some reports.
+/// Records when members begin, report and end, and stops them after some reports.
 #[derive(Default)]
-struct Looker {
+struct Recorder {
     seen: Mutex<Vec<(usize, &'static str)>>,
     n_reports: AtomicUsize,
     most_reports: usize,
@@ -189,11 +187,11 @@ struct Looker {
 }
 
 struct Watch<'a> {
-    looker: &'a Looker,
+    recorder: &'a Recorder,
     index: usize,
 }
 
-impl Looker {
+impl Recorder {
     fn see(&self, index: usize, what: &'static str) {
         self.seen.lock().unwrap().push((index, what));
     }
@@ -201,14 +199,14 @@ impl Looker {
 
 impl Monitor for Watch<'_> {
     fn report(&mut self, _: Progress) -> bool {
-        if self.looker.n_reports.fetch_add(1, Ordering::Relaxed) >= self.looker.most_reports {
-            self.looker.is_stopped.store(true, Ordering::Relaxed);
+        if self.recorder.n_reports.fetch_add(1, Ordering::Relaxed) >= self.recorder.most_reports {
+            self.recorder.is_stopped.store(true, Ordering::Relaxed);
         }
-        !self.looker.is_stopped.load(Ordering::Relaxed)
+        !self.recorder.is_stopped.load(Ordering::Relaxed)
     }
 }
 
-impl<'a> Observer for &'a Looker {
+impl<'a> Observer for &'a Recorder {
     type Watch = Watch<'a>;
 
     fn admits(&self, index: usize) -> bool {
@@ -221,7 +219,7 @@ impl<'a> Observer for &'a Looker {
 
     fn begin(&self, index: usize) -> Watch<'a> {
         self.see(index, "began");
-        Watch { looker: self, index }
+        Watch { recorder: self, index }
     }
 
     fn end(&self, index: usize, watch: Watch<'a>, ran: Result<&ComputedCollision, &CaseError>) {
@@ -238,17 +236,17 @@ impl<'a> Observer for &'a Looker {
 }
 
 #[test]
-fn who_looks_on_sees_all_and_can_end_it() {
+fn an_observer_sees_all_members_and_can_stop_them() {
     let case = pair(ModelTable::fem());
     let members = Variations::of(&case, [0.2, -1.0, 0.3, 0.4], set_speed);
     let shared = SharedModels::default();
     let run = |most_reports: usize| {
-        let looker = Looker { most_reports, ..Looker::default() };
+        let recorder = Recorder { most_reports, ..Recorder::default() };
         let runner = Runner::new(&members, &shared).without_fields();
-        let run = || runner.run(&[3, 1, 0, 2], &&looker, |ran| ran.collision.is_complete());
+        let run = || runner.run(&[3, 1, 0, 2], &&recorder, |ran| ran.collision.is_complete());
         let kept: Vec<_> =
             pool(1).install(run).into_iter().map(|(index, kept)| (index, kept.ok())).collect();
-        (kept, looker.seen.into_inner().unwrap(), looker.n_reports.into_inner())
+        (kept, recorder.seen.into_inner().unwrap(), recorder.n_reports.into_inner())
     };
     let (kept, seen, n_reports) = run(usize::MAX);
     assert_eq!(kept, [(0, Some(true)), (1, None), (2, Some(true)), (3, Some(true))]);
@@ -257,7 +255,7 @@ fn who_looks_on_sees_all_and_can_end_it() {
     assert_eq!(seen, all.map(|(index, end)| began_and(index, end)).as_flattened());
     assert!(n_reports > 3);
 
-    // After the first report of the first member.
+    // The sweep is stopped after the first report of the first member.
     let (kept, seen, _) = run(0);
     assert_eq!(kept, [(3, Some(false))]);
     let first = began_and(3, "interrupted");
@@ -273,7 +271,7 @@ fn rows_are_summaries() {
     let runner = Runner::new(&members, &shared);
     let member = Member::of(1, &members.case(1).unwrap()).unwrap();
     let ran = runner.run_one(1, &mut ()).unwrap();
-    assert_eq!(ran.collision.snapshots.len(), 4, "fields are left out on demand only");
+    assert_eq!(ran.collision.snapshots.len(), 4, "fields are left out only on request");
     let summary = ran.summary();
     let row = Row::of(&member, [members.values()[1]], &summary);
     assert!(row.is_complete());
@@ -291,7 +289,7 @@ fn rows_are_summaries() {
     let mut reader = csv::Reader::from_reader(table.as_slice());
     let header: Vec<String> = reader.headers().unwrap().iter().map(str::to_string).collect();
     assert_eq!(header[0], "speed");
-    assert!(shown.len() < COLUMNS.len(), "no effect is on that has an account of its own");
+    assert!(shown.len() < COLUMNS.len(), "no active effect has its own energy account");
     assert_eq!(header[1..=shown.len()], *shown);
     assert_eq!(header[shown.len() + 1..], ["member"]);
     let record = reader.records().next().unwrap().unwrap();

@@ -1,4 +1,4 @@
-//! Bodies that relax to nothing stay together, whichever model computes them.
+//! Bodies that relax completely stay together in every model.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn case(model: &str, acts_on: &str, weight: f64, time: &str) -> Case {
 }
 
 #[test]
-fn a_collision_without_an_end_is_complete() {
+fn a_collision_without_separation_is_complete() {
     for model in ["fem", "condensed"] {
         for acts_on in ["all", "shear"] {
             for time in ["0.1 us", "1 us"] {
@@ -35,14 +35,14 @@ fn a_collision_without_an_end_is_complete() {
                 assert_eq!(collision.ending, Ending::Together, "{name}");
                 assert_eq!(collision.restitution, Some(0.0), "{name}");
                 assert_eq!(collision.contact_time, None, "{name}");
-                // Momentum is kept: both go on at the speed of their mass centre, ρ cancels.
+                // Both bodies keep the speed of their mass centre; ρ cancels.
                 let cubes = [22.2_f64, 15.9].map(|diameter| diameter.powi(3));
                 let common = 0.5 * cubes[0] / (cubes[0] + cubes[1]);
                 for body in &collision.bodies {
                     let after = body.velocity_after.unwrap();
                     assert!((after / common - 1.0).abs() < 1e-3, "{name}: {after} {common}");
                 }
-                // They are closest in the end, and half as close on the way.
+                // The largest approach is at the end, half of it on the way.
                 for label in [SnapshotInstant::MidCompression, SnapshotInstant::Maximum] {
                     assert!(collision.snapshot(label).is_some(), "{name} {label:?}");
                 }
@@ -54,10 +54,10 @@ fn a_collision_without_an_end_is_complete() {
     }
 }
 
-/// The faster bodies relax the later they come to rest, whichever model computes them: here in up to three
-/// hundred elastic contact times. Where they would flow into each other all models refuse alike.
+/// Faster relaxing bodies come to rest later, here in up to three hundred elastic contact times. If they would flow into each
+/// other, all models reject them with the same message.
 #[test]
-fn bodies_that_flow_have_one_answer() {
+fn flowing_bodies_have_the_same_result_in_all_models() {
     for (acts_on, times) in
         [("all", ["1 us", "0.2 us", "0.05 us"]), ("shear", ["3 us", "1 us", "0.2 us"])]
     {
@@ -78,14 +78,14 @@ fn bodies_that_flow_have_one_answer() {
         assert!(refused[0].contains("flow into each other"), "{}", refused[0]);
         assert!(refused.iter().all(|one| *one == refused[0]), "{refused:?}");
     }
-    // Something that lasts makes soft bodies of them.
+    // With an equilibrium stiffness they act as soft bodies.
     let soft = simulation("ting", "all", 0.9999, "1 ns").run(&mut ());
     assert!(soft.restitution.unwrap() > 0.5, "{:?}", soft.restitution);
 }
 
-/// A run gives up when it has gone on far longer than is foretold of it.
+/// The time limit of a run follows from its predicted duration.
 #[test]
-fn runs_wait_for_what_is_foretold() {
+fn runs_wait_for_the_predicted_duration() {
     let elastic = simulation("condensed", "all", 1e-3, "1 ms");
     assert_eq!(elastic.request().give_up_after, OutputRequest::GIVE_UP_AFTER);
     let times = ["0.2 us", "0.05 us"].map(|time| simulation("condensed", "all", 1.0, time));
@@ -93,9 +93,9 @@ fn runs_wait_for_what_is_foretold() {
     assert!(early > OutputRequest::GIVE_UP_AFTER && late > early, "{early} {late}");
 }
 
-/// The limit of a case is kept while the run goes, whatever was expected of it.
+/// The limit of element updates stops a run.
 #[test]
-fn a_run_ends_at_its_limit() {
+fn a_run_stops_at_its_limit() {
     let mut simulation = simulation("fem", "all", 1.0, "0.1 us");
     let Cost::Steps { element_updates: expected, .. } = simulation.setup().cost else { panic!() };
     let limit = expected / 10;
@@ -113,11 +113,10 @@ fn a_run_ends_at_its_limit() {
     assert!(!simulation.summary(&collision).complete);
 }
 
-/// What a run will take is known before it, of bodies that part late and of those that stay together:
-/// within the half that an estimate may be off by, and a quarter where Ting's contact time is its measure, on
-/// a mesh of three elements across the contact.
+/// The number of steps is predicted for bodies that separate late and for those that stay together: within a half, and
+/// within a quarter if Ting's contact time gives it, on a mesh with three elements across the contact.
 #[test]
-fn the_steps_of_a_relaxing_contact_are_foretold() {
+fn the_steps_of_a_relaxing_contact_are_predicted() {
     for (weight, time, most) in [
         (0.5, "10 us", 1.25),
         (0.9, "10 us", 1.25),
@@ -128,25 +127,24 @@ fn the_steps_of_a_relaxing_contact_are_foretold() {
         let simulation = simulation("fem", "all", weight, time);
         let Cost::Steps { steps, seconds, .. } = simulation.setup().cost else { panic!() };
         let mut progress = Vec::new();
-        let mut course = simulation.start();
-        while course.advance(&mut ()) {
-            let now = course.progress();
+        let mut stepper = simulation.start();
+        while stepper.advance(&mut ()) {
+            let now = stepper.progress();
             progress.push((now.step, now.fraction));
         }
-        let taken = course.finish().steps.unwrap();
+        let taken = stepper.finish().steps.unwrap();
         let ratio = taken as f64 / steps as f64;
         assert!(ratio < most && ratio > 1.0 / most, "{weight} {time}: {taken} of {steps}");
         assert!(seconds > 0.0 && seconds.is_finite());
-        // What is said to be done is done, within what the estimate is off by.
+        // The reported progress is right within the error of the estimate.
         let half = progress.iter().find(|(_, fraction)| *fraction >= 0.5).unwrap().0;
         let share = half as f64 / taken as f64;
         assert!(share > 0.5 / most && share < 0.5 * most, "{weight} {time}: {share}");
     }
 }
 
-/// A little that lasts parts them.
 #[test]
-fn bodies_with_something_left_part() {
+fn bodies_with_equilibrium_stiffness_separate() {
     for model in ["fem", "condensed"] {
         let collision = simulation(model, "all", 0.9, "1 us").run(&mut ());
         assert_eq!(collision.ending, Ending::Parted, "{model}");

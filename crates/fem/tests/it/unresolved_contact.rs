@@ -1,4 +1,4 @@
-//! Meshes that resolve a contact by too few elements, at its place or away from it, are named with what helps.
+//! Warnings about meshes that are too coarse at the contact or away from it, with advice.
 
 use std::path::Path;
 
@@ -18,12 +18,13 @@ fn run(overrides: &[String]) -> (Simulation, Collision) {
     (simulation, collision)
 }
 
-/// Overrides with `model`.
+/// Returns overrides with this model.
 fn of(model: &str, more: &[&str]) -> Vec<String> {
     more.iter().map(ToString::to_string).chain([format!("model.{model}={{}}")]).collect()
 }
 
-/// A mesh that grows too fast away from the contact is named as the cause, by both models; without the key all is well.
+/// A mesh that grows too fast away from the contact is named as the cause by both models; without the key there is no
+/// warning.
 #[test]
 fn a_mesh_that_grows_too_fast_is_named() {
     for model in ["fem", "condensed"] {
@@ -47,9 +48,9 @@ fn mesh_file(folder: &Path, name: &str, body: usize, disc: HalfDisc) -> String {
     format!("body.{body}.sphere.mesh='{}'", path.display())
 }
 
-/// Imported meshes that are fine at the pole only miss the tolerance; no key of the table [mesh] is advised.
+/// Imported meshes that are fine only at the pole miss the tolerance; no key of the table [mesh] is advised.
 #[test]
-fn imported_meshes_that_are_too_coarse_are_told_what_helps() {
+fn coarse_imported_meshes_get_advice() {
     let folder = tempfile::tempdir().unwrap();
     let files = |name: &str, size: f64, refined_radius: f64, growth: f64| {
         [0, 1].map(|k| {
@@ -73,7 +74,7 @@ fn imported_meshes_that_are_too_coarse_are_told_what_helps() {
     }
 }
 
-/// The coarser one of two bodies counts, and an imported mesh is told the edges that it needs.
+/// The coarser body counts, also with an imported mesh.
 #[test]
 fn the_coarser_body_counts() {
     let folder = tempfile::tempdir().unwrap();
@@ -89,9 +90,9 @@ fn the_coarser_body_counts() {
     assert!(warning.contains("only 2.2 elements"), "{warning}");
 }
 
-/// A volume that hardly gives way makes explicit steps short; condensed bodies have none.
+/// A nearly incompressible material makes explicit steps short, and the condensed model is suggested.
 #[test]
-fn a_long_run_names_the_model_that_is_not() {
+fn a_cheaper_model_is_suggested_for_a_long_run() {
     let hint = |overrides: &[&str]| {
         let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
         let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap();
@@ -102,13 +103,13 @@ fn a_long_run_names_the_model_that_is_not() {
     assert!(found.contains("model.condensed = {}") && found.contains("hundredths"), "{found}");
     assert_eq!(hint(&[]), None);
     assert_eq!(hint(&[stiff, "model.condensed={}"]), None);
-    // Where only explicit elements serve, there is none to name.
+    // No model is suggested if only explicit elements are sufficient.
     assert_eq!(hint(&[stiff, "effects.hourglass_control='on'"]), None);
 }
 
-/// Elements wider than the contact: one warning says so, without a number for the error, and its remedy is enough.
+/// One warning reports elements wider than the contact, without a number for the error, and the advised size is sufficient.
 #[test]
-fn a_mesh_that_resolves_nothing_is_named_once() {
+fn an_unresolved_contact_has_one_warning() {
     for model in ["fem", "condensed"] {
         for size in ["0.3 mm", "1 mm", "1.8 mm"] {
             let size = format!("mesh.contact_element_size='{size}'");
@@ -124,17 +125,14 @@ fn a_mesh_that_resolves_nothing_is_named_once() {
                     .collect();
                 let [one] = of_mesh[..] else { panic!("{model} {size} {when}: {warnings:#?}") };
                 assert!(one.contains("is resolved by only 0."), "{one}");
-                assert!(
-                    one.contains("set mesh.contact_element_size = \"40.56 µm\" or less"),
-                    "{one}"
-                );
+                assert!(one.contains("set mesh.contact_element_size = \"40 µm\" or less"), "{one}");
                 assert!(!one.contains('%'), "{one}");
             }
             let errors = simulation.estimate_errors(&collision);
             let time = errors.discretisation(QuantityOfInterest::ContactTime).unwrap();
             assert!(time >= 0.5 * collision.contact_time.unwrap(), "{model} {size}");
         }
-        let (simulation, collision) = run(&of(model, &["mesh.contact_element_size='40.56 um'"]));
+        let (simulation, collision) = run(&of(model, &["mesh.contact_element_size='40 um'"]));
         assert_eq!(simulation.warnings(&collision), [""; 0]);
         let hertz = simulation.setup().estimate.hertz.contact_time();
         assert!((collision.contact_time.unwrap() / hertz - 1.0).abs() < 0.015);
