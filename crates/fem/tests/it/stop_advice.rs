@@ -51,7 +51,7 @@ const ROWS: [Row; 13] = [
             "body.1.approach_speed='15 m/s'",
             "material.rubber.hyperelastic='saint-venant-kirchhoff'",
         ],
-        "lost its stability",
+        "loses ellipticity",
         &[
             ("body.N.approach_speed", "body.1.approach_speed='3 m/s'"),
             ("material.NAME.hyperelastic", "material.rubber.hyperelastic='neo-hooke'"),
@@ -60,7 +60,7 @@ const ROWS: [Row; 13] = [
     row(
         GLASS,
         &[CONDENSED, SMALL_STRAIN, FAST, "material.glass.youngs_modulus='10 kPa'"],
-        "of the smaller radius",
+        "of the smaller sphere's radius",
         &[
             ("body.N.approach_speed", "body.0.approach_speed='0.05 m/s'"),
             ("check the moduli and their units", "material.glass.youngs_modulus='10 MPa'"),
@@ -69,7 +69,7 @@ const ROWS: [Row; 13] = [
     row(
         GLASS,
         &[COARSE, SMALL_STRAIN, FAST, "material.glass.youngs_modulus='1 kPa'"],
-        "the end of the region",
+        "the edge of the region",
         &[
             ("body.N.approach_speed", "body.0.approach_speed='0.01 m/s'"),
             ("check the moduli and their units", "material.glass.youngs_modulus='1 MPa'"),
@@ -78,7 +78,7 @@ const ROWS: [Row; 13] = [
     row(
         GLASS,
         &["model.condensed={penalty_springs=true}", COARSE, "body.0.approach_speed='10 um/s'"],
-        "no spring between their surfaces has closed",
+        "no spring between the surfaces has closed",
         &[("mesh.contact_element_size", "mesh.contact_element_size='0.5 um'")],
     ),
     row(
