@@ -110,7 +110,7 @@ fn samples_are_part_of_the_restart_state() {
     let simulation = simulation(&[COARSE, PROBES]);
     let mut stepper = simulation.start();
     while stepper.progress().fraction < 0.4 && stepper.advance(&mut ()) {}
-    let state = serde_json::to_string(&stepper.memory()).unwrap();
+    let state = serde_json::to_string(&stepper.restart_state()).unwrap();
     let stopped = stepper.finish();
     let mut resumed = simulation.resume(serde_json::from_str(&state).unwrap()).unwrap();
     while resumed.advance(&mut ()) {}

@@ -40,7 +40,7 @@ fn states(simulation: &Simulation, fractions: &[f64]) -> Vec<RestartState> {
     let mut stepper = simulation.start();
     let state = |fraction: &f64| {
         while stepper.progress().fraction < *fraction && stepper.advance(&mut ()) {}
-        stepper.memory().unwrap()
+        stepper.restart_state().unwrap()
     };
     fractions.iter().map(state).collect()
 }
