@@ -6,7 +6,7 @@ use std::sync::Arc;
 use fem_case::Case;
 use fem_collision::Collision;
 use fem_contact::ContactInterface;
-use fem_explicit::Model;
+use fem_explicit::ExplicitBodies;
 use fem_laws::HertzImpact;
 
 use crate::error::StudyError;
@@ -90,7 +90,7 @@ fn known(value: Option<f64>) -> f64 {
 #[derive(Debug)]
 pub struct ExplicitRun {
     /// Meshes, bodies and contact at the end of the run.
-    pub model: Arc<Model>,
+    pub model: Arc<ExplicitBodies>,
     /// Results that every model has.
     pub run: Run,
 }

@@ -6,8 +6,8 @@
 
 use fem_collision::{Approach, BodyInput, Expectation, OutputRequest, SnapshotRequest};
 use fem_explicit::{
-    BulkViscosity, ContactMethod, Model, NodeForce, Parts, Settings, ViscosityCoefficients, Weight,
-    collide,
+    BulkViscosity, ContactMethod, ExplicitBodies, NodeForce, Parts, Settings,
+    ViscosityCoefficients, Weight, collide,
 };
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -57,7 +57,7 @@ impl Scene {
             mass_times: [1.0; 2],
         };
         let approach = Approach::new([0.0, -self.speed], 0.0)?;
-        let model = Model::with_parts(bodies, approach, &settings, self.parts)?;
+        let model = ExplicitBodies::with_parts(bodies, approach, &settings, self.parts)?;
         let hertz = 80e-6 * (0.5 / self.speed).powf(0.2) * (63e9 / modulus).powf(0.4);
         let expected = Expectation { contact_time: hertz, approach: 0.3 * self.speed * hertz };
         let request =

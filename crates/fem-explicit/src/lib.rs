@@ -7,7 +7,7 @@
 //! Strains in a collision of glass are of the order of 1 %, so bodies are linear by default: the geometry is integrated
 //! once, and a step reads and writes nodal vectors alone. Elements are axisymmetric quads with one mean stress and
 //! hourglass stiffness ([`fem_element`]), masses are lumped, and time is advanced by central differences, with a step
-//! that is proved stable for bodies and contact ([`Model`]).
+//! that is proved stable for bodies and contact ([`ExplicitBodies`]).
 //!
 //! A body may be at finite strain instead, by a law of [`fem_material::finite`] ([`Parts::finite_strain`]). Its
 //! elements are total Lagrangian and read the undeformed geometry too. Their stiffness changes, and the time step
@@ -44,7 +44,7 @@
 //! A rigid sphere is a body of one node that carries its mass, without stress and elements: the contact adds its forces
 //! to that node. A wall is the same with infinite mass and without forces.
 //!
-//! [`collide`] runs a [`Model`] from first touch until the bodies have separated and returns a
+//! [`collide`] runs [`ExplicitBodies`] from first touch until the bodies have separated and returns a
 //! [`Collision`](fem_collision::Collision): history with energies, snapshots, and the quantities of the collision.
 //! [`Run`] does the same in pieces. [`FreeMotion`] is one body without contact.
 //!
@@ -89,7 +89,7 @@ pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;
 #[doc(hidden)]
 pub use lanes::limit_lanes;
-pub use model::{Model, Parts};
+pub use model::{ExplicitBodies, Parts};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{RestartState, Run, collide};
 pub use settings::Settings;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::{BodyState, Clock};
 use crate::contact::PushedNodes;
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::part::{Motion, NodalField};
 use crate::time::StepControl;
 
@@ -47,7 +47,7 @@ pub(crate) struct Scratch {
 
 impl State {
     /// Returns the state at first touch, undeformed.
-    pub fn at_first_touch(model: &Model) -> Self {
+    pub fn at_first_touch(model: &ExplicitBodies) -> Self {
         let time = model.approach().first_touch();
         let step_control = model.changes_stiffness().then(|| {
             let critical = model.time_step() / model.step_factor();
@@ -65,7 +65,7 @@ impl State {
     }
 
     /// Returns the time step at t_n, s.
-    pub fn time_step(&self, model: &Model) -> f64 {
+    pub fn time_step(&self, model: &ExplicitBodies) -> f64 {
         match &self.step_control {
             None => model.time_step(),
             Some(control) => control.time_step(model.time_step()),
@@ -73,7 +73,7 @@ impl State {
     }
 
     /// Returns the time (s) after a step with this number or a later one, at the present time step.
-    pub fn time_after(&self, step: u64, model: &Model) -> f64 {
+    pub fn time_after(&self, step: u64, model: &ExplicitBodies) -> f64 {
         match &self.step_control {
             None => model.time_after(step),
             Some(control) => control.time_after(step, model.time_step()),
@@ -81,7 +81,7 @@ impl State {
     }
 
     /// Returns whether its fields have the sizes of the model, and its time is that of its step.
-    pub fn fits(&self, model: &Model) -> bool {
+    pub fn fits(&self, model: &ExplicitBodies) -> bool {
         let n_contact = model.contact().n_history();
         self.step <= MOST_STEPS
             && self.step_control.is_some() == model.changes_stiffness()
@@ -95,25 +95,25 @@ impl State {
     }
 
     /// Returns both bodies as their parts see them.
-    pub fn motions<'a>(&'a self, model: &'a Model) -> [Motion<'a>; 2] {
+    pub fn motions<'a>(&'a self, model: &'a ExplicitBodies) -> [Motion<'a>; 2] {
         let clock = self.clock(model);
         [0, 1].map(|side: usize| self.bodies[side].motion(&model.bodies()[side], clock))
     }
 
     /// Returns its time and time step.
-    pub fn clock(&self, model: &Model) -> Clock {
+    pub fn clock(&self, model: &ExplicitBodies) -> Clock {
         Clock { time: self.time, time_step: self.time_step(model) }
     }
 
     /// Returns the fields that the contact keeps of both bodies.
-    pub fn contact_history(&self, model: &Model) -> [&[NodalField]; 2] {
+    pub fn contact_history(&self, model: &ExplicitBodies) -> [&[NodalField]; 2] {
         [0, 1].map(|side: usize| &self.bodies[side].history[model.bodies()[side].n_fields()..])
     }
 }
 
 impl Scratch {
     /// Allocates the scratch space of a run.
-    pub fn new(model: &Model) -> Self {
+    pub fn new(model: &ExplicitBodies) -> Self {
         let forces = model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]);
         let stiffness = model.bodies().each_ref().map(|body| match body.bound {
             Some(_) => vec![0.0; body.nodal_mass.len()],

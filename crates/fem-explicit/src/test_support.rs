@@ -7,7 +7,7 @@ use fem_mesh::{HalfDisc, Side, SphereMesh};
 use nalgebra::{DMatrix, DVector};
 
 use crate::body::{Body, BodyState, Clock, UnscaledMesh};
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::part::{Accounts, Field};
 use crate::settings::Settings;
 use crate::state::State;
@@ -62,11 +62,11 @@ pub(crate) fn free_sphere(
     mesh: SphereMesh,
     material: Material,
     step_factor: f64,
-) -> (Model, State) {
+) -> (ExplicitBodies, State) {
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let settings = Settings { step_factor, ..settings() };
-    let model = Model::new(bodies, approach, &settings).unwrap();
+    let model = ExplicitBodies::new(bodies, approach, &settings).unwrap();
     let mut state = State::at_first_touch(&model);
     state.bodies[0].displacement.fill([0.0; 2]);
     state.bodies[0].velocity.fill([0.0; 2]);

@@ -37,7 +37,7 @@ pub use fem_collision::{
     invariants,
 };
 pub use fem_condensed::CondensedPair;
-pub use fem_explicit::{Model as ExplicitBodies, ModelError};
+pub use fem_explicit::{ExplicitBodies, ModelError};
 pub use fem_laws::{HertzImpact, Impact, LawError, Pair};
 pub use fem_material::{Material, PronySeries};
 pub use fem_mesh::SphereMesh;

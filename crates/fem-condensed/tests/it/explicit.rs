@@ -5,7 +5,7 @@ use crate::common::{
 };
 use fem_collision::{Approach, Collision, Expectation, HistoryRow, OutputRequest};
 use fem_condensed::{CondensedPair, ContactModel, PairSettings};
-use fem_explicit::{Model, Settings};
+use fem_explicit::{ExplicitBodies, Settings};
 use fem_material::ActsOn::{All, Shear};
 
 /// Elements across the contact radius.
@@ -25,7 +25,8 @@ fn run_explicit(scene: &Scene) -> Collision {
         mass_times: [1.0; 2],
     };
     let model =
-        Model::new(scene.inputs(ELEMENTS), Approach::at(scene.speed).unwrap(), &settings).unwrap();
+        ExplicitBodies::new(scene.inputs(ELEMENTS), Approach::at(scene.speed).unwrap(), &settings)
+            .unwrap();
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
     let request = OutputRequest { give_up_after: 20.0, ..OutputRequest::history() };

@@ -7,7 +7,7 @@ use fem_collision::{
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings};
 use fem_contact::ContactError;
-use fem_explicit::{Model, Settings};
+use fem_explicit::{ExplicitBodies, Settings};
 use fem_laws::{
     HertzImpact, Pair, PairRelaxation, Partner, Ting, radiated_share, radiation_coefficient,
 };
@@ -112,7 +112,7 @@ impl Ball {
         };
         let bodies = [self.half_space(far_radius), self.sphere()];
         let approach = Approach::new([0.0, -self.speed], 0.0).unwrap();
-        let model = Model::new(bodies, approach, &settings).unwrap();
+        let model = ExplicitBodies::new(bodies, approach, &settings).unwrap();
         let expected =
             Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
         fem_explicit::collide(&model, expected, &OutputRequest::quantities(), &mut ())

@@ -9,7 +9,7 @@ use fem_collision::{
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_contact::ContactError;
-use fem_explicit::{Model, Settings};
+use fem_explicit::{ExplicitBodies, Settings};
 use fem_laws::{FiniteSize, HertzImpact, Pair, PairRelaxation, Partner, Ting, sphere_mass};
 use fem_material::ActsOn::{All, Shear};
 use fem_material::Material;
@@ -168,7 +168,8 @@ fn a_rigid_partner_is_the_explicit_one() {
             mass_scaling: 3e-5,
             mass_times: [1.0; 2],
         };
-        let model = Model::new(inputs.clone(), Approach::at(0.5).unwrap(), &settings).unwrap();
+        let model =
+            ExplicitBodies::new(inputs.clone(), Approach::at(0.5).unwrap(), &settings).unwrap();
         let expected =
             Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
         let explicit =

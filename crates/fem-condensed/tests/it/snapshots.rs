@@ -253,7 +253,8 @@ fn fields_are_the_explicit_ones() {
         mass_scaling: 3e-5,
         mass_times: [1.0; 2],
     };
-    let model = fem_explicit::Model::new(bodies, Approach::at(0.5).unwrap(), &settings).unwrap();
+    let model =
+        fem_explicit::ExplicitBodies::new(bodies, Approach::at(0.5).unwrap(), &settings).unwrap();
     let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };

@@ -16,7 +16,7 @@
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::part::Accounts;
 use crate::state::{Scratch, State};
 
@@ -45,7 +45,7 @@ impl ContactWork {
     /// Takes the state and the forces at the end of a step.
     pub fn end_step(
         &mut self,
-        model: &Model,
+        model: &ExplicitBodies,
         state: &State,
         scratch: &Scratch,
         contact: &ContactForces,
@@ -59,7 +59,7 @@ impl ContactWork {
     /// Takes the forces of a step (s) in which the nodes have just moved.
     pub fn begin_step(
         &mut self,
-        model: &Model,
+        model: &ExplicitBodies,
         held: f64,
         time_step: f64,
         state: &State,
@@ -88,7 +88,7 @@ fn power_of(state: &State, scratch: &Scratch) -> f64 {
 }
 
 /// Returns the energy of the springs and the work on dashpots, J.
-pub(crate) fn held_by(model: &Model, state: &State, contact: &ContactForces) -> f64 {
+pub(crate) fn held_by(model: &ExplicitBodies, state: &State, contact: &ContactForces) -> f64 {
     let mut accounts = Accounts::default();
     model.contact().add_energies(state.contact_history(model), &mut accounts);
     contact.energy + accounts.energies.entries().map(|(_, energy)| energy).sum::<f64>()

@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use super::contact_work::ContactWork;
 use super::nodal_sums::{NodalSums, Nodes};
 use crate::body::{Body, BodyState};
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::part::Accounts;
 use crate::state::{Scratch, State};
 
@@ -97,7 +97,7 @@ struct BodyBalance {
 
 impl Ledger {
     /// Starts at first touch.
-    pub fn new(model: &Model, state: &State) -> Self {
+    pub fn new(model: &ExplicitBodies, state: &State) -> Self {
         let moving = || model.bodies().iter().filter(|body| body.is_free());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
         let inverse_mass: f64 = sum(&Body::inverse_mass_of_centre);
@@ -138,7 +138,7 @@ impl Ledger {
     /// The energy is not finite or has grown.
     pub fn follow(
         &mut self,
-        model: &Model,
+        model: &ExplicitBodies,
         state: &State,
         scratch: &Scratch,
         contact: &ContactForces,
@@ -157,7 +157,7 @@ impl Ledger {
     /// the contact held before (J).
     pub fn begin_step(
         &mut self,
-        model: &Model,
+        model: &ExplicitBodies,
         held: f64,
         time_step: f64,
         state: &State,
@@ -185,7 +185,7 @@ impl Ledger {
 
     /// Adds the impulses over a time (s) of the forces in `scratch` and of the contact (N): over the step from t_n to
     /// t_n+1, or over the time by which half a step has become shorter.
-    pub fn push(&mut self, model: &Model, scratch: &Scratch, force: f64, time: f64) {
+    pub fn push(&mut self, model: &ExplicitBodies, scratch: &Scratch, force: f64, time: f64) {
         self.impulse += time * force;
         for (side, body) in model.bodies().iter().enumerate() {
             if body.is_pushed() {
@@ -205,7 +205,7 @@ impl Ledger {
     /// Balances the state at t_n, whose forces are in `scratch`, and returns its row.
     pub fn balance(
         &mut self,
-        model: &Model,
+        model: &ExplicitBodies,
         state: &State,
         scratch: &Scratch,
         contact: &ContactForces,
@@ -284,7 +284,7 @@ impl Ledger {
     }
 
     /// Returns whether it can belong to a run of a model in a state.
-    pub fn fits(&self, model: &Model, state: &State) -> bool {
+    pub fn fits(&self, model: &ExplicitBodies, state: &State) -> bool {
         let constants =
             |ledger: &Self| [ledger.initial, ledger.initial_relative, ledger.momentum_scale];
         constants(self) == constants(&Self::new(model, state)) && self.last_time <= state.time
@@ -292,7 +292,7 @@ impl Ledger {
 
     /// Returns the work of a moving wall or half-space on the other body up to t_n, J; `next` is the impulse of the
     /// contact force over the next step, N s.
-    fn wall_work(&self, model: &Model, next: f64) -> f64 {
+    fn wall_work(&self, model: &ExplicitBodies, next: f64) -> f64 {
         let impulse = self.impulse + 0.5 * next;
         let [lower, upper] = model.bodies();
         match (lower.is_free(), upper.is_free()) {
@@ -307,7 +307,7 @@ impl Ledger {
     ///
     /// With the impulses J of the contact up to t_n ∓ Δt/2, ½ M v₋v₊ − ½ M v² = ½ v (J₋ + J₊) +
     /// J₋J₊/2M, without the cancellation by which the energy of a heavy sphere would be lost in rounding.
-    fn gained_by_rigid(&self, model: &Model, next: f64) -> Option<(usize, f64)> {
+    fn gained_by_rigid(&self, model: &ExplicitBodies, next: f64) -> Option<(usize, f64)> {
         let is_moved = |body: &Body| body.mesh().is_none() && !body.is_wall() && !body.is_pushed();
         let side = model.bodies().iter().position(is_moved)?;
         let (body, sign) = (&model.bodies()[side], [-1.0, 1.0][side]);
@@ -318,7 +318,7 @@ impl Ledger {
     }
 
     /// Returns the drift of the momentum of the bodies (N s), without walls, at t_n − Δt/2.
-    fn drift(&self, model: &Model, momentum: f64) -> f64 {
+    fn drift(&self, model: &ExplicitBodies, momentum: f64) -> f64 {
         let [lower, upper] = model.bodies();
         let from_wall = match (lower.is_wall(), upper.is_wall()) {
             (true, _) => self.impulse,

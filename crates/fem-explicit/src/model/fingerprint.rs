@@ -7,7 +7,7 @@
 use std::any::Any;
 use std::fmt::{self, Debug, Write};
 
-use super::Model;
+use super::ExplicitBodies;
 use crate::body::Body;
 use crate::contact::{Contact, Massless, Springs};
 
@@ -44,7 +44,7 @@ impl Write for Digest {
 const SMALLEST: u64 = 1_000_000_000_000_000;
 
 /// Returns the fingerprint of a model.
-pub(crate) fn fingerprint(model: &Model) -> u64 {
+pub(crate) fn fingerprint(model: &ExplicitBodies) -> u64 {
     let mut digest = Digest(0);
     digest.take_text(env!("CARGO_PKG_VERSION"));
     let approach = model.approach();

@@ -49,7 +49,7 @@ pub struct Parts {
 
 /// Two bodies, their contact and the time step. The first body lies below.
 #[derive(Debug, Clone)]
-pub struct Model {
+pub struct ExplicitBodies {
     bodies: [Body; 2],
     contact: Arc<dyn Contact>,
     /// Whether it has anything to do at the end of a step.
@@ -62,7 +62,7 @@ pub struct Model {
     pub(crate) inverse_mass: f64,
 }
 
-impl Model {
+impl ExplicitBodies {
     /// Lumps masses, pairs the surfaces and chooses the time step.
     ///
     /// # Errors
@@ -76,10 +76,10 @@ impl Model {
         Self::with_parts(inputs, approach, settings, Parts::default())
     }
 
-    /// Builds a model as [`Model::new`] does, with parts of the caller.
+    /// Builds a model as [`ExplicitBodies::new`] does, with parts of the caller.
     ///
     /// # Errors
-    /// Those of [`Model::new`]; forces on a wall; finite strain of a rigid body.
+    /// Those of [`ExplicitBodies::new`]; forces on a wall; finite strain of a rigid body.
     pub fn with_parts(
         inputs: [BodyInput; 2],
         approach: Approach,

@@ -4,7 +4,7 @@ use fem_collision::{DeepestOverlap, FLIGHT_AFTER, StepInstant, nan_aware_max_abs
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 
 /// Relative motion of the mass centres, first and last contact, and extremes so far.
@@ -35,7 +35,7 @@ pub(crate) struct ContactLog {
 
 impl ContactLog {
     /// Starts at first touch.
-    pub fn new(model: &Model, state: &State) -> Self {
+    pub fn new(model: &ExplicitBodies, state: &State) -> Self {
         let [lower, upper] = [0, 1].map(|side: usize| {
             let body = &model.bodies()[side];
             if body.node_forces.is_empty() {
@@ -82,7 +82,7 @@ impl ContactLog {
     }
 
     /// Adds the impulse of forces that act for a time, s; the contact force is the last one.
-    pub fn push(&mut self, model: &Model, scratch: &Scratch, time: f64) {
+    pub fn push(&mut self, model: &ExplicitBodies, scratch: &Scratch, time: f64) {
         self.approach_rate -= time * self.force * model.inverse_mass;
         for (side, body) in model.bodies().iter().enumerate() {
             if !body.node_forces.is_empty() {
@@ -93,7 +93,7 @@ impl ContactLog {
     }
 
     /// Moves the mass centres by a step (s).
-    pub fn advance(&mut self, model: &Model, scratch: &Scratch, time_step: f64) {
+    pub fn advance(&mut self, model: &ExplicitBodies, scratch: &Scratch, time_step: f64) {
         self.push(model, scratch, time_step);
         self.has_receded |= self.approach_rate < 0.0;
         self.approach += time_step * self.approach_rate;

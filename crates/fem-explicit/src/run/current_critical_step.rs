@@ -3,13 +3,13 @@
 use std::f64::consts::SQRT_2;
 
 use super::stops::{CollapsedElement, Fault};
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 use crate::stress::Collapse;
 use crate::time::StepDemand;
 
 /// Returns the largest present strain rate (1/s) of an element at finite strain.
-pub(crate) fn strain_rate(model: &Model, state: &State) -> f64 {
+pub(crate) fn strain_rate(model: &ExplicitBodies, state: &State) -> f64 {
     let motions = state.motions(model);
     let rates = model.bodies().iter().zip(&motions);
     let rates = rates.filter_map(|(body, motion)| Some(body.finite_strain()?.strain_rate(motion)));
@@ -17,13 +17,17 @@ pub(crate) fn strain_rate(model: &Model, state: &State) -> f64 {
 }
 
 /// Returns what the deformed bodies demand of the time step; `scratch` holds the bounds that it is made of.
-pub(crate) fn step_demand(model: &Model, state: &State, scratch: &mut Scratch) -> StepDemand {
+pub(crate) fn step_demand(
+    model: &ExplicitBodies,
+    state: &State,
+    scratch: &mut Scratch,
+) -> StepDemand {
     demand_and_node(model, state, scratch).0
 }
 
 /// Returns the demand, and the side and the node with the shortest critical step.
 fn demand_and_node(
-    model: &Model,
+    model: &ExplicitBodies,
     state: &State,
     scratch: &mut Scratch,
 ) -> (StepDemand, [usize; 2]) {
@@ -62,7 +66,7 @@ fn demand_and_node(
 
 /// Returns the fault where no step is short enough: the most compressed element if the critical node is one of its
 /// corners, otherwise the stiffness at that node.
-pub(crate) fn fault(model: &Model, state: &State, scratch: &mut Scratch) -> Fault {
+pub(crate) fn fault(model: &ExplicitBodies, state: &State, scratch: &mut Scratch) -> Fault {
     let (demand, [side, node]) = demand_and_node(model, state, scratch);
     let body = &model.bodies()[side];
     let (stiffness, damping) = (&mut scratch.stiffness[side], &mut scratch.damping[side]);
@@ -90,7 +94,7 @@ pub(crate) fn fault(model: &Model, state: &State, scratch: &mut Scratch) -> Faul
 }
 
 /// Returns the most compressed element of a model at finite strain.
-fn most_compressed(model: &Model, state: &State) -> CollapsedElement {
+fn most_compressed(model: &ExplicitBodies, state: &State) -> CollapsedElement {
     let of = |side: usize| {
         let stress = model.bodies()[side].finite_strain()?;
         let collapse = stress.most_compressed(&state.bodies[side].displacement);

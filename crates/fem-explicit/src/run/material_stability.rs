@@ -8,7 +8,7 @@ use fem_collision::{StepInstant, Stop};
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::State;
 use crate::stress::UnstableElement;
 
@@ -41,7 +41,12 @@ impl MaterialStability {
     ///
     /// # Errors
     /// A law has lost its stability, and the energy does not add up or the step is below a tenth of the initial one.
-    pub fn observe(&mut self, model: &Model, state: &State, adds_up: bool) -> Result<(), Stop> {
+    pub fn observe(
+        &mut self,
+        model: &ExplicitBodies,
+        state: &State,
+        adds_up: bool,
+    ) -> Result<(), Stop> {
         if !can_be_lost(model) {
             return Ok(());
         }
@@ -57,7 +62,7 @@ impl MaterialStability {
     }
 
     /// Returns the stop of a run in which an element has collapsed, if a law had lost its stability.
-    pub fn stop_of_collapse(&mut self, model: &Model, state: &State) -> Option<Stop> {
+    pub fn stop_of_collapse(&mut self, model: &ExplicitBodies, state: &State) -> Option<Stop> {
         if self.lost.is_none() && can_be_lost(model) {
             self.lost = find(model, state);
         }
@@ -74,7 +79,7 @@ impl MaterialStability {
     }
 
     /// Returns whether it can belong to a run of a model in a state.
-    pub fn fits(&self, model: &Model, state: &State) -> bool {
+    pub fn fits(&self, model: &ExplicitBodies, state: &State) -> bool {
         self.lost.as_ref().is_none_or(|lost| {
             let n_elements = model.bodies().get(lost.body).map_or(0, |body| body.n_elements());
             lost.element < n_elements && lost.moment.time <= state.time
@@ -91,13 +96,13 @@ impl Lost {
 }
 
 /// Returns whether a body has a law that can lose its stability.
-fn can_be_lost(model: &Model) -> bool {
+fn can_be_lost(model: &ExplicitBodies) -> bool {
     let mut stresses = model.bodies().iter().filter_map(Body::finite_strain);
     stresses.any(|stress| stress.can_lose_stability())
 }
 
 /// Finds the least stable element of a body that has an unstable one.
-fn find(model: &Model, state: &State) -> Option<Lost> {
+fn find(model: &ExplicitBodies, state: &State) -> Option<Lost> {
     let of = |body: usize| {
         let (own, state_of_body) = (&model.bodies()[body], &state.bodies[body]);
         let stress = own.finite_strain().filter(|stress| stress.can_lose_stability())?;

@@ -30,7 +30,7 @@ use fem_collision::{
 };
 
 use crate::error::ModelError;
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::snapshots::Probing;
 use crate::state::Scratch;
 #[cfg(test)]
@@ -47,7 +47,7 @@ use step::{record_stop, step};
 ///
 /// Nothing is allocated inside a step, except the states of snapshots until their pool is filled.
 pub fn collide(
-    model: &Model,
+    model: &ExplicitBodies,
     expected: Expectation,
     request: &OutputRequest,
     monitor: &mut dyn Monitor,
@@ -60,11 +60,11 @@ pub fn collide(
 
 /// A run under way. Between two calls of [`Run::advance`] its [`RestartState`] is all that the rest of the run depends on.
 ///
-/// It borrows or shares its model: `M` is `&Model` or `Arc<Model>`.
+/// It borrows or shares its model: `M` is `&ExplicitBodies` or `Arc<ExplicitBodies>`.
 ///
 /// ```
 /// use fem_collision::{Approach, BodyInput, Ending, Expectation, OutputRequest};
-/// use fem_explicit::{Model, Run, Settings};
+/// use fem_explicit::{ExplicitBodies, Run, Settings};
 /// # use fem_material::{ElasticModuli, Material};
 /// # use fem_mesh::{HalfDisc, Side};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -85,7 +85,7 @@ pub fn collide(
 /// #     mass_times: [1.0; 2],
 /// # };
 /// let bodies = [BodyInput::Sphere { mesh, material }, BodyInput::Wall];
-/// let model = Model::new(bodies, Approach::at(0.5)?, &settings)?;
+/// let model = ExplicitBodies::new(bodies, Approach::at(0.5)?, &settings)?;
 /// let expected = Expectation { contact_time: 80e-6, approach: 20e-6 };
 /// let mut run = Run::new(&model, expected, &OutputRequest::quantities());
 /// assert_eq!(run.advance(100), None);
@@ -107,7 +107,7 @@ pub struct Run<M> {
     probing: Probing,
 }
 
-impl<M: Deref<Target = Model>> Run<M> {
+impl<M: Deref<Target = ExplicitBodies>> Run<M> {
     /// Starts a run at first touch.
     pub fn new(model: M, expected: Expectation, request: &OutputRequest) -> Self {
         let restart_state = RestartState::new(&model, expected, request);
@@ -176,7 +176,7 @@ impl<M: Deref<Target = Model>> Run<M> {
 /// Takes up to `n_steps` steps of a run that has not ended; compiled once for all holders of a model.
 fn advance_run(
     run: &mut RestartState,
-    model: &Model,
+    model: &ExplicitBodies,
     scratch: &mut Scratch,
     probing: &mut Probing,
     n_steps: u64,

@@ -9,10 +9,10 @@ use fem_material::engineering::show;
 
 use super::restart_state::RestartState;
 use crate::body::Body;
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 
 /// Returns the collision of a run with its ending.
-pub(super) fn outcome(model: &Model, run: RestartState, ending: Ending) -> Collision {
+pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending) -> Collision {
     let RestartState {
         state,
         log,
@@ -130,7 +130,7 @@ const FRONTS: f64 = 0.02;
 
 /// Returns the element size (m), two of which resolve the pressure of early contact; infinite where first touch makes a
 /// steep front.
-fn resolving(model: &Model) -> f64 {
+fn resolving(model: &ExplicitBodies) -> f64 {
     let mut materials = model.bodies().iter().filter_map(Body::material);
     let is_slow =
         |material: &Material| model.approach().speed() < FRONTS * material.shear_wave_speed();

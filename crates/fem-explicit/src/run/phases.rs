@@ -4,7 +4,7 @@ use fem_contact::ContactForces;
 
 use super::current_critical_step::{fault, step_demand, strain_rate};
 use super::stops::{CollapsedElement, Fault};
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 use crate::time::{StepControl, add_impulse};
 
@@ -14,7 +14,7 @@ use crate::time::{StepControl, add_impulse};
 /// # Errors
 /// An element has collapsed: there are no forces.
 pub(crate) fn update_forces(
-    model: &Model,
+    model: &ExplicitBodies,
     state: &State,
     scratch: &mut Scratch,
 ) -> Result<ContactForces, CollapsedElement> {
@@ -46,7 +46,7 @@ pub(crate) fn update_forces(
 /// # Errors
 /// No step is short enough.
 pub(crate) fn update_time_step(
-    model: &Model,
+    model: &ExplicitBodies,
     state: &mut State,
     scratch: &mut Scratch,
 ) -> Result<Option<f64>, Fault> {
@@ -81,7 +81,7 @@ pub(crate) fn update_time_step(
 
 /// Takes both bodies to the next instant: the nodes, the history of the stress, the nodes without mass and the history
 /// of the contact, then the history of the forces on nodes.
-pub(crate) fn advance(model: &Model, state: &mut State, scratch: &mut Scratch) {
+pub(crate) fn advance(model: &ExplicitBodies, state: &mut State, scratch: &mut Scratch) {
     state.time = state.time_after(state.step + 1, model);
     state.step += 1;
     let clock = state.clock(model);
@@ -96,7 +96,7 @@ pub(crate) fn advance(model: &Model, state: &mut State, scratch: &mut Scratch) {
 }
 
 /// Takes the contact to the end of a step in which the nodes have moved.
-fn advance_contact(model: &Model, state: &mut State, scratch: &mut Scratch) {
+fn advance_contact(model: &ExplicitBodies, state: &mut State, scratch: &mut Scratch) {
     if !model.contact_advances {
         return;
     }
@@ -111,7 +111,7 @@ fn advance_contact(model: &Model, state: &mut State, scratch: &mut Scratch) {
 
 /// Returns whether the next configuration is in contact; reads the present forces and moves nothing.
 pub(crate) fn is_closed_next(
-    model: &Model,
+    model: &ExplicitBodies,
     state: &State,
     scratch: &Scratch,
     now: &ContactForces,

@@ -7,7 +7,7 @@ use super::contact_log::ContactLog;
 use super::material_stability::MaterialStability;
 use super::sampled_history::SampledHistory;
 use crate::energy::Ledger;
-use crate::model::{Model, fingerprint};
+use crate::model::{ExplicitBodies, fingerprint};
 use crate::snapshots::{LastValidState, Recorder, probes_fit};
 use crate::state::State;
 
@@ -42,7 +42,11 @@ pub struct RestartState {
 
 impl RestartState {
     /// Returns the state at first touch.
-    pub(crate) fn new(model: &Model, expected: Expectation, request: &OutputRequest) -> Self {
+    pub(crate) fn new(
+        model: &ExplicitBodies,
+        expected: Expectation,
+        request: &OutputRequest,
+    ) -> Self {
         let expected_steps = expected.contact_time / model.time_step();
         let state = State::at_first_touch(model);
         Self {
@@ -108,7 +112,7 @@ impl RestartState {
     /// Returns whether it can belong to a run of a model: approach, candidate region, fingerprint and sizes of all
     /// fields agree, and its parts do not contradict each other. Computed numbers are not computed again: a wrong one
     /// is found only where it contradicts another.
-    pub(crate) fn fits(&self, model: &Model) -> bool {
+    pub(crate) fn fits(&self, model: &ExplicitBodies) -> bool {
         let Self { state, .. } = self;
         let history_fits = |history: &History| {
             history.is_consistent()

@@ -6,7 +6,7 @@ use fem_collision::{
 };
 use serde::{Deserialize, Serialize};
 
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::State;
 
 /// Share of the kinetic energy of a half-space that certainly does not come back: in outgoing waves strain energy and
@@ -30,7 +30,7 @@ pub(crate) struct SampledHistory {
 
 impl SampledHistory {
     /// Starts for a contact of an expected number of steps.
-    pub fn new(model: &Model, expected_steps: f64) -> Self {
+    pub fn new(model: &ExplicitBodies, expected_steps: f64) -> Self {
         Self {
             cadence: SamplingInterval::new(OutputRequest::ROWS, expected_steps),
             pulse: ForcePulse::default(),
@@ -56,7 +56,13 @@ impl SampledHistory {
     ///
     /// Waves that leave into a half-space carry equal strain and kinetic energy, neither of which can separate the
     /// bodies, so both are left out.
-    pub fn stays_together(&mut self, model: &Model, is_closed: bool, time: f64, rate: f64) -> bool {
+    pub fn stays_together(
+        &mut self,
+        model: &ExplicitBodies,
+        is_closed: bool,
+        time: f64,
+        rate: f64,
+    ) -> bool {
         let Some(row) = &self.last else { return false };
         let is_stored =
             |account: Account| account.side() == BalanceSide::Held && account != Account::Kinetic;
@@ -86,7 +92,7 @@ impl SampledHistory {
     }
 
     /// Returns whether it can belong to a run of a model in a state.
-    pub fn fits(&self, model: &Model, state: &State) -> bool {
+    pub fn fits(&self, model: &ExplicitBodies, state: &State) -> bool {
         self.cadence.is_consistent()
             && self.standstill.is_of(&model.frame())
             && self.pulse.is_consistent()

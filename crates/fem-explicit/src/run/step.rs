@@ -7,7 +7,7 @@ use super::phases::{advance, is_closed_next, update_forces, update_time_step};
 use super::restart_state::RestartState;
 use super::stops::{Fault, stop_of_growth, stop_of_turn};
 use crate::energy::held_by;
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::snapshots::{Instant, Probing};
 use crate::state::Scratch;
 
@@ -18,7 +18,7 @@ use crate::state::Scratch;
 /// The run has to stop.
 pub(super) fn step(
     run: &mut RestartState,
-    model: &Model,
+    model: &ExplicitBodies,
     scratch: &mut Scratch,
     probing: &mut Probing,
 ) -> Result<Option<Ending>, Stop> {
@@ -39,7 +39,7 @@ pub(super) fn step(
 }
 
 /// Returns the stop of a run that cannot take a step: a material instability, if a collapse follows from one.
-fn stop_of_fault(run: &mut RestartState, model: &Model, fault: Fault) -> Stop {
+fn stop_of_fault(run: &mut RestartState, model: &ExplicitBodies, fault: Fault) -> Stop {
     let unstable = matches!(fault, Fault::Collapsed(_))
         .then(|| run.stability.stop_of_collapse(model, &run.state));
     unstable.flatten().unwrap_or_else(|| fault.stop(model, &run.state))
@@ -48,7 +48,7 @@ fn stop_of_fault(run: &mut RestartState, model: &Model, fault: Fault) -> Stop {
 /// Changes the time step where that is due; impulses up to half a step before t_n change with it.
 fn control_time_step(
     run: &mut RestartState,
-    model: &Model,
+    model: &ExplicitBodies,
     scratch: &mut Scratch,
     force: f64,
 ) -> Result<(), Stop> {
@@ -65,7 +65,7 @@ fn control_time_step(
 /// Enters the contact into the log. Returns what the next phases need of this instant.
 fn observe_contact(
     run: &mut RestartState,
-    model: &Model,
+    model: &ExplicitBodies,
     scratch: &Scratch,
     contact: &ContactForces,
 ) -> Instant {
@@ -94,7 +94,7 @@ fn observe_contact(
 /// one is due. Finds out whether the bodies stay together.
 fn sample(
     run: &mut RestartState,
-    model: &Model,
+    model: &ExplicitBodies,
     scratch: &Scratch,
     probing: &mut Probing,
     contact: &ContactForces,
@@ -148,7 +148,7 @@ fn row_kind(contact: &ContactForces, instant: Instant) -> RowKind {
 /// The run has to stop.
 fn ending(
     run: &RestartState,
-    model: &Model,
+    model: &ExplicitBodies,
     contact: &ContactForces,
     instant: Instant,
 ) -> Result<Option<Ending>, Stop> {
@@ -179,7 +179,12 @@ fn ending(
 }
 
 /// Moves the bodies to the next instant, and counts the impulses of the step.
-fn move_on(run: &mut RestartState, model: &Model, scratch: &mut Scratch, contact: &ContactForces) {
+fn move_on(
+    run: &mut RestartState,
+    model: &ExplicitBodies,
+    scratch: &mut Scratch,
+    contact: &ContactForces,
+) {
     let RestartState { state, log, ledger, .. } = run;
     let time_step = state.time_step(model);
     ledger.push(model, scratch, contact.force, time_step);
@@ -191,7 +196,7 @@ fn move_on(run: &mut RestartState, model: &Model, scratch: &mut Scratch, contact
 
 /// Records the state in which a run has stopped: it ends the samples and the history, and is the last valid state if
 /// its energy adds up.
-pub(super) fn record_stop(run: &mut RestartState, model: &Model, scratch: &mut Scratch) {
+pub(super) fn record_stop(run: &mut RestartState, model: &ExplicitBodies, scratch: &mut Scratch) {
     let RestartState { state, log, ledger, sampled, history, last_valid, .. } = run;
     if let Ok(contact) = update_forces(model, state, scratch) {
         if sampled.last.is_none_or(|row| row.time < state.time) {

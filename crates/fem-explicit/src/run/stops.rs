@@ -4,7 +4,7 @@ use fem_collision::Stop;
 use fem_contact::SurfaceFold;
 
 use crate::energy::EnergyGrowth;
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::State;
 use crate::stress::Collapse;
 
@@ -32,7 +32,7 @@ pub(crate) struct CollapsedElement {
 
 impl Fault {
     /// Returns the stop of a run in a state.
-    pub fn stop(self, model: &Model, state: &State) -> Stop {
+    pub fn stop(self, model: &ExplicitBodies, state: &State) -> Stop {
         let (time, step, bodies) = (state.time, state.step, model.bodies());
         match self {
             Self::Collapsed(CollapsedElement { side, collapse }) => {
@@ -50,7 +50,7 @@ impl Fault {
 
 /// Returns the stop of a run whose energy has grown: at the node that is fastest relative to its body, or at one whose
 /// motion is not a number.
-pub(super) fn stop_of_growth(model: &Model, growth: EnergyGrowth, state: &State) -> Stop {
+pub(super) fn stop_of_growth(model: &ExplicitBodies, growth: EnergyGrowth, state: &State) -> Stop {
     let EnergyGrowth { time, step, ratio } = growth;
     let mut fastest = (0, 0, -1.0);
     for (side, body) in model.bodies().iter().enumerate() {
@@ -75,7 +75,7 @@ pub(super) fn stop_of_growth(model: &Model, growth: EnergyGrowth, state: &State)
 }
 
 /// Returns the stop of a run whose surface has turned over.
-pub(super) fn stop_of_turn(model: &Model, turn: SurfaceFold, state: &State) -> Stop {
+pub(super) fn stop_of_turn(model: &ExplicitBodies, turn: SurfaceFold, state: &State) -> Stop {
     let SurfaceFold { side, node, radius } = turn;
     let (time, step, node) = (state.time, state.step, node as usize);
     let place = model.bodies()[side].node_position(node);

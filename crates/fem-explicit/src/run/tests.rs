@@ -10,11 +10,11 @@ use crate::test_support::{settings, sphere, unit_glass};
 use crate::{ContactMethod, Parts, Settings};
 
 /// Unit spheres at a hundredth of the wave's speed, two elements a block's side.
-fn model() -> Model {
+fn model() -> ExplicitBodies {
     let bodies = [Side::Below, Side::Above]
         .map(|side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() });
     let settings = Settings { contact_stiffness: 5.0, ..settings() };
-    Model::new(bodies, Approach::at(0.01).unwrap(), &settings).unwrap()
+    ExplicitBodies::new(bodies, Approach::at(0.01).unwrap(), &settings).unwrap()
 }
 
 const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
@@ -212,8 +212,13 @@ fn every_step_has_the_energy_of_a_balance() {
             let settings = Settings { contact_stiffness: stiffness, ..settings() };
             let parts = Parts { method, ..Parts::default() };
             let approach = Approach::at(0.01).unwrap();
-            let model = Model::with_parts([lower, sphere(Side::Above)], approach, &settings, parts)
-                .unwrap();
+            let model = ExplicitBodies::with_parts(
+                [lower, sphere(Side::Above)],
+                approach,
+                &settings,
+                parts,
+            )
+            .unwrap();
             let mut run = Run::new(&model, LONG, &request(SnapshotRequest::none()));
             let mut scratch = Scratch::new(&model);
             let (mut worst, mut largest, mut n_closed): (f64, f64, u32) = (0.0, 0.0, 0);
@@ -248,7 +253,7 @@ fn a_contact_that_adds_energy_is_seen_in_the_step() {
     let mut run = Run::new(&model, LONG, &request(SnapshotRequest::none()));
     assert_eq!(run.advance(128), None);
     // Two steps that are none of a balance, in the contact.
-    let is_due = |run: &Run<&Model>, ahead: u64| {
+    let is_due = |run: &Run<&ExplicitBodies>, ahead: u64| {
         run.restart_state.sampled.is_due(run.restart_state.state.step + ahead)
     };
     for _ in 0..20 {

@@ -4,7 +4,7 @@ use fem_collision::{OutputRequest, Snapshot, SnapshotInstant, SnapshotRequest};
 use serde::{Deserialize, Serialize};
 
 use super::{fits, take};
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 
 /// Valid instants from one that is kept to the next: about thirty are kept in turn during a contact.
@@ -26,7 +26,13 @@ impl LastValidState {
     }
 
     /// Takes note of a sampled instant whose energy adds up; its forces are in `scratch`.
-    pub fn observe(&mut self, model: &Model, state: &State, scratch: &Scratch, approach: f64) {
+    pub fn observe(
+        &mut self,
+        model: &ExplicitBodies,
+        state: &State,
+        scratch: &Scratch,
+        approach: f64,
+    ) {
         if self.n_seen.is_multiple_of(STRIDE) {
             self.keep(model, state, scratch, approach);
         }
@@ -34,7 +40,13 @@ impl LastValidState {
     }
 
     /// Keeps a state, whose forces are in `scratch`.
-    pub fn keep(&mut self, model: &Model, state: &State, scratch: &Scratch, approach: f64) {
+    pub fn keep(
+        &mut self,
+        model: &ExplicitBodies,
+        state: &State,
+        scratch: &Scratch,
+        approach: f64,
+    ) {
         if self.is_wanted {
             let snapshot = self.kept.get_or_insert_default();
             take(
@@ -63,7 +75,7 @@ impl LastValidState {
     }
 
     /// Returns whether it can belong to a run of a model in a state, with a request.
-    pub fn fits(&self, model: &Model, state: &State, request: &OutputRequest) -> bool {
+    pub fn fits(&self, model: &ExplicitBodies, state: &State, request: &OutputRequest) -> bool {
         let is_valid = |kept: &Snapshot| fits(kept, model) && kept.time <= state.time;
         self.is_wanted == is_wanted(request) && self.kept.as_ref().is_none_or(is_valid)
     }

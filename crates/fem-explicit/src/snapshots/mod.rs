@@ -8,7 +8,7 @@ use fem_collision::{
     SnapshotRequest,
 };
 
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::part::NodalField;
 use crate::state::{Scratch, State};
 use crate::time::advance_motion;
@@ -33,7 +33,7 @@ fn n_kept(n_snapshots: usize) -> usize {
 /// Overwrites a snapshot with the state at t_n, given its forces (N); the memory of the snapshot is used again.
 fn take(
     snapshot: &mut Snapshot,
-    model: &Model,
+    model: &ExplicitBodies,
     state: &State,
     forces: &[NodalField; 2],
     approach: f64,
@@ -75,7 +75,7 @@ fn take(
 }
 
 /// Returns the snapshot of rigid motion at a time before first touch (s).
-fn in_free_flight(model: &Model, time: f64) -> Snapshot {
+fn in_free_flight(model: &ExplicitBodies, time: f64) -> Snapshot {
     let bodies = model.bodies().each_ref().map(|body| {
         let n = body.n_nodes();
         let n_effective = if body.effective().is_some() { n } else { 0 };
@@ -93,7 +93,7 @@ fn in_free_flight(model: &Model, time: f64) -> Snapshot {
 }
 
 /// Whether the fields of a snapshot have the sizes of a model.
-fn fits(snapshot: &Snapshot, model: &Model) -> bool {
+fn fits(snapshot: &Snapshot, model: &ExplicitBodies) -> bool {
     snapshot.bodies.iter().zip(model.bodies()).all(|(fields, body)| {
         let n = body.n_nodes();
         let n_effective = if body.effective().is_some() { n } else { 0 };
@@ -114,7 +114,7 @@ pub(crate) struct Probing {
 
 impl Probing {
     /// Finds the places of the requested probes in the meshes of a model.
-    pub fn new(model: &Model, request: &OutputRequest) -> Self {
+    pub fn new(model: &ExplicitBodies, request: &OutputRequest) -> Self {
         let meshes = model.bodies().each_ref().map(|body| body.mesh());
         Self { probes: Probes::new(meshes, &request.probes), all: Snapshot::default() }
     }
@@ -123,7 +123,7 @@ impl Probing {
     pub fn observe(
         &mut self,
         samples: &mut Vec<Snapshot>,
-        model: &Model,
+        model: &ExplicitBodies,
         state: &State,
         scratch: &Scratch,
         approach: f64,

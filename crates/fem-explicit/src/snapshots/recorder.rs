@@ -15,7 +15,7 @@ use fem_material::engineering::show;
 use serde::{Deserialize, Serialize};
 
 use super::{fits, in_free_flight, n_kept, take};
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 
 /// Growth of the approach from one candidate for half of the maximum to the next: the nearest one is within 1.5 %.
@@ -67,7 +67,7 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     /// Starts for a request, with estimates of contact time and approach.
-    pub fn new(request: &SnapshotRequest, model: &Model, expected: Expectation) -> Self {
+    pub fn new(request: &SnapshotRequest, model: &ExplicitBodies, expected: Expectation) -> Self {
         let request = in_order(request);
         let mut kept = Vec::new();
         if let SnapshotRequest::Times(times) = &request {
@@ -93,7 +93,13 @@ impl Recorder {
     }
 
     /// Keeps the state at t_n if it may become a snapshot.
-    pub fn observe(&mut self, model: &Model, state: &State, scratch: &mut Scratch, now: Instant) {
+    pub fn observe(
+        &mut self,
+        model: &ExplicitBodies,
+        state: &State,
+        scratch: &mut Scratch,
+        now: Instant,
+    ) {
         let Scratch { forces, pool, .. } = scratch;
         let copy = |recycled: Option<Snapshot>, label: Option<SnapshotInstant>| {
             let mut snapshot = recycled.unwrap_or_default();
@@ -184,7 +190,7 @@ impl Recorder {
     }
 
     /// Returns whether it can belong to a run of a model with a request.
-    pub fn fits(&self, model: &Model, asked: &SnapshotRequest) -> bool {
+    pub fn fits(&self, model: &ExplicitBodies, asked: &SnapshotRequest) -> bool {
         let request_fits = match (&self.request, &in_order(asked)) {
             (SnapshotRequest::Times(times), SnapshotRequest::Times(asked)) => {
                 times.iter().map(|time| time.to_bits()).eq(asked.iter().map(|time| time.to_bits()))

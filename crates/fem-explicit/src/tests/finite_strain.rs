@@ -7,30 +7,30 @@ use fem_mesh::{Side, SphereMesh};
 use nalgebra::DMatrix;
 
 use crate::contact::{Contact, Springs};
-use crate::model::{Model, Parts};
+use crate::model::{ExplicitBodies, Parts};
 use crate::run::{advance, step_demand, update_forces, update_time_step};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
 use crate::test_support::{largest_eigenvalue, ragged, settings, unit_glass, unit_sphere};
 
 /// A sphere alone and at rest, a wall far below.
-fn free(law: HyperelasticLaw, n: f64) -> (Model, State) {
+fn free(law: HyperelasticLaw, n: f64) -> (ExplicitBodies, State) {
     let sphere = glass_sphere(n, Side::Above);
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let parts = Parts { finite_strain: [None, Some(law)], ..Parts::default() };
     let bodies = [BodyInput::Wall, sphere];
-    let model = Model::with_parts(bodies, approach, &settings(), parts).unwrap();
+    let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
     let state = State::at_first_touch(&model);
     (model, state)
 }
 
 /// −∂f/∂u of the upper body.
-fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
+fn tangent(model: &ExplicitBodies, state: &State) -> DMatrix<f64> {
     tangent_of(model, state, &[1])
 }
 
 /// −∂f/∂u of these bodies.
-fn tangent_of(model: &Model, state: &State, sides: &[usize]) -> DMatrix<f64> {
+fn tangent_of(model: &ExplicitBodies, state: &State, sides: &[usize]) -> DMatrix<f64> {
     let forces = |state: &State| {
         let mut scratch = Scratch::new(model);
         update_forces(model, state, &mut scratch).unwrap();
@@ -85,12 +85,12 @@ fn the_critical_step_of_a_deformed_body_is_safe_and_tight() {
 }
 
 /// Bodies on springs of a stiffness, with the upper one at finite strain.
-fn with_deformed_upper(bodies: [BodyInput; 2], contact_stiffness: f64) -> Model {
+fn with_deformed_upper(bodies: [BodyInput; 2], contact_stiffness: f64) -> ExplicitBodies {
     let settings =
         Settings { contact_stiffness, candidate_radius: 0.7, step_factor: 1.0, ..settings() };
     let parts =
         Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
-    Model::with_parts(bodies, Approach::at(1.0).unwrap(), &settings, parts).unwrap()
+    ExplicitBodies::with_parts(bodies, Approach::at(1.0).unwrap(), &settings, parts).unwrap()
 }
 
 fn glass_sphere(n: f64, side: Side) -> BodyInput {
@@ -108,7 +108,7 @@ fn flattened(mesh: &SphereMesh, sign: f64) -> Vec<[f64; 2]> {
 }
 
 /// Returns the critical step of a state with many closed points.
-fn critical_step_in_contact(model: &Model, state: &State) -> f64 {
+fn critical_step_in_contact(model: &ExplicitBodies, state: &State) -> f64 {
     let mut scratch = Scratch::new(model);
     let contact = update_forces(model, state, &mut scratch).unwrap();
     assert!(contact.n_closed > 10, "{contact:?}");
@@ -191,7 +191,7 @@ fn every_step_of_a_collision_is_stable() {
         let parts = Parts { finite_strain: [None, Some(law)], contact, ..Parts::default() };
         let settings = Settings { contact_stiffness: 1.0, candidate_radius: 0.9, ..settings() };
         let bodies = [BodyInput::Wall, sphere.clone()];
-        let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+        let model = ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap();
         let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
         let (mut largest, mut at_first) = (0.0f64, 0.0f64);
         for step in 0..400 {
@@ -220,7 +220,8 @@ fn the_step_is_bounded_now_and_then() {
     let parts = Parts { finite_strain: [None, law], ..Parts::default() };
     let settings = Settings { candidate_radius: 0.9, ..settings() };
     let approach = Approach::new([0.0, -0.3], 0.0).unwrap();
-    let model = Model::with_parts([BodyInput::Wall, sphere], approach, &settings, parts).unwrap();
+    let model =
+        ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings, parts).unwrap();
     let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
     let (mut n_steps, mut n_bounds) = (0, 0);
     while state.time < 3.0 {
@@ -244,7 +245,7 @@ fn every_step_of_bulging_spheres_is_stable() {
         let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
         let settings =
             Settings { contact_stiffness: stiffness, candidate_radius: 0.999, ..settings() };
-        let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+        let model = ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap();
         let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
         let (mut largest, mut shortest) = (0.0f64, 1.0f64);
         for step in 0..600 {
@@ -281,7 +282,8 @@ fn what_no_step_is_short_enough_for_is_named() {
     let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
     let settings = Settings { candidate_radius: 0.999, ..settings() };
     let bodies = [sphere(Side::Below), sphere(Side::Above)];
-    let model = Model::with_parts(bodies, Approach::at(1.0).unwrap(), &settings, parts).unwrap();
+    let model =
+        ExplicitBodies::with_parts(bodies, Approach::at(1.0).unwrap(), &settings, parts).unwrap();
     let mut state = State::at_first_touch(&model);
     state.step = 100;
     let mut scratch = Scratch::new(&model);

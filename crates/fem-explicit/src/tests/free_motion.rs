@@ -4,7 +4,7 @@ use fem_collision::{Account, Approach, BodyInput};
 use fem_mesh::Side;
 
 use crate::body::{BodyState, Clock};
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::run::{advance, update_forces};
 use crate::state::{Scratch, State};
 use crate::test_support::{accounts, free_sphere, ragged, settings, unit_glass, unit_sphere};
@@ -15,7 +15,7 @@ fn rigid_flight_strains_nothing() {
     let bodies = [Side::Below, Side::Above]
         .map(|side| BodyInput::Sphere { mesh: unit_sphere(8.0, side), material: unit_glass() });
     let approach = Approach::new([0.3, -0.7], 1e3).unwrap();
-    let model = Model::new(bodies, approach, &settings()).unwrap();
+    let model = ExplicitBodies::new(bodies, approach, &settings()).unwrap();
     let mut state = State::at_first_touch(&model);
     // Back from first touch to the start.
     for body in &mut state.bodies {

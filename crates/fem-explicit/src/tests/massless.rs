@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::stability::{both_closed, partly_closed, tangent};
 use crate::contact::ContactMethod;
-use crate::model::{Model, Parts};
+use crate::model::{ExplicitBodies, Parts};
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
@@ -14,19 +14,24 @@ use crate::test_support::{relaxing_glass, settings, sphere, unit_glass};
 use fem_contact::SlippingInterface;
 use fem_material::{ActsOn, ElasticModuli, Material};
 
-fn pair(method: ContactMethod, sizes: [f64; 2], settings: &Settings, glass: &Material) -> Model {
+fn pair(
+    method: ContactMethod,
+    sizes: [f64; 2],
+    settings: &Settings,
+    glass: &Material,
+) -> ExplicitBodies {
     let body = |size: f64, side: Side| {
         let mesh = sphere(size, 2.0 * size, side);
         BodyInput::Sphere { mesh, material: glass.clone() }
     };
     let bodies = [body(sizes[0], Side::Below), body(sizes[1], Side::Above)];
     let parts = Parts { method, ..Parts::default() };
-    Model::with_parts(bodies, Approach::at(1.0).unwrap(), settings, parts).unwrap()
+    ExplicitBodies::with_parts(bodies, Approach::at(1.0).unwrap(), settings, parts).unwrap()
 }
 
 /// Rows (r, y) of the nodes of both bodies that have mass, with its root, and of those without that can
 /// move.
-fn rows(model: &Model) -> (Vec<(usize, f64)>, Vec<usize>) {
+fn rows(model: &ExplicitBodies) -> (Vec<(usize, f64)>, Vec<usize>) {
     let (mut heavy, mut bare, mut first) = (Vec::new(), Vec::new(), 0);
     for (side, body) in model.bodies().iter().enumerate() {
         let massless = model.contact().massless_nodes(side);
@@ -47,7 +52,7 @@ fn rows(model: &Model) -> (Vec<(usize, f64)>, Vec<usize>) {
 }
 
 /// Largest ω² of the nodes with mass, where those without are in balance with a stiffness.
-fn largest_square(stiffness: &DMatrix<f64>, model: &Model) -> f64 {
+fn largest_square(stiffness: &DMatrix<f64>, model: &ExplicitBodies) -> f64 {
     let (heavy, bare) = rows(model);
     let rows: Vec<usize> = heavy.iter().map(|(row, _)| *row).collect();
     let block = |a: &[usize], b: &[usize]| {
@@ -100,7 +105,7 @@ fn worst_lack(stiffness: f64, materials: [&Material; 2], slips_at: Option<f64>) 
         };
         let parts = Parts { method, surface_slip, ..Parts::default() };
         let approach = Approach::at(slips_at.unwrap_or(1.0)).unwrap();
-        Model::with_parts([body(0), body(1)], approach, &settings, parts).unwrap()
+        ExplicitBodies::with_parts([body(0), body(1)], approach, &settings, parts).unwrap()
     };
     let straight = model(ContactMethod::Penalty, false).interface().expect("springs").clone();
     let slipping = SlippingInterface::new(straight.clone());

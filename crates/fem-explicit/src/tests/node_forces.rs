@@ -6,7 +6,7 @@ use fem_mesh::Side;
 
 use crate::energy::Ledger;
 use crate::forces::{NodeForce, Weight};
-use crate::model::{Model, Parts};
+use crate::model::{ExplicitBodies, Parts};
 use crate::part::Accounts;
 use crate::run::ContactLog;
 use crate::run::{advance, update_forces};
@@ -17,13 +17,13 @@ use crate::test_support::{settings, unit_glass, unit_sphere};
 const ACCELERATION: f64 = 0.3;
 
 /// A sphere at rest that rises from a wall far below, by two weights of negative gravity, which add up.
-fn rising() -> (Model, State) {
+fn rising() -> (ExplicitBodies, State) {
     let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let weights = [0.25, 0.75].map(|share| Box::new(Weight::new(-share * ACCELERATION)) as Box<_>);
     let parts = Parts { node_forces: [Vec::new(), weights.into()], ..Parts::default() };
     let bodies = [BodyInput::Wall, sphere];
-    let model = Model::with_parts(bodies, approach, &settings(), parts).unwrap();
+    let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
     let mut state = State::at_first_touch(&model);
     // Back from first touch to the start.
     state.bodies[0].displacement.fill([0.0; 2]);
@@ -78,7 +78,7 @@ fn a_rigid_sphere_falls_too() {
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let weight: Box<dyn NodeForce> = Box::new(Weight::new(-ACCELERATION));
     let parts = Parts { node_forces: [Vec::new(), vec![weight]], ..Parts::default() };
-    let model = Model::with_parts(bodies, approach, &settings(), parts).unwrap();
+    let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
     let mut state = State::at_first_touch(&model);
     // Back from first touch to the start.
     state.bodies[0].displacement.fill([0.0; 2]);
@@ -116,7 +116,8 @@ fn moved_mass_weighs_what_it_did() {
         let settings = Settings { mass_scaling, ..settings() };
         let approach = Approach::at(1.0).unwrap();
         let model =
-            Model::with_parts([BodyInput::Wall, sphere], approach, &settings, parts).unwrap();
+            ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings, parts)
+                .unwrap();
         let body = &model.bodies()[1];
         assert_eq!(body.added_mass() > 1e-9 * body.mass(), mass_scaling > 0.0);
         let expected = gravity * 4.0 / 3.0 * std::f64::consts::PI;

@@ -15,7 +15,7 @@ use crate::test_support::{
 const TERMS: [(f64, f64); 3] = [(0.3, 0.02), (0.4, 0.3), (0.1, 5.0)];
 
 /// Returns a sphere with an instantaneous uniform strain, which all branches have.
-fn strained(material: Material) -> (crate::Model, State) {
+fn strained(material: Material) -> (crate::ExplicitBodies, State) {
     let mesh = unit_sphere(8.0, Side::Above);
     let u: Vec<_> = mesh.nodes().iter().map(|&[r, y]| [0.02 * r, -0.01 * y]).collect();
     let (model, mut state) = free_sphere(mesh, material, 0.9);
@@ -27,7 +27,7 @@ fn strained(material: Material) -> (crate::Model, State) {
 }
 
 /// Takes steps in which nothing moves, and returns the forces of the last state.
-fn hold(model: &crate::Model, state: &mut State, n: usize) -> Vec<[f64; 2]> {
+fn hold(model: &crate::ExplicitBodies, state: &mut State, n: usize) -> Vec<[f64; 2]> {
     let mut scratch = Scratch::new(model);
     let start = state.time;
     for _ in 0..n {
@@ -130,7 +130,7 @@ fn effective_displacement_of_a_state_is_what_the_step_leaves() {
 /// Terms of no weight keep no history; an elastic body has no branch at all.
 #[test]
 fn branches_without_weight_are_absent() {
-    let n_history = |model: &crate::Model| model.bodies().each_ref().map(Body::n_history);
+    let n_history = |model: &crate::ExplicitBodies| model.bodies().each_ref().map(Body::n_history);
     // The effective displacement and one branch.
     let (model, _) = strained(relaxing_glass(&[(0.0, 1.0), (0.5, 1.0)], ActsOn::All));
     assert_eq!(n_history(&model), [0, 2]);

@@ -5,7 +5,7 @@ use fem_mesh::{HalfDisc, Side, SphereMesh, sphere_volume};
 use nalgebra::DMatrix;
 
 use crate::body::Body;
-use crate::model::Model;
+use crate::model::ExplicitBodies;
 use crate::run::update_forces;
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
@@ -19,15 +19,16 @@ fn glass_sphere(mesh: SphereMesh) -> BodyInput {
 }
 
 /// Spheres with two elements a block's side, so that few elements reach any size.
-fn pair(sizes: [f64; 2], settings: &Settings) -> Model {
+fn pair(sizes: [f64; 2], settings: &Settings) -> ExplicitBodies {
     let lower = sphere(sizes[0], 2.0 * sizes[0], Side::Below);
     let upper = sphere(sizes[1], 2.0 * sizes[1], Side::Above);
-    Model::new([lower, upper].map(glass_sphere), Approach::at(1.0).unwrap(), settings).unwrap()
+    ExplicitBodies::new([lower, upper].map(glass_sphere), Approach::at(1.0).unwrap(), settings)
+        .unwrap()
 }
 
 /// −∂f/∂u of bodies and contact at a state, from the step's own forces, which are linear while no
 /// contact opens or closes.
-pub(super) fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
+pub(super) fn tangent(model: &ExplicitBodies, state: &State) -> DMatrix<f64> {
     let forces = |state: &State| {
         let mut scratch = Scratch::new(model);
         update_forces(model, state, &mut scratch).unwrap();
@@ -72,14 +73,14 @@ fn critical_time_step_of_a_body_is_safe_and_tight() {
 }
 
 /// All points closed: the pole of the upper body is a radius inside of the lower.
-pub(super) fn both_closed(model: &Model) -> State {
+pub(super) fn both_closed(model: &ExplicitBodies) -> State {
     let mut state = State::at_first_touch(model);
     state.bodies[1].displacement.iter_mut().for_each(|u| u[1] -= 1.0);
     state
 }
 
 /// Some points closed, without pattern.
-pub(super) fn partly_closed(model: &Model) -> State {
+pub(super) fn partly_closed(model: &ExplicitBodies) -> State {
     let mut state = State::at_first_touch(model);
     for (side, body) in model.bodies().iter().enumerate() {
         let field = ragged(body.mesh().unwrap(), side);

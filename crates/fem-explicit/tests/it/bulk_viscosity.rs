@@ -2,12 +2,12 @@
 
 use fem_collision::{Account, Collision, HistoryRow};
 use fem_explicit::{
-    BulkViscosity, Model, ModelError, NodeForce, Parts, Run, ViscosityCoefficients,
+    BulkViscosity, ExplicitBodies, ModelError, NodeForce, Parts, Run, ViscosityCoefficients,
 };
 
 use crate::common::{Pair, quantities};
 
-fn model(pair: &Pair, coefficients: ViscosityCoefficients) -> Model {
+fn model(pair: &Pair, coefficients: ViscosityCoefficients) -> ExplicitBodies {
     let bodies = [pair.sphere(0), pair.sphere(1)];
     let node_forces = bodies.each_ref().map(|body| {
         let (mesh, drop) = (body.mesh().unwrap(), pair.approach().speed());
@@ -15,7 +15,7 @@ fn model(pair: &Pair, coefficients: ViscosityCoefficients) -> Model {
         vec![Box::new(part) as Box<dyn NodeForce>]
     });
     let parts = Parts { node_forces, ..Parts::default() };
-    Model::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
+    ExplicitBodies::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
 }
 
 fn viscous(pair: &Pair) -> Collision {
@@ -87,7 +87,7 @@ fn what_it_takes_of_a_slow_pair_is_little_and_falls_fast() {
 fn it_is_resumed_and_another_is_refused() {
     let pair = Pair { velocities: [5.0, 0.0], history_rows: 0, ..fast() };
     let (bare, usual) = (pair.model(), model(&pair, ViscosityCoefficients::default()));
-    let n_bytes = |model: &Model| {
+    let n_bytes = |model: &ExplicitBodies| {
         let run = Run::new(model, pair.expected(), &pair.request());
         postcard::to_stdvec(run.restart_state()).unwrap().len()
     };

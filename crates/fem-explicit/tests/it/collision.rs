@@ -2,7 +2,7 @@
 
 use crate::common::{COARSE_RUN, Pair, Quantities, quantities};
 use fem_collision::{Account, BodyInput, Collision, Ending};
-use fem_explicit::{ContactMethod, Model, Settings};
+use fem_explicit::{ContactMethod, ExplicitBodies, Settings};
 use fem_material::ActsOn;
 
 /// Scatter of the force from instant to instant over its peak.
@@ -186,7 +186,7 @@ fn a_wall_is_the_mirror_of_a_twin() {
     let settings = twins.settings();
     let halved = Settings { contact_stiffness: 0.5 * settings.contact_stiffness, ..settings };
     let bodies = [twins.sphere(0), twins.sphere(1)];
-    let model = Model::new(bodies, twins.approach(), &halved).unwrap();
+    let model = ExplicitBodies::new(bodies, twins.approach(), &halved).unwrap();
     let twins = quantities(&twins.run_model(&model));
     for (velocities, wall, velocity) in [
         ([0.0, -0.5], 0, 0.0),

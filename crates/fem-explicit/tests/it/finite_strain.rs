@@ -4,8 +4,8 @@ use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
 };
 use fem_explicit::{
-    Contact, FreeMotion, Model, ModelError, MovedContact, Parts, RestartState, Run, Settings,
-    collide,
+    Contact, ExplicitBodies, FreeMotion, ModelError, MovedContact, Parts, RestartState, Run,
+    Settings, collide,
 };
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -82,7 +82,7 @@ impl Ball {
         disc.build().unwrap().on_side(Side::Above)
     }
 
-    fn model(&self) -> Model {
+    fn model(&self) -> ExplicitBodies {
         let (mesh, material) = (self.mesh(), self.material());
         let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
         let settings = Settings {
@@ -94,7 +94,7 @@ impl Ball {
         };
         let approach = Approach::new([0.0, -self.speed], 0.0).unwrap();
         let parts = Parts { finite_strain: [None, self.law], ..Parts::default() };
-        Model::with_parts(bodies, approach, &settings, parts).unwrap()
+        ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
     }
 
     fn run(&self) -> Collision {
@@ -103,13 +103,13 @@ impl Ball {
 }
 
 /// A pair of these laws, or at small strain, on the contact of bodies at finite strain.
-fn on_moved_surfaces(pair: &Pair, finite_strain: [Option<HyperelasticLaw>; 2]) -> Model {
+fn on_moved_surfaces(pair: &Pair, finite_strain: [Option<HyperelasticLaw>; 2]) -> ExplicitBodies {
     let bodies = [pair.sphere(0), pair.sphere(1)];
     let (approach, settings) = (pair.approach(), pair.settings());
     let contact = MovedContact::new(&bodies, approach.gap(), &settings).unwrap();
     let contact = Some(Box::new(contact) as Box<dyn Contact>);
     let parts = Parts { finite_strain, contact, ..Parts::default() };
-    Model::with_parts(bodies, approach, &settings, parts).unwrap()
+    ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
 }
 
 /// Returns the changes of contact time, force and approach of the glass pair by a law, in per cent of those at small
@@ -373,7 +373,7 @@ fn run_pressed_flat(bodies: [BodyInput; 2], speed: f64) -> Collision {
     let law = Some(HyperelasticLaw::NeoHooke);
     let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
     let approach = Approach::new([0.0, -speed], 0.0).unwrap();
-    let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+    let model = ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap();
     let expected = Expectation { contact_time: 2e-3, approach: 10e-3 };
     collide(&model, expected, &OutputRequest::history(), &mut ())
 }

@@ -7,7 +7,7 @@ use fem_collision::{
     far_radius_of_waves,
 };
 use fem_contact::ContactError;
-use fem_explicit::{Model, ModelError, Run, Settings, collide};
+use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, QuarterDisc, Side};
 
@@ -78,7 +78,7 @@ impl Default for Ball {
 }
 
 impl Ball {
-    fn model(&self) -> Model {
+    fn model(&self) -> ExplicitBodies {
         let Hertz { contact_radius, time, .. } = Hertz::at(self.speed);
         let (size, refined_radius) = (contact_radius / 6.0, 1.2 * contact_radius);
         let candidate_radius = self.candidates * contact_radius;
@@ -117,7 +117,7 @@ impl Ball {
             mass_scaling: self.mass_scaling,
             mass_times: [1.0; 2],
         };
-        Model::new(bodies, Approach::new(velocities, 0.0).unwrap(), &settings).unwrap()
+        ExplicitBodies::new(bodies, Approach::new(velocities, 0.0).unwrap(), &settings).unwrap()
     }
 
     fn expected(&self) -> Expectation {
@@ -195,7 +195,7 @@ fn a_partner_forty_times_larger_is_a_half_space() {
         mass_scaling: 0.0,
         mass_times: [1.0; 2],
     };
-    let large = Model::new(bodies, *model.approach(), &settings).unwrap();
+    let large = ExplicitBodies::new(bodies, *model.approach(), &settings).unwrap();
     let expected = Ball::default().expected();
     let large = collide(&large, expected, &OutputRequest::quantities(), &mut ());
     // R* is 1/41 smaller: 1.5 % less at the power 3/5 of the loss on R*. The sphere's curvature has a
@@ -345,7 +345,8 @@ fn a_half_space_meets_a_sphere() {
     };
     for upper in [BodyInput::Wall, block(Side::Above)] {
         let bodies = [block(Side::Below), upper];
-        let refused = Model::new(bodies, Approach::at(1.0).unwrap(), &settings).unwrap_err();
+        let refused =
+            ExplicitBodies::new(bodies, Approach::at(1.0).unwrap(), &settings).unwrap_err();
         assert_eq!(refused, ModelError::Contact(ContactError::TwoPlanes));
     }
 }

@@ -2,14 +2,15 @@
 
 use fem_collision::{Approach, BodyInput, Expectation, OutputRequest};
 use fem_explicit::{
-    BulkViscosity, Model, NodeForce, Parts, Run, Settings, ViscosityCoefficients, limit_lanes,
+    BulkViscosity, ExplicitBodies, NodeForce, Parts, Run, Settings, ViscosityCoefficients,
+    limit_lanes,
 };
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side};
 
 /// A unit sphere that hits a wall at a tenth of the shear wave speed, with relaxation terms of these weights.
-fn model(weights: &[f64], acts_on: ActsOn, parts: Parts, viscosity: bool) -> Model {
+fn model(weights: &[f64], acts_on: ActsOn, parts: Parts, viscosity: bool) -> ExplicitBodies {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.0 * 1.244, 0.244).unwrap();
     let term = |(k, &weight): (usize, &f64)| PronyTerm { weight, relaxation_time: 0.2 + k as f64 };
     let terms = weights.iter().enumerate().map(term).collect();
@@ -31,7 +32,7 @@ fn model(weights: &[f64], acts_on: ActsOn, parts: Parts, viscosity: bool) -> Mod
         mass_times: [1.0; 2],
     };
     let approach = Approach::new([0.0, -0.1], 0.0).unwrap();
-    Model::with_parts(bodies, approach, &settings, parts).unwrap()
+    ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
 }
 
 /// Hertz' contact time and approach.
@@ -39,7 +40,7 @@ const EXPECTED: Expectation = Expectation { contact_time: 5.4, approach: 0.18 };
 
 /// Returns the restart state after some steps on lanes of at most this width, as bytes. It has displacements, velocities,
 /// internal variables, energies and the time step.
-fn state_on(widest: u8, model: &Model) -> Vec<u8> {
+fn state_on(widest: u8, model: &ExplicitBodies) -> Vec<u8> {
     limit_lanes(widest);
     let mut run = Run::new(model, EXPECTED, &OutputRequest::history());
     assert_eq!(run.advance(50), None);

@@ -2,7 +2,7 @@
 
 use crate::common::{Pair, quantities};
 use fem_collision::{BodyInput, Collision, Ending};
-use fem_explicit::{ContactMethod, Model, Run};
+use fem_explicit::{ContactMethod, ExplicitBodies, Run};
 use fem_material::ActsOn;
 
 fn coarse() -> Pair {
@@ -113,7 +113,7 @@ fn a_resumed_run_is_the_same_to_the_bit() {
 #[test]
 fn masses_and_their_centres_stay() {
     let masses = |method| {
-        let model: Model = Pair { method, ..coarse() }.model();
+        let model: ExplicitBodies = Pair { method, ..coarse() }.model();
         model.bodies().each_ref().map(|body| {
             let nodes = body.mesh().unwrap().nodes().iter();
             let moment: f64 = body.nodal_mass().iter().zip(nodes).map(|(m, x)| m * x[1]).sum();

@@ -4,19 +4,25 @@ use crate::common::{Pair, Quantities, quantities};
 use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
 };
-use fem_explicit::{Contact, Model, MovedContact, Parts, Run, Settings, collide};
+use fem_explicit::{Contact, ExplicitBodies, MovedContact, Parts, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side};
 
 /// With contact on the undeformed surfaces, or on the moved ones.
-fn model(bodies: [BodyInput; 2], approach: Approach, settings: &Settings, is_moved: bool) -> Model {
+fn model(
+    bodies: [BodyInput; 2],
+    approach: Approach,
+    settings: &Settings,
+    is_moved: bool,
+) -> ExplicitBodies {
     let moved = is_moved.then(|| MovedContact::new(&bodies, approach.gap(), settings).unwrap());
     let contact = moved.map(|contact| Box::new(contact) as Box<dyn Contact>);
-    Model::with_parts(bodies, approach, settings, Parts { contact, ..Parts::default() }).unwrap()
+    ExplicitBodies::with_parts(bodies, approach, settings, Parts { contact, ..Parts::default() })
+        .unwrap()
 }
 
-fn of_pair(pair: &Pair, bodies: [BodyInput; 2]) -> [Model; 2] {
+fn of_pair(pair: &Pair, bodies: [BodyInput; 2]) -> [ExplicitBodies; 2] {
     [false, true].map(|moved| model(bodies.clone(), pair.approach(), &pair.settings(), moved))
 }
 
@@ -231,7 +237,7 @@ fn a_body_at_finite_strain_has_it_by_itself() {
         let with = |law: Option<HyperelasticLaw>| {
             let parts = Parts { finite_strain: [None, law], ..Parts::default() };
             let approach = Approach::new([0.0, -3.0], 0.0).unwrap();
-            Model::with_parts(bodies.clone(), approach, &settings, parts).unwrap()
+            ExplicitBodies::with_parts(bodies.clone(), approach, &settings, parts).unwrap()
         };
         assert!(with(None).interface().is_some());
         let model = with(Some(HyperelasticLaw::NeoHooke));

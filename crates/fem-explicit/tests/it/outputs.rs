@@ -6,7 +6,7 @@ use fem_collision::{
     SnapshotInstant, SnapshotRequest, Stop,
 };
 use fem_contact::ContactError;
-use fem_explicit::{Model, ModelError, Settings, collide};
+use fem_explicit::{ExplicitBodies, ModelError, Settings, collide};
 use fem_material::ActsOn;
 
 fn assert_times_increase(run: &Collision) {
@@ -228,11 +228,11 @@ fn a_run_that_does_not_separate_gives_up() {
 fn settings_out_of_range_are_refused() {
     let pair = Pair::coarse();
     let model = |approach: Approach, settings: &Settings| {
-        Model::new([pair.sphere(0), pair.sphere(1)], approach, settings)
+        ExplicitBodies::new([pair.sphere(0), pair.sphere(1)], approach, settings)
     };
     let (approach, good) = (pair.approach(), pair.settings());
     assert!(model(approach, &good).is_ok());
-    let refuses = |refused: Result<Model, ModelError>, name: &str| match refused {
+    let refuses = |refused: Result<ExplicitBodies, ModelError>, name: &str| match refused {
         Err(ModelError::Setting { name: found, .. }) => assert_eq!(found, name),
         other => panic!("{name}: {:?}", other.err()),
     };
@@ -248,6 +248,7 @@ fn settings_out_of_range_are_refused() {
     }
     let refused = model(approach, &Settings { contact_stiffness: 0.0, ..good }).unwrap_err();
     assert!(matches!(refused, ModelError::Contact(ContactError::NotPositive { .. })));
-    let walls = Model::new([BodyInput::Wall, BodyInput::Wall], approach, &good).unwrap_err();
+    let walls =
+        ExplicitBodies::new([BodyInput::Wall, BodyInput::Wall], approach, &good).unwrap_err();
     assert_eq!(walls, ModelError::Contact(ContactError::BothRigid));
 }

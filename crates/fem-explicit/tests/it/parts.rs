@@ -6,8 +6,8 @@ use crate::common::{Pair, quantities};
 use fem_collision::{Account, BodyInput, CandidateRegion, SnapshotInstant, SnapshotRequest};
 use fem_contact::{ContactForces, ContactInterface, Profile, Surface};
 use fem_explicit::{
-    Accounts, Contact, Field, Model, ModelError, Motion, MotionMut, NodalField, NodeForce, Part,
-    Parts, Run, Springs,
+    Accounts, Contact, ExplicitBodies, Field, ModelError, Motion, MotionMut, NodalField, NodeForce,
+    Part, Parts, Run, Springs,
 };
 
 fn small() -> Pair {
@@ -15,9 +15,9 @@ fn small() -> Pair {
     Pair { snapshots, ..Pair::small() }
 }
 
-fn model(pair: &Pair, parts: Parts) -> Model {
+fn model(pair: &Pair, parts: Parts) -> ExplicitBodies {
     let bodies = [pair.sphere(0), pair.sphere(1)];
-    Model::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
+    ExplicitBodies::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
 }
 
 fn on_both<F: NodeForce + Clone>(force: &F) -> Parts {
@@ -26,7 +26,7 @@ fn on_both<F: NodeForce + Clone>(force: &F) -> Parts {
 }
 
 /// Returns the size of the restart state before the first step, in bytes.
-fn n_bytes(pair: &Pair, model: &Model) -> usize {
+fn n_bytes(pair: &Pair, model: &ExplicitBodies) -> usize {
     let run = Run::new(model, pair.expected(), &pair.request());
     postcard::to_stdvec(run.restart_state()).unwrap().len()
 }
@@ -181,7 +181,8 @@ fn a_force_on_a_wall_is_refused() {
     let pair = small();
     let bodies = [BodyInput::Wall, pair.sphere(1)];
     let parts = on_both(&Pull(1.0));
-    let refused = Model::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap_err();
+    let refused =
+        ExplicitBodies::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap_err();
     assert_eq!(refused, ModelError::ForceOnWall);
 }
 

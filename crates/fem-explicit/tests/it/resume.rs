@@ -7,7 +7,7 @@ use fem_collision::{
     BodyInput, Collision, Ending, Monitor, OutputRequest, Progress, SnapshotInstant,
     SnapshotRequest, Stop,
 };
-use fem_explicit::{Model, ModelError, Run, Settings, collide};
+use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
 use fem_material::ActsOn;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
@@ -174,7 +174,7 @@ fn a_restart_state_of_a_slightly_different_model_is_refused() {
     let upper = moved(pair.sphere(1).mesh().unwrap(), [0.1e-3, 0.22e-3], 60e-6);
     let model = |mesh: &SphereMesh, settings: &Settings| {
         let sphere = BodyInput::Sphere { mesh: mesh.clone(), material: pair.material() };
-        Model::new([BodyInput::Wall, sphere], pair.approach(), settings).unwrap()
+        ExplicitBodies::new([BodyInput::Wall, sphere], pair.approach(), settings).unwrap()
     };
     let plain = model(&upper, &soft);
     let mut run = Run::new(&plain, pair.expected(), &pair.request());
@@ -297,10 +297,10 @@ fn a_run_that_is_left_is_interrupted_where_it_is() {
 /// A run that owns a share of its model can be handed on.
 #[test]
 fn a_run_can_hold_its_model() {
-    fn begun(pair: &Pair) -> Run<Arc<Model>> {
+    fn begun(pair: &Pair) -> Run<Arc<ExplicitBodies>> {
         Run::new(Arc::new(pair.model()), pair.expected(), &pair.request())
     }
-    fn finished(mut run: Run<Arc<Model>>) -> Collision {
+    fn finished(mut run: Run<Arc<ExplicitBodies>>) -> Collision {
         while run.advance(64).is_none() {}
         assert_eq!(run.model().n_elements(), Pair::small().model().n_elements());
         run.finish()

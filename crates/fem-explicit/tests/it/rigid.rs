@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::common::{CONTACT_MODULUS, Pair, quantities, stored};
 use fem_collision::{Approach, BodyInput, Collision, Ending, Expectation, SnapshotRequest};
 use fem_contact::ContactError;
-use fem_explicit::{Model, ModelError, Run, Settings, collide};
+use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
 use fem_material::{ActsOn, ElasticModuli, Material};
 
 /// Masses of glass spheres with the radii (m) of the paper's pair, kg.
@@ -25,7 +25,7 @@ fn bodies_of(pair: &Pair, rigid: usize, factor: f64) -> [BodyInput; 2] {
     bodies
 }
 
-fn model(pair: &Pair, rigid: usize) -> Model {
+fn model(pair: &Pair, rigid: usize) -> ExplicitBodies {
     pair.model_of(bodies_of(pair, rigid, 1.0))
 }
 
@@ -179,7 +179,8 @@ fn a_stiff_partner_comes_to_the_rigid_one_as_foretold() {
     let pair = Pair { history_rows: 0, velocities: [0.0, -0.5], ..coarse() };
     // What is moved beside a rigid body is not what is moved beside an elastic one.
     let settings = Settings { mass_scaling: 0.0, ..pair.settings() };
-    let model_of = |bodies: [BodyInput; 2]| Model::new(bodies, pair.approach(), &settings).unwrap();
+    let model_of =
+        |bodies: [BodyInput; 2]| ExplicitBodies::new(bodies, pair.approach(), &settings).unwrap();
     for (ratio, tolerance) in [(30.0, 0.06), (1e4, 0.2)] {
         let moduli =
             ElasticModuli::from_youngs_modulus_poissons_ratio(63e9 * ratio, 0.244).unwrap();
@@ -215,7 +216,7 @@ fn a_rigid_partner_costs_nothing() {
     let BodyInput::Sphere { mesh, .. } = pair.sphere(0) else { panic!("a sphere") };
     let meshed = step(BodyInput::Sphere { mesh, material });
     let own = step(bodies_of(&pair, 0, 1.0)[0].clone());
-    let updates = |model: &Model| model.n_elements() as f64 / model.time_step();
+    let updates = |model: &ExplicitBodies| model.n_elements() as f64 / model.time_step();
     let saved = updates(&meshed) / updates(&own);
     assert!(saved > 100.0 && saved < 200.0, "{saved}");
     // No node of it takes part but one.
@@ -230,7 +231,7 @@ fn a_light_rigid_bead_is_stable() {
     let pair = Pair { radii: [1e-3, 7.95e-3], element_size: 20e-6, ..coarse() };
     let bodies = bodies_of(&pair, 0, 1.0);
     let settings = Settings { candidate_radius: 60e-6, ..pair.settings() };
-    let light = Model::new(bodies, Approach::at(speed).unwrap(), &settings).unwrap();
+    let light = ExplicitBodies::new(bodies, Approach::at(speed).unwrap(), &settings).unwrap();
     let expected = Expectation { contact_time: 6e-6, approach: 1e-6 };
     let run = collide(&light, expected, &pair.request(), &mut ());
     let found = quantities(&run);
@@ -271,7 +272,7 @@ fn impossible_bodies_are_refused() {
     let pair = coarse();
     let new = |radius: f64, mass: f64| {
         let bodies = [BodyInput::Rigid { radius, mass }, pair.sphere(1)];
-        Model::new(bodies, pair.approach(), &pair.settings()).err()
+        ExplicitBodies::new(bodies, pair.approach(), &pair.settings()).err()
     };
     assert_eq!(new(1e-2, 1.0), None);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
@@ -282,7 +283,7 @@ fn impossible_bodies_are_refused() {
     }
     let rigid = || BodyInput::Rigid { radius: 1e-2, mass: 1.0 };
     for bodies in [[rigid(), BodyInput::Wall], [rigid(), rigid()]] {
-        let refused = Model::new(bodies, pair.approach(), &pair.settings()).unwrap_err();
+        let refused = ExplicitBodies::new(bodies, pair.approach(), &pair.settings()).unwrap_err();
         assert_eq!(refused, ModelError::Contact(ContactError::BothRigid));
     }
 }

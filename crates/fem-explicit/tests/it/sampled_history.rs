@@ -2,7 +2,7 @@
 
 use crate::common::{HERTZ_TIME, Pair};
 use fem_collision::{Collision, Expectation, OutputRequest, Stop};
-use fem_explicit::{Model, collide};
+use fem_explicit::{ExplicitBodies, collide};
 use fem_material::ActsOn;
 
 /// Elastic, and relaxing in shear.
@@ -18,7 +18,7 @@ fn but_rows(run: &Collision) -> String {
 
 /// Runs a model for so many rows.
 fn run_for(
-    model: &Model,
+    model: &ExplicitBodies,
     expected: Expectation,
     request: OutputRequest,
     history_rows: usize,

@@ -1,7 +1,7 @@
 //! Collisions of unlike bodies whose surfaces slip on each other.
 
 use fem_collision::BodyInput;
-use fem_explicit::{ContactMethod, Model, ModelError, Parts, Run, Settings};
+use fem_explicit::{ContactMethod, ExplicitBodies, ModelError, Parts, Run, Settings};
 use fem_material::{ElasticModuli, Material};
 
 use crate::common::{Pair, quantities};
@@ -24,14 +24,14 @@ fn pair() -> Pair {
     }
 }
 
-fn model(pair: &Pair, material: Option<Material>, surface_slip: bool) -> Model {
+fn model(pair: &Pair, material: Option<Material>, surface_slip: bool) -> ExplicitBodies {
     let mut bodies = [pair.sphere(0), pair.sphere(1)];
     if let (BodyInput::Sphere { material: own, .. }, Some(material)) = (&mut bodies[0], material) {
         *own = material;
     }
     let parts = Parts { surface_slip, method: pair.method, ..Parts::default() };
     let settings = Settings { contact_stiffness: 60e9, ..pair.settings() };
-    Model::with_parts(bodies, pair.approach(), &settings, parts).unwrap()
+    ExplicitBodies::with_parts(bodies, pair.approach(), &settings, parts).unwrap()
 }
 
 /// In first order a spring in series with Hertz' contact (`fem-laws`, `surface_slip.rs`): with a of the
@@ -98,7 +98,7 @@ fn a_boundary_without_mass_slips_quietly_at_any_stiffness() {
         }
         let parts = Parts { surface_slip: true, method: pair.method, ..Parts::default() };
         let settings = Settings { contact_stiffness: factor * 3e9, ..pair.settings() };
-        let model = Model::with_parts(bodies, pair.approach(), &settings, parts).unwrap();
+        let model = ExplicitBodies::with_parts(bodies, pair.approach(), &settings, parts).unwrap();
         (model.time_step(), pair.run_model(&model))
     };
     let (step, usual) = run(1.0);

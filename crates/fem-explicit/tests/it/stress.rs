@@ -1,7 +1,7 @@
 //! Stress recovery from displacements.
 
 use fem_collision::{Approach, BodyFields, BodyInput, StressField, invariants};
-use fem_explicit::{Body, Model, Settings};
+use fem_explicit::{Body, ExplicitBodies, Settings};
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side};
 
@@ -10,7 +10,7 @@ fn moduli() -> ElasticModuli {
 }
 
 /// Wall and unit sphere with `n` elements over its radius.
-fn model(n: f64) -> Model {
+fn model(n: f64) -> ExplicitBodies {
     let disc =
         HalfDisc { radius: 1.0, contact_element_size: 1.0 / n, refined_radius: 0.5, growth: None };
     let sphere = BodyInput::Sphere {
@@ -24,7 +24,7 @@ fn model(n: f64) -> Model {
         mass_scaling: 0.0,
         mass_times: [1.0; 2],
     };
-    Model::new([BodyInput::Wall, sphere], Approach::at(1.0).unwrap(), &settings).unwrap()
+    ExplicitBodies::new([BodyInput::Wall, sphere], Approach::at(1.0).unwrap(), &settings).unwrap()
 }
 
 fn stress_of(body: &Body, displacement: impl Fn([f64; 2]) -> [f64; 2]) -> StressField {

@@ -11,7 +11,7 @@
 use faer::{Mat, Side as Triangle};
 use fem_collision::{Approach, BodyInput};
 use fem_element::{QuadGeometry, mean_gradient};
-use fem_explicit::{Body, FreeMotion, Model, Settings};
+use fem_explicit::{Body, ExplicitBodies, FreeMotion, Settings};
 use fem_figure::{Axis, Chart, Curve, GREY};
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
@@ -125,7 +125,7 @@ struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    fn model(&self) -> Result<Model, StudyError> {
+    fn model(&self) -> Result<ExplicitBodies, StudyError> {
         let body = |k: usize, side: Side| {
             let (mesh, material) = (sphere(self.sizes[k], side)?, self.material.clone());
             Ok::<_, StudyError>(BodyInput::Sphere { mesh, material })
@@ -139,7 +139,7 @@ impl Pair<'_> {
             mass_times: [1.0; 2],
         };
         let bodies = [body(0, Side::Below)?, body(1, Side::Above)?];
-        Ok(Model::new(bodies, Approach::at(1.0)?, &settings)?)
+        Ok(ExplicitBodies::new(bodies, Approach::at(1.0)?, &settings)?)
     }
 
     /// Returns the ratio with all candidates closed, and that with springs stiffer by a factor.
@@ -197,7 +197,7 @@ impl Assembly {
 
     /// Adds the springs of all candidates times a factor, from the forces of a deep penetration, which are
     /// linear.
-    fn add_contact(&mut self, model: &Model, times: f64) -> Result<(), StudyError> {
+    fn add_contact(&mut self, model: &ExplicitBodies, times: f64) -> Result<(), StudyError> {
         let springs = model.interface().ok_or_else(no_springs)?;
         let deep = |n: usize, u: f64| vec![[0.0, u]; n];
         let n_nodes = model.bodies().each_ref().map(|body| body.nodal_mass().len());

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use fem_collision::{
     Account, Approach, BodyInput, Expectation, HistoryRow, OutputRequest, nan_aware_max_abs,
 };
-use fem_explicit::{Model, ModelError, MovedContact, NodeForce, Parts, Run, Settings};
+use fem_explicit::{ExplicitBodies, ModelError, MovedContact, NodeForce, Parts, Run, Settings};
 use fem_figure::{Axis, Chart, Curve};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
@@ -94,7 +94,7 @@ fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<HistoryRow>, u64), Stu
         contact: Some(Box::new(contact)),
         ..Parts::default()
     };
-    let model = Arc::new(Model::with_parts(bodies, approach, &settings, parts)?);
+    let model = Arc::new(ExplicitBodies::with_parts(bodies, approach, &settings, parts)?);
     let deepest = 1.03 * depths.iter().copied().fold(0.0, f64::max);
     let duration = deepest / speed;
     let expected = Expectation { contact_time: duration, approach: deepest };

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, SVector};
 
 use super::*;
 use crate::energy::Ledger;
-use crate::model::{Model, Parts};
+use crate::model::{ExplicitBodies, Parts};
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
@@ -268,7 +268,8 @@ fn the_work_of_viscosity_is_what_the_motion_loses() {
         let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
         let settings = Settings { step_factor: 1.0, ..settings() };
         let model =
-            Model::with_parts([BodyInput::Wall, sphere], approach, &settings, parts).unwrap();
+            ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings, parts)
+                .unwrap();
         let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
         // Back from first touch, where the wall is now.
         state.bodies[0].displacement.fill([0.0; 2]);

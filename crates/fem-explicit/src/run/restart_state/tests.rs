@@ -13,14 +13,14 @@ use crate::test_support::{relaxing_glass, settings, sphere, unit_glass};
 const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
 
 /// An elastic unit sphere below one that relaxes, at a hundredth of the wave's speed.
-fn model() -> Model {
+fn model() -> ExplicitBodies {
     let glasses = [unit_glass(), relaxing_glass(&[(0.5, 10.0)], ActsOn::Shear)];
     let mut glasses = glasses.into_iter();
     let bodies = [Side::Below, Side::Above].map(|side| BodyInput::Sphere {
         mesh: sphere(0.1, 0.15, side),
         material: glasses.next().unwrap(),
     });
-    Model::new(bodies, Approach::at(0.01).unwrap(), &settings()).unwrap()
+    ExplicitBodies::new(bodies, Approach::at(0.01).unwrap(), &settings()).unwrap()
 }
 
 fn requests() -> [SnapshotRequest; 3] {
@@ -33,7 +33,7 @@ fn request(snapshots: SnapshotRequest) -> OutputRequest {
 }
 
 /// After so many steps, or at the end of the run.
-fn memory(model: &Model, snapshots: SnapshotRequest, n_steps: u64) -> RestartState {
+fn memory(model: &ExplicitBodies, snapshots: SnapshotRequest, n_steps: u64) -> RestartState {
     let mut run = Run::new(model, EXPECTED, &request(snapshots));
     run.advance(n_steps);
     run.restart_state().clone()

@@ -10,10 +10,10 @@ use crate::test_support::{settings, unit_glass, unit_sphere};
 
 const CONTACT_TIME: f64 = 2.0;
 
-fn model() -> Model {
+fn model() -> ExplicitBodies {
     let mesh = unit_sphere(4.0, Side::Above);
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material: unit_glass() }];
-    Model::new(bodies, Approach::new([1.0, 0.0], 0.5).unwrap(), &settings()).unwrap()
+    ExplicitBodies::new(bodies, Approach::new([1.0, 0.0], 0.5).unwrap(), &settings()).unwrap()
 }
 
 fn expectation(approach: f64, contact_time: f64) -> Expectation {
@@ -24,7 +24,7 @@ fn expectation(approach: f64, contact_time: f64) -> Expectation {
 /// end and the most states it held.
 fn record(
     request: &SnapshotRequest,
-    model: &Model,
+    model: &ExplicitBodies,
     peak: f64,
     expected: f64,
     n_steps: usize,

@@ -3,41 +3,46 @@ use fem_material::finite::HyperelasticLaw;
 use fem_mesh::Side;
 
 use super::*;
-use crate::model::{Model, Parts};
+use crate::model::{ExplicitBodies, Parts};
 use crate::state::State;
 use crate::test_support::{settings, unit_glass, unit_sphere};
 
-fn model(law: Option<HyperelasticLaw>) -> Model {
+fn model(law: Option<HyperelasticLaw>) -> ExplicitBodies {
     at_speed(law, 0.01)
 }
 
 /// The sphere at a speed of approach; pressure waves have the speed 1.1.
-fn at_speed(law: Option<HyperelasticLaw>, speed: f64) -> Model {
+fn at_speed(law: Option<HyperelasticLaw>, speed: f64) -> ExplicitBodies {
     let sphere = BodyInput::Sphere { mesh: unit_sphere(4.0, Side::Above), material: unit_glass() };
     let parts = Parts { finite_strain: [None, law], ..Parts::default() };
     let approach = Approach::new([speed, 0.0], 1e3 * speed).unwrap();
-    Model::with_parts([BodyInput::Wall, sphere], approach, &settings(), parts).unwrap()
+    ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings(), parts).unwrap()
 }
 
 /// The control of a model at first touch.
-fn first(model: &Model) -> StepControl {
+fn first(model: &ExplicitBodies) -> StepControl {
     State::at_first_touch(model).step_control.unwrap()
 }
 
 /// The step over the model's.
-fn share_of(control: &StepControl, model: &Model) -> f64 {
+fn share_of(control: &StepControl, model: &ExplicitBodies) -> f64 {
     control.time_step(model.time_step()) / model.time_step()
 }
 
 /// The control after a bound where the critical step is a multiple of the model's.
-fn after(control: &StepControl, model: &Model, step: u64, critical: f64) -> Option<StepControl> {
+fn after(
+    control: &StepControl,
+    model: &ExplicitBodies,
+    step: u64,
+    critical: f64,
+) -> Option<StepControl> {
     strained(control, model, step, critical, 0.0)
 }
 
 /// The same at a strain rate, per step of the model.
 fn strained(
     control: &StepControl,
-    model: &Model,
+    model: &ExplicitBodies,
     step: u64,
     critical: f64,
     rate: f64,

@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
-use fem_explicit::{ContactMethod, Model, Parts, RestartState, Run, Settings, collide};
+use fem_explicit::{ContactMethod, ExplicitBodies, Parts, RestartState, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side};
@@ -121,14 +121,14 @@ impl Pair {
         }
     }
 
-    pub fn model(&self) -> Model {
+    pub fn model(&self) -> ExplicitBodies {
         self.model_of([self.sphere(0), self.sphere(1)])
     }
 
-    pub fn model_of(&self, bodies: [BodyInput; 2]) -> Model {
+    pub fn model_of(&self, bodies: [BodyInput; 2]) -> ExplicitBodies {
         let finite_strain = bodies.each_ref().map(|body| body.mesh().and(self.law));
         let parts = Parts { finite_strain, method: self.method, ..Parts::default() };
-        Model::with_parts(bodies, self.approach(), &self.settings(), parts).unwrap()
+        ExplicitBodies::with_parts(bodies, self.approach(), &self.settings(), parts).unwrap()
     }
 
     pub fn expected(&self) -> Expectation {
@@ -149,12 +149,12 @@ impl Pair {
         self.run_model(&self.model())
     }
 
-    pub fn run_model(&self, model: &Model) -> Collision {
+    pub fn run_model(&self, model: &ExplicitBodies) -> Collision {
         collide(model, self.expected(), &self.request(), &mut ())
     }
 
     /// Runs in pieces of some steps, each from the stored restart state of the one before.
-    pub fn in_pieces(&self, model: &Model, n_steps: u64) -> Collision {
+    pub fn in_pieces(&self, model: &ExplicitBodies, n_steps: u64) -> Collision {
         let mut run = Run::new(model, self.expected(), &self.request());
         while run.advance(n_steps).is_none() {
             run = Run::resume(model, stored(run.restart_state())).unwrap();

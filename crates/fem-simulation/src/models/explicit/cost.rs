@@ -1,7 +1,7 @@
 //! Cost of a run with explicit elements, within the limits.
 
 use fem_case::{Body, Scene};
-use fem_explicit::Model as Bodies;
+use fem_explicit::ExplicitBodies;
 use fem_material::{Material, PronySeries};
 
 use crate::effects::{BulkViscosity, FiniteStrain};
@@ -30,7 +30,7 @@ const SECONDS_OF_MOVED_CONTACT: f64 = 6e-6;
 const SECONDS_OF_CONDENSED_REFERENCE: f64 = 30e-6;
 
 /// Returns the cost of a run, within the limits.
-pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Rejection> {
+pub(super) fn cost(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> Result<Cost, Rejection> {
     let elements = model.n_elements() as u64;
     let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
     let branches: u64 = (model.bodies().iter().zip(scene.bodies()))
@@ -91,7 +91,7 @@ fn with_reference_runs(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) 
 
 /// Returns the bytes of the condensed reference runs, the largest of which has elements of half the length; `None` if they
 /// are not made.
-fn reference_memory(scene: &Scene, model: &Bodies, plan: &Plan) -> Option<u64> {
+fn reference_memory(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> Option<u64> {
     let [lower, upper] = scene.bodies();
     let [of_lower, of_upper] = model.bodies().each_ref().map(|body| 4 * body.n_elements() as u64);
     let are_allowed = bytes::MOST * (of_lower + of_upper) <= plan.max_memory;
@@ -100,7 +100,7 @@ fn reference_memory(scene: &Scene, model: &Bodies, plan: &Plan) -> Option<u64> {
 }
 
 /// Returns the seconds per step of both bodies.
-fn seconds_a_step(scene: &Scene, model: &Bodies, plan: &Plan) -> f64 {
+fn seconds_a_step(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> f64 {
     let is_finite = model.changes_stiffness();
     let whole = mach(scene, scene.approach_speed() / plan.speed_share);
     let viscous =

@@ -10,7 +10,7 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, StaticContact, Stop,
 };
 use fem_explicit::{
-    ContactMethod, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings,
+    ContactMethod, ExplicitBodies, ModelError, NodeForce, Parts, Run, Settings,
     ViscosityCoefficients, Weight,
 };
 use fem_mesh::SphereMesh;
@@ -80,7 +80,7 @@ pub struct Explicit {
     /// Frame in which the scene's bodies are computed.
     frame: OwnFrame,
     /// Bodies and contact at the approach of the scene.
-    bodies: Arc<Bodies>,
+    bodies: Arc<ExplicitBodies>,
 }
 
 /// Sources of the bodies.
@@ -154,7 +154,7 @@ impl Explicit {
     }
 
     /// Returns bodies and contact at the approach of the scene.
-    pub fn bodies(&self) -> &Bodies {
+    pub fn bodies(&self) -> &ExplicitBodies {
         &self.bodies
     }
 
@@ -162,14 +162,18 @@ impl Explicit {
     ///
     /// # Errors
     /// A collision of other bodies.
-    pub fn bodies_of(&self, collision: &Collision) -> Result<Arc<Bodies>, ModelError> {
+    pub fn bodies_of(&self, collision: &Collision) -> Result<Arc<ExplicitBodies>, ModelError> {
         let candidate_region = collision.candidate_region.unwrap_or(self.bodies.candidate_region());
         let frame = self.made.own_frame(&collision.approach)?;
         self.bodies_at(frame.own(), candidate_region.radius)
     }
 
     /// Returns bodies with an approach in their own frame and a candidate radius, m, which may be the model's own.
-    fn bodies_at(&self, approach: &Approach, radius: f64) -> Result<Arc<Bodies>, ModelError> {
+    fn bodies_at(
+        &self,
+        approach: &Approach,
+        radius: f64,
+    ) -> Result<Arc<ExplicitBodies>, ModelError> {
         if *approach == *self.frame.own() && radius == self.bodies.candidate_radius() {
             return Ok(self.bodies.clone());
         }
@@ -191,7 +195,10 @@ impl Explicit {
     }
 
     /// Returns the bodies at an approach, their frame, and the closed-form estimate.
-    fn meeting(&self, approach: &Approach) -> Result<(Arc<Bodies>, OwnFrame, Estimate), Stop> {
+    fn meeting(
+        &self,
+        approach: &Approach,
+    ) -> Result<(Arc<ExplicitBodies>, OwnFrame, Estimate), Stop> {
         if *approach == self.setup.approach {
             return Ok((self.bodies.clone(), self.frame, self.setup.estimate));
         }
@@ -213,7 +220,11 @@ impl Made {
     }
 
     /// Builds bodies with a candidate radius, m, and the parts that the effects need.
-    fn bodies(&self, approach: &Approach, candidate_radius: f64) -> Result<Bodies, ModelError> {
+    fn bodies(
+        &self,
+        approach: &Approach,
+        candidate_radius: f64,
+    ) -> Result<ExplicitBodies, ModelError> {
         let settings = Settings { candidate_radius, ..self.settings };
         let parts = parts(
             &self.scene,
@@ -222,11 +233,11 @@ impl Made {
             approach.speed() / self.speed_share,
         )?;
         let parts = Parts { method: self.method, penalty_factor: self.penalty_factor, ..parts };
-        Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
+        ExplicitBodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
     /// Returns the same bodies with a larger candidate region, if there is one.
-    fn larger(&self, bodies: &Bodies) -> Option<Bodies> {
+    fn larger(&self, bodies: &ExplicitBodies) -> Option<ExplicitBodies> {
         let before = bodies.candidate_radius();
         let larger = self.bodies(bodies.approach(), CANDIDATE_GROWTH * before).ok()?;
         (larger.candidate_radius() > before).then_some(larger)
@@ -292,7 +303,7 @@ struct ExplicitStepper {
     /// Time of the run, in seconds.
     duration: f64,
     request: OutputRequest,
-    run: Run<Arc<Bodies>>,
+    run: Run<Arc<ExplicitBodies>>,
 }
 
 impl Stepper for ExplicitStepper {
@@ -402,7 +413,7 @@ fn support(
     effect: &dyn Effect,
     scene: &Scene,
     estimate: &Estimate,
-    bodies: Option<&Bodies>,
+    bodies: Option<&ExplicitBodies>,
 ) -> Option<Support> {
     Some(match effect.name() {
         Viscoelasticity::NAME => Support::Inherent { idle: "" },
@@ -427,14 +438,14 @@ fn support(
 }
 
 /// Returns the decision on mass scaling with the moved masses.
-fn mass_scaling(scene: &Scene, model: &Bodies) -> Support {
+fn mass_scaling(scene: &Scene, model: &ExplicitBodies) -> Support {
     let masses = model.bodies().each_ref().map(|body| Some(body.mass()).filter(|m| m.is_finite()));
     let added = model.bodies().each_ref().map(|body| Some(body.added_mass()));
     MassScaling::of(scene, masses, added, model.time_step() / model.plain_time_step())
 }
 
 /// Returns the larger moved mass over the lighter body's mass, corrected for the factor on stiffer bodies.
-fn added_share(scene: &Scene, model: &Bodies) -> f64 {
+fn added_share(scene: &Scene, model: &ExplicitBodies) -> f64 {
     let lightest = model.bodies().iter().map(|body| body.mass()).fold(f64::INFINITY, f64::min);
     let shares = model.bodies().iter().map(|body| body.added_mass() / lightest);
     shares.zip(MassScaling::times(scene)).map(|(share, times)| share / times).fold(0.0, f64::max)
