@@ -28,13 +28,13 @@ fn pictures_of(result: &ClaimResult) -> impl Iterator<Item = (String, &Figure)> 
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
         "<!-- Written by `fem-run validate --table validation/claims.md`; not by hand. -->\n\
-         # What is claimed, and how far it holds\n\n\
-         Each claim is a folder in this directory: cases, references with their \
-         sources, tolerances with their reasons. `fem-run validate` runs them all and writes a \
-         page with the pictures; this table is made by the same command.\n\n\
-         The *kind* of a reference says what it is worth: **analytic**, a closed form or a \
-         limit; **published**, a number of others; **cross-code**, measured on another program; \
-         **regression**, an earlier number of this program.\n",
+         # Claims and their results\n\n\
+         Each claim is a folder in this directory with cases, references with their \
+         sources, and tolerances with their reasons. `fem-run validate` runs all claims and writes a \
+         page with the figures; the same command writes this table.\n\n\
+         The *kind* of a reference shows how independent it is: **analytic**, a closed form or a \
+         limit; **published**, a published number; **cross-code**, a result of another program; \
+         **regression**, an earlier result of this program.\n",
     );
     for section in Section::ALL {
         let mut claims = results.iter().filter(|result| result.claim.section == section).peekable();
@@ -78,14 +78,14 @@ pub fn hard_scenes(results: &[ClaimResult]) -> String {
     let mut text = String::from(
         "<!-- Written by `fem-run validate hard --scenes validation/hard/scenes.md`; not by hand. -->\n\
          # Hard scenes\n\n\
-         From one extreme to the other of every axis, with every model: the right answer, or why there is \
-         none. What each scene is made of, is held against and has to say stands in \
-         [claim.toml](claim.toml); the claim holds all of it.\n\n\
-         *Δe*, *ΔT/T*, *ΔF/F* and *Δp/p* (peak pressure) are what a run is off its reference, where it has one. *Growth* is the most that \
-         the bodies hold at any instant above what they had and were given, over what they had; *momentum* its \
-         largest drift over what went in; *cost* element updates over those that were announced. Of a ball that \
-         bounces e is the product of all. *Warns* is what a user is told beside the result, *refused* what \
-         in place of one; both are cut short here.\n",
+         Each axis goes from one extreme to the other, with every model: the result, or the reason why there is \
+         none. [claim.toml](claim.toml) and the files beside it list the scenes, their references and the expected \
+         warnings.\n\n\
+         *Δe*, *ΔT/T*, *ΔF/F* and *Δp/p* (peak pressure) are differences from the reference of a run, if it has one. *Growth* is the \
+         largest growth of the bodies' energy above the initial energy and the work done on them, over the initial energy; \
+         *momentum* is the largest drift over Σ m|v|; *cost* is the number of element updates over the estimated one. For a \
+         bouncing ball e is the product of all bounces. *Warns* are the warnings of a run, and *refused* is the message of a \
+         rejected or stopped one; both are shortened here.\n",
     );
     for table in tables {
         let rule = vec!["---"; table.header.len()].join("|");

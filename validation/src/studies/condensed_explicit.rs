@@ -113,7 +113,7 @@ fn tabulate(findings: &mut Findings, names: &[&String], pairs: &[(&Arc<Run>, &Ar
     let header =
         ["run", "explicit e", "Δe", "pulse width", "approach", "contact radius", "force", "p0"];
     findings.tabulate(
-        "What condensed bodies give more than the explicit model; all but e relative.",
+        "Differences of condensed bodies from the explicit model; all except Δe are relative.",
         header,
         rows,
     );

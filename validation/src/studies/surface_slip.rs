@@ -58,5 +58,5 @@ fn tabulate(findings: &mut Findings, names: &[&String], pairs: &[(&Arc<Run>, &Ar
         [name.to_string(), restitution, time, force, approach, pressure]
     });
     let header = ["run", "Δe", "contact time", "force", "approach", "p0"];
-    findings.tabulate("What slip changes; all but e relative.", header, rows);
+    findings.tabulate("Changes by the slip; all except Δe are relative.", header, rows);
 }

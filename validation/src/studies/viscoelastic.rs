@@ -187,8 +187,8 @@ fn draw(findings: &mut Findings, outcomes: &[Outcome]) {
         .collect();
     findings.draw(
         "restitution",
-        "Left: restitution of the finite-element model and of Ting's impact. Right: what finite \
-         elements give more than Ting with finite spheres (full lines) and on half-spaces (dashed).",
+        "Left: restitution of the finite-element model and of Ting's impact. Right: difference of finite elements from Ting with finite spheres (full lines) and on half- \
+         spaces (dashed).",
         &charts,
     );
 }

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_that_are_not_known_are_named() {
+    fn unknown_parts_of_an_error_are_named() {
         let of = |discretisation, model, model_at_least| {
             let parts = Parts { discretisation, model, model_at_least };
             error_text(&parts, "mesh", 1e-9, &rounded)

@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn cases_differ_where_they_do() {
+    fn differing_keys_are_found() {
         let one = serde_json::json!({"title": "a", "body": [{"v": 1.0}, {"v": 2.0}], "x": [1, 2]});
         let other = serde_json::json!({"title": "a", "body": [{"v": 1.0}, {"v": 3.0}], "y": {}});
         let expected = [("body.1.v", ["2.0", "3.0"]), ("x", ["[1,2]", ""]), ("y", ["", "{}"])];

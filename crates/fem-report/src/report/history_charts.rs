@@ -151,7 +151,7 @@ pub fn history_chart(results: &[StoredResult], quantity: Quantity) -> Option<Cha
         if results.len() == 1 {
             let start = result.first_touch();
             let at = |time: f64| (time - start, result.history.at(column, time));
-            let times = telling_contacts(result).into_iter().map(|contact| contact.time);
+            let times = drawn_contacts(result).into_iter().map(|contact| contact.time);
             let dots: Vec<_> = times.map(at).filter(|(_, value)| value.is_finite()).collect();
             chart = chart.with(Curve::points("", time.axis.points(&y, &dots)).like_curve(k));
         }
@@ -197,7 +197,7 @@ pub fn energy_chart(result: &StoredResult) -> Option<Chart> {
 
 /// Returns the contacts that are drawn: all if there are few, and else those nearest to half the largest
 /// approach, to the peak force, to half the largest approach again, and to the last contact.
-pub fn telling_contacts(result: &StoredResult) -> Vec<&ContactSnapshot> {
+pub fn drawn_contacts(result: &StoredResult) -> Vec<&ContactSnapshot> {
     if result.contacts.len() <= MOST_PROFILES {
         return result.contacts.iter().collect();
     }

@@ -6,7 +6,7 @@ use fem_case::engineering::{Unit, show};
 use fem_figure::{Chart, Curve};
 
 use super::hertz_curves::HertzCurves;
-use super::history_charts::telling_contacts;
+use super::history_charts::drawn_contacts;
 use super::stored_result::{ContactSnapshot, StoredResult};
 use crate::quantity_axis::{QuantityAxis, chart_axes};
 
@@ -36,7 +36,7 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
             curves.extend(highest(result).map(named));
             continue;
         }
-        for contact in telling_contacts(result) {
+        for contact in drawn_contacts(result) {
             let since = time.show(contact.time - result.first_touch());
             let label = format!("{}, {since}", instant_name(&contact.label));
             curves.push((curves.len(), result, contact, label));

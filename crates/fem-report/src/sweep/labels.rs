@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn keys_are_called_by_their_role() {
+    fn keys_have_the_names_of_their_roles() {
         for (key, expected) in [
             ("body.0.approach_speed", "impact speed v"),
             ("body.1.sphere.diameter", "diameter of body 2 D"),
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_are_called_in_few_letters() {
+    fn curves_have_short_names() {
         assert_eq!(short_role("body.0.approach_speed"), "v");
         assert_eq!(short_role("body.1.sphere.diameter"), "D");
         assert_eq!(short_role("time.step_factor"), "step factor");

@@ -7,7 +7,6 @@ mod choice;
 mod convergence;
 mod curves;
 mod labels;
-mod points;
 
 use fem::sweep::{column_unit, column_words};
 use fem_case::Sweep;
@@ -19,7 +18,7 @@ use curves::{SweepCurve, curves};
 use labels::{plain, role, role_of_all};
 
 pub use choice::{FigureChoice, HorizontalKey};
-pub use points::{FigurePoint, PanelValues};
+pub use curves::{FigurePoint, PanelValues};
 
 /// Legend entries of the dashed reference curves.
 const HERTZ: &str = "Hertz";

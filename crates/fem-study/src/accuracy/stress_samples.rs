@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_is_over_the_reference() {
+    fn a_difference_is_relative_to_the_reference() {
         let off = relative_difference(&[1.1, 2.2], &[1.0, 2.0]).unwrap();
         assert!((off - 0.1).abs() < 1e-12);
         assert_eq!(relative_difference(&[1.0], &[1.0, 2.0]), None);

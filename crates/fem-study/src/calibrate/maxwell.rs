@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn the_term_has_the_mean_and_the_ends_of_the_search_are_told() {
+    fn the_term_has_the_measured_mean_or_an_end_of_the_search() {
         let found =
             |wanted: [f64; 2]| Maxwell::of_mean(&restitutions, &wanted, (0.1, 0.1)).unwrap();
         let one = found([0.7, 0.9]);
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_collision_that_fails_is_told() {
+    fn a_failed_collision_is_an_error() {
         let failed = || FitError::Collision { reason: "none".to_string() };
         let never = |_: &[PronyTerm]| Err(failed());
         assert_eq!(Maxwell::of_mean(&never, &[0.9], (0.1, 0.1)), Err(failed()));

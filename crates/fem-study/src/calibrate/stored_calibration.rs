@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_that_are_no_bare_keys_are_quoted() {
+    fn other_names_than_bare_keys_are_quoted() {
         assert_eq!(toml_key("soda-lime_1"), "soda-lime_1");
         assert_eq!(toml_key("a \"b\""), "\"a \\\"b\\\"\"");
         assert_eq!(toml_key(""), "\"\"");

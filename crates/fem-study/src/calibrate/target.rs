@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_one_is_named() {
+    fn one_of_two_materials_is_named() {
         let case = case("glass", "ice");
         let target = Target::of(&case, Some("ice"), Some(schema::ActsOn::Shear)).unwrap();
         assert_eq!((target.sides, target.acts_on), ([false, true], ActsOn::Shear));

@@ -249,7 +249,7 @@ mod tests {
 
     /// The spring, integrated without its dashpot, takes as long as Hertz'; the integration is good to 1e-10.
     #[test]
-    fn a_stiffness_of_hertz_makes_his_contact_time() {
+    fn the_stiffness_of_hertz_makes_his_contact_time() {
         use fem_material::ElasticModuli;
 
         let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();

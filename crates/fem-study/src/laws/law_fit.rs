@@ -176,7 +176,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_trend_is_told_from_scatter() {
+    fn a_trend_is_distinguished_from_scatter() {
         assert!(has_trend(&[-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]));
         assert!(!has_trend(&[-1.0, 1.0, -1.0, 1.0, -1.0, 1.0]));
         // Five residuals are too few.

@@ -6,7 +6,6 @@ use crate::fit::FitError;
 use crate::fit::dem::{Grain, PairOfGrains, Sphere};
 use fem_case::schema::SphereTable;
 use fem_case::{Case, library, nearest};
-use fem_laws::Pair;
 use serde::Serialize;
 
 use super::dem_export::DemExport;
@@ -33,14 +32,10 @@ pub struct PairExport {
 /// Two grains and their laws.
 #[derive(Clone, Debug)]
 pub struct FittedPair {
-    /// Indices of the grains.
-    pub grains: [usize; 2],
-    /// The two bodies.
-    pub pair: Pair,
+    /// The pair with its restitution, 1 if it loses no energy.
+    pub pair: PairOfGrains,
     /// The laws of the pair; `None` if it loses no energy.
     pub export: Option<DemExport>,
-    /// Materials whose loss is taken as 0 because none is known.
-    pub unpublished_loss: Vec<String>,
 }
 
 /// A row of the table, SI.
@@ -97,18 +92,20 @@ impl PairExport {
                 let sphere = Sphere::new(diameter, material);
                 grains[place] = Some(Grain { material: kinds[place].0.clone(), sphere });
             }
-            let (grains, pair) =
-                ([first, second], collision.scene().pair().map_err(FitError::from)?);
+            let pair = collision.scene().pair().map_err(FitError::from)?;
             let export = fitted(&collision, speeds, tolerance)?;
             let unpublished = collision.scene().materials_of_unpublished_loss();
             let mut unpublished_loss: Vec<String> =
                 unpublished.into_iter().map(String::from).collect();
-            // No grain loses nothing, whatever its table says.
+            // Without a loss the loss of both materials counts as unknown.
             if export.is_none() && unpublished_loss.is_empty() {
                 unpublished_loss = [first, second].map(|place| kinds[place].0.clone()).into();
                 unpublished_loss.dedup();
             }
-            pairs.push(FittedPair { grains, pair, export, unpublished_loss });
+            let restitution = export.as_ref().map_or(1.0, |of| of.export.hertz.restitution);
+            let grains = [first, second];
+            let pair = PairOfGrains { grains, pair, restitution, unpublished_loss };
+            pairs.push(FittedPair { pair, export });
         }
         Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
     }
@@ -116,7 +113,7 @@ impl PairExport {
     /// Returns the warnings about materials whose loss is not known.
     pub fn warnings(&self) -> Vec<String> {
         let mut names: Vec<&str> = Vec::new();
-        for name in self.pairs.iter().flat_map(|pair| &pair.unpublished_loss) {
+        for name in self.pairs.iter().flat_map(|fitted| &fitted.pair.unpublished_loss) {
             if !names.contains(&name.as_str()) {
                 names.push(name);
             }
@@ -135,13 +132,7 @@ impl PairExport {
 
     /// Returns the pairs for the input of the codes.
     pub fn of_codes(&self) -> Vec<PairOfGrains> {
-        let of = |fitted: &FittedPair| PairOfGrains {
-            grains: fitted.grains,
-            pair: fitted.pair,
-            restitution: fitted.export.as_ref().map_or(1.0, |of| of.export.hertz.restitution),
-            unpublished_loss: fitted.unpublished_loss.clone(),
-        };
-        self.pairs.iter().map(of).collect()
+        self.pairs.iter().map(|fitted| fitted.pair.clone()).collect()
     }
 
     /// Returns the table, one row per pair; values that a code's formula does not accept are left out.
@@ -150,11 +141,12 @@ impl PairExport {
     }
 
     fn row(&self, fitted: &FittedPair) -> PairNumbers {
-        let [first, second] = fitted.grains.map(|place| &self.grains[place]);
-        let laws = fitted.export.as_ref();
+        let FittedPair { pair, export } = fitted;
+        let [first, second] = pair.grains.map(|place| &self.grains[place]);
+        let laws = export.as_ref();
         let speeds = laws.map(|of| of.export.speeds);
         let validity = laws.map(|of| of.export.hertz.validity);
-        let is_known = fitted.unpublished_loss.is_empty();
+        let is_known = pair.unpublished_loss.is_empty();
         let good = validity.filter(|[from, to, _]| from <= to && is_known);
         PairNumbers {
             first_material: first.material.clone(),
@@ -163,11 +155,11 @@ impl PairExport {
             second_diameter_m: second.sphere.diameter,
             slowest_m_s: speeds.map(|speeds| speeds.0),
             fastest_m_s: speeds.map(|speeds| speeds.1),
-            restitution: laws.map_or(1.0, |of| of.export.hertz.restitution),
+            restitution: pair.restitution,
             good_from_m_s: good.map(|good| good[0]),
             good_to_m_s: good.map(|good| good[1]),
             worst_error: validity.filter(|_| is_known).map(|validity| validity[2]),
-            unpublished_loss: fitted.unpublished_loss.clone(),
+            unpublished_loss: pair.unpublished_loss.clone(),
             entries: laws.map(entries).unwrap_or_default(),
         }
     }

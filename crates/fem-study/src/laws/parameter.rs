@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parameters_are_found_and_their_values_have_a_meaning() {
+    fn parameters_are_found_and_their_values_are_checked() {
         let family = LawFamily::BordbarHyppanen;
         assert_eq!(find_parameter(family, " n "), Ok(1));
         let error = find_parameter(family, "b").unwrap_err();

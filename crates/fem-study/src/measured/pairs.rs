@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_are_sorted_by_pairs_and_repeats_are_known() {
+    fn points_are_sorted_by_pairs_and_repeats_are_found() {
         let data = Restitutions::of("e", &[(0.1, 0.9), (0.1, 0.8), (0.1, 0.91), (0.2, 0.9)]);
         let sizes = [[Some(0.01), None], [Some(0.02), None]];
         let measured = MeasuredPairs::sorted(data, |point| sizes[point % 2]);

@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn an_energy_that_no_row_knows_of_has_no_column() {
+    fn an_energy_that_no_row_has_gets_no_column() {
         let off = json!({ "energy": { "kinetic_j": 1.0 } });
         let on = json!({ "energy": { "kinetic_j": 1.0, "contact_j": 0.5 } });
         let shown = |summaries: &[Value]| {

@@ -147,7 +147,7 @@ fn uncertainties_scale_the_interval() {
 }
 
 #[test]
-fn what_the_data_do_not_determine_is_refused() {
+fn undetermined_parameters_are_rejected() {
     let model = glass_model(LawFamily::BordbarHyppanen, None);
     let refusal = |points: &[Point], free: &[&str]| {
         Problem::new(&model, points, free).unwrap().fit(0.95).unwrap_err()
@@ -189,7 +189,7 @@ fn one_point_and_one_parameter() {
 
 /// Data without any loss have no best A: the search ends at its bound, which the estimate shows.
 #[test]
-fn no_loss_is_a_bound_or_a_refusal() {
+fn no_loss_is_a_bound_or_an_error() {
     let model = glass_model(LawFamily::KuwabaraKono, None);
     let points = [Point::new(0.1, 1.0), Point::new(1.0, 1.0)];
     match Problem::new(&model, &points, &["a"]).unwrap().fit(0.95) {

@@ -81,7 +81,7 @@ fn a_solid_has_two_rates_or_none() {
 }
 
 #[test]
-fn impossible_wishes_are_refused() {
+fn impossible_restitutions_are_rejected() {
     let model = glass_model(LawFamily::KuwabaraKono, None);
     for wanted in [0.0, 1.0, -0.5, 1.1, f64::NAN] {
         let error = invert(&model, 0, &[1e-6], 0.5, wanted).unwrap_err();

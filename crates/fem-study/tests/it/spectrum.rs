@@ -153,7 +153,7 @@ fn weights_sum_to_at_most_one() {
 /// One restitution determines a sum of weights if its uncertainty is 0.01, but not if it is 0.2, and a
 /// value of less than two standard errors may be zero.
 #[test]
-fn what_the_errors_leave_open_is_not_determined() {
+fn uncertain_weights_are_not_determined() {
     let measured = restitutions(&TRUE).unwrap();
     let of = |uncertainty: f64| {
         let uncertainties = vec![uncertainty; measured.len()];

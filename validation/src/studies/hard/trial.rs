@@ -14,7 +14,7 @@ use crate::laboratory::Laboratory;
 pub(super) struct Trial {
     pub outcome: Outcome,
     /// Estimated element updates of explicit elements.
-    announced: Option<u64>,
+    estimated: Option<u64>,
 }
 
 /// The end of a run.
@@ -36,8 +36,8 @@ impl Trial {
     pub fn of(laboratory: &Laboratory, case: Result<Case, CaseError>) -> Result<Self, StudyError> {
         let outcome = laboratory.work(|| {
             let refused = |error: CaseError| (Outcome::Refused(error.to_string()), None);
-            let (outcome, announced) = case.and_then(run).unwrap_or_else(refused);
-            let trial = Self { outcome, announced };
+            let (outcome, estimated) = case.and_then(run).unwrap_or_else(refused);
+            let trial = Self { outcome, estimated };
             let updates = trial.collision().and_then(|collision| collision.element_updates);
             Ok((trial, updates.unwrap_or(0)))
         })?;
@@ -47,7 +47,7 @@ impl Trial {
     /// Returns the element updates over the estimated ones, for a run that ended by itself.
     pub fn cost(&self) -> Option<f64> {
         let collision = self.collision().filter(|collision| collision.bounces.is_empty())?;
-        Some(collision.element_updates? as f64 / self.announced? as f64)
+        Some(collision.element_updates? as f64 / self.estimated? as f64)
     }
 
     fn collision(&self) -> Option<&Collision> {
@@ -160,15 +160,15 @@ fn largest(so_far: f64, value: f64) -> f64 {
 fn run(case: Case) -> Result<(Outcome, Option<u64>), CaseError> {
     let mut simulation = Simulation::new(case)?;
     simulation.skip_snapshots();
-    let announced = match simulation.setup().cost {
+    let estimated = match simulation.setup().cost {
         Cost::Steps { element_updates, .. } => Some(element_updates),
         _ => None,
     };
     let collision = simulation.run(&mut ());
     if let Some(stop) = collision.stop() {
-        return Ok((Outcome::Refused(stop.to_string()), announced));
+        return Ok((Outcome::Refused(stop.to_string()), estimated));
     }
     let warnings = simulation.warnings(&collision);
     let hertz = simulation.setup().estimate.hertz;
-    Ok((Outcome::Ran { collision: Box::new(collision), warnings, hertz }, announced))
+    Ok((Outcome::Ran { collision: Box::new(collision), warnings, hertz }, estimated))
 }

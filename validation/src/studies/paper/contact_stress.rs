@@ -37,8 +37,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     findings.draw(
         "contact_stress",
         "Fig. 13 of the paper, computed here: stress across the contact on the axis against time, \
-         Hertz dashed. A faster collision is shorter and presses harder; compression and \
-         separation mirror each other.",
+         Hertz dashed. A faster collision is shorter and has a higher pressure; compression and separation are mirror \
+         images.",
         &[chart],
     );
     let row = |run: &Run| {

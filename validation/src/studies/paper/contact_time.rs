@@ -94,8 +94,7 @@ fn draw(points: &[Point], findings: &mut Findings) {
     findings.draw(
         "contact_time",
         "Fig. 12 of the paper, computed here: contact time against speed. On the left the curves \
-         cannot be told apart; on the right they are divided by Hertz': the finite elements follow \
-         the finite spheres, whose contact is the shorter the larger it grows.",
+         cannot be distinguished; on the right they are divided by Hertz' contact time. The finite elements follow the finite spheres, whose contact is shorter the larger it is.",
         &[times, ratios],
     );
     let rows = points.iter().map(|p| {

@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn crossings_are_found_or_are_not_numbers() {
+    fn crossings_are_found_or_nan() {
         let root = falls_through(0.5, (1e-6, 1e6), |x| Ok(1.0 / (1.0 + x))).unwrap();
         assert!((root - 1.0).abs() < 1e-11);
         for bounds in [(2.0, 3.0), (0.1, 0.5)] {

@@ -172,8 +172,8 @@ fn draw(pairings: &[Pairing], findings: &mut Findings) {
         "pairings",
         "The pairings of the paper's figs. 2 and 3, computed here with one Maxwell branch (points) \
          and with the paper's reduced law (dashed, n = 1, A from its measured 0.925 at 0.5 m/s for \
-         22.2 on 15.9 mm). The branch loses less the shorter the contact: its restitution rises \
-         with speed and falls with size. The law does both the other way round.",
+         22.2 on 15.9 mm). The branch loses less in a shorter contact: its restitution rises with speed and falls with \
+         size. That of the law falls with speed and rises with size.",
         &[chart("equal spheres", true, 0), chart("unequal spheres", false, 3).with(key)],
     );
     let mut rows = Vec::new();

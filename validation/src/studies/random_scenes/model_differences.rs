@@ -21,7 +21,7 @@ use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
 /// Factor within which the closed forms of neglected effects are accurate.
-const FORETOLD_WITHIN: f64 = 3.0;
+const ESTIMATED_WITHIN: f64 = 3.0;
 /// Relative accuracy of the terms for waves that do not return (docs/theory.md).
 const RADIATION_WITHIN: f64 = 0.15;
 /// The models, from the most complete to the cheapest.
@@ -140,7 +140,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
             [one.scene.clone(), e, time, force, format!("{:.2}", one.share), verdict.to_string()]
         });
         findings.tabulate(
-            format!("{name}: the scenes that differ most, over what effects explain."),
+            format!("{name}: the scenes with the largest differences over the explained ones."),
             ["scene", "Δe", "ΔT/T", "ΔF/F", "over the allowed", ""],
             rows,
         );
@@ -151,7 +151,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     messages.dedup();
     let rows = messages.into_iter().map(|message| [message]);
     findings.tabulate(
-        "What is said of the scenes that a model does not compute.",
+        "Messages about the scenes that a model does not compute.",
         ["message"],
         rows,
     );
@@ -215,7 +215,7 @@ fn difference(
         _ => 0.0,
     });
     let share =
-        [0, 1, 2].map(|k| off[k].abs() / (base[k] + FORETOLD_WITHIN * explained[k] + waves[k]));
+        [0, 1, 2].map(|k| off[k].abs() / (base[k] + ESTIMATED_WITHIN * explained[k] + waves[k]));
     let share = share.into_iter().fold(0.0, fem_collision::nan_aware_max_abs);
     // Warnings need reference runs, which take longer than the collision: they are not computed if not needed.
     let is_within = share <= 1.0;
@@ -246,10 +246,10 @@ fn waves(theirs: &Ran) -> [f64; 3] {
     let verdicts = theirs.verdicts();
     let waves = verdicts.iter().find(|one| one.name == PartnerWaves::NAME && one.active);
     let Some(estimate) = theirs.simulation.estimate(&theirs.collision) else { return [0.0; 3] };
-    let worth = waves.and_then(|waves| theirs.simulation.neglect_error(waves, &estimate));
-    let worth =
-        worth.map_or([0.0; 3], |worth| shares(&worth, &estimate).map(Option::unwrap_or_default));
-    worth.map(|share| RADIATION_WITHIN * share)
+    let effect = waves.and_then(|waves| theirs.simulation.neglect_error(waves, &estimate));
+    let effect =
+        effect.map_or([0.0; 3], |effect| shares(&effect, &estimate).map(Option::unwrap_or_default));
+    effect.map(|share| RADIATION_WITHIN * share)
 }
 
 /// Returns the changes of restitution, and of contact time and peak force over Hertz' values.

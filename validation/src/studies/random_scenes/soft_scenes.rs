@@ -8,7 +8,7 @@
 //! all six quantities are within their bars, and `met` if restitution, contact time, peak force and pressure are within the
 //! default tolerance or its warnings say that one of them may not be; `bar` is the median of a bar over the error, or over
 //! a tenth of the tolerance if that is larger. A scene is `foretold` if contact time and force at small strain differ by at
-//! most [`FORETOLD_WITHIN`] times the estimate of the plan, plus [`NOISE`] of two meshes.
+//! most [`ESTIMATED_WITHIN`] times the estimate of the plan, plus [`NOISE`] of two meshes.
 
 use std::f64::consts::PI;
 
@@ -27,7 +27,7 @@ use crate::laboratory::Laboratory;
 /// Ratio of the element sizes from which errors are estimated.
 const FINER: f64 = 1.6;
 /// Factor within which the estimate must be right.
-const FORETOLD_WITHIN: f64 = 3.0;
+const ESTIMATED_WITHIN: f64 = 3.0;
 /// Relative difference of two meshes.
 const NOISE: f64 = 0.01;
 /// Largest number of scenes drawn per scene that is run.
@@ -46,7 +46,7 @@ struct Parameters {
 struct SoftTrial {
     trial: Trial,
     has_warned: bool,
-    is_foretold: bool,
+    is_estimated: bool,
 }
 
 /// Runs the study.
@@ -67,7 +67,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     findings.measure("scenes", trials.len() as f64);
     findings.measure("covered", count(|one| one.trial.share() <= 1.0));
     findings.measure("met", count(|one| one.has_warned || one.trial.is_met()));
-    findings.measure("foretold", count(|one| one.is_foretold));
+    findings.measure("foretold", count(|one| one.is_estimated));
     let least = 0.1 * Accuracy::DEFAULT_TOLERANCE;
     let all = trials.iter().flat_map(|one| &one.trial.numbers);
     let ratios = all.map(|NumberTrial { error, bar, .. }| bar / error.abs().max(least));
@@ -178,22 +178,22 @@ fn compute(
     let trial = Trial { scene, numbers: numbers.collect() };
     let has_warned =
         computed.warnings().iter().any(|warning| warning.contains("above the tolerance"));
-    let is_foretold = is_foretold(simulation, collision, &small).unwrap_or(true);
-    Ok(trial.is_whole().then_some(SoftTrial { trial, has_warned, is_foretold }))
+    let is_estimated = is_estimated(simulation, collision, &small).unwrap_or(true);
+    Ok(trial.is_whole().then_some(SoftTrial { trial, has_warned, is_estimated }))
 }
 
 /// Whether contact time and peak force without finite strain differ from those with it by as much as the plan
 /// estimates; `None` if that run has none.
-fn is_foretold(simulation: &Simulation, with: &Collision, without: &Collision) -> Option<bool> {
+fn is_estimated(simulation: &Simulation, with: &Collision, without: &Collision) -> Option<bool> {
     let effect = EFFECTS.iter().find(|effect| effect.name() == FiniteStrain::NAME)?;
     let estimate = &simulation.setup().estimate;
-    let foretold = effect.neglect_error(simulation.case().scene(), estimate)?;
+    let estimated = effect.neglect_error(simulation.case().scene(), estimate)?;
     let hertz = &estimate.hertz;
-    let is_within = |of: fn(&Collision) -> Option<f64>, foretold: Option<f64>, whole: f64| {
+    let is_within = |of: fn(&Collision) -> Option<f64>, estimated: Option<f64>, whole: f64| {
         let change = (of(without)? / of(with)? - 1.0).abs();
-        Some(change <= FORETOLD_WITHIN * foretold? / whole + NOISE)
+        Some(change <= ESTIMATED_WITHIN * estimated? / whole + NOISE)
     };
-    let time = is_within(|it| it.contact_time, foretold.contact_time_s, hertz.contact_time())?;
-    let force = is_within(|it| it.peak_force, foretold.peak_force_n, hertz.peak_force())?;
+    let time = is_within(|it| it.contact_time, estimated.contact_time_s, hertz.contact_time())?;
+    let force = is_within(|it| it.peak_force, estimated.peak_force_n, hertz.peak_force())?;
     Some(time && force)
 }

@@ -154,7 +154,7 @@ mod tests {
     /// Roots that were computed elsewhere (ν = 0.244), and Lamb's for Poisson's solid: h R/π of
     /// breathing 0.8160, 1.9285, 2.9539, and k R/π = 0.840 of 0S2.
     #[test]
-    fn roots_are_those_of_others() {
+    fn roots_equal_published_ones() {
         let glass = ElasticSphere::new(0.244);
         for (degree, overtone, exact) in [
             (2, 0, 2.63906),

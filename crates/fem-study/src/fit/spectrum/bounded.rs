@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_solution_inside_is_found_and_the_misfit_survives_compression() {
+    fn an_inner_solution_is_found_and_compression_keeps_the_misfit() {
         let linear = linear();
         let found = linear.solve(0.0, None);
         // The least ridge, 1e-8, leaves 1e-8.

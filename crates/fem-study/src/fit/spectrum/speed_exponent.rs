@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn powers_come_back_for_several_pairs() {
+    fn powers_of_several_pairs_are_found() {
         let point = |pair: usize, speed: f64| SpeedPoint {
             pair,
             speed,
