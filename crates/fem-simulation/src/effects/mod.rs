@@ -112,7 +112,7 @@ pub fn decide(
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let name = effect.name();
             decisions.warnings.push(format!(
-                "{name} is forced on where the scene does not call for it, which changes {neglect_error}"
+                "{name} is switched on although the scene does not call for it, which changes {neglect_error}"
             ));
         }
         if switch == Some(Switch::Off) && obeys && is_called_for {

@@ -236,8 +236,8 @@ impl Candidate {
             let lacks = lacks(support(effect).as_ref());
             let is_term = effect.name() == PartnerWaves::NAME && !lacks && !is_fem;
             // Small strain is no difference between models where elements use it, too.
-            let is_small = effect.name() == FiniteStrain::NAME
-                && FiniteStrain::laws(scene, estimate) == [None; 2];
+            let is_small =
+                effect.name() == FiniteStrain::NAME && !FiniteStrain::is_on(scene, estimate);
             if is_small || !(lacks || is_term) {
                 continue;
             }

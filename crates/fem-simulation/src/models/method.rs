@@ -7,7 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use fem_case::{CaseFile, Scene};
-use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, EffectDecisions, Support};
@@ -114,6 +114,11 @@ pub trait Model: fmt::Debug + Send + Sync {
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         [None, None]
     }
+}
+
+/// Returns the closed-form estimate of a scene at an approach speed, m/s.
+pub(super) fn estimate_at(scene: &Scene, speed: f64) -> Result<Estimate, Stop> {
+    Estimate::at(scene, speed).map_err(|error| Stop::OutOfRange(error.to_string()))
 }
 
 /// Begins a collision, in a single piece if the model has no steps.

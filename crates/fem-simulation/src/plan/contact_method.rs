@@ -66,7 +66,7 @@ pub enum ContactNoiseAdvice {
 impl ContactNoiseAdvice {
     /// Returns the advice for a run with explicit elements.
     pub(crate) fn of_elements(scene: &Scene, plan: &Plan) -> Self {
-        let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+        let is_finite = FiniteStrain::is_on(scene, &plan.estimate);
         let is_possible = massless_is_possible(scene) && !is_finite;
         match (is_possible, plan.contact_method) {
             (true, ContactMethod::Massless) => Self::ShorterSteps,

@@ -80,8 +80,7 @@ impl MeshRule {
     /// Applies the rule to a scene, on one mesh or on staggered meshes.
     pub fn of(scene: &Scene, estimate: &Estimate, is_staggered: bool) -> Self {
         // Condensed bodies have no finite strain.
-        let is_finite =
-            *scene.model() == ModelChoice::Fem && FiniteStrain::laws(scene, estimate) != [None; 2];
+        let is_finite = *scene.model() == ModelChoice::Fem && FiniteStrain::is_on(scene, estimate);
         let share = if is_finite && !is_staggered { AT_FINITE_STRAIN } else { 1.0 };
         let at_nodes = touches_at_nodes(scene.model());
         let (bounds, fewest) = match at_nodes {

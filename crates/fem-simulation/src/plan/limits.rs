@@ -36,7 +36,7 @@ const BYTES_PER_VISCOUS_ELEMENT: u64 = 190;
 /// Returns the bytes of a run of explicit elements; `branches` is the sum of all elements' Prony terms.
 pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branches: u64) -> u64 {
     let whole = mach(scene, scene.approach_speed() / plan.speed_share);
-    let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+    let is_finite = FiniteStrain::is_on(scene, &plan.estimate);
     let is_viscous = BulkViscosity::is_on(scene, whole, is_finite);
     let viscous = if is_viscous { elements * BYTES_PER_VISCOUS_ELEMENT } else { 0 };
     let (branch, finite) = match is_finite {

@@ -82,17 +82,25 @@ fn springs_at_nodes_that_ring_are_told_of_a_boundary_without_mass() {
     }
 }
 
-/// Surfaces that slip are quiet without mass, whatever their springs, and are told so with springs that ring.
+/// A massless boundary does not ring on slipping surfaces at any stiffness, and is advised for springs that ring.
 #[test]
-fn surfaces_that_slip_are_told_of_a_boundary_without_mass() {
-    for factor in [1.0, 100.0] {
-        let factor = format!("contact.penalty_factor={factor}");
-        let fine = [factor.as_str(), SLIPPING_FINE, LITTLE_MASS];
-        assert_eq!(said(SLIP, &fine, "scatters"), None);
-        let springs = [&fine[..], &["contact.method='penalty'"]].concat();
-        let message = assert_helped(SLIP, &springs, "scatters");
-        assert_eq!(written(&message), "contact.method=\"massless\"");
-    }
+fn a_massless_boundary_is_advised_for_slipping_surfaces() {
+    assert_massless_is_advised("1");
+}
+
+#[test]
+#[ignore = "takes many seconds"]
+fn a_massless_boundary_is_advised_for_stiff_springs_on_slipping_surfaces() {
+    assert_massless_is_advised("100");
+}
+
+fn assert_massless_is_advised(factor: &str) {
+    let factor = format!("contact.penalty_factor={factor}");
+    let fine = [factor.as_str(), SLIPPING_FINE, LITTLE_MASS];
+    assert_eq!(said(SLIP, &fine, "scatters"), None);
+    let springs = [&fine[..], &["contact.method='penalty'"]].concat();
+    let message = assert_helped(SLIP, &springs, "scatters");
+    assert_eq!(written(&message), "contact.method=\"massless\"");
 }
 
 /// Where there is no boundary without mass it is not named: what is, helps.

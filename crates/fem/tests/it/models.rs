@@ -311,7 +311,7 @@ fn neglected_effects_are_reported() {
     for model in ["model.hertz={}", "model.law.falcon.c=300"] {
         let (effects, warnings) = reported(&[model]);
         assert!(effects.iter().any(|e| e.name == "viscoelasticity" && !e.active));
-        assert!(warnings.contains("does not include it"), "{warnings}");
+        assert!(warnings.contains("neglects"), "{warnings}");
     }
     let (effects, warnings) = reported(&["model.ting={}"]);
     assert!(effects.iter().any(|e| e.name == "viscoelasticity" && e.active));

@@ -60,7 +60,7 @@ fn rings(scene: &Scene, is_finite: bool) -> bool {
 
 impl Effect for BulkViscosity {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
-        let is_finite = FiniteStrain::laws(scene, estimate) != [None; 2];
+        let is_finite = FiniteStrain::is_on(scene, estimate);
         let is_called_for = is_called_for(scene, estimate.mach, is_finite);
         let otherwise = match estimate.mach > MACH_LIMIT {
             true => "a contact without mass does not ring behind steep fronts",
@@ -87,7 +87,7 @@ impl Effect for BulkViscosity {
     /// The change of the contact time is not known, since ringing ends the contact. At finite strain the contact damps the
     /// ringing, and there is no estimate.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        if FiniteStrain::laws(scene, estimate) != [None; 2] {
+        if FiniteStrain::is_on(scene, estimate) {
             return None;
         }
         let materials = scene.bodies().iter().filter_map(Body::material);

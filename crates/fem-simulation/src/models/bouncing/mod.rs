@@ -30,7 +30,7 @@ use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, Support};
 use crate::estimate::Estimate;
-use crate::models::method::{Cost, Model, ModelSetup, SharedModels};
+use crate::models::method::{Cost, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::method_of;
 use crate::models::stepper::{RestartState, Stepper, stopped};
 use crate::rejection::Rejection;
@@ -117,8 +117,7 @@ impl Ball {
         if is_given || !elements.plan.makes_meshes {
             return Ok(None);
         }
-        let estimate = Estimate::at(&self.scene, speed)
-            .map_err(|error| Stop::OutOfRange(error.to_string()))?;
+        let estimate = estimate_at(&self.scene, speed)?;
         if estimate.contact_radius >= SMALLEST_SHARE * elements.plan.estimate.contact_radius {
             return Ok(None);
         }

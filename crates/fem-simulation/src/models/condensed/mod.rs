@@ -1,10 +1,9 @@
 //! Linear finite elements condensed to their contact nodes, with the meshes and materials of the explicit model. A collision
 //! takes milliseconds instead of seconds.
 
-pub(crate) mod bytes;
+pub(crate) mod cost;
 
 mod effects;
-mod n_steps;
 pub(super) mod static_contact;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -21,15 +20,16 @@ use fem_material::PronySeries;
 use fem_material::engineering::Unit;
 use fem_mesh::SphereMesh;
 
-use self::bytes::relaxes_in_shear;
-use self::n_steps::{ExpectedProgress, n_steps};
+use self::cost::{ExpectedProgress, MOST_BYTES, expected_bytes, n_steps, relaxes_in_shear};
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::effects::{Effect, MirrorSymmetry, PartnerWaves, Support, Vibration, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
 use crate::estimate::viscous_flow::slower;
-use crate::models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
+use crate::models::method::{
+    Cost, ElementSetup, Method, Model, ModelSetup, SharedModels, estimate_at,
+};
 use crate::plan::Plan;
 use crate::plan::body_source::BodySource;
 use crate::plan::contact_method::ContactNoiseAdvice;
@@ -240,8 +240,7 @@ impl Condensed {
 
     /// Returns the radiation compliance of each body at a speed (m/s), in s m/N.
     fn radiation(&self, speed: f64) -> Result<[Option<f64>; 2], Stop> {
-        let estimate = Estimate::at(&self.scene, speed)
-            .map_err(|error| Stop::OutOfRange(error.to_string()))?;
+        let estimate = estimate_at(&self.scene, speed)?;
         let radiating = PartnerWaves::radiating_at_rest(&self.scene, &estimate);
         Ok(radiating.map(|material| Some(radiation_damping(&material?))))
     }
@@ -253,8 +252,7 @@ impl Condensed {
         if *approach == self.setup.approach {
             return Ok(self.pair.clone());
         }
-        let estimate = Estimate::at(&self.scene, approach.speed())
-            .map_err(|error| Stop::OutOfRange(error.to_string()))?;
+        let estimate = estimate_at(&self.scene, approach.speed())?;
         let radius = candidate_radius(&elements.plan, &estimate);
         if radius == own {
             return Ok(self.pair.clone());
@@ -315,11 +313,9 @@ impl Model for Condensed {
     ) -> Collision {
         let bodies = self.scene.bodies().each_ref();
         let relaxations = bodies.map(|body| body.material()?.relaxation());
-        let estimate = match Estimate::at(&self.scene, approach.speed()) {
+        let estimate = match estimate_at(&self.scene, approach.speed()) {
             Ok(estimate) => estimate,
-            Err(error) => {
-                return Collision::stopped(*approach, Stop::OutOfRange(error.to_string()));
-            }
+            Err(stop) => return Collision::stopped(*approach, stop),
         };
         let slower = slower(&self.scene, &estimate, approach);
         let n_steps = n_steps(self.options, slower, estimate.relaxed);
@@ -366,7 +362,7 @@ fn cost_of(scene: &Scene, pair: &CondensedPair, steps: u64) -> Cost {
         contact_points: pair.n_points() as u64,
         steps,
         factor_bytes: pair.factor_bytes() as u64,
-        memory: bytes::expected(bodies, pair.settings().keeps_factors),
+        memory: expected_bytes(bodies, pair.settings().keeps_factors),
     }
 }
 
@@ -412,7 +408,7 @@ fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
 
 fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Rejection> {
     let elements = sources[0].n_elements()? + sources[1].n_elements()?;
-    let bytes = bytes::MOST.saturating_mul(elements as u64);
+    let bytes = MOST_BYTES.saturating_mul(elements as u64);
     if bytes <= plan.max_memory {
         return Ok(());
     }

@@ -7,7 +7,7 @@ use fem_material::{Material, PronySeries};
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::approach::expected_duration;
 use crate::estimate::{Estimate, mach};
-use crate::models::condensed::bytes;
+use crate::models::condensed::cost::{MOST_BYTES, expected_bytes};
 use crate::models::method::Cost;
 use crate::plan::Plan;
 use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_memory};
@@ -80,7 +80,7 @@ pub(crate) fn needs_own_reference(estimate: &Estimate, is_at_finite_strain: bool
 
 /// Adds the reference runs to the seconds of a run.
 fn with_reference_runs(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) -> f64 {
-    let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+    let is_finite = FiniteStrain::is_on(scene, &plan.estimate);
     let of_condensed = SECONDS_OF_CONDENSED_REFERENCE * elements as f64;
     match needs_own_reference(&plan.estimate, is_finite) {
         _ if !plan.makes_meshes => seconds,
@@ -94,9 +94,9 @@ fn with_reference_runs(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) 
 fn reference_memory(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> Option<u64> {
     let [lower, upper] = scene.bodies();
     let [of_lower, of_upper] = model.bodies().each_ref().map(|body| 4 * body.n_elements() as u64);
-    let are_allowed = bytes::MOST * (of_lower + of_upper) <= plan.max_memory;
+    let are_allowed = MOST_BYTES * (of_lower + of_upper) <= plan.max_memory;
     (plan.makes_meshes && are_allowed)
-        .then(|| bytes::expected([(lower, of_lower), (upper, of_upper)], false))
+        .then(|| expected_bytes([(lower, of_lower), (upper, of_upper)], false))
 }
 
 /// Returns the seconds per step of both bodies.

@@ -27,7 +27,7 @@ use crate::effects::{
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
 use crate::estimate::{Estimate, mach};
-use crate::models::method::{ElementSetup, Method, Model, ModelSetup, SharedModels};
+use crate::models::method::{ElementSetup, Method, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::stepper::{RestartState, Stepper, stopped, to_the_end};
 use crate::plan::body_source::BodySource;
 use crate::plan::contact_method::ContactNoiseAdvice;
@@ -62,7 +62,7 @@ impl Method for ExplicitMethod {
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
         let plan = Plan::of(scene)?;
-        let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+        let is_finite = FiniteStrain::is_on(scene, &plan.estimate);
         let mut file = plan.resolve(file);
         // Contact between moved surfaces has springs of its own.
         if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
@@ -204,8 +204,7 @@ impl Explicit {
         }
         let not_made = |error: ModelError| Stop::NotMade(error.to_string());
         let frame = self.made.own_frame(approach).map_err(not_made)?;
-        let estimate = Estimate::at(&self.made.scene, approach.speed())
-            .map_err(|error| Stop::OutOfRange(error.to_string()))?;
+        let estimate = estimate_at(&self.made.scene, approach.speed())?;
         let radius = candidate_radius(&estimate, self.made.contact_element_size);
         let bodies = self.made.bodies(frame.own(), radius).map_err(not_made)?;
         Ok((Arc::new(bodies), frame, estimate))
@@ -428,9 +427,7 @@ fn support(
         BulkViscosity::NAME => Support::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),
         // Contact between moved surfaces has it.
-        SurfaceSlip::NAME if FiniteStrain::laws(scene, estimate) != [None; 2] => {
-            Support::Inherent { idle: "" }
-        }
+        SurfaceSlip::NAME if FiniteStrain::is_on(scene, estimate) => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
         PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => Support::Lacks,
         _ => return None,

@@ -75,8 +75,7 @@ fn relaxation(scene: &Scene, estimate: &Estimate) -> Support {
     }
     let name = describe(scene.model());
     let warning = format!(
-        "{reason}, and {name} does not include it: it takes the instantaneous moduli. Model ting or fem computes \
-         the relaxation"
+        "{reason}, which {name} neglects: it uses the instantaneous moduli; use model ting or fem"
     );
     Support::is(false, format!("{reason}; not in {name}")).warning([warning])
 }

@@ -77,6 +77,11 @@ impl FiniteStrain {
         of_both.map(|strained| Some(strained.filter(is_finite)?.material.law()))
     }
 
+    /// Returns whether a body is computed at finite strain.
+    pub(crate) fn is_on(scene: &Scene, estimate: &Estimate) -> bool {
+        Self::laws(scene, estimate) != [None; 2]
+    }
+
     /// Returns the distance from first touch (m) within which elements are at finite strain; the change by farther elements
     /// falls with its third power (`fem-explicit/src/stress/partly_finite.rs`). It is `None` if all elements are: if the case
     /// forces the effect on, in flat contacts and beside waves.
@@ -123,8 +128,7 @@ impl FiniteStrain {
 impl FiniteStrain {
     /// Returns the text for a scene with finite strain near the contact only.
     fn of_nearness(scene: &Scene, estimate: &Estimate) -> Option<Support> {
-        (Self::laws(scene, estimate) != [None; 2]).then_some(())?;
-        let within = Self::within(scene, estimate)?;
+        let within = Self::is_on(scene, estimate).then(|| Self::within(scene, estimate))??;
         let is_partial = |body: &Body| body.diameter().is_none_or(|diameter| diameter > within);
         scene
             .bodies()
@@ -313,7 +317,7 @@ impl Effect for FiniteStrain {
         let strain = collision.max_contact_radius.unwrap_or_default() / radius;
         let found = Estimate { strain, ..*estimate };
         let is_larger = !is_called_for(scene, estimate) && is_called_for(scene, &found);
-        let is_small = Self::laws(scene, estimate) == [None; 2];
+        let is_small = !Self::is_on(scene, estimate);
         let advice = match scene.model() {
             ModelChoice::Fem => "force finite strain on (effects.finite_strain)",
             _ => "use model fem, which has finite strain",
@@ -331,8 +335,8 @@ impl Effect for FiniteStrain {
         let has_end = collision.contact_time.is_some();
         let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
             format!(
-                "strains are large enough for the elastic law to matter, by {} {} of the contact time, and the case \
-                 does not name a law: set material.NAME.hyperelastic",
+                "strains are beyond Hooke's law, where the elastic law matters by {} {} of the contact time, and the \
+                 case does not name one: set material.NAME.hyperelastic",
                 if is_beyond(scene, &found) { "more than" } else { "up to" },
                 percent(spread)
             )
