@@ -37,40 +37,30 @@ impl BodyTable {
         diameter: impl Into<Quantity<Length>>,
         material: impl Into<String>,
     ) -> Self {
-        Self {
-            name: name.into(),
-            material: Some(material.into()),
-            approach_speed: None,
-            held: None,
-            sphere: Some(SphereTable::new(diameter)),
-            wall: None,
-            half_space: None,
-        }
+        let sphere = Some(SphereTable::new(diameter));
+        Self { sphere, ..Self::without_shape(name.into(), Some(material.into())) }
     }
 
     /// Creates a rigid plane at rest.
     pub fn wall(name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            material: None,
-            approach_speed: None,
-            held: None,
-            sphere: None,
-            wall: Some(EmptyTable {}),
-            half_space: None,
-        }
+        Self { wall: Some(EmptyTable {}), ..Self::without_shape(name.into(), None) }
     }
 
     /// Creates a half-space at rest, made of `[material.NAME]`.
     pub fn half_space(name: impl Into<String>, material: impl Into<String>) -> Self {
+        let half_space = Some(EmptyTable {});
+        Self { half_space, ..Self::without_shape(name.into(), Some(material.into())) }
+    }
+
+    fn without_shape(name: String, material: Option<String>) -> Self {
         Self {
-            name: name.into(),
-            material: Some(material.into()),
+            name,
+            material,
             approach_speed: None,
+            held: None,
             sphere: None,
             wall: None,
-            half_space: Some(EmptyTable {}),
-            held: None,
+            half_space: None,
         }
     }
 

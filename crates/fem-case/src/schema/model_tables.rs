@@ -78,28 +78,22 @@ impl ModelTable {
     }
 }
 
-impl From<CondensedTable> for ModelTable {
-    fn from(table: CondensedTable) -> Self {
-        Self { condensed: Some(table), ..Self::default() }
-    }
+/// A table of a model as `[model]`.
+macro_rules! models {
+    ($($key:ident: $table:ident,)+) => {
+        $(impl From<$table> for ModelTable {
+            fn from(table: $table) -> Self {
+                Self { $key: Some(table), ..Self::default() }
+            }
+        })+
+    };
 }
 
-impl From<TingTable> for ModelTable {
-    fn from(table: TingTable) -> Self {
-        Self { ting: Some(table), ..Self::default() }
-    }
-}
-
-impl From<HertzTable> for ModelTable {
-    fn from(table: HertzTable) -> Self {
-        Self { hertz: Some(table), ..Self::default() }
-    }
-}
-
-impl From<LawTable> for ModelTable {
-    fn from(table: LawTable) -> Self {
-        Self { law: Some(table), ..Self::default() }
-    }
+models! {
+    condensed: CondensedTable,
+    ting: TingTable,
+    hertz: HertzTable,
+    law: LawTable,
 }
 
 optional_keys! {

@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::error::CaseError;
 use crate::source::error_recovery::MOST_FAULTS;
 use crate::sweep::Sweep;
+use crate::sweep::axes::Axis;
 use crate::sweep::file::Combine;
 
 /// The largest number of values of a list that are tried.
@@ -48,19 +49,11 @@ impl Sweep {
                 if faults.len() > MOST_FAULTS || attempt(&[(axis, value)]).is_none() {
                     continue;
                 }
-                let mut choice = valid.clone();
-                if let Some(own) = choice.get_mut(axis) {
-                    *own = Some(value);
-                }
-                let whole: Vec<usize> = choice.iter().map(|own| own.unwrap_or(0)).collect();
-                let member = self.member_of(&whole).unwrap_or(value);
-                let places = choice.iter().enumerate();
-                let choice: Vec<_> =
-                    places.filter_map(|(axis, own)| Some((axis, (*own)?))).collect();
-                let fault = match self.combine {
-                    Combine::All => self.build_of(&choice, member, &make).err(),
-                    Combine::Paired => self.build_of(&[(axis, value)], member, &make).err(),
-                };
+                let others = valid.iter().enumerate().filter(|(other, _)| *other != axis);
+                let others = others.filter_map(|(other, own)| Some((other, (*own)?)));
+                let mut choice: Vec<_> = others.chain([(axis, value)]).collect();
+                choice.sort_unstable();
+                let fault = self.build_of(&choice, &make).err();
                 let Some(fault) = fault else { continue };
                 let is_known = |known: &CaseError| known.span() == fault.span();
                 if points_here(&fault) && !faults.iter().any(is_known) {
@@ -84,9 +77,7 @@ impl Sweep {
                 }
                 let added = self.faults(&[(axis, value)]);
                 let added = added.into_iter().filter(|fault| !of_base.contains(fault));
-                let mut whole = vec![0; self.axes.len()];
-                whole[axis] = value;
-                let member = self.member_of(&whole).unwrap_or(value);
+                let member = self.member_of(&[(axis, value)]);
                 faults.extend(added.map(|fault| match fault.source_name() == self.name {
                     true => fault,
                     false => self.blame(axis, value, member, &fault),
@@ -103,12 +94,15 @@ impl Sweep {
         CaseError::joined(all).unwrap_or(first)
     }
 
-    /// Returns the member with these values, if all lists are combined with each other.
-    fn member_of(&self, choice: &[usize]) -> Option<usize> {
-        let digit = |member: usize, (axis, value): (usize, &usize)| {
-            member * self.axes[axis].values.len() + value
+    /// Returns the member with these values of these axes, and the first values of all others.
+    pub(super) fn member_of(&self, choice: &[(usize, usize)]) -> usize {
+        let value_of = |axis: usize| choice.iter().find(|(own, _)| *own == axis);
+        let digit = |member: usize, (axis, of): (usize, &Axis)| {
+            member * of.values.len() + value_of(axis).map_or(0, |(_, value)| *value)
         };
-        let is_any = !choice.is_empty() && self.combine == Combine::All;
-        is_any.then(|| choice.iter().enumerate().fold(0, digit))
+        match self.combine {
+            Combine::All => self.axes.iter().enumerate().fold(0, digit),
+            Combine::Paired => choice.first().map_or(0, |(_, value)| *value),
+        }
     }
 }

@@ -184,14 +184,13 @@ impl Sweep {
         make: impl Fn(Case) -> Result<T, CaseError>,
     ) -> Result<T, CaseError> {
         let choice: Vec<_> = self.choice(member).into_iter().enumerate().collect();
-        self.build_of(&choice, member, make)
+        self.build_of(&choice, make)
     }
 
     /// Applies `make` to the base case with these values of these axes, which belong to a member.
     pub(crate) fn build_of<T>(
         &self,
         choice: &[(usize, usize)],
-        member: usize,
         make: impl Fn(Case) -> Result<T, CaseError>,
     ) -> Result<T, CaseError> {
         let attempt = |choice: &[(usize, usize)]| self.case(choice).and_then(&make);
@@ -209,7 +208,7 @@ impl Sweep {
             let changes = |value: &&(usize, usize)| without(value).as_ref() != Some(&error);
             let culprit = choice.iter().find(cures).or_else(|| choice.iter().find(changes));
             let (axis, value) = *culprit.or(choice.last()).unwrap_or(&(0, 0));
-            self.blame(axis, value, member, &error)
+            self.blame(axis, value, self.member_of(choice), &error)
         })
     }
 

@@ -43,9 +43,9 @@ fn keys_that_cannot_be_varied_are_refused() {
     refused(&vary("'body.2.approach_speed' = [1]"), "3:7", "not an index");
     refused(&vary("'body.0..approach_speed' = [1]"), "3:9", "empty");
     refused(&vary("'body.0.name.x' = [1]"), "3:9", "single value");
-    refused(&vary("'body.0.approach_speed' = []"), "3:27", "is empty");
+    refused(&vary("'body.0.approach_speed' = []"), "3:27", "has no values");
     refused(&vary("'body.0.approach_speed' = 1"), "3:27", "not a list");
-    refused(&vary("body.0 = {}"), "3:6", "no list");
+    refused(&vary("body.0 = {}"), "3:6", "has no values");
     let twice = "'body.0.approach_speed' = [1]\nbody.0.approach_speed = [2]";
     refused(&vary(twice), "4:8", "varied twice");
     let inner = "'body.0.sphere.diameter' = [1e-3]\n'body.0.sphere' = [{ diameter = 1e-3 }]";
