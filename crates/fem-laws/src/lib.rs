@@ -45,7 +45,6 @@ mod fast_slow_limits;
 mod finite_size;
 mod hertz;
 mod impact;
-mod impact_path;
 mod law_impact;
 pub mod laws;
 mod numerics;
@@ -67,8 +66,7 @@ pub use finite_size::FiniteSize;
 pub use hertz::{
     AxisStress, HertzImpact, HertzInstant, HertzPressure, StaticHertz, contact_time_coefficient,
 };
-pub use impact::{Impact, ImpactInstant};
-pub use impact_path::ImpactPath;
+pub use impact::{Impact, ImpactInstant, ImpactPath};
 pub use law_impact::LawImpact;
 pub use laws::EndRule;
 pub use numerics::bisection;

@@ -1,4 +1,4 @@
-//! Runs that are disturbed from inside.
+//! Runs whose state is modified.
 
 use fem_collision::{Approach, BodyInput, HistoryRow, SnapshotInstant, SnapshotRequest};
 use fem_mesh::Side;
@@ -43,7 +43,7 @@ fn disturbed(factor: f64) -> Collision {
 }
 
 #[test]
-fn energy_out_of_nowhere_stops_the_run() {
+fn added_energy_stops_the_run() {
     let run = disturbed(1.1);
     let Some(&Stop::EnergyGrowth { ratio, time, body, place, .. }) = run.stop() else {
         panic!("{run:?}")
@@ -57,10 +57,10 @@ fn energy_out_of_nowhere_stops_the_run() {
     assert_eq!(run.restitution, None);
 }
 
-/// A run that fails leaves the last state whose energy added up; one that is interrupted, or asked for no
-/// fields, leaves none.
+/// A run that fails keeps the last state with a valid energy balance. A run that is interrupted, or without requested
+/// fields, keeps none.
 #[test]
-fn a_run_that_fails_leaves_its_last_sound_state() {
+fn a_failed_run_keeps_its_last_valid_state() {
     let model = model();
     let labels = || request(SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]));
     for (request, is_kept) in [(labels(), true), (request(SnapshotRequest::none()), false)] {
@@ -88,9 +88,9 @@ fn a_run_that_fails_leaves_its_last_sound_state() {
     assert!(run.finish().snapshots.is_empty());
 }
 
-/// Where the state of the stop is sound, it is that one; resumed on the way or not.
+/// If the state of the stop is valid, it is the last valid one, also in a resumed run.
 #[test]
-fn a_sound_state_in_which_a_run_stops_is_the_last_one() {
+fn a_valid_state_at_a_stop_is_the_last_one() {
     let model = model();
     let request =
         OutputRequest { most_element_updates: 200 * model.n_elements() as u64, ..request(COUNT) };
@@ -119,7 +119,7 @@ fn numbers_that_are_not_finite_stop_the_run() {
     }
 }
 
-/// A pause changes nothing; so the two tests above fail for what they do.
+/// Without a modification the run ends normally.
 #[test]
 fn an_undisturbed_run_ends() {
     let run = disturbed(1.0);
@@ -147,7 +147,7 @@ fn snapshots_and_rows_belong_to_the_same_instant() {
     assert!((snapshot.approach - row.approach).abs() < 1e-13);
 }
 
-/// Where, in an offset of the upper body, a contact opens; found by bisection.
+/// Finds the offset of the upper body at which a contact opens, by bisection.
 fn threshold(mut is_closed: impl FnMut(f64) -> bool) -> f64 {
     let (mut closed, mut open) = (0.0, 0.1);
     assert!(is_closed(closed) && !is_closed(open));
@@ -159,7 +159,7 @@ fn threshold(mut is_closed: impl FnMut(f64) -> bool) -> f64 {
 }
 
 #[test]
-fn the_next_contact_is_foreseen() {
+fn the_next_contact_is_predicted() {
     let model = model();
     let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
     for _ in 0..200 {
@@ -177,7 +177,7 @@ fn the_next_contact_is_foreseen() {
         state.bodies[1].displacement.iter_mut().for_each(|u| u[1] += offset);
         state
     };
-    let foreseen = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch, &contact));
+    let predicted = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch, &contact));
     let found = threshold(|offset| {
         let mut next = lifted(offset);
         let mut scratch = forces();
@@ -188,8 +188,8 @@ fn the_next_contact_is_foreseen() {
         update_forces(&model, &lifted(offset), &mut Scratch::new(&model)).unwrap().n_closed > 0
     });
     // Rounding; a step moves the threshold by orders more.
-    assert!((foreseen - found).abs() < 1e-14, "{foreseen:e} {found:e}");
-    assert!((foreseen - now).abs() > 1e-6, "{foreseen:e} {now:e}");
+    assert!((predicted - found).abs() < 1e-14, "{predicted:e} {found:e}");
+    assert!((predicted - now).abs() > 1e-6, "{predicted:e} {now:e}");
 }
 
 /// Tens of steps from one balance to the next.

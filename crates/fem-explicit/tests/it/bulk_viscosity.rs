@@ -97,13 +97,13 @@ fn it_is_resumed_and_another_is_refused() {
     let mut run = Run::new(&usual, pair.expected(), &pair.request());
     assert_eq!(run.advance(200), None);
     let bytes = postcard::to_stdvec(run.restart_state()).unwrap();
-    let memory = || postcard::from_bytes(&bytes).unwrap();
-    let mut resumed = Run::resume(&usual, memory()).unwrap();
+    let saved = || postcard::from_bytes(&bytes).unwrap();
+    let mut resumed = Run::resume(&usual, saved()).unwrap();
     for run in [&mut run, &mut resumed] {
         assert_eq!(run.advance(200), None);
     }
     assert_eq!(run.restart_state(), resumed.restart_state());
     let linear = ViscosityCoefficients { linear: 0.061, ..ViscosityCoefficients::default() };
     let other = model(&pair, linear);
-    assert_eq!(Run::resume(&other, memory()).err(), Some(ModelError::ForeignRestartState));
+    assert_eq!(Run::resume(&other, saved()).err(), Some(ModelError::ForeignRestartState));
 }

@@ -213,18 +213,18 @@ fn the_time_step_follows_and_resumes() {
     let model = ball.model();
     let request = OutputRequest::history();
     let whole = ball.run();
-    let mut memory = Run::new(&model, ball.expected(), &request).restart_state().clone();
+    let mut saved = Run::new(&model, ball.expected(), &request).restart_state().clone();
     let mut steps = Vec::new();
     let resumed = loop {
-        let bytes = postcard::to_stdvec(&memory).unwrap();
+        let bytes = postcard::to_stdvec(&saved).unwrap();
         let stored: RestartState = postcard::from_bytes(&bytes).unwrap();
         let mut run = Run::resume(&model, stored).unwrap();
         let has_ended = run.advance(20).is_some();
-        steps.push((run.restart_state().time() - memory.time()) / 20.0 / model.time_step());
+        steps.push((run.restart_state().time() - saved.time()) / 20.0 / model.time_step());
         if has_ended {
             break run.finish();
         }
-        memory = run.restart_state().clone();
+        saved = run.restart_state().clone();
     };
     assert_eq!(resumed, whole);
     steps.pop();
@@ -233,7 +233,7 @@ fn the_time_step_follows_and_resumes() {
     assert!(least < 0.82 && first > 0.94 && last > 0.94, "{least} {first} {last}");
     // Another pace is another run.
     let other = Ball { law: None, ..ball };
-    assert_eq!(Run::resume(&other.model(), memory).err(), Some(ModelError::ForeignRestartState));
+    assert_eq!(Run::resume(&other.model(), saved).err(), Some(ModelError::ForeignRestartState));
 }
 
 /// A law that softens in compression, at a speed at which it loses stability before the energy is checked, stops the

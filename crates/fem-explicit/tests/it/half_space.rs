@@ -143,7 +143,7 @@ fn loss(run: &Collision) -> f64 {
 /// ∫Ḟ² dt = (9/5) B(4/5, 3/2) F² v/δ; C(0.244) = 0.14950 by numerical integration of Miller & Pursey's
 /// (1955) admittance. To first order in the loss; 4.5 % more at 1.7 %, 2.6 % more at 0.7 %.
 #[test]
-fn what_a_ball_loses_is_hunters_radiation() {
+fn the_loss_of_a_ball_is_hunters_radiation() {
     for (speed, radiated, tolerance) in [(5.0, 1.7307e-2, 0.06), (1.0, 6.589e-3, 0.04)] {
         let run = match speed == Ball::default().speed {
             true => DEFAULT_RUN.clone(),
@@ -216,11 +216,10 @@ fn a_slow_ball_is_hertz() {
     assert!(run.restitution.unwrap() > 0.998 && run.restitution.unwrap() < 1.0);
 }
 
-/// Neither the far end nor the coarse elements there send anything back: twice as far, and rings that
-/// grow half as fast, are the same to a thousandth of the loss; a contact force that rattles is not
-/// smooth to better.
+/// Neither the far boundary nor the coarse elements there reflect waves: twice the radius, and rings that grow half
+/// as fast, change the loss by a thousandth, the noise of the contact force.
 #[test]
-fn nothing_comes_back() {
+fn no_waves_return() {
     let loss_of = |ball: Ball| loss(&ball.run());
     let here = loss(&DEFAULT_RUN);
     for ball in [Ball { reach: 0.5, ..Ball::default() }, Ball { reach: 2.0, ..Ball::default() }] {
@@ -233,7 +232,7 @@ fn nothing_comes_back() {
 
 /// Waves that return from a far boundary that is too near are reported.
 #[test]
-fn a_far_end_that_is_too_near_is_told() {
+fn a_far_boundary_that_is_too_near_is_reported() {
     let run = Ball { reach: 0.2, ..Ball::default() }.run();
     assert!(
         run.warnings.len() == 1 && run.warnings[0].contains("far radius"),
@@ -264,8 +263,8 @@ fn a_half_space_may_lie_above_and_move() {
     assert!(drift < 1e-9, "{drift:e}");
 }
 
-/// A half-space that relaxes loses what it radiates and what it dissipates; gone on from a memory it
-/// comes to the same bits.
+/// A half-space that relaxes loses what it radiates and what it dissipates; resumed from a restart
+/// state it has the same bits.
 #[test]
 fn a_half_space_may_relax() {
     for acts_on in [ActsOn::All, ActsOn::Shear] {
@@ -295,7 +294,7 @@ fn a_half_space_may_relax() {
 /// Bodies that stay together are recognised in time, also when waves have carried energy away: the half-space flows
 /// after a fiftieth of the contact time. One that keeps a spring parts.
 #[test]
-fn waves_that_are_gone_part_no_bodies() {
+fn radiated_waves_do_not_separate_bodies() {
     let ending = |weight: f64| {
         let time = 0.02 * Hertz::at(20.0).time;
         let terms = vec![PronyTerm { weight, relaxation_time: time }];

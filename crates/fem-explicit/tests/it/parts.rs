@@ -305,16 +305,13 @@ fn a_contact_with_history_takes_the_place_of_the_penalty() {
         assert_eq!(pair.in_pieces(&other, 97), run);
         let n_nodes: usize = plain.bodies().iter().map(|body| body.n_nodes()).sum();
         assert_eq!(n_bytes(&pair, &other), n_bytes(&pair, &plain) + 16 * n_nodes + 2 * 2);
-        // A memory with more fields is of another model.
-        let memory = Run::new(&other, pair.expected(), &pair.request()).restart_state().clone();
-        assert_eq!(
-            Run::resume(&plain, memory.clone()).err(),
-            Some(ModelError::ForeignRestartState)
-        );
-        // So is one of the same fields, of a contact with another number inside.
+        // A restart state with more fields belongs to another model.
+        let saved = Run::new(&other, pair.expected(), &pair.request()).restart_state().clone();
+        assert_eq!(Run::resume(&plain, saved.clone()).err(), Some(ModelError::ForeignRestartState));
+        // So does one with the same fields, of a contact with another number.
         let later = Counting { first_touch: 1e-9, ..Counting::of(&pair) };
         let later = Parts { contact: Some(Box::new(later)), ..Parts::default() };
-        let refused = Run::resume(&model(&pair, later), memory).err();
+        let refused = Run::resume(&model(&pair, later), saved).err();
         assert_eq!(refused, Some(ModelError::ForeignRestartState));
     }
 }

@@ -139,7 +139,7 @@ fn a_heavy_rigid_sphere_that_moves_is_balanced() {
 /// A body that relaxes at once sticks to a heavy rigid one that moves, and goes on with it: both keep
 /// the velocity of their mass centre.
 #[test]
-fn what_relaxes_to_nothing_stays_with_a_rigid_sphere() {
+fn a_body_that_relaxes_completely_stays_with_a_rigid_sphere() {
     let relaxation = Some(ActsOn::All);
     for (factor, velocities) in [(1.0, [0.5, 0.0]), (1e13, [10.5, 10.0])] {
         let pair = Pair { relaxation, terms: &[(1.0, 1e-6)], velocities, ..coarse() };
@@ -175,7 +175,7 @@ fn swapped_bodies_collide_in_the_mirror() {
 /// and time are read from steps and scatter by more. The penalty springs have 4 % of the compliance of the stiff
 /// pair, which is no share of the partner; the scatter of the contact is a tenth of 4e-5.
 #[test]
-fn a_stiff_partner_comes_to_the_rigid_one_as_foretold() {
+fn a_stiff_partner_approaches_the_rigid_one() {
     let pair = Pair { history_rows: 0, velocities: [0.0, -0.5], ..coarse() };
     // What is moved beside a rigid body is not what is moved beside an elastic one.
     let settings = Settings { mass_scaling: 0.0, ..pair.settings() };
@@ -191,11 +191,11 @@ fn a_stiff_partner_comes_to_the_rigid_one_as_foretold() {
         let rigid = BodyInput::Rigid { radius: pair.radii[0], mass };
         let rigid = model_of([rigid, pair.sphere(1)]);
         let [stiff, rigid] = [stiff, rigid].map(|model| pair.run_model(&model));
-        let foretold = (1.0 + 1.0 / ratio).powf(0.4) - 1.0;
+        let predicted = (1.0 + 1.0 / ratio).powf(0.4) - 1.0;
         let approach = stiff.max_approach.unwrap() / rigid.max_approach.unwrap() - 1.0;
         assert!(
-            (approach / foretold - 1.0).abs() < tolerance,
-            "{ratio}: {approach:e} {foretold:e}"
+            (approach / predicted - 1.0).abs() < tolerance,
+            "{ratio}: {approach:e} {predicted:e}"
         );
     }
 }

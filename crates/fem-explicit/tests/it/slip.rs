@@ -115,7 +115,7 @@ fn a_boundary_without_mass_slips_quietly_at_any_stiffness() {
     assert_eq!(run(1e3).0.to_bits(), step.to_bits());
 }
 
-/// To the same bits, and not from the memory of a model without slip.
+/// To the same bits, and not from the restart state of a model without slip.
 #[test]
 fn a_run_in_pieces_is_the_same() {
     for method in [ContactMethod::Penalty, ContactMethod::Massless] {
@@ -128,6 +128,6 @@ fn is_the_same_in_pieces(pair: &Pair) {
     let run = pair.run_model(&slipping);
     assert_eq!(pair.in_pieces(&slipping, 4001), run);
     assert_ne!(pair.run_model(&plain), run);
-    let memory = Run::new(&plain, pair.expected(), &pair.request()).restart_state().clone();
-    assert_eq!(Run::resume(&slipping, memory).err(), Some(ModelError::ForeignRestartState));
+    let saved = Run::new(&plain, pair.expected(), &pair.request()).restart_state().clone();
+    assert_eq!(Run::resume(&slipping, saved).err(), Some(ModelError::ForeignRestartState));
 }

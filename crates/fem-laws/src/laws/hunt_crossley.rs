@@ -9,8 +9,8 @@
 //! wanted e in first order of 1 − e only. Limits: 1 − e small, at the one speed v. The force never
 //! attracts: the rate stays above −K/C.
 
-use super::hertz::hertz_stiffness;
 use super::power::{ContactLaw, power};
+use super::published::hertz_stiffness;
 use crate::error::{LawError, positive, restitution as checked};
 use crate::family::{LawContext, LawInput, LawValues};
 use crate::pair::Pair;

@@ -1,26 +1,18 @@
 //! Contact laws F(ξ, ξ̇): each a function that returns its [`ContactLaw`], and the table of all of them.
 
-mod bordbar_hyppanen;
-mod falcon;
-mod hertz;
 mod hunt_crossley;
 mod kuwabara_kono;
 mod linear;
-mod mishra_murty;
-mod morgado_oppenheim;
 mod power;
+mod published;
 mod schwager_poeschel;
 mod tsuji;
 
-pub use bordbar_hyppanen::bordbar_hyppanen;
-pub use falcon::falcon;
-pub use hertz::hertz;
 pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
 pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
 pub use linear::{linear, linear_from_restitution, linear_values};
-pub use mishra_murty::mishra_murty;
-pub use morgado_oppenheim::morgado_oppenheim;
 pub use power::{ContactLaw, EndRule, power};
+pub use published::{bordbar_hyppanen, falcon, hertz, mishra_murty, morgado_oppenheim};
 pub use schwager_poeschel::{dissipation_time, schwager_poeschel, schwager_poeschel_values};
 pub use tsuji::{tsuji, tsuji_coefficient, tsuji_values, zhang_whiten_coefficient};
 
@@ -52,7 +44,7 @@ macro_rules! contact_laws {
                 c: Damping, NotNegative, Role::DAMPING;
                 /// Restitution, > 0 and ≤ 1; with `contact_time`, in place of `k` and `c`.
                 e: Number, Restitution;
-                /// Any positive number.
+                /// Contact time, > 0; with `e`.
                 contact_time: Time, Positive;
             }
 

@@ -13,8 +13,8 @@
 
 use fem_material::ElasticModuli;
 
-use super::hertz::hertz_stiffness;
 use super::power::{ContactLaw, power};
+use super::published::hertz_stiffness;
 use crate::error::{LawError, not_negative, positive};
 use crate::family::{LawContext, LawInput, LawInputError, LawValues};
 use crate::pair::Pair;

@@ -24,9 +24,9 @@
 
 use std::f64::consts::PI;
 
-use super::hertz::hertz_stiffness;
 use super::linear::damping_ratio;
 use super::power::{ContactLaw, EndRule, power};
+use super::published::hertz_stiffness;
 use crate::error::{LawError, not_negative, restitution as checked};
 use crate::family::{LawContext, LawInput, LawValues};
 use crate::pair::Pair;

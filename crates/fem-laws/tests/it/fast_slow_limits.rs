@@ -46,7 +46,7 @@ fn folded(materials: [&Material; 2], tolerance: f64) -> FastSlowLimits {
 }
 
 /// Estimate and result, each as restitution, relative time, relative force.
-fn foretold_and_found(materials: [&Material; 2], tolerance: f64) -> [[f64; 3]; 2] {
+fn estimate_and_result(materials: [&Material; 2], tolerance: f64) -> [[f64; 3]; 2] {
     let folded = folded(materials, tolerance);
     let without = folded.materials.each_ref().map(|material| material.as_ref().unwrap());
     let reference = ting(materials);
@@ -68,10 +68,10 @@ fn first_order_is_that_of_tings_model() {
         for (weight, ratio) in [(0.5, 1e-4), (1.0, 1e-5), (0.05, 1e4), (0.5, 1e5), (0.9, 1e6)] {
             let glass = glass(&[(weight, ratio)], acts_on);
             for materials in [[&glass, &glass], [&glass, &steel], [&steel, &glass]] {
-                let [foretold, found] = foretold_and_found(materials, 1e-2);
+                let [estimate, found] = estimate_and_result(materials, 1e-2);
                 for i in 0..3 {
                     // The loss itself at T/τ = 1e-4; √(τ/T) of first touch at 1e4, of T.
-                    let relative = found[i] / foretold[i] - 1.0;
+                    let relative = found[i] / estimate[i] - 1.0;
                     assert!(relative.abs() < 0.02, "{acts_on:?} {weight} {ratio} {i}: {relative}");
                 }
             }
@@ -81,7 +81,7 @@ fn first_order_is_that_of_tings_model() {
 
 /// As far as an error of 1e-2 the first order is good to a fifth, be the terms many.
 #[test]
-fn errors_are_as_foretold() {
+fn errors_are_as_estimate() {
     let steel = steel();
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         for terms in [
@@ -92,17 +92,17 @@ fn errors_are_as_foretold() {
         ] {
             let glass = glass(terms, acts_on);
             for materials in [[&glass, &glass], [&glass, &steel]] {
-                let [foretold, found] = foretold_and_found(materials, 1e-2);
-                assert!(foretold[0] > 1e-4 && foretold[0] < 1e-2);
+                let [estimate, found] = estimate_and_result(materials, 1e-2);
+                assert!(estimate[0] > 1e-4 && estimate[0] < 1e-2);
                 // A lasting term of T/τ = 1 damps the pulse that the others see.
                 let tolerance = if terms.len() == 3 { 0.5 } else { 0.2 };
                 for i in [0, 2] {
-                    let relative = found[i] / foretold[i] - 1.0;
+                    let relative = found[i] / estimate[i] - 1.0;
                     assert!(relative.abs() < tolerance, "{acts_on:?} {terms:?} {i}: {relative}");
                 }
                 // Of the time slow and fast terms differ by a factor of twelve, and what remains of the
                 // second order is of the size of a slow term's first.
-                assert!((found[1] - foretold[1]).abs() < 0.2 * foretold[2], "{terms:?} {found:?}");
+                assert!((found[1] - estimate[1]).abs() < 0.2 * estimate[2], "{terms:?} {found:?}");
             }
         }
     }
@@ -110,14 +110,14 @@ fn errors_are_as_foretold() {
 
 /// In between the estimate is a bound, of the time a third of one.
 #[test]
-fn weak_terms_are_never_worse_than_foretold() {
+fn weak_terms_are_never_worse_than_estimate() {
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         for ratio in [0.1, 0.3, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 100.0, 300.0] {
             let glass = glass(&[(1e-3, ratio)], acts_on);
-            let [foretold, found] = foretold_and_found([&glass; 2], 1e-2);
-            assert!(foretold[0] > 0.0);
+            let [estimate, found] = estimate_and_result([&glass; 2], 1e-2);
+            assert!(estimate[0] > 0.0);
             for (i, bound) in [(0, 1.02), (1, 3.0), (2, 1.02)] {
-                assert!(found[i].abs() < bound * foretold[i], "{ratio} {i} {found:?} {foretold:?}");
+                assert!(found[i].abs() < bound * estimate[i], "{ratio} {i} {found:?} {estimate:?}");
             }
         }
     }
@@ -172,9 +172,9 @@ fn the_sum_keeps_the_tolerance() {
         let n = folded.n_fast[0] + folded.n_slow[0];
         assert!(n > 0 && n < before);
         before = n;
-        let [foretold, found] = foretold_and_found([&glass; 2], tolerance);
+        let [estimate, found] = estimate_and_result([&glass; 2], tolerance);
         // What relaxes beside them halves the modulus within the contact. Ting is good to 1e-8.
-        assert!(found[0] < 1.5 * foretold[0] + 1e-8, "{tolerance} {found:?} {foretold:?}");
+        assert!(found[0] < 1.5 * estimate[0] + 1e-8, "{tolerance} {found:?} {estimate:?}");
     }
 }
 

@@ -58,15 +58,15 @@ fn small_losses_are_hunters() {
 fn coarse_waves_are_good_enough_for_a_forecast() {
     let material = elastic();
     let speed = 5e-4 * bar_wave_speed(&material);
-    let (_, quiet) = on_block(&material, &material);
-    let waves = quiet.clone().with_radiation([&material]).unwrap();
-    let [coarse, fine, quiet] =
-        [waves.clone().with_coarse_waves(), waves, quiet].map(|ting| ting.impact(speed).unwrap());
+    let (_, plain) = on_block(&material, &material);
+    let waves = plain.clone().with_radiation([&material]).unwrap();
+    let [coarse, fine, plain] =
+        [waves.clone().with_coarse_waves(), waves, plain].map(|ting| ting.impact(speed).unwrap());
     let changes = |impact: &Impact| {
         [
-            quiet.restitution - impact.restitution,
-            quiet.peak_force - impact.peak_force,
-            impact.contact_time.unwrap() - quiet.contact_time.unwrap(),
+            plain.restitution - impact.restitution,
+            plain.peak_force - impact.peak_force,
+            impact.contact_time.unwrap() - plain.contact_time.unwrap(),
         ]
     };
     let (coarse, fine) = (changes(&coarse), changes(&fine));
@@ -201,7 +201,7 @@ fn small_losses_add() {
             // The pulse that radiates has lost of the order of the viscous loss, and of the modulus.
             let relaxed = if terms.len() > 1 { 3e-3 } else { 3.0 * viscous };
             assert!((loss(&both) - product).abs() < 1.5 * alone * relaxed.max(6e-3), "{acts_on:?}");
-            // It is told apart: what is radiated is that of the elastic ball.
+            // The radiated energy is that of the elastic ball.
             let energy = both.history[0].approach_rate.powi(2) * 0.5 * mass(&relaxing);
             let radiated = both.radiated().unwrap() / energy;
             assert!((radiated / alone - 1.0).abs() < 1.5 * relaxed.max(6e-3), "{radiated}");
@@ -234,7 +234,7 @@ fn each_body_radiates_for_itself() {
 }
 
 #[test]
-fn nothing_radiates_is_no_radiation() {
+fn no_radiating_body_is_no_radiation() {
     let glass = material(&[(0.5, 1e4)], ActsOn::Shear);
     let (_, ting) = on_block(&glass, &glass);
     let found = ting.clone().with_radiation([]).unwrap().impact(0.5).unwrap();

@@ -1,4 +1,4 @@
-//! Memories that no run has left: refused, or a run without panic.
+//! Restart states that no run has written: rejected, or a run without panic.
 
 use fem_collision::{BodyInput, SnapshotInstant, SnapshotRequest};
 use fem_material::ActsOn;
@@ -32,8 +32,8 @@ fn request(snapshots: SnapshotRequest) -> OutputRequest {
     OutputRequest { history_rows: 20, snapshots, give_up_after: 5.0, ..OutputRequest::history() }
 }
 
-/// After so many steps, or at the end of the run.
-fn memory(model: &ExplicitBodies, snapshots: SnapshotRequest, n_steps: u64) -> RestartState {
+/// Returns the restart state after a number of steps, or at the end of the run.
+fn state_after(model: &ExplicitBodies, snapshots: SnapshotRequest, n_steps: u64) -> RestartState {
     let mut run = Run::new(model, EXPECTED, &request(snapshots));
     run.advance(n_steps);
     run.restart_state().clone()
@@ -77,22 +77,22 @@ fn damages(value: &Value) -> Vec<Value> {
 
 /// Every array truncated, emptied or doubled, every number another, one by one.
 #[test]
-fn a_damaged_memory_is_refused_or_runs() {
+fn a_damaged_restart_state_is_refused_or_runs() {
     let model = model();
-    let n_end = memory(&model, SnapshotRequest::none(), u64::MAX).step();
+    let n_end = state_after(&model, SnapshotRequest::none(), u64::MAX).step();
     let (mut n_refused, mut n_run) = (0, 0);
     let [labels, count, times] = requests();
     for (snapshots, n_steps) in [(labels, n_end / 2), (count, u64::MAX), (times, 0)] {
-        let whole = serde_json::to_value(memory(&model, snapshots, n_steps)).unwrap();
+        let whole = serde_json::to_value(state_after(&model, snapshots, n_steps)).unwrap();
         let mut damaged = Vec::new();
         visit(&whole, "", &mut |place, value| {
             damaged.extend(damages(value).into_iter().map(|other| (place.to_string(), other)));
         });
         for (place, other) in damaged {
-            let mut memory = whole.clone();
-            *memory.pointer_mut(&place).unwrap() = other;
-            let Ok(memory) = serde_json::from_value(memory) else { continue };
-            match Run::resume(&model, memory) {
+            let mut damaged_state = whole.clone();
+            *damaged_state.pointer_mut(&place).unwrap() = other;
+            let Ok(read) = serde_json::from_value(damaged_state) else { continue };
+            match Run::resume(&model, read) {
                 Err(refused) => {
                     assert_eq!(refused, ModelError::ForeignRestartState);
                     n_refused += 1;
@@ -105,7 +105,7 @@ fn a_damaged_memory_is_refused_or_runs() {
             }
         }
     }
-    // Both happen, many times; whoever breaks the walk over the memory sees it here.
+    // Both happen, many times; an error in the walk over the values is seen here.
     assert!(n_refused > 100 && n_run > 100, "{n_refused} {n_run}");
 }
 
@@ -113,7 +113,7 @@ fn a_damaged_memory_is_refused_or_runs() {
 #[test]
 fn parts_that_contradict_each_other_are_refused() {
     let model = model();
-    let whole = memory(&model, SnapshotRequest::Times(vec![3.0, 0.5]), 100);
+    let whole = state_after(&model, SnapshotRequest::Times(vec![3.0, 0.5]), 100);
     assert!(whole.fits(&model));
     let mut text = serde_json::to_value(&whole).unwrap();
     for (place, other) in [
@@ -124,8 +124,8 @@ fn parts_that_contradict_each_other_are_refused() {
         ("/recorder/request/Times/0", 0.25.into()),
     ] {
         let before = std::mem::replace(text.pointer_mut(place).unwrap(), other);
-        let memory: RestartState = serde_json::from_value(text.clone()).unwrap();
-        assert!(!memory.fits(&model), "{place}");
+        let read: RestartState = serde_json::from_value(text.clone()).unwrap();
+        assert!(!read.fits(&model), "{place}");
         *text.pointer_mut(place).unwrap() = before;
     }
     assert!(serde_json::from_value::<RestartState>(text).unwrap().fits(&model));
@@ -135,28 +135,28 @@ fn parts_that_contradict_each_other_are_refused() {
 #[test]
 fn a_time_that_is_no_number_is_refused() {
     let model = model();
-    let whole = memory(&model, SnapshotRequest::Count(3), 100);
+    let whole = state_after(&model, SnapshotRequest::Count(3), 100);
     assert!(whole.fits(&model));
     type Damage = (&'static str, fn(&mut RestartState));
     let damages: [Damage; 5] = [
-        ("time", |memory| memory.state.time = f64::NAN),
-        ("longest time", |memory| memory.request.give_up_after = f64::NAN),
-        ("first contact", |memory| memory.log.first_contact = Some(f64::NAN)),
-        ("last row", |memory| memory.sampled.last.as_mut().unwrap().time = f64::NAN),
-        ("approach", |memory| memory.approach = Approach::at(0.02).unwrap()),
+        ("time", |state| state.state.time = f64::NAN),
+        ("longest time", |state| state.request.give_up_after = f64::NAN),
+        ("first contact", |state| state.log.first_contact = Some(f64::NAN)),
+        ("last row", |state| state.sampled.last.as_mut().unwrap().time = f64::NAN),
+        ("approach", |state| state.approach = Approach::at(0.02).unwrap()),
     ];
     for (what, damage) in damages {
-        let mut memory = whole.clone();
-        damage(&mut memory);
-        assert!(!memory.fits(&model), "{what}");
+        let mut damaged_state = whole.clone();
+        damage(&mut damaged_state);
+        assert!(!damaged_state.fits(&model), "{what}");
     }
 }
 
 /// The restart state contains what a restart needs and nothing else: no buffers, and no rows that are not requested.
 #[test]
-fn a_memory_grows_by_what_is_asked_for() {
+fn a_restart_state_grows_by_the_requested_output() {
     let model = model();
-    let n_bytes = |memory: &RestartState| postcard::to_stdvec(memory).unwrap().len();
+    let n_bytes = |state: &RestartState| postcard::to_stdvec(state).unwrap().len();
     let n_nodes: usize = model.bodies().iter().map(|body| body.n_nodes()).sum();
     let bare = |n_steps: u64| {
         let request = OutputRequest { history_rows: 0, ..request(SnapshotRequest::none()) };
@@ -169,7 +169,7 @@ fn a_memory_grows_by_what_is_asked_for() {
     assert!(n_bytes(&bare(u64::MAX)) < n_bytes(&bare(0)) + 500 + 32 * n_observed);
     // One state: two fields of each body, a third of the one that relaxes.
     let ended =
-        memory(&model, SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]), u64::MAX);
+        state_after(&model, SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]), u64::MAX);
     let rows = size_of_val(ended.history.as_ref().unwrap().rows());
     assert!(n_bytes(&ended) < n_bytes(&bare(u64::MAX)) + 3 * 16 * n_nodes + rows + 1000);
 }

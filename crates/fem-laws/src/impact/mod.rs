@@ -1,5 +1,9 @@
 //! The result of a collision, of the same form for every model, and its interpolation in time.
 
+mod path;
+
+pub use path::ImpactPath;
+
 /// Summary and history of one collision, from first touch to the end of contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
