@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 const HEAD: &str = "\
-| effect | kind | ns an update, off | on | ratio | element updates, off | on | bytes of state, off | on |
+| effect | kind | ns per update, off | on | ratio | element updates, off | on | bytes of state, off | on |
 |---|---|---|---|---|---|---|---|---|
 ";
 

@@ -5,8 +5,9 @@ use std::time::{Duration, Instant};
 
 use fem::accuracy::CONDENSED_REFERENCE_TIME;
 use fem::{Cost, ErrorEstimator, RefinementBound, Simulation};
-use fem_case::engineering::show;
+use fem_case::engineering::Unit;
 use fem_collision::{Monitor, OutputRequest, Phase, Progress};
+use indicatif::HumanCount;
 
 /// Steps are timed for at least this long, ...
 const PATIENCE: Duration = Duration::from_millis(1);
@@ -25,6 +26,25 @@ const FIELDS: f64 = 0.1;
 const FILE: f64 = 0.4;
 /// Time to draw the report of a run with snapshots over the time to make the bodies.
 const REPORT: f64 = 0.8;
+
+/// Shows an estimate with two digits: `43 ms`, `120 MB`.
+pub fn estimated(value: f64, unit: &str) -> String {
+    let value = to_two_digits(value);
+    Unit::fitting(value, unit).with_digits(2).show(value)
+}
+
+/// Shows an estimated number with two digits: `3,000`.
+pub fn estimated_count(number: f64) -> HumanCount {
+    HumanCount(to_two_digits(number) as u64)
+}
+
+fn to_two_digits(value: f64) -> f64 {
+    if value <= 0.0 {
+        return value;
+    }
+    let digit = 10f64.powi(value.log10().floor() as i32 - 1);
+    digit * (value / digit).round()
+}
 
 /// The cost estimate of a run with elements.
 #[derive(Clone, Copy, Debug)]
@@ -79,12 +99,12 @@ impl Forecast {
 }
 
 impl FinerMeshes {
-    /// Describes the bound: "at most 2 finer meshes, 1.7e8 element updates more, 229 s".
+    /// Describes the bound: "at most 2 finer meshes, 1.7e8 element updates more, 230 s".
     pub fn in_words(&self) -> String {
         let (updates, seconds) = self.first;
         let RefinementBound { meshes, over_first } = self.bound;
         let plural = if meshes == 1 { "" } else { "es" };
-        let time = show(over_first * seconds, "s");
+        let time = estimated(over_first * seconds, "s");
         match updates > 0.0 {
             true => format!(
                 "at most {meshes} finer mesh{plural}, {:.1e} element updates more, {time}",
@@ -187,6 +207,13 @@ impl Monitor for Patient {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn estimates_have_two_digits() {
+        assert_eq!([0.04301, 313.9].map(|time| estimated(time, "s")), ["43 ms", "310 s"]);
+        assert_eq!([1.981e7, 0.0].map(|size| estimated(size, "B")), ["20 MB", "0.0 B"]);
+        assert_eq!([2987.0, 7.0].map(|n| estimated_count(n).to_string()), ["3,000", "7"]);
+    }
 
     /// Factors are made once: 4 s of factors and a fifth of the steps in 1 s make 9 s.
     #[test]

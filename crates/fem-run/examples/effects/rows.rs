@@ -5,8 +5,8 @@ use fem::{
 };
 use std::path::Path;
 
-/// The glass pair without relaxation, at default settings, with eight elements across the contact and
-/// little mass scaling, so that the cost of an effect shows over many steps.
+/// Overrides of the glass pair without relaxation: eight elements across the contact radius and little mass
+/// scaling, so that the cost of an effect shows over many steps.
 const FINE: [&str; 3] =
     ["accuracy.tolerance='0.3 %'", "mesh.staggered=false", "time.mass_scaling=2e-4"];
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");

@@ -82,7 +82,7 @@ pub fn table() -> Result<String, Error> {
     for _ in 0..TURNS {
         all.iter_mut().for_each(Timed::take_turn);
     }
-    let mut table = String::from("| ns an element update |");
+    let mut table = String::from("| ns per element update |");
     for (size, timed) in SIZES.iter().zip(&all) {
         write!(table, " {size} µm, {} elements | of plain |", timed.n_elements)?;
     }

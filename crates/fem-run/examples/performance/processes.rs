@@ -18,7 +18,7 @@ const RUNS: usize = 9;
 const ROWS: [(&str, &str, &[&str]); 9] = [
     ("default", "glass_0.5ms", &[]),
     ("default, elastic", "glass_0.5ms_elastic", &[]),
-    ("default, of a wall", "glass_on_wall", &[]),
+    ("default, on a wall", "glass_on_wall", &[]),
     ("mesh of 28 µm, elastic", "glass_0.5ms_elastic", &["--set=mesh.contact_element_size=28e-6"]),
     ("paper's mesh of 14 µm, elastic", "glass_0.5ms_14um", &[]),
     ("condensed", "glass_0.5ms", &["--set=model.condensed={}"]),

@@ -15,7 +15,7 @@ const PHASES: [(&str, &[&str]); 9] = [
     ("contact", &["fem_contact", "contact::"]),
     ("rows and accounts", &["ledger", "observed", "history", "centre"]),
     ("setup of meshes and models", &["fem_element", "fem_mesh", "time_step", "lumped"]),
-    ("condensed companion", &["fem_condensed", "faer", "gemm", "pulp"]),
+    ("condensed reference run", &["fem_condensed", "faer", "gemm", "pulp"]),
     ("closed forms", &["fem_laws", "ieee754", "__exp", "__log", "__atan"]),
     ("files", &["zlib", "deflate", "base64", "adler", "fem_vtk", "ryu", "Display", "fmt"]),
 ];

@@ -1,5 +1,6 @@
 //! Files of measured data.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use fem::measured::{DataError, Table, decode};
@@ -27,7 +28,11 @@ impl ColumnArguments {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| {
             let name = one_line(&name);
-            Failure::bad_input(format!("{name}: this file cannot be read: {error}"))
+            let found = match error.kind() {
+                ErrorKind::NotFound => "there is no such file".to_string(),
+                _ => format!("this file cannot be read: {error}"),
+            };
+            Failure::bad_input(format!("{name}: {found}"))
                 .with_help("name a CSV file with a header, such as validation/data/bridges_ice.csv")
         })?;
         self.name_columns(Table::parse(&name, &decode(&bytes))?)

@@ -17,7 +17,7 @@ use crate::text::failure::Failure;
 use crate::text::standard_output::one_line;
 use case::CaseArguments;
 
-/// Computes the collision of two viscoelastic spheres, or of a sphere and a wall or a block.
+/// Computes the collision of two viscoelastic spheres, or of a sphere and a wall or a half-space.
 ///
 /// Prints the result beside Hertz' closed form and writes summary.json, history.csv and ParaView files into
 /// a folder.

@@ -9,10 +9,9 @@ use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::{number, show};
 use fem_collision::QuantityOfInterest;
-use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::case::{CaseArguments, ToleranceArguments};
-use crate::forecast::Forecast;
+use crate::forecast::{Forecast, estimated, estimated_count};
 use crate::progress::stopwatch::peak_memory_with;
 use crate::text::failure::Failure;
 use crate::text::run_report;
@@ -193,9 +192,9 @@ fn of_contacts(simulation: &Simulation) -> String {
 
 /// Returns the time of the setup and of the run, and the mesh refinements that may follow.
 fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String; 2]> {
-    let setup = show(setup, "s");
+    let setup = estimated(setup, "s");
     let time = match forecast.seconds {
-        Some(run) => format!("about {} here, after {setup} of setup", show(run, "s")),
+        Some(run) => format!("about {} here, after {setup} of setup", estimated(run, "s")),
         None => format!("{setup} of setup here"),
     };
     let mut rows = Vec::new();
@@ -224,7 +223,7 @@ fn costs(
             let step = show(time_step, "s");
             row("time step", format!("{step} ({longer:.2} times that without mass scaling)"));
             let longer = forecast.map_or(1.0, |forecast| forecast.longer);
-            row("steps", format!("about {}", HumanCount((longer * steps as f64) as u64)));
+            row("steps", format!("about {}", estimated_count(longer * steps as f64)));
             let element_updates = longer * element_updates as f64;
             let all = forecast.map(|forecast| forecast.element_updates);
             let all = all.filter(|all| *all > 1.05 * element_updates);
@@ -233,15 +232,15 @@ fn costs(
         }
         Cost::Factors { contact_points, steps, factor_bytes, .. } => {
             row("contact points", format!("{contact_points} condensed"));
-            row("steps", format!("about {}", HumanCount(steps)));
+            row("steps", format!("about {}", estimated_count(steps as f64)));
             if factor_bytes > 0 {
-                row("factors", DecimalBytes(factor_bytes).to_string());
+                row("factors", estimated(factor_bytes as f64, "B"));
             }
         }
         Cost::Little { .. } => {}
     }
     if let Some(bytes) = peak_memory_with(simulation, estimator) {
-        row("memory", format!("about {}", DecimalBytes(bytes)));
+        row("memory", format!("about {}", estimated(bytes as f64, "B")));
     }
     rows.extend(time);
     table(&[Left, Left], rows)

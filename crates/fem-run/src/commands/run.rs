@@ -10,12 +10,11 @@ use fem::{
     Cost, ErrorEstimator, Identity, RefinedBeforeRun, RestartState, Simulation, stop_advice,
 };
 use fem_case::Keep;
-use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
-use indicatif::{DecimalBytes, HumanCount};
+use indicatif::HumanCount;
 
 use crate::arguments::case::{CaseArguments, ToleranceArguments, parse_count};
-use crate::forecast::Forecast;
+use crate::forecast::{Forecast, estimated, estimated_count};
 use crate::progress::RunProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::progress::stopwatch::Timed;
@@ -37,7 +36,7 @@ pub struct Options {
     ///
     /// An existing folder is replaced only if it is empty or the result of the same case; cases that differ
     /// only in [output] count as the same. Files of your own in it are kept. Without --out the result of
-    /// another case is left alone too: the run then takes a folder beside it and says which.
+    /// another case is left alone too: the run then takes a folder beside it and prints its name.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replace the result of another case
@@ -182,7 +181,7 @@ fn announce(
     // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
-        format!("; if the mesh has to be refined: {}", finer.in_words())
+        format!("; adaptive refinement may add {}", finer.in_words())
     });
     let (price, out) = (price(simulation, estimator, forecast), place.out.display());
     let large = simulation.case().scene().large_spheres();
@@ -215,15 +214,16 @@ fn price(
     &Forecast { seconds, longer, .. }: &Forecast,
 ) -> String {
     let time = |seconds: Option<f64>| {
-        seconds.map_or(String::new(), |seconds| format!(", about {}", show(seconds, "s")))
+        seconds.map_or(String::new(), |seconds| format!(", about {}", estimated(seconds, "s")))
     };
     let memory = peak_memory_with(simulation, estimator);
-    let memory = memory.map_or(String::new(), |bytes| format!(", about {}", DecimalBytes(bytes)));
+    let memory =
+        memory.map_or(String::new(), |bytes| format!(", about {}", estimated(bytes as f64, "B")));
     match simulation.setup().cost {
         Cost::Steps { elements, steps, seconds: expected, .. } => format!(
             "{} elements, about {} steps{}{memory}",
             HumanCount(elements),
-            HumanCount((longer * steps as f64) as u64),
+            estimated_count(longer * steps as f64),
             time(seconds.or(Some(expected)))
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
@@ -231,7 +231,7 @@ fn price(
             HumanCount(elements),
             match factor_bytes {
                 0 => String::new(),
-                bytes => format!(", factors of {}", DecimalBytes(bytes)),
+                bytes => format!(", factors of {}", estimated(bytes as f64, "B")),
             },
             time(seconds)
         ),

@@ -75,7 +75,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let claims = load_claims(&arguments.claims, &arguments.names).map_err(refused)?;
     if claims.is_empty() {
         let place = one_line(&arguments.claims.display().to_string());
-        return Err(Failure::bad_input(format!("{place}: none of its folders has a claim.toml")));
+        let message = format!("{place}: none of its folders has a claim.toml");
+        return Err(Failure::bad_input(message).with_help(
+            "run fem-run validate in its source folder, or name the folder of the claims with --claims",
+        ));
     }
     if arguments.list {
         return standard_output::print(&listing(&claims));

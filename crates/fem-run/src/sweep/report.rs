@@ -9,11 +9,12 @@ use fem::sweep::{Checked, Row, SWEEP_FILE};
 use fem::{WarningKind, WarningKinds};
 use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
-use indicatif::{DecimalBytes, HumanDuration};
+use indicatif::HumanDuration;
 
 use super::collect::SweepOutcome;
 use super::cost_estimate::{SweepCost, TotalTime};
 use super::member_store::LINE_BYTES;
+use crate::forecast::estimated;
 use crate::text::failure::Failure;
 use crate::text::standard_output::one_line;
 use crate::text::tables::table;
@@ -58,8 +59,8 @@ pub fn announce(
 }
 
 /// Returns the size of a member file with the summaries of `n_members` members.
-pub fn member_file_size(n_members: usize) -> DecimalBytes {
-    DecimalBytes(LINE_BYTES * n_members as u64)
+pub fn member_file_size(n_members: usize) -> String {
+    estimated((LINE_BYTES * n_members as u64) as f64, "B")
 }
 
 /// Returns the main results of each member, and where the rest is.
@@ -164,10 +165,10 @@ pub fn warning_lines<'t>(
     lines
 }
 
-/// Returns `12 ms`, `40 s`, `3 minutes` or `2 days`.
+/// Returns an estimate such as `12 ms`, `40 s`, `3 minutes` or `2 days`.
 pub fn duration(seconds: f64) -> String {
     if seconds < 60.0 {
-        return show(seconds, "s");
+        return estimated(seconds, "s");
     }
     HumanDuration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)).to_string()
 }
@@ -178,7 +179,7 @@ mod tests {
 
     #[test]
     fn long_times_are_in_minutes_and_days() {
-        assert_eq!(duration(0.25), show(0.25, "s"));
+        assert_eq!(duration(0.25), "250 ms");
         assert_eq!(duration(180.0), "3 minutes");
         assert_eq!(duration(2.0 * 86_400.0), "2 days");
         assert!(!duration(f64::INFINITY).is_empty());

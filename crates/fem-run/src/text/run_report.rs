@@ -20,6 +20,8 @@ const NONE: &str = "-";
 const UNKNOWN: &str = "?";
 /// Within this distance from 1 a restitution is also printed as 1 − e.
 const NEARLY_ELASTIC: f64 = 1e-3;
+/// Smallest loss of restitution by mesh and settings that is printed.
+const LEAST_LOSS: f64 = 1e-6;
 /// Relative errors below this are rounding.
 const ROUNDING: f64 = 1e-9;
 /// Most bounces that are printed; the summary has all.
@@ -191,13 +193,17 @@ fn balances(summary: &Summary) -> String {
         ["peaks".to_string(), text]
     });
     let null = summary.elastic_null.map(|null| {
-        let lost = number(null.one_minus_restitution, 1);
+        let lost = match null.one_minus_restitution {
+            lost if lost.abs() < LEAST_LOSS => format!("less than {}", number(LEAST_LOSS, 1)),
+            lost => number(lost, 1),
+        };
         let how = match null.estimated {
             true => "estimated",
             false => "from a coarser run without relaxation",
         };
-        let text =
-            format!("without relaxation, mesh and settings alone would lose {lost} of the restitution ({how})");
+        let text = format!(
+            "without relaxation, the same mesh and settings lose {lost} of the restitution ({how})"
+        );
         ["elastic null".to_string(), text]
     });
     let rows = [

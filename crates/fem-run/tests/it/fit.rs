@@ -155,7 +155,7 @@ fn inverse_of_the_glass() {
         .prints("kuwabara_kono|tsuji|falcon|bordbar_hyppanen|hunt_crossley|ting");
     place
         .fails(2, &[&ting[..5], &["1.5"]].concat())
-        .tells("it must be greater than 0 and less than 1");
+        .tells("--restitution must be greater than 0 and less than 1");
     let law = "invert case.toml --restitution 0.3 --law hunt_crossley";
     place.fails(2, law).tells("no e gives a restitution of 0.3");
     let law = "invert case.toml --restitution 0.3 --law linear";

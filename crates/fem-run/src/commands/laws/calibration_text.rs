@@ -19,7 +19,7 @@ pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
         "rms error: {}; with a single Maxwell term (weight 1, {}): {}\n",
         number(fit.rms, 3),
         match found.maxwell.beyond {
-            None => format!("{} with the same mean", show(found.maxwell.time, "s")),
+            None => format!("{} for the same mean restitution", show(found.maxwell.time, "s")),
             Some(beyond) => format!(
                 "{} or {}, at the end of the search range",
                 show(found.maxwell.time, "s"),

@@ -114,8 +114,8 @@ impl Arguments {
         if self.tolerance > 0.0 && self.tolerance < 1.0 {
             return Ok(());
         }
-        let message = format!("--tolerance is {:?}", self.tolerance);
-        Err(Failure::bad_input(message).with_help("give a value between 0 and 1"))
+        let message = format!("--tolerance must be between 0 and 1, found {:?}", self.tolerance);
+        Err(Failure::bad_input(message).with_help("give the largest error of e, such as 0.01"))
     }
 }
 

@@ -30,7 +30,7 @@ pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
     };
     let header = "code|model|input|>gives e|valid from, to|>worst error|file";
     format!(
-        "{}, {} to {}; a snippet is valid where its restitution is within {}\n\n{}",
+        "{}, {} to {}; each snippet is valid where its error of the restitution is at most {}\n\n{}",
         standard_output::one_line(&export.title),
         show(export.speeds.0, "m/s"),
         show(export.speeds.1, "m/s"),
@@ -65,7 +65,7 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
     };
     let n = export.grains.len();
     format!(
-        "{n} {}, {} pairs; one e per pair for all speeds, valid where it is within {}\n\n{}",
+        "{n} {}, {} pairs; one e per pair for all speeds, valid where its error is at most {}\n\n{}",
         if n == 1 { "grain" } else { "grains" },
         rows.len(),
         export.tolerance,

@@ -106,7 +106,8 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
     let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
     let wanted = arguments.restitution;
     if !(wanted > 0.0 && wanted < 1.0) {
-        let message = format!("--restitution {wanted}: it must be greater than 0 and less than 1");
+        let message =
+            format!("--restitution must be greater than 0 and less than 1, found {wanted}");
         let help = match wanted > 1.2 && wanted < 100.0 {
             true => format!("{wanted} % is --restitution {}", wanted / 100.0),
             false => "it is the relative velocity after over before, such as 0.92".to_string(),
