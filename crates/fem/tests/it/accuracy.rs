@@ -29,7 +29,7 @@ fn climb(text: &str, most_updates: u64) -> (Variants, Vec<Option<(Measurement, f
 /// to 0.05 % in contact time and force at this contact radius of 0.03 ball radii. The error falls with the element
 /// size.
 #[test]
-fn the_limit_is_that_of_theory_and_finer_is_nearer() {
+fn the_limit_is_that_of_theory_and_errors_fall() {
     let (variants, measured) = climb(BALL, 4_000_000);
     let accuracy = case(BALL).scene().accuracy();
     let study = Study::of(&variants, &measured, &accuracy);
@@ -42,9 +42,9 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
         QuantityOfInterest::MaxApproach,
     ] {
         let limit = study.limits[quantity as usize].unwrap();
-        let off = limit.value / theory.value(quantity).unwrap() - 1.0;
-        assert!(off.abs() < 7e-4, "{quantity:?} {off:e} {limit:?}");
-        // Without the finite size it would be off by 0.3 % and more.
+        let error = limit.value / theory.value(quantity).unwrap() - 1.0;
+        assert!(error.abs() < 7e-4, "{quantity:?} {error:e} {limit:?}");
+        // Without the finite size the error would exceed 0.3 %.
         assert!(limit.uncertainty < 1e-3 * limit.value, "{quantity:?} {limit:?}");
     }
     let restitution = study.limits[QuantityOfInterest::Restitution as usize].unwrap();
@@ -61,8 +61,8 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
             condensed.iter().map(|sure| sure[quantity as usize].unwrap()).collect();
         assert!(errors.is_sorted_by(|coarse, fine| coarse >= fine), "{quantity:?} {errors:?}");
     }
-    // Force and pressure of first order or better: three elements across are off by several times what
-    // eight are.
+    // Force and pressure converge with first order or better: the error of three elements across is several times that of
+    // eight.
     for quantity in [QuantityOfInterest::PeakForce, QuantityOfInterest::PeakPressure] {
         let k = quantity as usize;
         assert!(condensed[0][k].unwrap() > 2.5 * condensed[4][k].unwrap(), "{quantity:?}");
@@ -77,9 +77,9 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
     assert!(coarse > fine.map(|fine| 3.0 * fine), "{coarse:?} {fine:?}");
 }
 
-/// Of variants within the tolerance the fastest is taken; those that vary one setting alone are no choice.
+/// The fastest variant within the tolerance is chosen; variants of a single setting are not considered.
 #[test]
-fn the_cheapest_within_the_tolerance_is_taken() {
+fn the_cheapest_variant_within_the_tolerance_is_chosen() {
     let (variants, measured) = climb(BALL, 500_000);
     let accuracy = case(BALL).scene().accuracy();
     let study = Study::of(&variants, &measured, &accuracy);

@@ -25,14 +25,14 @@ struct Pair {
     gap: f64,
 }
 
-/// How many SI units the unit of length, mass and time is.
+/// SI values of the units of length, mass and time.
 type Units = [f64; 3];
 
 fn within(random: &mut Rng, from: f64, to: f64) -> f64 {
     from + (to - from) * random.f64()
 }
 
-/// Ten to a power between two.
+/// Returns a number with a uniform decadic logarithm.
 fn decades(random: &mut Rng, from: f64, to: f64) -> f64 {
     10f64.powf(within(random, from, to))
 }
@@ -67,7 +67,7 @@ impl Pair {
         speeds[0].min(speeds[1])
     }
 
-    /// The scene in units: numbers without a unit, as if they were SI.
+    /// Returns the case in other units, as numbers without a unit.
     fn text(&self, model: &str, [metre, kilogram, second]: Units) -> String {
         let (length, speed) = (1.0 / metre, second / metre);
         let pressure = metre * second * second / kilogram;
@@ -125,7 +125,7 @@ fn run(text: &str) -> Result<(Simulation, Collision), String> {
     }
 }
 
-/// Restitution; contact time and peak force over Hertz'.
+/// Returns restitution, and contact time and peak force over those of Hertz.
 fn numbers(simulation: &Simulation, collision: &Collision) -> Vec<f64> {
     let hertz = &simulation.setup().estimate.hertz;
     let time = collision.contact_time.map(|time| time / hertz.contact_time());

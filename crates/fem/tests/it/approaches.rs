@@ -1,4 +1,4 @@
-//! A model computes its bodies at any approach; what it gives does not depend on what came before.
+//! A model computes its bodies at any approach, and a collision does not depend on earlier ones.
 
 use std::path::Path;
 
@@ -6,18 +6,18 @@ use fem::{Approach, Case, Collision, METHODS, OutputRequest, Simulation, Snapsho
 
 use crate::coarse::simulation;
 
-/// So fast that the contact leaves the region in which it is looked for at first.
+/// Returns an approach so fast that the contact outgrows its first candidate region.
 fn fast() -> Approach {
     Approach::new([4.0, -2.0], 2e-6).unwrap()
 }
 
-/// All of a collision but its fields.
+/// Returns a collision without its fields.
 fn plain(collision: &Collision) -> Collision {
     Collision { snapshots: Vec::new(), ..collision.clone() }
 }
 
 #[test]
-fn a_collision_does_not_depend_on_those_before_it() {
+fn collisions_are_independent() {
     for method in METHODS {
         let simulation = simulation(method.name(), &[]);
         let model = simulation.model();
@@ -35,10 +35,10 @@ fn a_collision_does_not_depend_on_those_before_it() {
     }
 }
 
-/// What is said of a collision at another approach is said of it, not of the scene's own; and the case
-/// of its summary makes all of it again, to the same bits.
+/// The summary of a collision at another approach belongs to that approach, and its resolved case gives the same
+/// collision to the bit.
 #[test]
-fn a_summary_is_of_the_collision_that_was_computed() {
+fn a_summary_belongs_to_its_approach() {
     let twins = &["body.1.sphere.diameter='22.2 mm'"][..];
     for (method, more) in METHODS.iter().flat_map(|method| [(method, &[][..]), (method, twins)]) {
         let slow = simulation(method.name(), more);
@@ -52,11 +52,11 @@ fn a_summary_is_of_the_collision_that_was_computed() {
             again.ask_for(OutputRequest::history()).unwrap();
             let expected = again.run(&mut ());
             assert_eq!(plain(&collision), plain(&expected), "{name}");
-            let told = |simulation: &Simulation, collision: &Collision| {
+            let values = |simulation: &Simulation, collision: &Collision| {
                 serde_json::to_value(simulation.summary(collision)).unwrap()
             };
-            let (found, expected) = (told(&slow, &collision), told(&again, &expected));
-            // The resolved case names the model that was chosen, and asks for more than the case does.
+            let (found, expected) = (values(&slow, &collision), values(&again, &expected));
+            // The resolved case names the chosen model and has every default.
             let of_choice =
                 |key: &&String| !["models_considered", "made_from"].contains(&key.as_str());
             assert_ne!(found["made_from"], fem::case_identity(slow.case()), "{name}");
@@ -70,9 +70,9 @@ fn a_summary_is_of_the_collision_that_was_computed() {
     }
 }
 
-/// What no run could keep does not begin, and is said.
+/// A request that no run could keep is rejected, and a model stops at once.
 #[test]
-fn a_want_beyond_measure_is_refused() {
+fn an_impossible_request_is_rejected() {
     for method in METHODS {
         let mut simulation = simulation(method.name(), &[]);
         for request in [

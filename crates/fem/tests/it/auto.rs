@@ -1,12 +1,11 @@
-//! `[model] auto = {}`: which model a scene takes, why, and that its answer is within the tolerance of a
-//! dearer one.
+//! `[model] auto = {}`: the chosen model, its reason, and its result within the tolerance of a more expensive model.
 
 use std::path::Path;
 
 use fem::effects::{Effect, EffectStatus, FiniteSizeEffect};
 use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
-/// Two spheres, the first of which strikes the second.
+/// Returns the case of two spheres, the first of which strikes the second.
 fn scene(material: &str, diameters: [&str; 2], speed: &str) -> String {
     let [striker, target] = diameters;
     format!(
@@ -55,18 +54,17 @@ fn simulation(text: &str, set: &[&str]) -> Simulation {
     Simulation::new(Case::parse("scene.toml", text, Path::new("."), &set).unwrap()).unwrap()
 }
 
-/// Restitution (absolute), contact time and peak force (relative) within the tolerance.
+/// Asserts that restitution (absolute), contact time and peak force (relative) agree within the tolerance.
 fn within(tolerance: f64, found: &Collision, reference: &Collision, what: &str) {
     let restitution = found.restitution.unwrap() - reference.restitution.unwrap();
     let time = found.contact_time.unwrap() / reference.contact_time.unwrap() - 1.0;
     let force = found.peak_force.unwrap() / reference.peak_force.unwrap() - 1.0;
     for (change, name) in [(restitution, "e"), (time, "T"), (force, "F")] {
-        assert!(change.abs() < tolerance, "{what}: {name} is off by {change:e}");
+        assert!(change.abs() < tolerance, "{what}: {name} has an error of {change:e}");
     }
 }
 
-/// Scene, what else it asks for, the model that it must take, why the one before it does not serve, and
-/// the tolerance.
+/// A scene, its overrides, the expected model, the reason against the one before it, and the tolerance.
 type Row = (String, &'static [&'static str], &'static str, &'static str, f64);
 
 fn table() -> Vec<Row> {
@@ -94,7 +92,7 @@ fn table() -> Vec<Row> {
             "cannot write the requested snapshots",
             0.01,
         ),
-        // What relaxes changes the force by 3 %, the restitution by 5 %.
+        // Relaxation changes the force by 3 % and the restitution by 5 %.
         (scene(RELAXING, pair, "0.5 m/s"), &["accuracy.tolerance='20 %'"], "hertz = {}", "", 0.2),
         (
             scene(GLASS, ["100 um", "80 um"], "2 mm/s"),
@@ -103,8 +101,8 @@ fn table() -> Vec<Row> {
             "",
             0.005,
         ),
-        // The contact is larger than a tenth of the spheres: their compliance is no correction any more.
-        // Vibrations take 1.0 % of the force; by where the edge lies between nodes it swings by 0.4 %.
+        // The contact is larger than a tenth of the spheres, whose compliance is more than a correction. Vibrations change
+        // the force by 1.0 %, and the place of the edge between nodes by 0.4 %.
         (
             scene(RUBBER, ["20 mm", "20 mm"], "0.5 m/s"),
             &[],
@@ -119,7 +117,7 @@ fn table() -> Vec<Row> {
             "lacks viscoelasticity",
             0.02,
         ),
-        // Waves in a sphere eight times as large come back in part, which modes of vibration see.
+        // Waves in a sphere eight times as large return in part, which modes of vibration resolve.
         (
             scene(GLASS, ["40 mm", "5 mm"], "20 m/s"),
             &[],
@@ -127,7 +125,7 @@ fn table() -> Vec<Row> {
             "lacks partner waves",
             0.01,
         ),
-        // In one a hundred times as large they are gone.
+        // Waves in a sphere a hundred times as large do not return.
         (
             scene(GLASS, ["1 m", "10 mm"], "3 m/s"),
             &["accuracy.tolerance='0.5 %'"],
@@ -163,20 +161,23 @@ fn table() -> Vec<Row> {
 }
 
 #[test]
-fn each_scene_takes_the_cheapest_that_serves() {
+fn the_cheapest_model_within_the_tolerance_is_chosen() {
     for (text, set, expected, why, tolerance) in table() {
         let set: Vec<&str> = set.iter().copied().chain(["model.auto={}"]).collect();
         let simulation = simulation(&text, &set);
         let considered = simulation.considered();
         let chosen = considered.iter().position(|considered| considered.chosen).unwrap();
-        let told: Vec<String> =
+        let reasons: Vec<String> =
             considered.iter().map(|c| format!("{}: {}", c.model, c.reason)).collect();
-        assert_eq!(considered[chosen].model, expected, "{told:#?}");
+        assert_eq!(considered[chosen].model, expected, "{reasons:#?}");
         if chosen > 0 {
             let before = &considered[chosen - 1].reason;
             assert!(before.contains(why), "{expected}: {before}");
         }
-        assert!(simulation.warnings_before().iter().all(|w| !w.contains("tolerance")), "{told:#?}");
+        assert!(
+            simulation.warnings_before().iter().all(|w| !w.contains("tolerance")),
+            "{reasons:#?}"
+        );
         let found = simulation.run(&mut ());
         let reference = reference(&text);
         within(tolerance, &found, &reference, expected);
@@ -187,8 +188,8 @@ fn each_scene_takes_the_cheapest_that_serves() {
     }
 }
 
-/// The condensed model with modes, on elements twice as fine as by default; of a body that is large, with the
-/// term for its waves.
+/// Computes the reference with the condensed model on elements of half the default size, with modes, or with the radiation
+/// term if a body is large.
 fn reference(text: &str) -> Collision {
     let model = match text.contains("\"1 m\"") {
         true => "model.condensed={}",
@@ -201,7 +202,7 @@ fn reference(text: &str) -> Collision {
 }
 
 #[test]
-fn what_no_model_is_known_to_reach_is_told() {
+fn a_tolerance_that_no_model_meets_is_warned_of() {
     let text = scene(RELAXING, ["22.2 mm", "15.9 mm"], "0.5 m/s");
     let simulation = simulation(&text, &["model.auto={}", "accuracy.tolerance=1e-5"]);
     let warnings = simulation.warnings_before();
@@ -213,7 +214,7 @@ fn what_no_model_is_known_to_reach_is_told() {
 
 /// The peak pressure has a tolerance of its own.
 #[test]
-fn a_pressure_that_is_asked_for_more_finely_is_judged() {
+fn the_tolerance_of_the_peak_pressure_decides() {
     let text = scene(GLASS, ["22.2 mm", "15.9 mm"], "0.5 m/s");
     let asked = |tolerance: &str| {
         let tolerance = format!("accuracy.tolerance={{peak_pressure={tolerance}}}");
@@ -224,15 +225,15 @@ fn a_pressure_that_is_asked_for_more_finely_is_judged() {
         (chosen, warnings.iter().any(|warning| warning.contains("no model is known")))
     };
     assert_eq!(asked("0.03"), ("hertz = {}", false));
-    // Inclined surfaces change it by 0.4 % at most, which half-spaces lack.
+    // Half-spaces lack the inclination of the surfaces, which changes the pressure by 0.4 % at most.
     assert_eq!(asked("0.002"), ("condensed = {}", false));
     assert!(asked("1e-6").1, "no model is as fine");
 }
 
-/// A ball that is laid down: its weight presses it ten times as wide as an impact at its speed, and a model whose first
-/// order ends there is not taken.
+/// The weight of a ball that is laid down makes the contact ten times as wide as an impact at its speed, so models with the
+/// first order of the finite size are not valid.
 #[test]
-fn what_weight_does_to_the_contact_is_weighed() {
+fn the_weight_counts_for_the_width_of_the_contact() {
     let text = r#"
 [material.stuff]
 density = 6744
@@ -273,7 +274,7 @@ auto = {}
     }
 }
 
-/// Steel on rubber at 15 m/s, a contact as wide as the spheres: nothing foretells what small strain is off by.
+/// Steel on rubber at 15 m/s, a contact as wide as the spheres, where the error of small strain cannot be estimated.
 const FLAT: &str = r#"
 [material.steel]
 density = 7850
@@ -297,9 +298,9 @@ approach_speed = 14.57
 auto = {}
 "#;
 
-/// What nothing foretells is no error of nothing.
+/// An error that cannot be estimated does not count as zero.
 #[test]
-fn what_nothing_foretells_serves_nobody() {
+fn a_model_with_an_unknown_error_is_not_chosen() {
     for set in [
         &[][..],
         &["body.1.approach_speed=25"],
@@ -311,14 +312,14 @@ fn what_nothing_foretells_serves_nobody() {
             let is_fem = considered.model.starts_with("fem");
             assert_eq!(considered.chosen, is_fem, "{set:?}: {considered:?}");
             let is_out_of_reach = considered.reason.contains("outside the validity");
-            let is_untold = considered.reason.contains("cannot be estimated");
-            assert!(is_fem || is_untold || is_out_of_reach, "{set:?}: {considered:?}");
+            let is_unknown = considered.reason.contains("cannot be estimated");
+            assert!(is_fem || is_unknown || is_out_of_reach, "{set:?}: {considered:?}");
             assert_eq!(considered.error.peak_pressure_pa.is_some(), is_fem, "{considered:?}");
         }
     }
 }
 
-/// A choice whose own result would advise another model is none: spheres of many sizes, stiffnesses and speeds.
+/// The result of a chosen model does not advise another one, for spheres of many sizes, stiffnesses and speeds.
 #[test]
 fn no_choice_advises_another_model() {
     let mut state = 20_u64;
@@ -346,10 +347,10 @@ fn no_choice_advises_another_model() {
     }
 }
 
-/// Half-spaces press otherwise than inclined surfaces do. Like spheres, recorded from explicit elements and condensed
-/// bodies at 0.05 %; the result says so, and no case that asks for more takes them.
+/// Half-spaces have an error of the peak pressure, which the error bar includes, and are not chosen for a smaller
+/// tolerance. The reference pressures are recorded from explicit elements and condensed bodies at 0.05 %.
 #[test]
-fn the_pressure_of_half_spaces_is_off_by_what_it_says() {
+fn the_bar_includes_the_pressure_error_of_half_spaces() {
     let like = |nu: f64, young: f64, density: f64, diameter: f64, speed: f64| {
         let material = format!(
             "[material.stuff]\ndensity={density}\nyoungs_modulus={young}\npoissons_ratio={nu}\n"
@@ -367,9 +368,9 @@ fn the_pressure_of_half_spaces_is_off_by_what_it_says() {
     ] {
         let run = simulation(text, &[more, model]);
         let collision = run.run(&mut ());
-        let standing = EffectStatus { is_lacking: false, neglect_error: None };
+        let status = EffectStatus::default();
         let error =
-            FiniteSizeEffect.model_form_error(run.case().scene(), &run.setup().estimate, &standing);
+            FiniteSizeEffect.model_form_error(run.case().scene(), &run.setup().estimate, &status);
         let bar = error.size(QuantityOfInterest::PeakPressure).unwrap();
         let error = (collision.peak_pressure.unwrap() - truth).abs();
         // The truth is known to 0.3 %.

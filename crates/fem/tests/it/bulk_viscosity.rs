@@ -1,4 +1,4 @@
-//! Bulk viscosity as a case asks for it, and where a scene calls for it whose springs ring.
+//! Bulk viscosity: its switch, and scenes with ringing springs that call for it.
 
 use fem::{Approach, OutputRequest, Simulation};
 use fem_collision::Account;
@@ -13,23 +13,23 @@ const OFF: &str = "effects.bulk_viscosity='off'";
 const PENALTY: &str = "contact.method='penalty'";
 /// A coarse mesh for such speeds.
 const MESH: &str = "mesh={contact_element_size='0.4 mm', refined_radius='1.6 mm'}";
-/// Contact of small strain has nothing of its own that damps.
+/// Contact at small strain has no damping of its own.
 const SMALL: &str = "effects.finite_strain='off'";
-/// Two bodies of which one is computed.
+/// Identical bodies, of which one is computed.
 const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
 
 fn fem(overrides: &[&str]) -> Simulation {
     simulation("fem", &[&[MESH, PENALTY], overrides, &[SMALL]].concat())
 }
 
-/// Whether it is on, and why.
+/// Returns whether bulk viscosity is on, and the reason.
 fn verdict(simulation: &Simulation) -> (bool, String) {
     let verdicts = &simulation.setup().decisions.verdicts;
     let own = verdicts.iter().find(|verdict| verdict.name == "bulk viscosity").unwrap();
     (own.active, own.reason.clone())
 }
 
-/// What it took, J; `None` where it is absent.
+/// Returns the work of bulk viscosity, J; `None` if the run has none.
 fn work(simulation: &Simulation) -> Option<f64> {
     simulation.run(&mut ()).energies.get(Account::BulkViscosity)
 }
@@ -57,9 +57,9 @@ fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
     }
 }
 
-/// A model that meets at another speed decides on it anew, as what is told of that collision does.
+/// At another approach speed the model decides again, and the decisions on the collision agree.
 #[test]
-fn another_approach_is_decided_anew() {
+fn another_approach_has_its_own_decision() {
     for bodies in ["start={}", TWINS] {
         let simulation = fem(&[SLOW, bodies]);
         let request = OutputRequest {
@@ -85,13 +85,13 @@ fn half_of_the_work_gives_the_whole() {
     assert_eq!(mirrored.steps, whole.steps);
     assert_eq!(mirrored.element_updates.map(|n| 2 * n), whole.element_updates);
     let [a, b] = [&mirrored, &whole].map(|c| c.energies.get(Account::BulkViscosity).unwrap());
-    // Rounding, which contact that opens and closes enlarges.
+    // Contact that opens and closes amplifies rounding.
     assert!((a / b - 1.0).abs() < 1e-6, "{a:e} {b:e}");
     let [a, b] = [&mirrored, &whole].map(|collision| collision.restitution.unwrap());
     assert!((a - b).abs() < 1e-6, "{a} {b}");
 }
 
-/// Off is the same bits as absent, and no word in summary and history.
+/// Off gives the same bits as absent, without a key in summary and history.
 #[test]
 fn off_is_absent() {
     let [absent, off, on] = ["effects={}", OFF, ON].map(|switch| {

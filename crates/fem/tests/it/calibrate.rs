@@ -1,4 +1,4 @@
-//! Calibration as a library user has it: a case and data made in code.
+//! Calibration through the library, with a case and data built in code.
 
 use fem::calibrate::{
     Abscissa, Calibration, CalibrationFault, CalibrationModel, SettingNames, Settings,
@@ -8,7 +8,7 @@ use fem::measured::{MeasuredPairs, Restitutions};
 use fem::schema::{ActsOn, BodyTable, MaterialTable, MeshTable, ModelTable, TermTable, TingTable};
 use fem::{Case, CaseFile, collide};
 
-/// The paper's spheres of glass that does not relax.
+/// Returns the paper's glass spheres without relaxation.
 fn pair() -> Case {
     let glass = MaterialTable::from_youngs_modulus_poissons_ratio(2390.0, "63 GPa", 0.244);
     let striker = BodyTable::sphere("striker", "22.2 mm", "glass").approaching("0.5 m/s");
@@ -20,7 +20,7 @@ fn ting(n_terms: usize) -> Settings {
     Settings { model: CalibrationModel::Ting, n_terms, ..Settings::default() }
 }
 
-/// Ting's restitutions of a series at speeds, m/s, and diameters of the striker, m.
+/// Returns Ting's restitutions of a series at speeds, m/s, and diameters of the striker, m.
 fn restitutions(series: &[TermTable], collisions: &[(f64, f64)]) -> Restitutions {
     let points = collisions.iter().map(|&(speed, diameter)| {
         let case = pair().edited(|file| {
@@ -39,7 +39,7 @@ fn restitutions(series: &[TermTable], collisions: &[(f64, f64)]) -> Restitutions
 }
 
 #[test]
-fn a_series_that_made_the_data_makes_them_again() {
+fn a_calibrated_series_reproduces_the_data() {
     let series = [
         TermTable::with_relaxation_time(0.03, "20 us"),
         TermTable::with_relaxation_time(0.25, "300 us"),
@@ -56,7 +56,7 @@ fn a_series_that_made_the_data_makes_them_again() {
     let [total, ..] = &found.fit.moments;
     assert!(total.low < 0.28 && 0.28 < total.high, "{total:?}");
 
-    // What was found has its place in the case.
+    // The found series is valid in the case.
     let relaxing = pair().edited(|file| {
         let glass = file.material.get_mut("glass").unwrap();
         glass.relaxation = found.relaxation();
@@ -85,11 +85,11 @@ fn pairs_of_bodies_share_a_series() {
     let diameters: Vec<_> = found.residuals().map(|row| row[0].unwrap()).collect();
     assert_eq!(diameters, [sizes[0], sizes[1], sizes[0], sizes[1]]);
 
-    // Each collision has its place among the others by its contact time.
+    // Curves of several pairs are over the contact time.
     let curves = found.curves().unwrap();
     assert_eq!((curves.over, curves.best.len()), (Abscissa::ContactTime, 4));
     assert!(curves.best.is_sorted_by(|a, b| a.0 <= b.0));
-    // The larger sphere is slower, and so is the slower impact.
+    // Contact times grow with the sphere and fall with the speed.
     assert!(curves.data[0].0 < curves.data[1].0 && curves.data[2].0 < curves.data[0].0);
     let numbers = serde_json::to_value(found.numbers("pair", Vec::new())).unwrap();
     assert_eq!(numbers["pairs"][0]["diameters_m"][0], sizes[0]);
@@ -144,7 +144,7 @@ fn advice_names_the_settings_as_the_caller_does() {
 }
 
 #[test]
-fn what_cannot_be_calibrated_is_refused() {
+fn impossible_calibrations_are_rejected() {
     let refused = |points: &[(f64, f64)], settings: &Settings| {
         let measured = Restitutions::of("e", points);
         Calibration::of(&pair(), measured.into(), settings).unwrap_err()

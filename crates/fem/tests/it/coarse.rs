@@ -5,15 +5,15 @@ use std::path::Path;
 use fem::{Case, Simulation};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
-/// A mesh that serves all approaches.
+/// A mesh for all approaches.
 const MESH: [&str; 2] = ["mesh.contact_element_size='0.1 mm'", "mesh.refined_radius='0.4 mm'"];
 
-/// The pair by a method, with more overrides, which may name another model.
+/// Returns the pair with a method and more overrides, which may name another model.
 pub fn simulation(method: &str, more: &[&str]) -> Simulation {
     Simulation::new(case(method, more)).unwrap()
 }
 
-/// What is said of a pair that no model computes.
+/// Returns the message of a rejected pair.
 pub fn refused(method: &str, more: &[&str]) -> String {
     Simulation::new(case(method, more)).unwrap_err().to_string()
 }

@@ -1,5 +1,4 @@
-//! `[model] condensed`: its keys, its results in the collision that all models share, pairs that
-//! cases share.
+//! `[model] condensed`: its keys, its results compared with the explicit model, and pairs that cases share.
 
 use std::path::Path;
 
@@ -42,7 +41,7 @@ fn keys_are_read_and_checked() {
     }
 }
 
-/// The case as the explicit model reads it: both readings, a wall, a gap.
+/// Results of the condensed and of the explicit model agree for the same case.
 #[test]
 fn results_are_those_of_the_explicit_model() {
     for extra in [&[][..], &["start.gap='1 um'", "body.1.approach_speed='0.2 m/s'"]] {
@@ -118,7 +117,7 @@ fn a_resolved_case_computes_the_same() {
     }
 }
 
-/// Speeds and relaxations on one mesh share a factor, to the same bits.
+/// Speeds and relaxations on one mesh share a factor and give the same bits as without sharing.
 #[test]
 fn cases_share_a_pair() {
     let mesh = ["mesh.contact_element_size='50 um'", "mesh.refined_radius='0.4 mm'", CONDENSED];
@@ -180,7 +179,7 @@ fn restitution(case: Case, shared: &SharedModels) -> f64 {
     Simulation::sharing(case, shared).unwrap().run(&mut ()).restitution.unwrap()
 }
 
-/// A pairing is factored once, whatever the order, and the order changes no bit.
+/// Each pair of bodies is factored once in any order, and the order does not change the results.
 #[test]
 fn nine_pairings_take_nine_factors_in_any_order() {
     let run = |speed_is_slow: bool, shared: &SharedModels| -> Vec<f64> {
@@ -201,8 +200,8 @@ fn nine_pairings_take_nine_factors_in_any_order() {
     assert_eq!(tight.pairs.n_made(), 9 + 18);
 }
 
-/// Elements are chosen from lengths that scenes share: over a third of a decade in speed and a decade in relaxation
-/// thirty members eliminate some bodies, with those of their reference runs, and not thirty times; and what is shared changes no bit.
+/// Element sizes are rounded to lengths that scenes share. Thirty members over a third of a decade in speed and a decade in
+/// relaxation need only a few factors, also of their reference runs, and give the same bits as without sharing.
 #[test]
 fn speeds_and_relaxations_share_meshes() {
     let members = || {
@@ -233,7 +232,7 @@ fn speeds_and_relaxations_share_meshes() {
     assert!((4..=8).contains(&pairs) && references <= 2 * pairs, "{pairs} {references}");
 }
 
-/// Threads that want the same pair wait for the one that makes it.
+/// Threads that need the same pair wait for the one that makes it.
 #[test]
 fn threads_do_not_factor_a_pair_twice() {
     let shared = SharedModels::default();
@@ -268,14 +267,14 @@ fn an_enlarged_pair_is_not_put_back() {
         condensed.collide(&approach, &request, &mut ()).candidate_region.unwrap().radius
     };
     let small = condensed(soft(0.0));
-    // It sinks in so much deeper that the region does not reach.
+    // The softer bodies need a larger region.
     let large = condensed(soft(0.95));
     assert!(large > small, "{large} {small}");
     assert_eq!(condensed(soft(0.0)), small);
     assert_eq!(shared.pairs.n_made(), 1);
 }
 
-/// Without snapshots all else keeps its bits.
+/// Snapshots that are skipped do not change other results.
 #[test]
 fn snapshots_are_skipped_on_demand() {
     for model in [CONDENSED, "model.fem={}", "model.ting={}"] {
@@ -292,9 +291,9 @@ fn snapshots_are_skipped_on_demand() {
     }
 }
 
-/// What the model does not read or know is said.
+/// The model warns of keys that it does not read, and rejects scenes beyond its limits.
 #[test]
-fn limits_are_told() {
+fn unread_keys_and_limits_are_reported() {
     let warned = |overrides: &[&str], words: &str| {
         let warnings = simulation(overrides).setup().warnings().join("\n");
         assert!(warnings.contains(words), "{warnings}");
@@ -306,7 +305,7 @@ fn limits_are_told() {
     warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "small strain is off by");
     let refused = |overrides: &[&str]| Simulation::new(parse(overrides).unwrap()).unwrap_err();
-    // That of the factors, and not of what explicit elements would take.
+    // The limit applies to the memory of the factors.
     let error = refused(&[CONDENSED, "limits.memory=1000", "mesh.contact_element_size='60 um'"]);
     assert!(error.message().contains("factors"), "{error}");
     assert!(error.help().is_some_and(|help| help.contains("limits.memory")), "{error}");
@@ -341,18 +340,18 @@ fn assert_longer_steps(relaxations: &[(&str, f64)]) {
         let found = simulation.run(&mut ());
         let share = found.steps.unwrap() as f64 / steps as f64;
         assert!(steps < 4000 && (1.0 / 1.5..1.5).contains(&share), "{share} of {steps}");
-        // Ten times as many say the same: these are some 500 over the time in which they are stopped.
+        // Ten times as many steps give the same; the default has about 500 until the bodies stop.
         let finer = flowing(acts_on, weight, ", steps=10000").run(&mut ());
         let numbers =
             |one: &Collision| [one.peak_force, one.max_approach, one.restitution.map(|e| 1.0 + e)];
         for (a, b) in numbers(&found).into_iter().zip(numbers(&finer)) {
-            let off = a.unwrap() / b.unwrap() - 1.0;
-            assert!(off.abs() < 1e-3, "{acts_on} {weight}: {off:e}");
+            let error = a.unwrap() / b.unwrap() - 1.0;
+            assert!(error.abs() < 1e-3, "{acts_on} {weight}: {error:e}");
         }
     }
 }
 
-/// What a collision takes by default: some three hundred steps, a thousand rows all the same.
+/// By default a collision takes about three hundred steps and has a thousand history rows.
 #[test]
 fn few_steps_are_enough() {
     let run = run(&[CONDENSED]);
@@ -362,9 +361,9 @@ fn few_steps_are_enough() {
     assert!((e.unwrap() - 1.0).abs() < 1e-10, "{e:?}");
 }
 
-/// Factors are kept where fields are asked for, and made where they are asked for later.
+/// Factors are kept if the case requests fields, and made again if fields are requested later.
 #[test]
-fn what_needs_no_fields_keeps_no_factors() {
+fn factors_are_kept_for_fields_only() {
     let kept = |more: &str| {
         let simulation = simulation(&[CONDENSED, more]);
         let fem::Cost::Factors { factor_bytes, .. } = simulation.setup().cost else { panic!() };

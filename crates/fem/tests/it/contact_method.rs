@@ -1,4 +1,4 @@
-//! `contact.method` as a case names it, and where a scene decides.
+//! `contact.method`: the choice of the case, and scenes that need another method.
 
 use fem::{Case, Collision, Simulation};
 use fem_case::ContactMethod;
@@ -10,15 +10,15 @@ const MASSLESS: &str = "contact.method='massless'";
 const PENALTY: &str = "contact.method='penalty'";
 const NODES: &str = "contact.method='node_to_surface'";
 const VISCOUS: &str = "effects.bulk_viscosity='on'";
-/// Surfaces that are where they have moved have springs of their own.
+/// Small strain; contact between moved surfaces at finite strain has its own springs.
 const SMALL: &str = "effects.finite_strain='off'";
-/// Beyond a fiftieth of the shear wave speed, on a mesh for it.
+/// A speed beyond a fiftieth of the shear wave speed, with a mesh for it.
 const FAST: [&str; 3] = [
     "body.0.approach_speed='80 m/s'",
     "mesh={contact_element_size='0.4 mm', refined_radius='1.6 mm'}",
     SMALL,
 ];
-/// Two bodies of which one is computed.
+/// Identical bodies, of which one is computed.
 const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
 
 fn fem(overrides: &[&str]) -> Simulation {
@@ -43,7 +43,7 @@ fn run(overrides: &[&str]) -> Collision {
     fem(overrides).run(&mut ())
 }
 
-/// Each is another contact, of the same collision.
+/// Each method gives the same collision within its error.
 #[test]
 fn a_case_names_the_method() {
     let named = [MASSLESS, PENALTY, NODES].map(|method| fem(&[method]));
@@ -53,7 +53,7 @@ fn a_case_names_the_method() {
     let runs = named.each_ref().map(|simulation| simulation.run(&mut ()));
     for (k, run) in runs.iter().enumerate() {
         assert!(runs[..k].iter().all(|other| other.steps != run.steps));
-        // A coarse mesh, of two elements a contact radius.
+        // The mesh is coarse, with two elements per contact radius.
         assert!((run.restitution.unwrap() / 0.9276 - 1.0).abs() < 0.01, "{:?}", run.restitution);
         assert!((run.contact_time.unwrap() / 62.445e-6 - 1.0).abs() < 0.03);
     }
@@ -62,10 +62,10 @@ fn a_case_names_the_method() {
     }
 }
 
-/// Viscous forces are of velocities, with which no boundary without mass is in balance; only where they are
-/// forced on it gives way.
+/// A massless boundary cannot balance viscous forces, so forced bulk viscosity replaces it by penalty springs with a
+/// warning.
 #[test]
-fn viscosity_that_is_forced_on_takes_penalty_and_says_so() {
+fn forced_viscosity_needs_penalty_springs() {
     for bodies in ["start={}", TWINS] {
         for (switch, named, expected) in [
             ("effects.bulk_viscosity='auto'", "start={}", ContactMethod::Massless),
@@ -85,10 +85,10 @@ fn viscosity_that_is_forced_on_takes_penalty_and_says_so() {
     }
 }
 
-/// Behind steep fronts it is springs between masses that ring, and viscosity that quiets them: a boundary
-/// without mass has the force and the pressure of both, and loses less.
+/// Behind steep fronts a massless boundary has the force and pressure of penalty springs with viscosity, without ringing and
+/// with a smaller loss.
 #[test]
-fn a_contact_without_mass_does_not_ring_behind_fronts() {
+fn a_massless_boundary_does_not_ring_behind_fronts() {
     let run = |method: &str, switch: &str| {
         let fast = ["body.0.approach_speed='100 m/s'", "mesh.contact_element_size='0.3 mm'"];
         let more = ["mesh.refined_radius='2.4 mm'", method, switch, SMALL];
@@ -107,9 +107,9 @@ fn a_contact_without_mass_does_not_ring_behind_fronts() {
     assert!(quiet.restitution > spread.restitution);
 }
 
-/// Stiff springs between masses ring and gain energy, and a warning names the way out, which helps.
+/// A warning about ringing stiff springs advises a massless boundary, which helps.
 #[test]
-fn a_contact_that_rings_is_told_what_helps() {
+fn a_remedy_is_advised_for_ringing_springs() {
     let warnings = |method: &str| {
         let simulation =
             fem(&["contact.penalty_factor=100", "effects.viscoelasticity='off'", method]);
@@ -123,7 +123,7 @@ fn a_contact_that_rings_is_told_what_helps() {
     assert_eq!(warnings(MASSLESS), [""; 0]);
 }
 
-/// One of two like bodies, against the plane between them.
+/// Half of a collision of like bodies gives the same results as the whole.
 #[test]
 fn half_of_the_work_gives_the_whole() {
     let whole = run(&[TWINS, MASSLESS, "effects.mirror_symmetry='off'"]);
@@ -131,12 +131,12 @@ fn half_of_the_work_gives_the_whole() {
     assert_eq!(mirrored.element_updates.map(|n| 2 * n), whole.element_updates);
     let numbers = |run: &Collision| [run.restitution, run.contact_time, run.peak_force];
     for (half, whole) in numbers(&mirrored).into_iter().zip(numbers(&whole)) {
-        // Rounding, which does not grow.
+        // Both differ by rounding.
         assert!((half.unwrap() / whole.unwrap() - 1.0).abs() < 1e-9, "{half:?} {whole:?}");
     }
 }
 
-/// A ball that gravity brings back keeps what each contact leaves it.
+/// Bounces of a ball gain no energy.
 #[test]
 fn bounces_gain_nothing() {
     let floor = [
@@ -150,12 +150,12 @@ fn bounces_gain_nothing() {
     assert_eq!(run.bounces.len(), 4);
     for bounce in &run.bounces {
         let e = bounce.restitution;
-        // Elastic but for the vibrations of nodes that join one by one, on a coarse mesh.
+        // The loss is that by vibrations as nodes enter the contact on a coarse mesh.
         assert!(e < 1.0 && e > 0.999, "{e}");
     }
 }
 
-/// On a half-space, from the same limit as penalty.
+/// A ball on a half-space leaves as with penalty springs.
 #[test]
 fn a_ball_leaves_a_half_space() {
     let block = [
@@ -173,10 +173,10 @@ fn a_ball_leaves_a_half_space() {
     }
 }
 
-/// Surfaces that slip are without mass, too; nodes against a surface have no springs that turn, and a case
-/// that names them is told.
+/// Slipping surfaces have a massless boundary, too. Node-to-surface contact is not possible there and is replaced with a
+/// warning.
 #[test]
-fn surfaces_that_slip_have_no_mass_either() {
+fn slipping_surfaces_have_a_massless_boundary() {
     let steel = [
         "material.steel={density=7850, youngs_modulus=210e9, poissons_ratio=0.3}",
         "body.0.material='steel'",
@@ -201,15 +201,14 @@ fn surfaces_that_slip_have_no_mass_either() {
     for (bare, heavy) in
         [(bare.restitution, heavy.restitution), (bare.contact_time, heavy.contact_time)]
     {
-        // Chatter of the last touch, 3.3e-3 of the contact time on this mesh, 7e-4 on that of the plan.
+        // Contact chatter at the end changes 3.3e-3 of the contact time on this mesh, and 7e-4 on that of the plan.
         assert!((bare.unwrap() / heavy.unwrap() - 1.0).abs() < 5e-3, "{bare:?} {heavy:?}");
     }
 }
 
-/// Surfaces that are where they have moved have springs of their own: who names a method is told, and the resolved
-/// case names none.
+/// At finite strain a named method has no effect: there is a warning, and the resolved case has no method.
 #[test]
-fn finite_strain_says_that_it_has_springs_of_its_own() {
+fn finite_strain_warns_of_a_named_method() {
     let large = "effects.finite_strain='on'";
     for method in [MASSLESS, PENALTY, NODES] {
         let named = fem(&[large, method]);

@@ -1,4 +1,4 @@
-//! What snapshots tell of the contact from the axis outward, whichever model and contact computed it.
+//! The contact profiles of snapshots, from every model and contact method.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use fem::{Case, Collision, ContactProfilePoint, Simulation, Snapshot, SnapshotIn
 
 const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 
-/// Some six elements over the contact radius.
+/// Six elements across the contact radius.
 const MESH: &str = "mesh.contact_element_size='40 um'";
 const INSTANT: &str = "output.snapshots=['mid-compression', 'maximum']";
 const WALL: &str = "body.0={ name = 'striker', wall = {} }";
@@ -24,7 +24,7 @@ fn run(set: &[&str]) -> (Simulation, Collision) {
     (simulation, collision)
 }
 
-/// Scenes and models of small strain, and what they share: Hertz' profile.
+/// Scenes and models of small strain, which share Hertz' profile.
 const LIKE_HERTZ: [&[&str]; 9] = [
     &[],
     &["contact.method='penalty'"],
@@ -37,13 +37,12 @@ const LIKE_HERTZ: [&[&str]; 9] = [
     &[TWIN],
 ];
 
-/// Poisson's ratio and Young's modulus of the case.
+/// Poisson's ratio and Young's modulus (Pa) of the case.
 const GLASS: (f64, f64) = (0.244, 63e9);
 
-/// At the maximum, with Hertz' a, p₀ and δ, each scene's own, and x = r/a: p = p₀ √(1 − x²); inside the surfaces
-/// touch but for what springs overlap; outside they are δ (x²/2 − 1 + ((2 − x²) asin(1/x) + √(x² − 1))/π)
-/// apart (Johnson 1985, (3.42)); each moves inward by (1 − 2ν)(1 + ν) a p₀ (1 − (1 − x²)^{3/2})/(3 E x)
-/// (his (3.41b)).
+/// The profile at the maximum is that of Hertz with the scene's a, p₀ and δ. With x = r/a the pressure is p₀ √(1 − x²), the
+/// gap is zero inside but for the overlap of springs, and δ (x²/2 − 1 + ((2 − x²) asin(1/x) + √(x² − 1))/π) outside (Johnson
+/// 1985, (3.42)). The surfaces move inward by (1 − 2ν)(1 + ν) a p₀ (1 − (1 − x²)^{3/2})/(3 E x) (his (3.41b)).
 #[test]
 fn the_contact_is_that_of_hertz() {
     for set in LIKE_HERTZ {
@@ -88,8 +87,7 @@ fn the_contact_is_that_of_hertz() {
     }
 }
 
-/// What a profile adds up to and has on its axis is what the history has at that instant, at finite strain
-/// too, where the places are those of now.
+/// The integral of a profile and its value on the axis agree with the history at that instant, also at finite strain.
 #[test]
 fn a_profile_carries_the_force_of_its_instant() {
     let rubber = ["material.glass.youngs_modulus='1 MPa'", "material.glass.hyperelastic='hencky'"];
@@ -146,7 +144,7 @@ fn a_profile_carries_the_force_of_its_instant() {
 const STEEL: &str =
     "material.steel={ density=7850.0, youngs_modulus='210 GPa', poissons_ratio=0.29 }";
 
-/// ∫ p 2πr dr of straight lines between the places, N.
+/// Returns the force ∫ p 2πr dr of a piecewise linear profile, N.
 fn load(snapshot: &Snapshot) -> f64 {
     let part = |pair: &[ContactProfilePoint]| {
         let [(r0, p0), (r1, p1)] = [&pair[0], &pair[1]].map(|place| (place.radius, place.pressure));
@@ -157,9 +155,9 @@ fn load(snapshot: &Snapshot) -> f64 {
     snapshot.contact.places.windows(2).map(part).sum()
 }
 
-/// The file has the places out to 1.2 radii of each snapshot and three nodes beyond it, digit for digit.
+/// The file has the points out to 1.2 contact radii of each snapshot and three nodes beyond, with all digits.
 #[test]
-fn the_file_has_a_row_a_place() {
+fn the_file_has_one_row_per_point() {
     let (simulation, collision) = run(&[]);
     let mut text = Vec::new();
     contact_csv(&mut text, &simulation, &collision).unwrap();

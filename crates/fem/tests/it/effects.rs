@@ -1,4 +1,4 @@
-//! `[effects]`: what the case forces and no model has.
+//! `[effects]`: forced effects, the keys of switches, and the support of every model.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use serde_json::json;
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
 #[test]
-fn an_effect_that_is_forced_on_and_lacking_is_refused_at_its_switch() {
+fn a_forced_effect_that_the_model_lacks_is_rejected() {
     for model in ["condensed={}", "ting={}", "hertz={}", "law.falcon.c=300"] {
         for effect in ["finite_strain", "bulk_viscosity"] {
             let switched = |switch: &str| {
@@ -59,10 +59,10 @@ fn every_switch_has_its_effect() {
     assert_eq!(switched.count(), keys.len(), "a switch that is no key");
 }
 
-/// Every model has an answer to every effect, or it means nothing to it: a new effect has to be put
-/// into one of the two columns of each model.
+/// Every model supports an effect or has no use for it, so that a new effect must be added to one of the two lists of each
+/// model.
 #[test]
-fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
+fn every_model_answers_for_every_effect() {
     let reduced = [
         "viscoelasticity",
         "dashpot",
@@ -92,7 +92,7 @@ fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
                 "contact search",
                 "mass scaling",
             ][..],
-            // Elements have inertia wherever they are; the surfaces are always kept apart by springs.
+            // Elements always include inertia.
             &["dashpot", "finite size", "vibration", "penalty springs"][..],
         ),
         (
@@ -114,7 +114,7 @@ fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
                 "dashpot",
                 "finite size",
                 "hourglass control",
-                // Told by the modes of vibration, which carry no fronts.
+                // Modes of vibration resolve no fronts.
                 "bulk viscosity",
                 "mass scaling",
             ],
@@ -136,7 +136,7 @@ fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
     }
 }
 
-/// What means nothing to a model without elements.
+/// Effects that a model without elements has no use for.
 const NO_ELEMENTS: &[&str] = &[
     "mirror symmetry",
     "hourglass control",

@@ -1,4 +1,4 @@
-//! What results may be off by from the limit of their model, against theory.
+//! Error bars of results, compared with theory.
 
 use fem::results::{Parts, Summary};
 use fem::{Case, Estimate, QuantityOfInterest, SharedModels, Simulation};
@@ -21,7 +21,7 @@ fn summary(text: &str, overrides: &[&str]) -> Summary {
     simulation.summary(&collision)
 }
 
-/// An override for so many elements across the contact that closed forms expect.
+/// Returns an override for a number of elements across the expected contact radius.
 fn across(text: &str, elements: f64) -> String {
     let case = Case::parse("ball.toml", text, std::path::Path::new("."), &[]).unwrap();
     let radius = Estimate::of(case.scene()).unwrap().contact_radius;
@@ -32,13 +32,12 @@ fn relaxing() -> String {
     BALL.replace("poissons_ratio = 0.33 }", RELAXING)
 }
 
-fn told(summary: &Summary, headline: QuantityOfInterest) -> (f64, Parts) {
-    (summary.collision.number(headline).unwrap(), summary.uncertainty.parts(headline))
+fn value_and_bar(summary: &Summary, quantity: QuantityOfInterest) -> (f64, Parts) {
+    (summary.collision.number(quantity).unwrap(), summary.uncertainty.parts(quantity))
 }
 
-/// Half-spaces with the finite size of the spheres: how far they are from spheres themselves, relative;
-/// Ting's with finite size is within 0.02 % of finite elements at this contact of 0.03 radii, its waves
-/// left out.
+/// Relative error of the closed forms with finite size; Ting's model without waves agrees with finite elements to 0.02 % at
+/// this contact of 0.03 radii.
 const OF_THEORY: f64 = 5e-4;
 
 /// The limit is within the error bar of a coarse and of a fine mesh, and the bar is not wider than known errors.
@@ -68,8 +67,8 @@ fn assert_theory_within_bars(meshes: &[(&str, f64)]) {
                 QuantityOfInterest::PeakForce,
                 QuantityOfInterest::MaxApproach,
             ] {
-                let (value, bar) = told(&ours, quantity);
-                let (exact, _) = told(&theory, quantity);
+                let (value, bar) = value_and_bar(&ours, quantity);
+                let (exact, _) = value_and_bar(&theory, quantity);
                 let bar = bar.discretisation.unwrap() / quantity.scale(exact);
                 let error = (value - exact).abs() / quantity.scale(exact);
                 assert!(error < bar + OF_THEORY, "{model} {size} {quantity:?} {error:e} {bar:e}");
@@ -80,15 +79,14 @@ fn assert_theory_within_bars(meshes: &[(&str, f64)]) {
     }
 }
 
-/// What is far off is said to be: of two elements across the contact the bar of the force is more than a
-/// percent, and the truth is in it.
+/// With two elements across the contact the bar of the force is wider than a per cent and includes the exact value.
 #[test]
-fn a_mesh_that_is_too_coarse_is_told_by_its_bar() {
+fn a_coarse_mesh_has_a_wide_bar() {
     let theory = summary(BALL, &["model.hertz={finite_size=true}"]);
     for model in ["model.condensed={}", "model.fem={}"] {
         let ours = summary(BALL, &[model, &across(BALL, 2.0)]);
-        let (value, bar) = told(&ours, QuantityOfInterest::PeakForce);
-        let (exact, _) = told(&theory, QuantityOfInterest::PeakForce);
+        let (value, bar) = value_and_bar(&ours, QuantityOfInterest::PeakForce);
+        let (exact, _) = value_and_bar(&theory, QuantityOfInterest::PeakForce);
         let bar = bar.discretisation.unwrap() / exact;
         assert!(bar > 0.01, "{model} {bar:e}");
         assert!((value / exact - 1.0).abs() < bar + OF_THEORY, "{model} {value} {exact} {bar:e}");
@@ -127,21 +125,21 @@ fn assert_far_mesh_in_bar(model: &str, far_meshes: &[&str]) {
             QuantityOfInterest::PeakForce,
             QuantityOfInterest::MaxApproach,
         ];
-        for headline in checked {
-            let (value, bar) = told(&ours, headline);
-            let (exact, _) = told(&theory, headline);
+        for quantity in checked {
+            let (value, bar) = value_and_bar(&ours, quantity);
+            let (exact, _) = value_and_bar(&theory, quantity);
             let bar = bar.discretisation.unwrap() / exact;
             let error = (value / exact - 1.0).abs();
-            let said = || format!("{model} {far_mesh} {headline:?} {error:e} {bar:e}");
+            let said = || format!("{model} {far_mesh} {quantity:?} {error:e} {bar:e}");
             assert!(error < bar + OF_THEORY, "{}", said());
             assert!(bar < 5.0 * error + 0.02, "{}", said());
         }
     }
 }
 
-/// The same of large strains, against the mesh that is chosen, with three times the elements.
+/// The same at large strain, compared with a mesh with three times the elements across.
 #[test]
-fn what_a_mesh_does_away_from_a_large_contact_is_in_its_bar() {
+fn the_bar_at_large_strain_includes_the_error_away_from_the_contact() {
     let rubber =
         BALL.replace("9.3e9", "1e6").replace("0.33 }", "0.45, hyperelastic = 'neo-hooke' }");
     let set = ["effects.finite_strain='on'", "body.0.approach_speed=2"];
@@ -149,15 +147,15 @@ fn what_a_mesh_does_away_from_a_large_contact_is_in_its_bar() {
     let fine = with(&["mesh.contact_element_size='0.25 mm'"]);
     for far_mesh in ["mesh.growth=2", "mesh.refined_radius=1e-9"] {
         let ours = with(&["mesh.contact_element_size='0.75 mm'", far_mesh]);
-        for headline in [
+        for quantity in [
             QuantityOfInterest::ContactTime,
             QuantityOfInterest::PeakForce,
             QuantityOfInterest::MaxApproach,
         ] {
-            let (value, bar) = told(&ours, headline);
-            let (limit, of_limit) = told(&fine, headline);
+            let (value, bar) = value_and_bar(&ours, quantity);
+            let (limit, of_limit) = value_and_bar(&fine, quantity);
             let room = bar.discretisation.unwrap() + of_limit.discretisation.unwrap();
-            assert!((value - limit).abs() < room, "{far_mesh} {headline:?} {value} {limit} {room}");
+            assert!((value - limit).abs() < room, "{far_mesh} {quantity:?} {value} {limit} {room}");
         }
     }
 }
@@ -180,17 +178,17 @@ fn assert_ringing_in_bars(factor: &str) {
     let ours = summary(BALL, &[&across(BALL, 4.0), "contact.method='penalty'", &factor]);
     assert!(ours.warnings.iter().any(|warning| warning.contains("scatters by")));
     assert!(ours.warnings.iter().all(|w| !w.contains("because of")), "{:?}", ours.warnings);
-    for headline in [QuantityOfInterest::PeakForce, QuantityOfInterest::PeakPressure] {
-        let (value, bar) = told(&ours, headline);
-        let (exact, of_theory) = told(&theory, headline);
+    for quantity in [QuantityOfInterest::PeakForce, QuantityOfInterest::PeakPressure] {
+        let (value, bar) = value_and_bar(&ours, quantity);
+        let (exact, of_theory) = value_and_bar(&theory, quantity);
         let room = bar.discretisation.unwrap() + of_theory.model.unwrap();
         let error = (value - exact).abs();
-        assert!(error < room + OF_THEORY * exact, "{factor} {headline:?} {value} {exact} {room}");
+        assert!(error < room + OF_THEORY * exact, "{factor} {quantity:?} {value} {exact} {room}");
     }
 }
 
-/// The number of per cent right behind some words, as a share.
-fn share_behind(text: &str, words: &str) -> Option<f64> {
+/// Returns the percentage after some words, as a share.
+fn share_after(text: &str, words: &str) -> Option<f64> {
     let rest = text.split(words).nth(1)?;
     rest.split('%').next()?.trim().parse::<f64>().ok().map(|share| share / 100.0)
 }
@@ -242,12 +240,12 @@ fn errors_in_warnings(scenes: &[&[&str]]) -> [usize; 5] {
             }
             let ours = summary(BALL, &[&[model], *scene].concat());
             for warning in &ours.warnings {
-                for (k, (words, headline)) in stated.into_iter().enumerate() {
-                    let Some(share) = share_behind(warning, words) else { continue };
-                    let (value, bar) = told(&ours, headline);
+                for (k, (words, quantity)) in stated.into_iter().enumerate() {
+                    let Some(share) = share_after(warning, words) else { continue };
+                    let (value, bar) = value_and_bar(&ours, quantity);
                     let bar = bar.discretisation.unwrap_or(f64::INFINITY) / value;
                     n_stated[k] += 1;
-                    // Printed with a digit behind the point.
+                    // The warning prints one decimal.
                     assert!(bar > share - 6e-4, "{model} {scene:?}: {bar} beside “{warning}”");
                 }
             }
@@ -256,9 +254,9 @@ fn errors_in_warnings(scenes: &[&[&str]]) -> [usize; 5] {
     n_stated
 }
 
-/// A mesh from a file has its bar, too: the truth is in it, and it is wide where only the pole is fine.
+/// The bar of a mesh from a file includes the exact value, and is wide if only the pole is fine.
 #[test]
-fn a_mesh_of_a_file_has_its_bar() {
+fn a_mesh_from_a_file_has_a_bar() {
     let folder = tempfile::tempdir().unwrap();
     let theory = summary(BALL, &["model.hertz={finite_size=true}"]);
     let radius = theory.collision.number(QuantityOfInterest::MaxContactRadius).unwrap();
@@ -279,8 +277,8 @@ fn a_mesh_of_a_file_has_its_bar() {
     for model in ["model.condensed={}", "model.fem={}"] {
         let bars = [&good, &bad].map(|file| {
             let ours = summary(BALL, &[model, file]);
-            let (value, bar) = told(&ours, QuantityOfInterest::ContactTime);
-            let (exact, _) = told(&theory, QuantityOfInterest::ContactTime);
+            let (value, bar) = value_and_bar(&ours, QuantityOfInterest::ContactTime);
+            let (exact, _) = value_and_bar(&theory, QuantityOfInterest::ContactTime);
             let bar = bar.discretisation.unwrap() / exact;
             let error = (value / exact - 1.0).abs();
             assert!(error < bar + OF_THEORY, "{model} {error:e} {bar:e}");
@@ -291,9 +289,9 @@ fn a_mesh_of_a_file_has_its_bar() {
     }
 }
 
-/// The cost of a bar is counted: condensed bodies are condensed once more, with elements twice as long, explicit elements
-/// three times, on their own mesh with springs and twice without, where the contact ends at a node; collisions of
-/// the same bodies share all but the last two, which follow the radius.
+/// The reference runs need a counted number of factors: one for condensed bodies, with elements twice as long, and three
+/// for explicit elements, on their own mesh with springs and twice without, with the contact's edge at a node. Collisions
+/// of the same bodies share all but the last two, which depend on the contact radius.
 #[test]
 fn bars_cost_a_counted_number_of_factors() {
     for (model, own, of_bars) in
@@ -316,38 +314,38 @@ fn bars_cost_a_counted_number_of_factors() {
     }
 }
 
-/// Models of one degree of freedom are as good as their tolerance.
+/// Models of one degree of freedom have the error of their tolerance.
 #[test]
-fn reduced_models_are_off_by_their_tolerance() {
+fn reduced_models_have_the_error_of_their_tolerance() {
     let text = relaxing();
     let (coarse, fine) = (
         summary(&text, &["model.ting={tolerance=1e-3}"]),
         summary(&text, &["model.ting={tolerance=1e-9}"]),
     );
-    for headline in QuantityOfInterest::ALL {
-        let (value, bar) = told(&coarse, headline);
-        let (exact, _) = told(&fine, headline);
+    for quantity in QuantityOfInterest::ALL {
+        let (value, bar) = value_and_bar(&coarse, quantity);
+        let (exact, _) = value_and_bar(&fine, quantity);
         let bar = bar.discretisation.unwrap();
-        assert!((value - exact).abs() <= bar, "{headline:?} {value} {exact} {bar:e}");
-        assert!(bar <= 0.03 * value.abs(), "{headline:?} {bar:e}");
+        assert!((value - exact).abs() <= bar, "{quantity:?} {value} {exact} {bar:e}");
+        assert!(bar <= 0.03 * value.abs(), "{quantity:?} {bar:e}");
     }
 }
 
-/// Balls of St Venant and Kirchhoff's law near their collapse, on a wall: a contact time and a contact radius on elements
-/// 1.6 times shorter, recorded. A law that loses its stability is warned of; its bars may be too small by half there.
+/// Near the collapse of St Venant and Kirchhoff's law the bars are right within a factor of two. The fine values are recorded
+/// from elements 1.6 times shorter.
 #[test]
-fn what_softens_has_bars_of_the_size_of_its_errors() {
+fn bars_of_a_softening_law_have_the_size_of_its_errors() {
     let text = "material.rubber = { density = 1000, youngs_modulus = 1e6, poissons_ratio = 0.3,
             hyperelastic = 'saint-venant-kirchhoff' }
         body = [{ name = 'floor', wall = {} }, { name = 'ball', sphere.diameter = '30 mm', material = 'rubber' }]
         output.snapshots = []";
-    for (speed, size, headline, fine) in [
+    for (speed, size, quantity, fine) in [
         ("2.2 m/s", "0.5395 mm", QuantityOfInterest::ContactTime, 3.950_57e-3),
         ("2 m/s", "0.6197 mm", QuantityOfInterest::MaxContactRadius, 7.23047e-3),
     ] {
         let size = format!("mesh.contact_element_size='{size}'");
         let summary = summary(text, &[&format!("body.1.approach_speed='{speed}'"), &size]);
-        let (value, parts) = told(&summary, headline);
+        let (value, parts) = value_and_bar(&summary, quantity);
         let (error, bar) = ((value - fine).abs(), parts.discretisation.unwrap());
         assert!(error < 2.0 * bar && bar < 2.0 * error, "{speed}: {value} beside {fine}, {bar:e}");
     }
@@ -375,14 +373,14 @@ fn assert_chatter_in_bars(springs: &[(&str, u32)]) {
         let [method, factor] =
             [format!("contact.method='{method}'"), format!("contact.penalty_factor={factor}")];
         let ours = summary(glass, &[alike[0], alike[1], &method, &factor]);
-        for headline in QuantityOfInterest::ALL {
-            let (value, bar) = told(&ours, headline);
-            let (exact, own) = told(&massless, headline);
+        for quantity in QuantityOfInterest::ALL {
+            let (value, bar) = value_and_bar(&ours, quantity);
+            let (exact, own) = value_and_bar(&massless, quantity);
             let [bar, own] = [bar, own].map(|parts| parts.discretisation.unwrap());
             let error = (value - exact).abs();
-            assert!(error < bar + own, "{method} {factor} {headline:?} {error:e} {bar:e} {own:e}");
+            assert!(error < bar + own, "{method} {factor} {quantity:?} {error:e} {bar:e} {own:e}");
         }
-        let (_, bar) = told(&ours, QuantityOfInterest::Restitution);
+        let (_, bar) = value_and_bar(&ours, QuantityOfInterest::Restitution);
         assert!(bar.discretisation.unwrap() < 5e-3);
     }
 }

@@ -1,11 +1,11 @@
-//! Finite strain: where it is on, of which bodies, and what the user is told.
+//! Finite strain: the decision for each body, its warnings, and runs that fail.
 
 use std::path::Path;
 
 use fem::effects::{Effect, EffectDecision, EffectStatus, FiniteStrain, NeglectError};
 use fem::{Case, QuantityOfInterest, Simulation};
 
-/// Rubber that is squeezed to a contact radius of some half of its own, on a wall.
+/// A rubber ball on a wall with a contact radius of about half of its own.
 const RUBBER: &str = r#"
 [material.rubber]
 density = "1100 kg/m^3"
@@ -57,7 +57,7 @@ fn verdict(simulation: &Simulation) -> EffectDecision {
 }
 
 #[test]
-fn on_where_it_changes_more_than_the_case_allows() {
+fn finite_strain_is_on_if_its_change_exceeds_the_tolerance() {
     for (set, active) in [
         (&[][..], true),
         (&[OFF], false),
@@ -78,8 +78,8 @@ fn on_where_it_changes_more_than_the_case_allows() {
     }
 }
 
-/// On glass neo-Hooke's law changes 0.15 % of the time, 0.17 % of the force and 0.4 % of the pressure, and other laws
-/// up to 0.6 % of the time: the law in use decides, and how far others are from it does not.
+/// The law in use decides, not the difference from other laws: on glass neo-Hooke's law changes 0.15 % of the time, 0.17 %
+/// of the force and 0.4 % of the pressure, and other laws up to 0.6 % of the time.
 #[test]
 fn the_spread_of_unnamed_laws_switches_nothing_on() {
     const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -95,9 +95,9 @@ fn the_spread_of_unnamed_laws_switches_nothing_on() {
     }
 }
 
-/// What is said is what is computed: the same bits where it is off, and others where it is on.
+/// A run agrees with the decision: the same bits if finite strain is off, and others if it is on.
 #[test]
-fn what_is_on_is_computed() {
+fn the_run_agrees_with_the_decision() {
     let coarse = "mesh.contact_element_size='1.5 mm'";
     let run = |set: &[&str]| simulation(set).unwrap().run(&mut ());
     let auto = run(&[coarse]);
@@ -105,14 +105,14 @@ fn what_is_on_is_computed() {
     assert_ne!(auto.contact_time, run(&[coarse, OFF]).contact_time);
     let slow = run(&[coarse, SLOW]);
     assert_eq!(slow.contact_time, run(&[coarse, SLOW, OFF]).contact_time);
-    // Where nothing forces it on, the law of a small strain has no part.
+    // The law does not matter at small strain.
     let svk = "material.rubber.hyperelastic='saint-venant-kirchhoff'";
     assert_eq!(slow.contact_time, run(&[coarse, SLOW, svk]).contact_time);
     assert_ne!(auto.contact_time, run(&[coarse, svk]).contact_time);
 }
 
 #[test]
-fn a_case_that_names_no_law_is_told_what_a_law_is_worth() {
+fn a_case_without_a_law_is_warned_of_the_spread_of_laws() {
     let unnamed = RUBBER.replace("hyperelastic = \"hencky\"\n", "");
     let set = ["mesh.contact_element_size='2 mm'".to_string()];
     let case = Case::parse("rubber.toml", &unnamed, Path::new("."), &set).unwrap();
@@ -124,7 +124,7 @@ fn a_case_that_names_no_law_is_told_what_a_law_is_worth() {
 }
 
 #[test]
-fn models_without_it_say_what_they_leave_out() {
+fn models_without_finite_strain_report_their_error() {
     for model in ["model.condensed={}", "model.ting={}", "model.hertz={}"] {
         let simulation = simulation(&[model]).unwrap();
         let warnings = simulation.setup().warnings().join("\n");
@@ -137,7 +137,7 @@ fn models_without_it_say_what_they_leave_out() {
 }
 
 #[test]
-fn a_volume_that_hardly_gives_way_is_refused_by_force_and_told_of_otherwise() {
+fn a_nearly_incompressible_body_is_rejected_if_forced_and_warned_of_otherwise() {
     let error = simulation(&[STIFF, ON]).unwrap_err();
     assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
     assert!(error.message().contains("0.49995 of ball is above 0.4999"), "{error}");
@@ -146,9 +146,9 @@ fn a_volume_that_hardly_gives_way_is_refused_by_force_and_told_of_otherwise() {
     assert!(simulation(&[STIFF, OFF]).is_ok());
 }
 
-/// A case that small strain bears is not refused for a strain that is called for by itself.
+/// A case with too many terms is computed at small strain with a warning, and rejected only if forced.
 #[test]
-fn more_terms_than_elements_bear_stay_at_small_strain() {
+fn too_many_terms_stay_at_small_strain() {
     let terms: Vec<String> =
         (0..40).map(|k| format!("{{weight=0.01, relaxation_time={}e-5}}", 10 + k)).collect();
     let many =
@@ -163,11 +163,10 @@ fn more_terms_than_elements_bear_stay_at_small_strain() {
 
 const SVK: &str = "material.rubber.hyperelastic='saint-venant-kirchhoff'";
 
-/// Runs that a body does not bear: each says where and what helps, which does, and leaves the last state that was
-/// sound.
+/// A run that loses ellipticity names the place and a remedy that helps, and keeps the last valid state.
 #[test]
 fn loss_of_ellipticity_is_named_and_another_law_helps() {
-    stops_and_is_helped(
+    assert_stops_and_is_helped(
         vec![SVK, THREE],
         ["element ", "became unstable", "saint-venant-kirchhoff"],
         vec![NEO_HOOKE, THREE],
@@ -179,7 +178,7 @@ fn loss_of_ellipticity_is_named_and_another_law_helps() {
 fn a_surface_that_turns_over_is_named_and_a_lower_speed_helps() {
     // Shear waves of 17.7 m/s.
     let (folding, slower) = ("body.1.approach_speed='40 m/s'", "body.1.approach_speed='17 m/s'");
-    stops_and_is_helped(
+    assert_stops_and_is_helped(
         vec![NEO_HOOKE, folding],
         ["node ", "of the upper body folds", "undeformed position is"],
         vec![NEO_HOOKE, slower],
@@ -189,7 +188,7 @@ fn a_surface_that_turns_over_is_named_and_a_lower_speed_helps() {
 const THREE: &str = "body.1.approach_speed='3 m/s'";
 
 /// Asserts that a run stops with these words, keeps its last valid state, and completes with other settings.
-fn stops_and_is_helped(stopped: Vec<&str>, words: [&str; 3], helped: Vec<&str>) {
+fn assert_stops_and_is_helped(stopped: Vec<&str>, words: [&str; 3], helped: Vec<&str>) {
     let labels = "output.snapshots=['maximum']";
     let run = |set: &[&str]| {
         let simulation = simulation(&[&[labels][..], set].concat()).unwrap();
@@ -211,14 +210,14 @@ fn stops_and_is_helped(stopped: Vec<&str>, words: [&str; 3], helped: Vec<&str>) 
     assert!(after.residual_relative.unwrap() < 1e-3, "{helped:?}");
 }
 
-/// What is foretold of a law comes, and of a speed at which nothing is foretold nothing does.
+/// A law loses its stability if and only if the plan warns of it.
 #[test]
-fn a_law_that_will_not_bear_the_contact_is_told_before() {
+fn loss_of_stability_is_predicted() {
     for (speed, expected) in [("'3 m/s'", true), ("'0.3 m/s'", false)] {
         let speed = format!("body.1.approach_speed={speed}");
         let simulation = simulation(&[SVK, &speed]).unwrap();
-        let foretold = simulation.setup().warnings().join("\n");
-        assert_eq!(foretold.contains("lose its stability"), expected, "{speed} {foretold}");
+        let predicted = simulation.setup().warnings().join("\n");
+        assert_eq!(predicted.contains("lose its stability"), expected, "{speed} {predicted}");
         let collision = simulation.run(&mut ());
         let found = collision.warnings.join("\n")
             + &collision.stop().map(ToString::to_string).unwrap_or_default();
@@ -226,10 +225,10 @@ fn a_law_that_will_not_bear_the_contact_is_told_before() {
     }
 }
 
-/// Natural rubber of the library, ν = 0.49989, is computed at finite strain by the law that it names, and next to
-/// what ν = 0.495 gives: E* is 0.6 % larger, which is 0.26 % of the contact time, and as much again for its step.
+/// Natural rubber of the library with ν = 0.49989 is computed at finite strain. Its contact time is near that of ν = 0.495:
+/// E* is 0.6 % larger, which is 0.26 % of the contact time, with as much again for the step.
 #[test]
-fn natural_rubber_is_borne_at_finite_strain() {
+fn natural_rubber_is_computed_at_finite_strain() {
     let ball = |material: &str| {
         let body = format!(
             "body.1={{ name = 'ball', sphere = {{ diameter = '30 mm' }}, material = '{material}', \
@@ -249,9 +248,9 @@ fn natural_rubber_is_borne_at_finite_strain() {
     assert!((-6e-3..0.0).contains(&change), "{change}");
 }
 
-/// Moved surfaces slip of themselves: whoever forbids it is told why, and of what.
+/// Contact between moved surfaces includes slip, so switching it off is rejected with this reason.
 #[test]
-fn slip_that_finite_strain_has_of_itself_is_not_blamed_on_the_model() {
+fn slip_cannot_be_switched_off_at_finite_strain() {
     let error = simulation(&[STEEL_BALL, "effects.surface_slip='off'"]).unwrap_err();
     assert_eq!(error.key(), Some("effects.surface_slip"));
     assert!(error.message().contains("finite strain is on"), "{error}");
@@ -259,11 +258,11 @@ fn slip_that_finite_strain_has_of_itself_is_not_blamed_on_the_model() {
     assert!(simulation(&[&[STEEL_BALL][..], &both].concat()).is_ok());
 }
 
-/// Collisions were computed up to a/R = 0.85: beyond that it is on by itself whatever is allowed, and nobody knows what small
-/// strain is off by; a law that is named and computed has nothing open.
+/// Beyond a/R = 0.85, the flattest computed collision, finite strain is on at any tolerance and the error of small strain is
+/// unknown. A law that is named and computed has no model-form error.
 #[test]
-fn flatter_than_what_was_computed_nothing_is_foretold() {
-    let all_is_told = |set: &[&str]| {
+fn errors_beyond_the_flattest_computed_collision_are_unknown() {
+    let all_is_known = |set: &[&str]| {
         let simulation = simulation(set).unwrap();
         let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
         let is_lacking = !verdict(&simulation).active;
@@ -280,12 +279,12 @@ fn flatter_than_what_was_computed_nothing_is_foretold() {
     // a/R of 0.81 and 0.87.
     let [flat, flatter] = ["body.1.approach_speed='10 m/s'", "body.1.approach_speed='12 m/s'"];
     for model in ["model.condensed={}", "model.hertz={}", OFF] {
-        assert_eq!(all_is_told(&[flat, model]), [true; 2], "{model}");
-        assert_eq!(all_is_told(&[flatter, model]), [false; 2], "{model}");
+        assert_eq!(all_is_known(&[flat, model]), [true; 2], "{model}");
+        assert_eq!(all_is_known(&[flatter, model]), [false; 2], "{model}");
     }
-    assert_eq!(all_is_told(&[flatter]), [false, true]);
+    assert_eq!(all_is_known(&[flatter]), [false, true]);
     let unnamed = ["body.1.material='unnamed'", UNNAMED, flatter];
-    assert_eq!(all_is_told(&unnamed), [false; 2]);
+    assert_eq!(all_is_known(&unnamed), [false; 2]);
     let coarse = "accuracy.tolerance='50 %'";
     assert!(!verdict(&simulation(&[SLOW, coarse]).unwrap()).active);
     let verdict = verdict(&simulation(&[flatter, coarse]).unwrap());

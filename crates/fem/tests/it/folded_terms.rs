@@ -1,11 +1,11 @@
-//! Relaxation a term at a time: what is much faster or slower than the contact is not followed.
+//! Folded relaxation terms: terms much faster or slower than the contact are not integrated.
 
 use std::path::Path;
 
 use fem::effects::EffectDecision;
 use fem::{Case, Collision, Simulation};
 
-/// Ten terms over as many decades, as a fit of a polymer's master curve gives them.
+/// Ten terms over as many decades, like the fit of a polymer's master curve.
 const POLYMER: &str = r#"
 [material.polymer]
 density = "1200 kg/m^3"
@@ -61,16 +61,16 @@ fn changes(a: &Collision, b: &Collision) -> [f64; 3] {
 }
 
 #[test]
-fn what_is_not_followed_changes_less_than_is_said() {
-    // On the same mesh: that of moduli from which fast terms are gone has the edge of contact elsewhere.
+fn folded_terms_change_less_than_their_stated_error() {
+    // The mesh is the same, since other moduli would move the contact's edge between nodes.
     let mesh = "mesh.contact_element_size='10 um'";
     for model in ["model.ting={}", "model.condensed={}"] {
         let folded = simulation(POLYMER, &[model, mesh]);
-        let told = verdict(&folded);
+        let decision = verdict(&folded);
         assert!(
-            told.active && told.reason.contains("of 10 terms are integrated"),
+            decision.active && decision.reason.contains("of 10 terms are integrated"),
             "{}",
-            told.reason
+            decision.reason
         );
         let all = simulation(POLYMER, &[model, mesh, "effects.viscoelasticity='on'"]);
         assert!(!verdict(&all).reason.contains("integrated"), "{}", verdict(&all).reason);
@@ -80,9 +80,9 @@ fn what_is_not_followed_changes_less_than_is_said() {
     }
 }
 
-/// Explicit elements keep a field a term: those that are not followed are not there.
+/// Explicit elements store one field per integrated term and none for folded ones.
 #[test]
-fn what_is_not_followed_is_not_stored() {
+fn folded_terms_are_not_stored() {
     let set = ["mesh.contact_element_size='0.1 mm'"];
     let folded = simulation(POLYMER, &set);
     let all = simulation(POLYMER, &[set[0], "effects.viscoelasticity='on'"]);
@@ -92,14 +92,14 @@ fn what_is_not_followed_is_not_stored() {
     };
     assert!(bytes(&folded) < bytes(&all), "{} {}", bytes(&folded), bytes(&all));
     for change in changes(&folded.run(&mut ()), &all.run(&mut ())) {
-        // The springs of the contact are as stiff as the bodies, which lack the fast terms.
+        // Contact springs follow the stiffness of the bodies, which lack the fast terms.
         assert!(change.abs() < 5e-3, "{change:e}");
     }
 }
 
-/// A small loss is an answer of its own: it is right to a per cent, however small.
+/// Small losses are accurate to two per cent.
 #[test]
-fn small_losses_stay_right() {
+fn small_losses_are_accurate() {
     for (time, weight) in [("1 s", 0.5), ("30 ms", 0.2), ("1 ns", 0.2)] {
         let terms = format!(
             "material.polymer.relaxation.terms=[{{weight={weight},relaxation_time='{time}'}}]"

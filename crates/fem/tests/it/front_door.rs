@@ -1,4 +1,4 @@
-//! A program that knows the crate `fem` alone: every name that it needs is here.
+//! A program that uses the crate `fem` alone, which has every name that it needs.
 
 use fem::results::{CostSummary, Energy, energy_key};
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, SnapshotLabel, TermTable};
@@ -11,7 +11,7 @@ use fem::{
     SnapshotRequest, SphereMesh, Stop, StressField, Summary, invariants, stop_advice,
 };
 
-/// Notes the phases of a run, and ends it after so many reports.
+/// A monitor that records the phases of a run and ends it after a number of reports.
 struct Panel {
     phases: Vec<Phase>,
     reports_left: u64,
@@ -44,7 +44,7 @@ fn scene_of(model: ModelTable) -> Result<Case, CaseError> {
 }
 
 #[test]
-fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
+fn a_case_is_built_run_and_read() -> Result<(), CaseError> {
     let case = scene_of(ModelTable::condensed())?;
     let scene: &Scene = case.scene();
     let ball: &Body = &scene.bodies()[1];
@@ -69,13 +69,13 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     assert_eq!(panel.phases.first(), Some(&Phase::Collision));
     assert_eq!(collision.ending, Ending::Parted);
 
-    // Bodies, and the books of energy.
+    // Bodies and energy ledgers.
     let [floor, ball]: &[BodyResult; 2] = &collision.bodies;
     assert!(floor.mass.is_none() && ball.velocity_after.is_some_and(|speed| speed > 0.0));
     let book: &EnergyLedger = &collision.energies;
     let row: &HistoryRow = collision.history.last().unwrap();
     assert!(book.has(Account::Kinetic) && row.energies.total(BalanceSide::Lost) > Some(0.0));
-    // Those of effects that are off are not there.
+    // Accounts of effects that are off are absent.
     assert!(
         Account::all().all(|account| account.shown() != ShownIn::WhereFilled || !book.has(account))
     );
@@ -106,7 +106,7 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
 }
 
 #[test]
-fn a_run_is_ended_and_begun_elsewhere() -> Result<(), CaseError> {
+fn a_run_is_stopped_and_continued_elsewhere() -> Result<(), CaseError> {
     let simulation = Simulation::new(scene_of(ModelTable::fem())?)?;
     let mut panel = Panel { phases: Vec::new(), reports_left: 2 };
     let stopped = simulation.run(&mut panel);
@@ -135,9 +135,9 @@ fn members_of_a_sweep_are_run() -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What this file is for.
+/// This file uses no other crate of the workspace.
 #[test]
-fn no_other_crate_of_the_house_is_named() {
+fn no_other_crate_of_the_workspace_is_used() {
     let own = include_str!("front_door.rs");
     let other = ["fem", "_"].concat();
     assert!(own.lines().all(|line| !line.contains(&other)), "a name of a crate below");

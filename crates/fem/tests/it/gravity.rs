@@ -29,7 +29,7 @@ fn relaxing(weight: f64, time: &str, acts_on: &str) -> String {
     )
 }
 
-/// What all accounts together hold and have lost, J.
+/// Returns the energy that all accounts hold and have lost, J.
 fn total(row: &HistoryRow) -> f64 {
     [BalanceSide::Held, BalanceSide::Lost]
         .into_iter()
@@ -37,7 +37,7 @@ fn total(row: &HistoryRow) -> f64 {
         .sum()
 }
 
-/// Heights between bounces of rows in flight, m.
+/// Returns the greatest heights of rows between bounces, m.
 fn heights(collision: &Collision) -> Vec<f64> {
     let tops = collision.bounces.windows(2).map(|two| {
         let rows = collision.history.iter();
@@ -47,30 +47,29 @@ fn heights(collision: &Collision) -> Vec<f64> {
     tops.collect()
 }
 
-/// By how much a weight changes the first contact: a ball let down at 3 cm/s, with all of its weight and
-/// with next to nothing of it.
+/// The change of the first contact by the weight agrees with its estimate, for a ball that is let down at 3 cm/s.
 #[test]
-fn a_weight_is_worth_what_is_foretold() {
+fn the_neglect_error_of_gravity_is_that_of_runs() {
     let let_down = ["model.ting={}", ELASTIC, "start.gap=0", "body.1.approach_speed='3 cm/s'"];
     let with = simulation(&let_down);
     let verdicts = &with.setup().decisions.verdicts;
     let gravity = verdicts.iter().find(|verdict| verdict.name == "gravity").unwrap();
-    let foretold = with.neglect_error(gravity, &with.setup().estimate).unwrap();
+    let estimated = with.neglect_error(gravity, &with.setup().estimate).unwrap();
     let none = "gravity.acceleration=1e-9";
     let (with, without) = (with.run(&mut ()), run(&[&let_down[..], &[none]].concat()));
     let change = |with: Option<f64>, without: Option<f64>| with.unwrap() - without.unwrap();
     let time = change(with.contact_time, without.contact_time);
     let force = change(with.peak_force, without.peak_force);
-    // √(g δ)/v is 0.46 here: the first order of what is no small number.
-    let ratio = time / foretold.contact_time_s.unwrap();
+    // √(g δ)/v is 0.46, so the first order is accurate within a factor of two.
+    let ratio = time / estimated.contact_time_s.unwrap();
     assert!((0.5..2.0).contains(&ratio), "T {ratio}");
-    let ratio = force / foretold.peak_force_n.unwrap();
+    let ratio = force / estimated.peak_force_n.unwrap();
     assert!((0.5..2.0).contains(&ratio), "F {ratio}");
 }
 
 /// A ball that leaves with e v rises to (e v)²/2g, and comes down 2 e v/g after it has left.
 #[test]
-fn heights_fall_as_the_restitution_says() {
+fn heights_follow_from_the_restitution() {
     for model in ["model.ting={}", "model.condensed={}", "model.law.kuwabara_kono.a='40 us'"] {
         let ball = run(&[model, "stop.bounces=8"]);
         assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 8), "{model}");
@@ -84,7 +83,7 @@ fn heights_fall_as_the_restitution_says() {
             // A row near the top is within a ninth of the flight: 1 − (1/9)² of its height.
             let top = left * left / (2.0 * G);
             assert!(height < 1.001 * top && height > 0.98 * top, "{model}: {height} {top}");
-            // The dent from which it leaves takes some thousandths.
+            // The ball leaves from below the height of first touch, which changes some thousandths.
             assert!((two[1].speed_before / left - 1.0).abs() < 5e-3, "{model}");
             let flight = two[1].time - two[0].time - two[0].contact_time.unwrap();
             assert!((flight / (2.0 * left / G) - 1.0).abs() < 5e-3, "{model}: {flight}");
@@ -92,7 +91,7 @@ fn heights_fall_as_the_restitution_says() {
     }
 }
 
-/// Every contact of the chain is the collision of the same bodies alone.
+/// Every contact is the collision of the same bodies alone at its speed.
 #[test]
 fn a_bounce_is_a_collision_at_its_speed() {
     for model in ["model.ting={}", "model.condensed={}"] {
@@ -107,9 +106,9 @@ fn a_bounce_is_a_collision_at_its_speed() {
     }
 }
 
-/// A ball whose modulus keeps half of itself comes to rest on it: a³ = 3 F R/4 E* with E* relaxed.
+/// A ball whose modulus relaxes to half comes to rest with Hertz' contact radius a³ = 3 F R/4 E* of the relaxed E*.
 #[test]
-fn a_ball_that_relaxes_comes_to_rest_on_what_is_left() {
+fn a_relaxing_ball_rests_on_its_equilibrium_modulus() {
     let weight = 1100.0 * std::f64::consts::PI * 0.02_f64.powi(3) / 6.0 * G;
     let modulus = 0.5 * 20e6 / (1.0 - 0.4 * 0.4);
     let radius = (0.75 * weight * 0.01 / modulus).cbrt();
@@ -133,9 +132,9 @@ fn a_ball_that_relaxes_comes_to_rest_on_what_is_left() {
     }
 }
 
-/// Bulk elastic, shear relaxed to G∞: E* by K and G∞, by hand.
+/// If only the shear modulus relaxes, E* at rest follows from K and G∞, by hand.
 #[test]
-fn what_is_left_of_the_shear_modulus_alone_bears_it_too() {
+fn a_ball_that_relaxes_in_shear_rests_on_its_equilibrium_shear_modulus() {
     let (bulk, shear) = (20e6 / (3.0 * 0.2), 0.3 * 20e6 / 2.8);
     let weight = 1100.0 * std::f64::consts::PI * 0.02_f64.powi(3) / 6.0 * G;
     let modulus = 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear);
@@ -150,10 +149,9 @@ fn what_is_left_of_the_shear_modulus_alone_bears_it_too() {
     }
 }
 
-/// No row of a hundred bounces has more energy than the ball had when it first touched, but for the
-/// error of the steps: 2e-6 a contact.
+/// In a hundred bounces the energy stays that of first touch within the error of the steps, 2e-6 per contact.
 #[test]
-fn no_energy_comes_from_nowhere() {
+fn energy_is_conserved_over_many_bounces() {
     for model in ["model.condensed.vibration_modes=6", "model.hertz={}"] {
         let ball = run(&[model, ELASTIC, COARSE, "stop.bounces=100"]);
         assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 100), "{model}");
@@ -172,10 +170,10 @@ fn no_energy_comes_from_nowhere() {
     }
 }
 
-/// A ball that is laid down has next to no energy at first touch; what does not add up is measured by what its
-/// weight gives on the way.
+/// A ball that is laid down has almost no energy at first touch, so its energy residual is relative to the work of its
+/// weight.
 #[test]
-fn a_ball_that_is_laid_down_balances() {
+fn the_energy_of_a_ball_that_is_laid_down_balances() {
     for model in ["model.fem={}", "model.condensed={}", "model.ting={}"] {
         for gap in ["start.gap='1 pm'", "start.gap='1 nm'"] {
             let laid = simulation(&[model, ELASTIC, COARSE, gap, "stop.bounces=1"]);
@@ -218,9 +216,9 @@ fn a_slow_elastic_ball_leaves_as_fast_as_it_came() {
     }
 }
 
-/// A modulus that relaxes to nothing bears no weight: the ball creeps into the floor for ever.
+/// A ball without equilibrium modulus flows into the floor without limit.
 #[test]
-fn a_ball_that_flows_sinks_and_says_so() {
+fn a_ball_that_flows_sinks_with_a_warning() {
     for model in ["model.ting={}", "model.condensed={}", "model.fem={}"] {
         for time in ["50 us", "2 ms"] {
             let flowing = relaxing(1.0, time, "all");
@@ -232,9 +230,9 @@ fn a_ball_that_flows_sinks_and_says_so() {
     }
 }
 
-/// Without gravity the same contact, in the limit: what the weight adds falls with it.
+/// The contact tends to that without gravity, and the difference is proportional to gravity.
 #[test]
-fn less_and_less_gravity_is_none() {
+fn the_limit_of_small_gravity_is_no_gravity() {
     for model in ["model.ting={}", "model.condensed={}", "model.law.falcon.c=10", "model.fem={}"] {
         let at = |gravity: &str| {
             let touching = ["body.1.approach_speed=0.5", "start.gap=0"];
@@ -257,10 +255,9 @@ fn less_and_less_gravity_is_none() {
             })
             .collect();
         for (k, difference) in differences[0].iter().enumerate() {
-            // A hundredth of the gravity: a hundredth of what it does, to a tenth of that, but for what
-            // 1e-6 of steps do.
+            // A hundredth of the gravity has a hundredth of the influence within a tenth, beside 1e-6 by the steps.
             let hundredth = differences[1][k];
-            // The largest of a force that scatters by more than the weight.
+            // The peak force of explicit elements scatters by more than the weight.
             if (k, model) == (0, "model.fem={}") {
                 continue;
             }
@@ -275,7 +272,7 @@ fn less_and_less_gravity_is_none() {
     }
 }
 
-/// Explicit and condensed elements are the same elements under the same weight.
+/// Explicit and condensed elements give the same bounces.
 #[test]
 fn explicit_elements_bounce_as_condensed_ones() {
     let [fem, condensed] = ["model.fem={}", "model.condensed.vibration_modes=12"]
@@ -299,7 +296,7 @@ fn explicit_elements_bounce_as_condensed_ones() {
     assert!(lowered, "the height of the fall is in the displacements");
 }
 
-/// A held sphere is a wall with a curvature and a modulus: half of the stiffness of a rigid one.
+/// A held sphere bears the ball like a wall with a curvature and a modulus, which halves E*.
 #[test]
 fn a_held_sphere_bears_a_ball() {
     let held = "body.0={name='post', sphere={diameter=0.03}, material='rubber', held=true}";
@@ -320,9 +317,9 @@ fn a_held_sphere_bears_a_ball() {
     }
 }
 
-/// What it does in the contact, and that the flight needs it all the same.
+/// The decision on gravity gives its numbers, and says if it acts in flight alone.
 #[test]
-fn its_numbers_are_in_the_effects() {
+fn the_decision_on_gravity_has_its_numbers() {
     let verdict = |overrides: &[&str]| {
         let simulation = simulation(overrides);
         let collision = simulation.run(&mut ());
@@ -351,7 +348,7 @@ fn a_resolved_case_falls_from_the_same_height() {
     }
 }
 
-/// One monitor sees all contacts, in the time of the case, and can stop them.
+/// One monitor receives the progress of all contacts in the time of the case, and can stop them.
 #[test]
 fn an_interrupted_ball_keeps_its_bounces() {
     struct Until(f64);
@@ -361,20 +358,22 @@ fn an_interrupted_ball_keeps_its_bounces() {
             progress.time < self.0
         }
     }
-    let simulation = simulation(&["model.condensed={}", COARSE]);
-    let whole = simulation.run(&mut ());
-    let part = simulation.run(&mut Until(whole.bounces[1].time + 1e-4));
-    assert!(part.is_interrupted(), "{:?}", part.ending);
-    assert_eq!(part.bounces, whole.bounces[..1]);
-    assert_eq!(part.restitution, whole.restitution);
-    let last = part.history.last().unwrap();
-    assert!(last.time > whole.bounces[1].time, "{}", last.time);
+    for model in ["model.condensed={}", "model.fem={}"] {
+        let simulation = simulation(&[model, COARSE]);
+        let whole = simulation.run(&mut ());
+        let part = simulation.run(&mut Until(whole.bounces[1].time + 1e-4));
+        assert!(part.is_interrupted(), "{model}: {:?}", part.ending);
+        assert_eq!(part.bounces, whole.bounces[..1], "{model}");
+        assert_eq!(part.restitution, whole.restitution, "{model}");
+        let last = part.history.last().unwrap();
+        assert!(last.time > whole.bounces[1].time, "{model}: {}", last.time);
+    }
 }
 
-/// Meshes are chosen anew where the contacts have become small: never fewer elements than three quarters of
-/// what the tolerance asks for.
+/// Meshes are refined when contacts become small, so that there are at least three quarters of the elements that the
+/// tolerance needs.
 #[test]
-fn late_contacts_have_elements_of_their_own() {
+fn late_contacts_have_refined_meshes() {
     let fine = "accuracy.tolerance='0.3 %'";
     let ball = run(&["model.condensed={}", "stop.bounces=100", fine]);
     let plan = |speed: f64| {
@@ -388,7 +387,7 @@ fn late_contacts_have_elements_of_their_own() {
     let alone = |size: &str| run(&["model.condensed={}", size, "stop.bounces=25"]);
     let coarse = alone(&format!("mesh.contact_element_size={first:?}"));
     let fine = alone("mesh={contact_element_size='20 um', refined_radius='0.8 mm'}");
-    // The worst of some: where the edge of the contact falls well between two nodes there is hardly any.
+    // The largest of several errors, since the error vanishes for some places of the edge between two nodes.
     let time = |of: &Collision, k: usize| of.bounces[k].contact_time.unwrap();
     let of_one = |of: &Collision, k| (time(of, k) / time(&fine, k) - 1.0).abs();
     let error = |of: &Collision| (15..25).map(|k| of_one(of, k)).fold(0.0, f64::max);
@@ -396,10 +395,9 @@ fn late_contacts_have_elements_of_their_own() {
     assert!(errors[0] < 3e-3 && errors[1] > 2.0 * errors[0], "{errors:?}");
 }
 
-/// A ball that is let down so softly that it never leaves sinks in all the same: its largest force is more
-/// than its weight, and every model finds the same.
+/// A ball that is let down softly and never leaves has a peak force above its weight, the same in every model.
 #[test]
-fn a_ball_that_never_leaves_sinks_in() {
+fn a_ball_that_never_leaves_sinks_in_dynamically() {
     let soft = "material.rubber={density=1000, youngs_modulus=1e6, poissons_ratio=0.45, relaxation=\
                 {acts_on='all', terms=[{weight=0.5, relaxation_time='5 ms'}]}}";
     let set =

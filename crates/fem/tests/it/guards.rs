@@ -1,4 +1,4 @@
-//! What a run says of itself that went wrong: when, where, by how much, and a remedy. Followed, it helps.
+//! Diagnostics of a run: time, place and size of a fault, and a remedy that helps.
 
 use std::path::Path;
 
@@ -37,7 +37,7 @@ fn run(case: &str, overrides: &[&str]) -> (Simulation, Collision) {
     (simulation, collision)
 }
 
-/// What a run says with some word in it.
+/// Returns the first diagnostic message with a word in it.
 fn said(case: &str, overrides: &[&str], word: &str) -> Option<String> {
     let (simulation, collision) = run(case, overrides);
     diagnose(&simulation, &collision, &simulation.estimate_errors(&collision))
@@ -45,14 +45,14 @@ fn said(case: &str, overrides: &[&str], word: &str) -> Option<String> {
         .find(|text| text.contains(word))
 }
 
-/// `KEY=VALUE` of `… write KEY = VALUE` in a message.
+/// Returns `KEY=VALUE` from `… write KEY = VALUE` in a message.
 fn written(message: &str) -> String {
     let advice = message.split("write ").nth(1).unwrap_or_else(|| panic!("{message}"));
     let advice = advice.split([',', ';']).next().unwrap();
     advice.replacen(" = ", "=", 1)
 }
 
-/// A scene that says something with `word`, and nothing of it any more once the remedy is written.
+/// Asserts that a scene has a message with a word, and none after its remedy. Returns the message.
 #[track_caller]
 fn assert_helped(case: &str, overrides: &[&str], word: &str) -> String {
     let message = said(case, overrides, word).unwrap_or_else(|| panic!("no word of {word}"));
@@ -65,13 +65,13 @@ fn assert_helped(case: &str, overrides: &[&str], word: &str) -> String {
 }
 
 const COARSE: &str = "mesh.contact_element_size='90 um'";
-/// Elements that are small, and nodes that stay light: springs between them ring.
+/// Small elements with light nodes, between which springs ring.
 const SLIPPING_FINE: &str = "mesh.contact_element_size='0.163 mm'";
 const SOFT_FINE: &str = "mesh.contact_element_size='0.55 mm'";
 const LITTLE_MASS: &str = "time.mass_scaling=2e-4";
 
 #[test]
-fn springs_at_nodes_that_ring_are_told_of_a_boundary_without_mass() {
+fn a_massless_boundary_is_advised_for_ringing_springs() {
     for method in ["penalty", "node_to_surface"] {
         let method = format!("contact.method='{method}'");
         let overrides = [COARSE, &method, "contact.penalty_factor=30"];
@@ -103,10 +103,10 @@ fn assert_massless_is_advised(factor: &str) {
     assert_eq!(written(&message), "contact.method=\"massless\"");
 }
 
-/// Where there is no boundary without mass it is not named: what is, helps.
+/// Where a massless boundary is not possible, softer springs are advised and help.
 #[test]
 #[ignore = "26 s; .ci/run runs it"]
-fn springs_that_cannot_be_without_mass_are_told_how_soft_to_be() {
+fn softer_springs_are_advised_without_a_massless_boundary() {
     let viscous = "effects.bulk_viscosity='on'";
     let stiff = "contact.penalty_factor=300";
     let message = assert_helped(SLIP, &[viscous, stiff, SLIPPING_FINE, LITTLE_MASS], "scatters");
@@ -119,19 +119,19 @@ fn springs_that_cannot_be_without_mass_are_told_how_soft_to_be() {
     }
 }
 
-/// Springs that open and close within a few steps are followed by shorter ones, and keep their energy: with the
-/// steps of usual springs these gain 3e-3 to 5e-2 of it, or end with it.
+/// Springs that open and close within a few steps get a shorter time step and conserve energy; with the usual step they gain
+/// 3e-3 to 5e-2 of it or fail.
 #[test]
-fn springs_that_ring_keep_their_energy() {
+fn ringing_springs_conserve_energy() {
     for (method, factor) in [("penalty", 100.0), ("node_to_surface", 10.0)] {
-        keeps_its_energy(method, factor, COARSE);
+        assert_energy_balance(method, factor, COARSE);
     }
 }
 
 /// The same with finer elements and stiffer springs.
 #[test]
 #[ignore = "20 s; .ci/run runs it"]
-fn stiffer_springs_keep_their_energy() {
+fn stiffer_springs_conserve_energy() {
     const FINE: &str = "mesh.contact_element_size='40 um'";
     for (method, factor, mesh) in [
         ("penalty", 100.0, FINE),
@@ -139,12 +139,12 @@ fn stiffer_springs_keep_their_energy() {
         ("node_to_surface", 300.0, FINE),
         ("node_to_surface", 300.0, COARSE),
     ] {
-        keeps_its_energy(method, factor, mesh);
+        assert_energy_balance(method, factor, mesh);
     }
 }
 
 /// Asserts the energy balance to the tolerance of the claim on hard scenes.
-fn keeps_its_energy(method: &str, factor: f64, mesh: &str) {
+fn assert_energy_balance(method: &str, factor: f64, mesh: &str) {
     let set = [format!("contact.method='{method}'"), format!("contact.penalty_factor={factor}")];
     let (_, collision) = run(GLASS, &[mesh, LITTLE_MASS, &set[0], &set[1]]);
     assert_eq!(collision.stop(), None);
@@ -152,9 +152,9 @@ fn keeps_its_energy(method: &str, factor: f64, mesh: &str) {
     assert!(collision.restitution.unwrap() < 1.0 + 1e-5, "{set:?} {mesh}");
 }
 
-/// No scene is known whose energy does not add up: a sound collision is said to have lost some.
+/// An energy residual is reported with its time. No scene is known that has one, so a residual is added to a valid result.
 #[test]
-fn energy_that_does_not_add_up_is_told_with_its_time() {
+fn an_energy_residual_is_reported_with_its_time() {
     let (simulation, mut collision) = run(GLASS, &[COARSE, "contact.method='penalty'"]);
     let about_energy = |collision: &Collision| {
         let messages = diagnose(&simulation, collision, &simulation.estimate_errors(collision));
@@ -169,12 +169,12 @@ fn energy_that_does_not_add_up_is_told_with_its_time() {
 }
 
 #[test]
-fn springs_that_are_too_soft_are_told_how_stiff_to_be() {
+fn stiffer_springs_are_advised_for_soft_ones() {
     for factor in [0.02, 0.1] {
         let factor = format!("contact.penalty_factor={factor}");
         let message = assert_helped(GLASS, &[COARSE, &factor], "overlap");
         assert!(message.contains("% of an element, deepest "), "{message}");
-        // On the axis, at the largest force.
+        // The deepest overlap is near the axis at the largest force.
         let (_, collision) = run(GLASS, &[COARSE, &factor]);
         let deepest_overlap = collision.deepest_overlap.unwrap();
         assert!(message.contains(&deepest_overlap.to_string()), "{message}");
@@ -196,9 +196,9 @@ fn springs_that_are_too_soft_are_told_how_stiff_to_be() {
     }
 }
 
-/// Limits are for the user: raised, the run goes to its end.
+/// A run that a limit stops completes if the limit is raised, as its advice says.
 #[test]
-fn a_run_at_its_limit_goes_on_where_that_is_raised() {
+fn a_raised_limit_lets_the_run_complete() {
     let fluid = "material.glass.relaxation={acts_on='all', terms=[{weight=0.995, relaxation_time='0.3 us'}]}";
     let mesh = ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.6 mm'", fluid];
     let mut simulation = run(GLASS, &mesh).0;
@@ -211,9 +211,9 @@ fn a_run_at_its_limit_goes_on_where_that_is_raised() {
     assert_eq!(run(GLASS, &mesh).1.stop(), None);
 }
 
-/// What makes a run too long or a mesh too fine is named, and not what happens to be near.
+/// A rejection names the setting that makes a run too long or a mesh too fine.
 #[test]
-fn a_setting_far_from_its_default_is_blamed_itself() {
+fn an_extreme_setting_is_named() {
     for (key, value) in [
         ("mesh.growth", "1.0000001"),
         ("mesh.growth", "1.00001"),
@@ -236,9 +236,9 @@ fn a_setting_far_from_its_default_is_blamed_itself() {
     }
 }
 
-/// What makes a mass no number is pointed at, and not a body as a whole.
+/// A mass that is not finite is blamed on the density or diameter, not on the body as a whole.
 #[test]
-fn a_mass_that_is_no_number_points_at_what_makes_it() {
+fn an_extreme_mass_names_its_cause() {
     for (set, key, words) in [
         ("material.glass.density=1e-300", "body.0.material", "density is 1e-300 kg/m^3"),
         ("body.0.sphere.diameter=1e-110", "body.0.sphere.diameter", "diameter is 1e-110 m"),
@@ -250,9 +250,9 @@ fn a_mass_that_is_no_number_points_at_what_makes_it() {
     }
 }
 
-/// Motion that is no number is why a run ends; what follows from it is no news, and told once.
+/// A run that ends with NaN reports the cause once, without messages that follow from it.
 #[test]
-fn what_ended_a_run_is_told_once() {
+fn the_cause_of_a_failure_is_reported_once() {
     let (simulation, mut collision) = run(GLASS, &["model={ condensed = {} }"]);
     collision.ending = Ending::Stopped(Stop::NoNumber {
         time: 1e-5,

@@ -1,4 +1,4 @@
-//! A ball on a block that never ends.
+//! A ball on a half-space.
 
 use std::path::Path;
 
@@ -41,22 +41,22 @@ fn run(set: &[&str]) -> Collision {
 
 /// Hertz by hand: R* is the ball's radius, m* its mass, 1/E* = 0.91/210 GPa + 0.84/3 GPa.
 #[test]
-fn it_gives_way_as_hertz_says() {
+fn the_contact_time_is_that_of_hertz() {
     let contact_modulus: f64 = (0.91 / 210e9 + 0.84 / 3e9f64).recip();
     let (radius, speed) = (5e-3f64, 0.1f64);
     let mass = 7850.0 * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
     let time = 2.868_265 * (mass * mass / (radius * contact_modulus.powi(2) * speed)).powf(0.2);
     for model in ["model.hertz={}", "model.ting={}", "model.law.hertz={}"] {
-        // Waves make it longer by 2e-4 where a model has them, surfaces that slip shorter by 1e-3.
+        // Radiated waves would lengthen the contact by 2e-4, and surface slip would shorten it by 1e-3.
         let off = "effects={ partner_waves = 'off', surface_slip = 'off' }";
         let found = run(&[model, off]).contact_time.unwrap();
         assert!((found / time - 1.0).abs() < 1e-5, "{model}: {found:e} {time:e}");
     }
 }
 
-/// A sphere a hundred thousand times larger is as good as a half-space, and finite size is none of it.
+/// A sphere a hundred thousand times larger equals a half-space, also with finite size.
 #[test]
-fn a_sphere_without_end_is_one() {
+fn a_very_large_sphere_is_a_half_space() {
     let sphere = ["body.0.sphere.diameter='1 km'"];
     let without = BALL.replace("half_space = {}\n", "");
     for model in ["model.hertz={}", "model.ting.finite_size=true"] {
@@ -68,11 +68,11 @@ fn a_sphere_without_end_is_one() {
     }
 }
 
-/// Elements of a block that never ends: the contact is Hertz' to the mesh's error, with the sphere's own
-/// compliance, which shortens it by 1 %.
+/// The contact time of elements on a half-space is that of Hertz with the sphere's own compliance, within the discretisation
+/// error.
 #[test]
-fn elements_give_way_as_hertz_says() {
-    // A ball of the same stuff: its elements let the steps be long.
+fn the_contact_time_of_elements_is_that_of_hertz() {
+    // A ball of the same material allows long time steps.
     let soft = "body.1.material='polymer'";
     let time = run(&["model.hertz.finite_size=true", soft]).contact_time.unwrap();
     for model in ["model.condensed={}", "model.fem={}"] {
@@ -88,9 +88,9 @@ fn elements_give_way_as_hertz_says() {
     }
 }
 
-/// It can only be struck or strike: its mass has no end, its velocity stays.
+/// A half-space has an infinite mass and keeps its velocity.
 #[test]
-fn it_moves_on() {
+fn a_half_space_keeps_its_velocity() {
     let found = run(&["model.hertz={}", "body.0.approach_speed=0.2"]);
     assert_eq!(found.bodies[0].mass, None);
     assert_eq!(found.bodies[0].velocity_after, Some(0.2));

@@ -1,4 +1,4 @@
-//! Fits, inversions and exports as a library user has them.
+//! Fits, inversions and exports of contact laws through the library.
 
 use fem::laws::{
     ChosenLaw, DemExport, EndRule, FitError, ImpactCurve, LawFamily, LawFault, LawFit,
@@ -8,7 +8,7 @@ use fem::measured::Restitutions;
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable, TsujiTable};
 use fem::{Case, CaseFile};
 
-/// A ball of ice on a wall.
+/// Returns the case of an ice ball on a wall.
 fn ball(model: Option<ModelTable>) -> Case {
     let ice = MaterialTable::from_youngs_modulus_poissons_ratio(917.0, "9.3 GPa", 0.33);
     let ball = BodyTable::sphere("ball", "20 mm", "ice").approaching("0.1 m/s");
@@ -21,7 +21,7 @@ fn tsuji(restitution: f64) -> ModelTable {
     ModelTable::law(TsujiTable { e: Some(restitution.into()), ..TsujiTable::default() })
 }
 
-/// Restitutions that Bordbar and Hyppänen's law makes with n = 0.65.
+/// Returns restitutions by Bordbar and Hyppänen's law with n = 0.65.
 fn made(dissipation_time: f64, speeds: &[f64]) -> Restitutions {
     let case = ball(None);
     let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[], None).unwrap();
@@ -33,14 +33,14 @@ fn made(dissipation_time: f64, speeds: &[f64]) -> Restitutions {
 }
 
 #[test]
-fn a_law_that_made_the_data_is_found_again() {
+fn a_fit_recovers_the_law_of_the_data() {
     let (case, data) = (ball(None), made(1e-6, &[0.02, 0.05, 0.1, 0.2, 0.5]));
     let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[], None).unwrap();
     let problem = law.problem(&data.points, &["a", "n"]).unwrap();
     let exponent = problem.free[1];
     let fit = LawFit::of(&data, problem, 0.95).unwrap().with_profile(&exponent).unwrap();
     let fit = fit.compared_with(LawFamily::KuwabaraKono).unwrap();
-    // The fit's own accuracy: differences of 1e-4 that are good to 1e-5.
+    // The accuracy of the fit: finite differences of 1e-4 that are accurate to 1e-5.
     assert!((fit.fit.values[0] / 1e-6 - 1.0).abs() < 1e-3, "{:?}", fit.fit.values);
     assert!((fit.fit.values[1] - 0.65).abs() < 1e-3, "{:?}", fit.fit.values);
     let [(_, compared)] = &fit.compared[..] else { panic!("one is compared") };
@@ -56,13 +56,13 @@ fn a_law_that_made_the_data_is_found_again() {
 }
 
 #[test]
-fn what_is_given_goes_before_the_case_and_is_where_a_search_begins() {
+fn given_parameters_replace_those_of_the_case_and_start_the_search() {
     let case = ball(Some(tsuji(0.9)));
     assert_eq!(family_of(case.scene()), Some(LawFamily::Tsuji));
     let data = Restitutions::of("e", &[(0.1, 0.8), (0.2, 0.8)]);
     let own = ChosenLaw::of(&case, LawFamily::Tsuji, &[], None).unwrap();
     let problem = own.problem(&data.points, &[]).unwrap();
-    // The case's value is known, and no place to begin.
+    // The case's value is known, but does not start the search.
     assert!(problem.values[0] > 0.0 && problem.free[0].start.is_none());
     let given = ChosenLaw::of(&case, LawFamily::Tsuji, &[("alpha", 0.3)], None).unwrap();
     assert_eq!(given.problem(&data.points, &[]).unwrap().free[0].start, Some(0.3));
@@ -72,7 +72,7 @@ fn what_is_given_goes_before_the_case_and_is_where_a_search_begins() {
 }
 
 #[test]
-fn what_no_law_can_do_is_refused() {
+fn impossible_requests_are_rejected() {
     let case = ball(None);
     let of = |family, given: &[(&str, f64)], end| ChosenLaw::of(&case, family, given, end);
     let unknown = of(LawFamily::Tsuji, &[("n", 0.5)], None).unwrap_err();
@@ -95,7 +95,7 @@ fn what_no_law_can_do_is_refused() {
 }
 
 #[test]
-fn every_law_that_needs_no_more_is_inverted() {
+fn every_law_with_one_free_parameter_is_inverted() {
     let case = ball(None);
     for family in LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Ting) {
         if needs_more(family) {
@@ -112,13 +112,13 @@ fn every_law_that_needs_no_more_is_inverted() {
 }
 
 #[test]
-fn an_export_says_where_it_is_good() {
+fn an_export_has_its_range_of_validity() {
     let case = ball(Some(tsuji(0.9)));
     let curve = ImpactCurve::computed(&case, Some((0.05, 0.5))).unwrap();
     assert!(!curve.has_hertz_times && curve.points.len() == 13);
     let export = DemExport::of(&case, curve, 0.01).unwrap();
     let [constant, viscoelastic, _] = &export.laws;
-    // As the law gives it at each speed, to its tolerance.
+    // The law has this restitution at each speed within its tolerance.
     assert!((export.export.hertz.restitution - 0.9).abs() < 1e-7);
     assert_eq!(constant.validity[..2], [0.05, 0.5]);
     assert!(viscoelastic.validity[2] > 0.01);
@@ -127,7 +127,7 @@ fn an_export_says_where_it_is_good() {
     assert_eq!(numbers["wall"], true);
     assert!(numbers["snippets"][0]["entries"].as_object().is_some_and(|all| !all.is_empty()));
 
-    // Without contact times Hertz' stand in; one speed says nothing.
+    // Hertz' contact times replace missing ones; a single speed is not sufficient.
     let measured =
         |points: &[(f64, f64)]| ImpactCurve::measured(case.scene(), &Restitutions::of("e", points));
     assert!(measured(&[(0.2, 0.9), (0.1, 0.9)]).unwrap().has_hertz_times);
@@ -136,7 +136,7 @@ fn an_export_says_where_it_is_good() {
 }
 
 #[test]
-fn elements_have_ting_in_their_place_if_a_body_relaxes() {
+fn ting_replaces_elements_if_a_body_relaxes() {
     let elastic = ImpactCurve::computed(&ball(None), None).unwrap_err();
     assert_eq!(elastic, LawFault::NoStandIn(FitError::NoRelaxation));
     let case = ball(None).edited(|file| {
@@ -151,9 +151,9 @@ fn elements_have_ting_in_their_place_if_a_body_relaxes() {
     assert!(curve.points.iter().all(|point| point.restitution < 1.0));
 }
 
-/// Of data that tell nothing apart the first is one of the fewest parameters, however well others fit.
+/// If the data cannot distinguish laws, a law with the fewest parameters comes first.
 #[test]
-fn a_parameter_more_is_not_first_for_want_of_data() {
+fn few_data_prefer_the_fewest_parameters() {
     for points in [[(0.05, 0.93), (0.2, 0.9)].as_slice(), &[(0.05, 0.93), (0.1, 0.915), (0.2, 0.9)]]
     {
         let ranking = LawRanking::of(&ball(None), &Restitutions::of("few", points), None).unwrap();
@@ -170,8 +170,8 @@ fn a_parameter_more_is_not_first_for_want_of_data() {
     }
 }
 
-/// Data of one law with scatter of 0.003 either way: that law comes first, one that can do as well with
-/// a parameter more pays for it, and one that cannot has no share.
+/// For data of one law with a scatter of 0.003 that law comes first, a law with one more parameter is penalised, and a law
+/// that does not fit has no weight.
 #[test]
 fn laws_are_ranked_by_their_evidence() {
     let case = ball(None);
@@ -220,7 +220,7 @@ fn laws_are_ranked_by_their_evidence() {
     }
 }
 
-/// Restitutions determine the loss alone: what else a law needs has a stand-in, which changes no restitution.
+/// Restitutions determine the loss alone. Other parameters of a law have stand-ins that do not change the restitution.
 #[test]
 fn a_law_is_fitted_by_its_loss_alone() {
     let case = ball(None);
@@ -238,7 +238,7 @@ fn a_law_is_fitted_by_its_loss_alone() {
     let time = fem_laws::HertzImpact::new(law.model().pair(), 0.1).unwrap().contact_time();
     let own = std::f64::consts::PI * (law.model().pair().effective_mass() / values[0]).sqrt();
     assert!((own / time - 1.0).abs() < 1e-12, "{own} {time}");
-    // Of another stiffness the damping is another one, and the misfit the same.
+    // Another stiffness changes the damping but not the misfit.
     let (other, other_rms, _) = fit(&[("k", 7.0 * values[0])]);
     assert!((other[1] / values[1] - 7.0_f64.sqrt()).abs() < 1e-5 && (rms - other_rms).abs() < 1e-8);
     let refused = law.problem(&data.points, &["c", "k"]).unwrap_err();

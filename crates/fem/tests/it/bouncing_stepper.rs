@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Monitor, Progress, RestartState, Simulation};
+use fem::{Case, Collision, RestartState, Simulation};
 
 const BALL: &str = include_str!("rubber_ball.toml");
 /// Three elements across the first contact.
@@ -15,30 +15,30 @@ fn simulation(overrides: &[&str]) -> Simulation {
     Simulation::new(case).unwrap()
 }
 
-/// Put away after every so many pieces, as bytes, and taken up again by a simulation of its own;
-/// whether it was put away in each of the contacts.
+/// Computes a collision that is stopped after every `n_pieces` advances, stored as bytes and continued by another
+/// simulation. Returns it with the number of stops in each contact.
 fn in_pieces(overrides: &[&str], n_pieces: usize) -> (Collision, Vec<usize>) {
-    let mut n_put_away = vec![0; 10];
-    let mut course = simulation(overrides).start();
+    let mut n_stops = vec![0; 10];
+    let mut stepper = simulation(overrides).start();
     loop {
         for _ in 0..n_pieces {
-            if !course.advance(&mut ()) {
-                return (course.finish(), n_put_away);
+            if !stepper.advance(&mut ()) {
+                return (stepper.finish(), n_stops);
             }
         }
         let n_contacts = simulation(overrides).case().scene().gravity().unwrap().bounces as f64;
-        n_put_away[(course.progress().fraction * n_contacts) as usize] += 1;
-        let memory = course.restart_state().unwrap();
-        let bytes = postcard::to_stdvec(&memory).unwrap();
+        n_stops[(stepper.progress().fraction * n_contacts) as usize] += 1;
+        let state = stepper.restart_state().unwrap();
+        let bytes = postcard::to_stdvec(&state).unwrap();
         let read: RestartState = postcard::from_bytes(&bytes).unwrap();
-        assert_eq!(read, memory);
-        course = simulation(overrides).resume(read).unwrap();
+        assert_eq!(read, state);
+        stepper = simulation(overrides).resume(read).unwrap();
     }
 }
 
-/// Rows, snapshots, bounces and books to the bit, put away in each contact.
+/// A ball that is stopped and continued in each contact gives the same rows, snapshots, bounces and energies to the bit.
 #[test]
-fn a_ball_goes_on_from_its_memory() {
+fn a_ball_continues_from_its_restart_state() {
     for more in [
         "output.snapshots=['maximum', 'last-contact']",
         "output.snapshots=['101 ms', '102.5 ms', '1 s']",
@@ -47,15 +47,15 @@ fn a_ball_goes_on_from_its_memory() {
         let overrides = [FEM, COARSE, more];
         let whole = simulation(&overrides).run(&mut ());
         assert_eq!(whole.bounces.len(), 3, "{more}");
-        let (resumed, n_put_away) = in_pieces(&overrides, 3);
+        let (resumed, n_stops) = in_pieces(&overrides, 3);
         assert_eq!(resumed, whole, "{more}");
-        assert!(n_put_away[..3].iter().all(|&n| n > 1), "{n_put_away:?}");
+        assert!(n_stops[..3].iter().all(|&n| n > 1), "{n_stops:?}");
     }
 }
 
-/// A model around the model: the scene that an effect has left, under gravity.
+/// The restart state passes through the model of a transformed scene under gravity.
 #[test]
-fn a_simplified_ball_goes_on_from_its_memory() {
+fn a_ball_on_a_rigid_partner_continues_from_its_restart_state() {
     let steel = "material.steel={density=7850, youngs_modulus=210e9, poissons_ratio=0.3}";
     let floor = "body.0={name='floor', sphere={diameter='40 mm'}, material='steel', held=true}";
     let overrides = [FEM, COARSE, steel, floor, "effects.rigid_partner='on'"];
@@ -64,9 +64,9 @@ fn a_simplified_ball_goes_on_from_its_memory() {
     assert_eq!(in_pieces(&overrides, 11).0, whole);
 }
 
-/// Elements of a late contact that are made anew are made anew once more.
+/// The mesh of a late contact that was refined is refined again on restart.
 #[test]
-fn a_ball_with_late_elements_goes_on_from_its_memory() {
+fn a_ball_with_a_refined_mesh_continues_from_its_restart_state() {
     let lossy = "material.rubber.relaxation={acts_on='all', \
                  terms=[{weight=0.6, relaxation_time='0.3 ms'}]}";
     let overrides = [FEM, lossy, "mesh.growth=1.35", "accuracy.tolerance='0.3 %'"];
@@ -74,22 +74,22 @@ fn a_ball_with_late_elements_goes_on_from_its_memory() {
     let speed = |k: usize| whole.bounces[k].speed_before;
     // The radius goes with v^(2/5): three quarters of it.
     assert!(speed(2) < 0.75_f64.powf(2.5) * speed(0), "{:?}", whole.bounces);
-    let (resumed, n_put_away) = in_pieces(&overrides, 15);
+    let (resumed, n_stops) = in_pieces(&overrides, 15);
     assert_eq!(resumed, whole);
-    assert!(n_put_away[..3].iter().all(|&n| n > 0), "{n_put_away:?}");
+    assert!(n_stops[..3].iter().all(|&n| n > 0), "{n_stops:?}");
 }
 
-/// Of another ball, of one that bounces otherwise, of one without gravity; contradicting itself.
+/// A restart state of another ball, of other bounces, of a scene without gravity, or with missing parts is rejected.
 #[test]
-fn a_memory_of_another_ball_is_refused() {
+fn a_restart_state_of_another_ball_is_rejected() {
     let overrides = [FEM, COARSE];
     let own = simulation(&overrides);
-    let mut course = own.start();
-    while course.progress().fraction < 0.5 {
-        assert!(course.advance(&mut ()));
+    let mut stepper = own.start();
+    while stepper.progress().fraction < 0.5 {
+        assert!(stepper.advance(&mut ()));
     }
-    let memory = course.restart_state().unwrap();
-    assert!(own.resume(memory.clone()).is_ok());
+    let state = stepper.restart_state().unwrap();
+    assert!(own.resume(state.clone()).is_ok());
     for more in [
         "gravity.acceleration=9.8",
         "stop.bounces=4",
@@ -98,26 +98,9 @@ fn a_memory_of_another_ball_is_refused() {
         "model={condensed={}}",
     ] {
         let other = simulation(&[FEM, COARSE, more]);
-        assert!(other.resume(memory.clone()).is_err(), "{more}");
+        assert!(other.resume(state.clone()).is_err(), "{more}");
     }
-    let mut one_contact = serde_json::to_value(&memory).unwrap();
+    let mut one_contact = serde_json::to_value(&state).unwrap();
     one_contact["bounces"].take();
     assert!(own.resume(serde_json::from_value(one_contact).unwrap()).is_err());
-}
-
-/// Told of in the time of the case, and stopped in a later contact: the beginning of the whole.
-#[test]
-fn a_ball_that_is_left_keeps_its_bounces() {
-    struct Until(f64);
-    impl Monitor for Until {
-        fn report(&mut self, progress: Progress) -> bool {
-            progress.time < self.0
-        }
-    }
-    let simulation = simulation(&[FEM, COARSE]);
-    let whole = simulation.run(&mut ());
-    let part = simulation.run(&mut Until(whole.bounces[1].time + 1e-4));
-    assert!(part.is_interrupted(), "{:?}", part.ending);
-    assert_eq!(part.bounces, whole.bounces[..1]);
-    assert!(part.history.last().unwrap().time > whole.bounces[1].time);
 }

@@ -1,4 +1,4 @@
-//! A collision in pieces is the collision in one go.
+//! A collision in pieces equals the collision in one call.
 
 use fem::{Approach, Collision, Ending, METHODS, OutputRequest, RestartState, Simulation, Stop};
 
@@ -9,50 +9,49 @@ fn pieces_make_the_whole() {
     for method in METHODS {
         let simulation = simulation(method.name(), &[]);
         let whole = simulation.run(&mut ());
-        let mut course = simulation.start();
+        let mut stepper = simulation.start();
         let mut n_pieces = 0;
-        while course.advance(&mut ()) {
+        while stepper.advance(&mut ()) {
             n_pieces += 1;
         }
         assert_eq!(n_pieces > 10, method.name() == "fem", "{}", method.name());
-        // What is over stays so.
-        assert!(!course.advance(&mut ()));
-        assert_eq!(course.finish(), whole, "{}", method.name());
+        // A finished collision does not continue.
+        assert!(!stepper.advance(&mut ()));
+        assert_eq!(stepper.finish(), whole, "{}", method.name());
     }
 }
 
 #[test]
-fn a_course_that_is_left_is_interrupted() {
+fn a_stepper_that_is_finished_early_is_interrupted() {
     for method in ["fem", "condensed"] {
         let simulation = simulation(method, &[]);
-        let mut course = simulation.start();
+        let mut stepper = simulation.start();
         if method == "fem" {
-            assert!(course.advance(&mut ()));
+            assert!(stepper.advance(&mut ()));
         }
-        let left = course.finish();
+        let left = stepper.finish();
         let Ending::Stopped(Stop::Interrupted { .. }) = left.ending else { panic!("{left:?}") };
         assert_eq!(left.restitution, None);
     }
 }
 
-/// Put away after so many pieces, through text, and taken up again.
+/// Computes a collision that is stopped after some pieces, stored as text and continued.
 fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Collision {
     let (model, request) = (simulation.model(), OutputRequest::history());
-    let mut course = model.start(approach, &request).unwrap();
+    let mut stepper = model.start(approach, &request).unwrap();
     for _ in 0..n_pieces {
-        course.advance(&mut ());
+        stepper.advance(&mut ());
     }
-    let text = serde_json::to_string(&course.restart_state().unwrap()).unwrap();
-    let memory: RestartState = serde_json::from_str(&text).unwrap();
-    let mut resumed = model.resume(memory).unwrap();
+    let text = serde_json::to_string(&stepper.restart_state().unwrap()).unwrap();
+    let state: RestartState = serde_json::from_str(&text).unwrap();
+    let mut resumed = model.resume(state).unwrap();
     while resumed.advance(&mut ()) {}
     resumed.finish()
 }
 
-/// Also of a contact that has outgrown the region in which it was looked for, before it was put away
-/// or after.
+/// A continued collision has the same bits, also if the contact outgrows its candidate region before or after the stop.
 #[test]
-fn a_course_goes_on_from_its_memory() {
+fn a_collision_continues_from_its_restart_state() {
     let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
                     decay_rate=2e4}]}";
     let simulation = simulation("fem", &[relaxing]);
@@ -66,30 +65,30 @@ fn a_course_goes_on_from_its_memory() {
 }
 
 #[test]
-fn a_memory_of_another_case_is_refused() {
+fn a_restart_state_of_another_case_is_rejected() {
     let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
                     decay_rate=2e4}]}";
-    let memory = simulation("fem", &[]).start().restart_state().unwrap();
+    let state = simulation("fem", &[]).start().restart_state().unwrap();
     for other in [
         simulation("fem", &["mesh.contact_element_size='0.12 mm'"]),
         simulation("fem", &[relaxing]),
         simulation("condensed", &[]),
     ] {
-        let refused = other.resume(memory.clone()).map(|_| ()).unwrap_err();
+        let refused = other.resume(state.clone()).map(|_| ()).unwrap_err();
         assert!(refused.message().contains("restart state"), "{refused}");
     }
 }
 
-/// Of identical bodies half is computed, put away and taken up again.
+/// A collision of identical bodies, of which half is computed, continues from its restart state.
 #[test]
-fn the_half_of_a_scene_goes_on_from_its_memory() {
+fn half_of_a_scene_continues_from_its_restart_state() {
     let twins = ["body.1.sphere.diameter='22.2 mm'", "body.1.approach_speed=0.2"];
     let simulation = simulation("fem", &twins);
     let whole = simulation.run(&mut ());
     assert_eq!(whole.bodies[0].elements, whole.bodies[1].elements);
-    let mut course = simulation.start();
-    assert!((0..10).all(|_| course.advance(&mut ())));
-    let mut resumed = simulation.resume(course.restart_state().unwrap()).unwrap();
+    let mut stepper = simulation.start();
+    assert!((0..10).all(|_| stepper.advance(&mut ())));
+    let mut resumed = simulation.resume(stepper.restart_state().unwrap()).unwrap();
     while resumed.advance(&mut ()) {}
     assert_eq!(resumed.finish(), whole);
 }
