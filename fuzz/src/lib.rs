@@ -1,7 +1,7 @@
 //! Fuzzing: feeds damaged inputs to everything that reads files of a user.
 //!
 //! ```text
-//! Random ─── mutate ───────────── Target::make ─ bytes ─ Target::take ─ accepted, refused, or a finding:
+//! Random ─── mutate ───────────── Target::make ─ bytes ─ Target::take ─ accepted, rejected, or a finding:
 //! seed and   words, lines, bytes   one input              with limits    panic, wrong value, time, memory,
 //! number                                                                a file that should not exist
 //! ```

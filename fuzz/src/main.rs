@@ -66,9 +66,9 @@ fn main() -> ExitCode {
         }
         let (input, took) = counts.slowest;
         eprintln!(
-            "{known}: {} accepted, {} refused, {} findings; {:.0} s, the slowest {took:.1?} (={input})",
+            "{known}: {} accepted, {} rejected, {} findings; {:.0} s, the slowest {took:.1?} (={input})",
             counts.accepted,
-            counts.refused,
+            counts.rejected,
             counts.findings.len(),
             begin.elapsed().as_secs_f64(),
         );

@@ -15,7 +15,7 @@ pub enum Taken {
     /// The input is valid.
     Accepted,
     /// The input is rejected with a message.
-    Refused,
+    Rejected,
 }
 
 /// A reader that is fuzzed. A panic is also a finding.
@@ -34,10 +34,10 @@ pub trait Target: Sync {
 ///
 /// # Errors
 /// Returns a finding if the message is empty, very long, or has control characters.
-pub fn refused(message: &str) -> Result<Taken, String> {
+pub fn rejected(message: &str) -> Result<Taken, String> {
     let is_tame = !message.contains(|c: char| c.is_control() && c != '\n');
     match is_tame && message.trim().len() > 8 && message.len() < 100_000 {
-        true => Ok(Taken::Refused),
+        true => Ok(Taken::Rejected),
         false => Err(format!("not a message for a user: {message:?}")),
     }
 }
@@ -57,7 +57,7 @@ pub struct Counts {
     /// Number of valid inputs.
     pub accepted: u64,
     /// Number of inputs that were rejected with a message.
-    pub refused: u64,
+    pub rejected: u64,
     /// Faults of the reader.
     pub findings: Vec<Finding>,
     /// The slowest input and its duration.
@@ -125,7 +125,7 @@ impl Counts {
     fn add(&mut self, input: u64, taken: Result<Taken, String>, took: Duration) {
         match taken {
             Ok(Taken::Accepted) => self.accepted += 1,
-            Ok(Taken::Refused) => self.refused += 1,
+            Ok(Taken::Rejected) => self.rejected += 1,
             Err(words) => self.findings.push(Finding { input, words }),
         }
         if took > self.slowest.1 {
@@ -135,7 +135,7 @@ impl Counts {
 
     fn join(&mut self, other: Self) {
         self.accepted += other.accepted;
-        self.refused += other.refused;
+        self.rejected += other.rejected;
         self.findings.extend(other.findings);
         if other.slowest.1 > self.slowest.1 {
             self.slowest = other.slowest;

@@ -10,7 +10,7 @@
 //! ([`ViscoelasticModes`]) add to it in the same way. So one contact problem with a constant matrix is solved per
 //! step.
 
-use fem_collision::Stop;
+use fem_collision::{StepInstant, Stop};
 use fem_material::{ActsOn, PronySeries};
 
 use crate::contact::disc_contact::{ContactDisc, DiscContactSolver};
@@ -218,7 +218,7 @@ impl<'a> ImpactMotion<'a> {
         if self.contact.n_closed > self.most_closed {
             let radius = self.pair.points[self.forces.len() - 1].radius;
             let (time, step) = (self.time(), self.step as u64);
-            return Err(Stop::ContactBeyondCandidates { time, step, radius });
+            return Err(Stop::ContactBeyondCandidates { at: StepInstant { time, step }, radius });
         }
         for state in &mut self.sides {
             for chain in state.chains_mut() {

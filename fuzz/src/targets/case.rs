@@ -5,7 +5,7 @@ use fem::{Case, Cost, Monitor, Progress, QuantityOfInterest, Simulation};
 
 use super::{cases, root};
 use crate::mutate::{Random, change_text};
-use crate::trial::{Taken, Target, refused};
+use crate::trial::{Taken, Target, rejected};
 
 /// Prefix of a line that is an override.
 const SET: &str = "#--set ";
@@ -62,7 +62,7 @@ impl Target for CaseText {
         let small = ["limits.elements=3000", "limits.memory='300 MB'"].map(String::from);
         let overrides: Vec<String> = overrides.map(String::from).chain(small).collect();
         match Case::parse("fuzzed.toml", &text, &root().join("cases"), &overrides) {
-            Err(error) => refused(&error.to_string()),
+            Err(error) => rejected(&error.to_string()),
             Ok(case) => try_case(case),
         }
     }
@@ -82,10 +82,10 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
         return Err("what it writes is another scene".to_string());
     }
     if let Err(error) = Simulation::resolve(&case) {
-        return refused(&error.to_string());
+        return rejected(&error.to_string());
     }
     let simulation = match Simulation::new(case) {
-        Err(error) => return refused(&error.to_string()),
+        Err(error) => return rejected(&error.to_string()),
         Ok(simulation) => simulation,
     };
     look_at(&simulation)?;
@@ -99,11 +99,11 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     let mut patience = Patience(2);
     let collision = simulation.run(&mut patience);
     for warning in simulation.warnings(&collision) {
-        refused(&warning)?;
+        rejected(&warning)?;
     }
     let numbers = QuantityOfInterest::ALL.map(|headline| headline.of(&collision));
     match collision.stop() {
-        Some(stop) => refused(&stop.to_string()),
+        Some(stop) => rejected(&stop.to_string()),
         None if numbers.into_iter().flatten().any(|number| !number.is_finite()) => {
             Err(format!("a run that ended by itself gives {numbers:?}"))
         }
@@ -115,7 +115,7 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
 fn look_at(simulation: &Simulation) -> Result<(), String> {
     let setup = simulation.setup();
     for warning in simulation.warnings_before() {
-        refused(&warning)?;
+        rejected(&warning)?;
     }
     for verdict in &setup.decisions.verdicts {
         if EFFECTS.iter().all(|effect| effect.name() != verdict.name) {
@@ -127,8 +127,8 @@ fn look_at(simulation: &Simulation) -> Result<(), String> {
     let resolved = resolved.map_err(|error| format!("no resolved case: {error}"))?;
     let again = Case::parse("resolved.toml", &resolved, &root().join("cases"), &[]);
     let again = again.map_err(|error| format!("the resolved case is none: {error}\n{resolved}"))?;
-    let again =
-        Simulation::resolve(&again).map_err(|error| format!("resolved, it is refused: {error}"))?;
+    let again = Simulation::resolve(&again)
+        .map_err(|error| format!("resolved, it is rejected: {error}"))?;
     let again = again.to_toml().map_err(|error| format!("no resolved case: {error}"))?;
     let pairs = again.lines().zip(resolved.lines());
     let differing: Vec<_> = pairs.filter(|(again, first)| again != first).take(3).collect();

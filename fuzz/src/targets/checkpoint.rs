@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::case::Patience;
 use crate::mutate::{Random, change_bytes};
-use crate::trial::{Taken, Target, refused};
+use crate::trial::{Taken, Target, rejected};
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms.toml");
 const BOUNCES: &str = include_str!("../../../cases/three_bounces.toml");
@@ -104,14 +104,14 @@ impl Target for Checkpoint {
     }
 
     fn take(&self, input: &[u8]) -> Result<Taken, String> {
-        let Some((k, bytes)) = input.split_first() else { return Ok(Taken::Refused) };
+        let Some((k, bytes)) = input.split_first() else { return Ok(Taken::Rejected) };
         let run = &self.runs[usize::from(*k) % self.runs.len()];
         let memory = match restart_state_of(bytes, &run.identity) {
-            Err(error) => return refused(&error.to_string().replace(char::is_control, " ")),
+            Err(error) => return rejected(&error.to_string().replace(char::is_control, " ")),
             Ok(memory) => memory,
         };
         match run.simulation.resume(memory) {
-            Err(error) => refused(&error.to_string()),
+            Err(error) => rejected(&error.to_string()),
             Ok(mut course) => {
                 let mut patience = Patience(4);
                 for _ in 0..4 {

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 use super::case::try_case;
 use super::cases;
 use crate::mutate::{Random, number};
-use crate::trial::{Taken, Target, refused};
+use crate::trial::{Taken, Target, rejected};
 
 pub struct CaseInCode {
     seeds: Vec<Table>,
@@ -41,11 +41,11 @@ impl Target for CaseInCode {
     fn take(&self, input: &[u8]) -> Result<Taken, String> {
         // The target `case` tests texts that are not a case file.
         let Ok(file) = toml::from_str::<CaseFile>(&String::from_utf8_lossy(input)) else {
-            return Ok(Taken::Refused);
+            return Ok(Taken::Rejected);
         };
         match Case::of(file) {
             Ok(case) => try_case(case),
-            Err(error) if error.key().is_some() => refused(&error.to_string()),
+            Err(error) if error.key().is_some() => rejected(&error.to_string()),
             Err(error) => Err(format!("a fault without a key: {error}")),
         }
     }

@@ -77,7 +77,7 @@ impl Target for Command {
     }
 
     fn take(&self, input: &[u8]) -> Result<Taken, String> {
-        let Some((which, text)) = input.split_first() else { return Ok(Taken::Refused) };
+        let Some((which, text)) = input.split_first() else { return Ok(Taken::Rejected) };
         let all: Vec<&[&str]> = READING_A_CASE.into_iter().chain(READING_DATA).collect();
         let arguments = all[usize::from(*which) % all.len()];
         let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
@@ -92,8 +92,8 @@ impl Target for Command {
         match output.status.code() {
             Some(0) => Ok(Taken::Accepted),
             Some(_) if said.contains("panicked") || said.trim().is_empty() => Err(said),
-            Some(1) => Ok(Taken::Refused),
-            Some(2) if written.len() == given.len() => Ok(Taken::Refused),
+            Some(1) => Ok(Taken::Rejected),
+            Some(2) if written.len() == given.len() => Ok(Taken::Rejected),
             Some(2) => Err(format!("bad input, and there is {written:?}\n{said}")),
             _ => Err(format!("{}\n{said}", output.status)),
         }

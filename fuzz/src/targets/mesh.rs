@@ -5,7 +5,7 @@ use fem_vtk::VtuFile;
 
 use super::files;
 use crate::mutate::{Random, change_bytes, change_text};
-use crate::trial::{Taken, Target, refused};
+use crate::trial::{Taken, Target, rejected};
 
 /// Radius of the sphere, m.
 const RADIUS: f64 = 0.01;
@@ -49,12 +49,12 @@ impl Target for MeshFile {
         let read =
             VtuFile::from_bytes("fuzzed.vtu", input.to_vec()).and_then(|file| file.quad_mesh());
         let mesh = match read {
-            Err(error) => return refused(&error.to_string()),
+            Err(error) => return rejected(&error.to_string()),
             Ok(mesh) => mesh,
         };
         let nodes: Vec<[f64; 2]> = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
         match SphereMesh::import(RADIUS, nodes, mesh.quads) {
-            Err(error) => refused(&error.to_string()),
+            Err(error) => rejected(&error.to_string()),
             Ok(mesh) if mesh.nodes().iter().flatten().all(|x| x.is_finite()) => Ok(Taken::Accepted),
             Ok(_) => Err("a node of the mesh is not finite".to_string()),
         }

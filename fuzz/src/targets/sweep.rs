@@ -8,7 +8,7 @@ use tempfile::{NamedTempFile, TempDir, tempdir};
 
 use super::{cases, files};
 use crate::mutate::{Random, change_text};
-use crate::trial::{Taken, Target, refused};
+use crate::trial::{Taken, Target, rejected};
 
 /// A sweep with a range, linked keys and a table.
 const MADE: &str = r#"case = "glass_0.5ms.toml"
@@ -76,7 +76,7 @@ impl Target for SweepText {
         });
         let file = file.map_err(|error| error.to_string())?;
         let sweep = match load(file.path(), &[]) {
-            Err(error) => return refused(&error.to_string()),
+            Err(error) => return rejected(&error.to_string()),
             Ok(sweep) => sweep,
         };
         let n = sweep.n_members();
@@ -85,7 +85,7 @@ impl Target for SweepText {
                 return Err(format!("member {member} has no words"));
             }
             if let Err(error) = sweep.build(member, Ok) {
-                refused(&error.to_string())?;
+                rejected(&error.to_string())?;
             }
         }
         Ok(Taken::Accepted)

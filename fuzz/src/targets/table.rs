@@ -7,7 +7,7 @@ use fem::measured::{
 
 use super::{files, root};
 use crate::mutate::{Random, change_text};
-use crate::trial::{Taken, Target, refused};
+use crate::trial::{Taken, Target, rejected};
 
 const KINDS: [Kind; 3] = [Kind::Length, Kind::Mass, Kind::Angle];
 /// Columns that data may have.
@@ -44,7 +44,9 @@ impl Target for DataTable {
         for piece in text.split([',', '\n']) {
             for kind in KINDS {
                 match parse_measured(kind, piece) {
-                    Err(error) => drop(refused(&error.to_string().replace(char::is_control, " "))?),
+                    Err(error) => {
+                        drop(rejected(&error.to_string().replace(char::is_control, " "))?)
+                    }
                     Ok(it) if it.value.is_finite() && it.uncertainty >= 0.0 => {}
                     Ok(it) => return Err(format!("{piece:?} is {it:?}")),
                 }
@@ -74,10 +76,10 @@ impl Target for DataTable {
                 Err(error) => drop(faulty(&error)?),
             }
         }
-        Ok(if is_read { Taken::Accepted } else { Taken::Refused })
+        Ok(if is_read { Taken::Accepted } else { Taken::Rejected })
     }
 }
 
 fn faulty(error: &DataError) -> Result<Taken, String> {
-    refused(&error.to_string())
+    rejected(&error.to_string())
 }

@@ -79,7 +79,7 @@ impl Document {
             }
         }
         for Repair { path, value } in repairs {
-            overrides::mend(tree.get_mut(), path, value.as_deref());
+            overrides::repair(tree.get_mut(), path, value.as_deref());
         }
         if library::underlay(tree.get_mut(), document.next_start()) {
             document.add("materials library".to_string(), library::TEXT, 0);

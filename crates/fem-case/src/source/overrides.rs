@@ -195,7 +195,7 @@ pub(crate) fn apply<'t>(
 
 /// Replaces or removes the value at a path, if there is one. The new value has the span of the old one, or of the
 /// nearest one around it.
-pub(crate) fn mend<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<&'t str>) {
+pub(crate) fn repair<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<&'t str>) {
     let Some((last, parents)) = path.split_last() else { return };
     let mut place = Place::Table(root);
     let mut span = 0..0;

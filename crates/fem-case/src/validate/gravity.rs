@@ -60,24 +60,24 @@ impl Check<'_> {
     fn weight(&self, table: &GravityTable, bodies: &[Body; 2], gap: f64) -> Result<f64, CaseError> {
         let acceleration = self.number("gravity.acceleration", &table.acceleration, POSITIVE)?;
         let [lower, upper] = bodies;
-        let refuse =
+        let reject =
             |path: &str, message: String| Err(self.error(path, message).with_help(SUPPORTS));
         if lower.held && upper.held {
-            return refuse("body.1.held", "both bodies are held: neither can fall".to_string());
+            return reject("body.1.held", "both bodies are held: neither can fall".to_string());
         }
         if upper.held {
             let message = format!("the upper body \"{}\" is held and cannot fall", upper.name);
-            return refuse("body.1.held", message);
+            return reject("body.1.held", message);
         }
         if !matches!(upper.shape, Shape::Sphere { .. }) {
             let message =
                 format!("gravity is on, but the upper body \"{}\" is not a sphere", upper.name);
-            return refuse("gravity", message);
+            return reject("gravity", message);
         }
         if matches!(lower.shape, Shape::Sphere { .. }) && !lower.held {
             let message =
                 format!("gravity is on, but nothing supports the free sphere \"{}\"", lower.name);
-            return refuse("gravity", message);
+            return reject("gravity", message);
         }
         if lower.velocity != 0.0 {
             let message = format!("the support \"{}\" moves", lower.name);

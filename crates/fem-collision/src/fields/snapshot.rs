@@ -14,7 +14,8 @@ pub enum SnapshotInstant {
     /// The last step with a contact force.
     LastContact,
     /// The last valid state of a run that failed, with a small energy residual.
-    LastSound,
+    #[serde(rename = "LastSound")]
+    LastValid,
 }
 
 impl SnapshotInstant {
@@ -29,7 +30,7 @@ impl SnapshotInstant {
             Self::Maximum => "maximum",
             Self::MidSeparation => "mid-separation",
             Self::LastContact => "last-contact",
-            Self::LastSound => "last-sound",
+            Self::LastValid => "last-sound",
         }
     }
 }

@@ -5,43 +5,38 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::request::OutputRequestError;
+use crate::run::StepInstant;
 
 /// The reason why a run stopped early.
 #[derive(Clone, Debug, PartialEq, Error, Serialize, Deserialize)]
 pub enum Stop {
     /// The caller interrupted the run.
-    #[error("interrupted at {at} (step {step})", at = show(*time, "s"))]
+    #[error("interrupted at {at}")]
     Interrupted {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
     },
     /// The contact reached the edge of the candidate region.
     #[error(
-        "at {at} (step {step}) the contact reached the radius {wide}, \
-         the edge of the region in which contact is searched for", at = show(*time, "s"), wide = show(*radius, "m"))]
+        "at {at} the contact reached the radius {wide}, \
+         the edge of the region in which contact is searched for", wide = show(*radius, "m"))]
     ContactBeyondCandidates {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// Candidate radius, m.
         radius: f64,
     },
     /// A surface folds in the contact, where contact is not searched for.
     #[error(
-        "at {at} (step {step}) the surface of the {} body folds at the radius {wide} in the contact: \
+        "at {at} the surface of the {} body folds at the radius {wide} in the contact: \
          node {node} is no farther from the axis than the next node inward; its undeformed position is \
          r = {}, y = {}",
         side_of(*body),
         show(place[0], "m"),
-        show(place[1], "m"), at = show(*time, "s"), wide = show(*radius, "m"))]
+        show(place[1], "m"), wide = show(*radius, "m"))]
     SurfaceTurnsOver {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// Distance of the fold from the axis, m.
         radius: f64,
         /// The body: 0 is the lower one, 1 the upper one.
@@ -62,17 +57,15 @@ pub enum Stop {
     },
     /// The total energy has grown.
     #[error(
-        "at {at} (step {step}) the energy is {ratio:.4} times the initial energy: the time integration \
+        "at {at} the energy is {ratio:.4} times the initial energy: the time integration \
          is unstable; the fastest node is node {node} of the {} body; its undeformed position is \
          r = {}, y = {}",
         side_of(*body),
         show(place[0], "m"),
-        show(place[1], "m"), at = show(*time, "s"))]
+        show(place[1], "m"))]
     EnergyGrowth {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// Total energy over initial energy.
         ratio: f64,
         /// The body: 0 is the lower one, 1 the upper one.
@@ -84,16 +77,14 @@ pub enum Stop {
     },
     /// The motion is NaN.
     #[error(
-        "at {at} (step {step}) the motion of node {node} of the {} body is not a number; its undeformed \
+        "at {at} the motion of node {node} of the {} body is not a number; its undeformed \
          position is r = {}, y = {}",
         side_of(*body),
         show(place[0], "m"),
-        show(place[1], "m"), at = show(*time, "s"))]
+        show(place[1], "m"))]
     NoNumber {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Number of the node.
@@ -111,17 +102,15 @@ pub enum Stop {
     },
     /// An element at finite strain has lost its volume.
     #[error(
-        "at {at} (step {step}) element {element} of the {} body is {}; its undeformed position is \
+        "at {at} element {element} of the {} body is {}; its undeformed position is \
          r = {}, y = {}",
         side_of(*body),
         fate(*volume_ratio),
         show(place[0], "m"),
-        show(place[1], "m"), at = show(*time, "s"))]
+        show(place[1], "m"))]
     ElementCollapsed {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Number of the element.
@@ -133,7 +122,7 @@ pub enum Stop {
     },
     /// The law of an element has lost ellipticity, and the energy residual is too large.
     #[error(
-        "at {at} (step {step}) element {element} of the {} body became unstable: the law {law} loses \
+        "at {at} element {element} of the {} body became unstable: the law {law} loses \
          ellipticity at stretches of {:.3} and {:.3} in the meridian plane and {:.3} around the axis; its \
          undeformed position is r = {}, y = {}",
         side_of(*body),
@@ -141,12 +130,10 @@ pub enum Stop {
         stretches[1],
         stretches[2],
         show(place[0], "m"),
-        show(place[1], "m"), at = show(*time, "s"))]
+        show(place[1], "m"))]
     StabilityLost {
-        /// Time of the first instability since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the first instability.
+        at: StepInstant,
         /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Number of the element.
@@ -160,16 +147,14 @@ pub enum Stop {
     },
     /// The stiffness has become too large for any time step.
     #[error(
-        "at {at} (step {step}) {} is too stiff for any time step; its undeformed position is \
+        "at {at} {} is too stiff for any time step; its undeformed position is \
          r = {}, y = {}",
         place_at_fault(*body, *of_contact),
         show(place[0], "m"),
-        show(place[1], "m"), at = show(*time, "s"))]
+        show(place[1], "m"))]
     NoStepShortEnough {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// The body: 0 is the lower one, 1 the upper one.
         body: usize,
         /// Position (r, y) before the collision of the node with the shortest critical step, m.
@@ -178,35 +163,29 @@ pub enum Stop {
         of_contact: bool,
     },
     /// The bodies stayed together too long.
-    #[error("at {at} (step {step}) the bodies have not separated", at = show(*time, "s"))]
+    #[error("at {at} the bodies have not separated")]
     NoSeparation {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
     },
     /// The bodies have overlapped for too long without any closed spring.
     #[error(
-        "at {at} (step {step}) the approach since first touch is {}, but no spring between the \
-         surfaces has closed", show(*approach, "m"), at = show(*time, "s"))]
+        "at {at} the approach since first touch is {}, but no spring between the \
+         surfaces has closed", show(*approach, "m"))]
     NoContact {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// Approach since first touch, m.
         approach: f64,
     },
     /// The run reached its limit of element updates.
     #[error(
-        "at {at} (step {step}) the run reached its limit of {updates:.1e} element updates before the \
+        "at {at} the run reached its limit of {updates:.1e} element updates before the \
          bodies separated",
-        updates = *element_updates as f64, at = show(*time, "s"))]
+        updates = *element_updates as f64)]
     TooManyUpdates {
-        /// Time since the start of the case, s.
-        time: f64,
-        /// Number of the step.
-        step: u64,
+        /// Instant of the stop.
+        at: StepInstant,
         /// Number of elements times number of steps.
         element_updates: u64,
     },
@@ -262,19 +241,18 @@ impl Stop {
     #[must_use]
     pub fn later_by(mut self, delay: f64) -> Self {
         match &mut self {
-            Self::Interrupted { time, .. }
-            | Self::ContactBeyondCandidates { time, .. }
-            | Self::SurfaceTurnsOver { time, .. }
-            | Self::EnergyGrowth { time, .. }
-            | Self::NoNumber { time, .. }
-            | Self::ElementCollapsed { time, .. }
-            | Self::StabilityLost { time, .. }
-            | Self::NoStepShortEnough { time, .. }
-            | Self::EnergyImbalance { time, .. }
-            | Self::NoSeparation { time, .. }
-            | Self::NoContact { time, .. }
-            | Self::TooManyUpdates { time, .. }
-            | Self::NoContactState { time } => *time += delay,
+            Self::Interrupted { at }
+            | Self::ContactBeyondCandidates { at, .. }
+            | Self::SurfaceTurnsOver { at, .. }
+            | Self::EnergyGrowth { at, .. }
+            | Self::NoNumber { at, .. }
+            | Self::ElementCollapsed { at, .. }
+            | Self::StabilityLost { at, .. }
+            | Self::NoStepShortEnough { at, .. }
+            | Self::NoSeparation { at }
+            | Self::NoContact { at, .. }
+            | Self::TooManyUpdates { at, .. } => *at = at.later_by(delay),
+            Self::EnergyImbalance { time, .. } | Self::NoContactState { time } => *time += delay,
             Self::ContactTooLarge { .. }
             | Self::NotMade(_)
             | Self::OutOfMemory(_)

@@ -73,7 +73,7 @@ pub(crate) fn choose(
                     SnapshotInstant::LastContact => {
                         (*ending != Ending::Together).then_some(TraceInstant::at(last))
                     }
-                    SnapshotInstant::LastSound => None,
+                    SnapshotInstant::LastValid => None,
                 };
                 match found {
                     Some(instant) => chosen.push((instant, Some(*label))),

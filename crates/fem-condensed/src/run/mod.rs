@@ -209,8 +209,8 @@ impl<'a> ImpactRun<'a> {
         if time > self.give_up && !creeps {
             let (time, approach) = (time_of_case, self.motion.approach);
             return Err(match self.episodes {
-                0 => Stop::NoContact { time, step, approach },
-                _ => Stop::NoSeparation { time, step },
+                0 => Stop::NoContact { at: StepInstant { time, step }, approach },
+                _ => Stop::NoSeparation { at: StepInstant { time, step } },
             });
         }
         if step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
@@ -221,7 +221,7 @@ impl<'a> ImpactRun<'a> {
                 contact_force: self.motion.force,
             };
             if !monitor.report(progress) {
-                return Err(Stop::Interrupted { time: time_of_case, step });
+                return Err(Stop::Interrupted { at: StepInstant { time: time_of_case, step } });
             }
         }
         Ok(None)

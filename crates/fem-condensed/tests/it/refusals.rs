@@ -3,7 +3,7 @@
 use crate::common::{
     GLASS, Scene, assert_balance, assert_close, assert_restitution, collide, glass, material,
 };
-use fem_collision::{BodyInput, Ending, Monitor, OutputRequest, Progress, Stop};
+use fem_collision::{BodyInput, Ending, Monitor, OutputRequest, Progress, StepInstant, Stop};
 use fem_condensed::{CondensedError, CondensedPair, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 
@@ -89,7 +89,7 @@ fn a_stopped_run_keeps_what_it_has() {
         pair.collide(&pair.frame(0.5).unwrap(), [None; 2], n_steps, request, monitor).unwrap()
     };
     let run = collide(&OutputRequest::history(), &mut StopAtSecond(0));
-    let Ending::Stopped(Stop::Interrupted { step, .. }) = run.ending else {
+    let Ending::Stopped(Stop::Interrupted { at: StepInstant { step, .. }, .. }) = run.ending else {
         panic!("{:?}", run.ending);
     };
     // Five rows a step of two hundred.

@@ -91,7 +91,14 @@ impl Lost {
     fn stop(&self) -> Stop {
         let Self { moment: StepInstant { time, step }, body, element, place, stretches, .. } =
             *self;
-        Stop::StabilityLost { time, step, body, element, place, stretches, law: self.law.clone() }
+        Stop::StabilityLost {
+            at: StepInstant { time, step },
+            body,
+            element,
+            place,
+            stretches,
+            law: self.law.clone(),
+        }
     }
 }
 

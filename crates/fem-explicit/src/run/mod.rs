@@ -26,7 +26,7 @@ use std::ops::Deref;
 
 use fem_collision::{
     Collision, Ending, Expectation, FLIGHT_AFTER, Monitor, OutputRequest, Phase, Progress,
-    STEPS_BETWEEN_REPORTS, Stop,
+    STEPS_BETWEEN_REPORTS, StepInstant, Stop,
 };
 
 use crate::error::ModelError;
@@ -164,7 +164,7 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
         let Self { model, mut restart_state, mut scratch, .. } = self;
         let ending = restart_state.ending.take().unwrap_or_else(|| {
             let (time, step) = (restart_state.state.time, restart_state.state.step);
-            Ending::Stopped(Stop::Interrupted { time, step })
+            Ending::Stopped(Stop::Interrupted { at: StepInstant { time, step } })
         });
         if let Ending::Stopped(_) = ending {
             record_stop(&mut restart_state, &model, &mut scratch);

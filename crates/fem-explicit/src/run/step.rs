@@ -1,6 +1,6 @@
 //! One step of a run, as a list of its phases.
 
-use fem_collision::{Ending, RowKind, Stop};
+use fem_collision::{Ending, RowKind, StepInstant, Stop};
 use fem_contact::ContactForces;
 
 use super::phases::{advance, is_closed_next, update_forces, update_time_step};
@@ -153,6 +153,7 @@ fn ending(
     instant: Instant,
 ) -> Result<Option<Ending>, Stop> {
     let (time, step) = (run.state.time, run.state.step);
+    let at = StepInstant { time, step };
     if instant.has_separated {
         return Ok(Some(Ending::Parted));
     }
@@ -163,17 +164,17 @@ fn ending(
         return Err(stop_of_turn(model, turn, &run.state));
     }
     if contact.at_limit {
-        return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });
+        return Err(Stop::ContactBeyondCandidates { at, radius: model.candidate_radius() });
     }
     if time - model.approach().first_touch() > run.max_time() {
         return Err(match run.log.first_contact {
-            Some(_) => Stop::NoSeparation { time, step },
-            None => Stop::NoContact { time, step, approach: instant.approach },
+            Some(_) => Stop::NoSeparation { at },
+            None => Stop::NoContact { at, approach: instant.approach },
         });
     }
     let element_updates = step.saturating_mul(model.n_elements() as u64);
     if element_updates >= run.request().most_element_updates {
-        return Err(Stop::TooManyUpdates { time, step, element_updates });
+        return Err(Stop::TooManyUpdates { at, element_updates });
     }
     Ok(None)
 }

@@ -1,6 +1,6 @@
 //! Reasons for which a run stops before its end, with their place.
 
-use fem_collision::Stop;
+use fem_collision::{StepInstant, Stop};
 use fem_contact::SurfaceFold;
 
 use crate::energy::EnergyGrowth;
@@ -38,11 +38,22 @@ impl Fault {
             Self::Collapsed(CollapsedElement { side, collapse }) => {
                 let Collapse { element, volume_ratio } = collapse;
                 let place = bodies[side].element_centre(element);
-                Stop::ElementCollapsed { time, step, body: side, element, place, volume_ratio }
+                Stop::ElementCollapsed {
+                    at: StepInstant { time, step },
+                    body: side,
+                    element,
+                    place,
+                    volume_ratio,
+                }
             }
             Self::TooStiff { side, node, is_of_contact } => {
                 let place = bodies[side].node_position(node);
-                Stop::NoStepShortEnough { time, step, body: side, place, of_contact: is_of_contact }
+                Stop::NoStepShortEnough {
+                    at: StepInstant { time, step },
+                    body: side,
+                    place,
+                    of_contact: is_of_contact,
+                }
             }
         }
     }
@@ -62,7 +73,7 @@ pub(super) fn stop_of_growth(model: &ExplicitBodies, growth: EnergyGrowth, state
             let is_lost = ![*u, *v].as_flattened().iter().all(|number| number.is_finite());
             if is_lost {
                 let place = body.node_position(node);
-                return Stop::NoNumber { time, step, body: side, node, place };
+                return Stop::NoNumber { at: StepInstant { time, step }, body: side, node, place };
             }
             if square > fastest.2 {
                 fastest = (side, node, square);
@@ -71,7 +82,7 @@ pub(super) fn stop_of_growth(model: &ExplicitBodies, growth: EnergyGrowth, state
     }
     let (body, node, _) = fastest;
     let place = model.bodies()[body].node_position(node);
-    Stop::EnergyGrowth { time, step, ratio, body, node, place }
+    Stop::EnergyGrowth { at: StepInstant { time, step }, ratio, body, node, place }
 }
 
 /// Returns the stop of a run whose surface has turned over.
@@ -79,5 +90,5 @@ pub(super) fn stop_of_turn(model: &ExplicitBodies, turn: SurfaceFold, state: &St
     let SurfaceFold { side, node, radius } = turn;
     let (time, step, node) = (state.time, state.step, node as usize);
     let place = model.bodies()[side].node_position(node);
-    Stop::SurfaceTurnsOver { time, step, radius, body: side, node, place }
+    Stop::SurfaceTurnsOver { at: StepInstant { time, step }, radius, body: side, node, place }
 }

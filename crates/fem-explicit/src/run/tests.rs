@@ -45,7 +45,9 @@ fn disturbed(factor: f64) -> Collision {
 #[test]
 fn added_energy_stops_the_run() {
     let run = disturbed(1.1);
-    let Some(&Stop::EnergyGrowth { ratio, time, body, place, .. }) = run.stop() else {
+    let Some(&Stop::EnergyGrowth { at: StepInstant { time, .. }, ratio, body, place, .. }) =
+        run.stop()
+    else {
         panic!("{run:?}")
     };
     // The body whose velocities were multiplied, at the contact.
@@ -75,7 +77,7 @@ fn a_failed_run_keeps_its_last_valid_state() {
         assert!(matches!(collision.stop(), Some(Stop::NoNumber { body: 0, .. })));
         assert_eq!(collision.snapshots.len(), usize::from(is_kept));
         for snapshot in &collision.snapshots {
-            assert_eq!(snapshot.label, Some(SnapshotInstant::LastSound));
+            assert_eq!(snapshot.label, Some(SnapshotInstant::LastValid));
             assert!(snapshot.time <= disturbed_at);
             let mut fields = snapshot.bodies.iter().flat_map(|body| {
                 body.displacement.as_flattened().iter().chain(body.velocity.as_flattened())
@@ -98,10 +100,14 @@ fn a_valid_state_at_a_stop_is_the_last_one() {
     run.advance(128);
     let mut resumed = Run::resume(&model, run.restart_state().clone()).unwrap();
     let collisions = [&mut run, &mut resumed].map(|run| run.advance(u64::MAX).cloned());
-    let Some(Ending::Stopped(Stop::TooManyUpdates { time, .. })) = collisions[0] else { panic!() };
+    let Some(Ending::Stopped(Stop::TooManyUpdates { at: StepInstant { time, .. }, .. })) =
+        collisions[0]
+    else {
+        panic!()
+    };
     let collision = run.finish();
     assert_eq!(
-        collision.snapshot(SnapshotInstant::LastSound).map(|snapshot| snapshot.time),
+        collision.snapshot(SnapshotInstant::LastValid).map(|snapshot| snapshot.time),
         Some(time)
     );
     assert_eq!(collision, resumed.finish());

@@ -55,7 +55,7 @@ impl LastValidState {
                 state,
                 &scratch.forces,
                 approach,
-                Some(SnapshotInstant::LastSound),
+                Some(SnapshotInstant::LastValid),
             );
         }
     }

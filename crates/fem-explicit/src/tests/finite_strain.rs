@@ -1,6 +1,6 @@
 //! Finite strain in the step: the critical step of deformed bodies, and how it is followed.
 
-use fem_collision::{Approach, BodyInput, Stop};
+use fem_collision::{Approach, BodyInput, StepInstant, Stop};
 use fem_contact::{ContactInterface, Surface};
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::{Side, SphereMesh};
@@ -301,7 +301,14 @@ fn what_no_step_is_short_enough_for_is_named() {
     let fault = update_time_step(&model, &mut state, &mut scratch).unwrap_err();
     let stop = fault.stop(&model, &state);
     // The springs of the flank hold a node of either body, and that which is lighter is named.
-    let Stop::NoStepShortEnough { step: 100, body, place, of_contact: true, .. } = stop else {
+    let Stop::NoStepShortEnough {
+        at: StepInstant { step: 100, .. },
+        body,
+        place,
+        of_contact: true,
+        ..
+    } = stop
+    else {
         panic!("{stop:?}")
     };
     assert!(place[0] >= nodes[inner][0], "{place:?}");

@@ -1,7 +1,7 @@
 //! Collisions at finite strain.
 
 use fem_collision::{
-    Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
+    Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, StepInstant, Stop,
 };
 use fem_explicit::{
     Contact, ExplicitBodies, FreeMotion, ModelError, MovedContact, Parts, RestartState, Run,
@@ -245,7 +245,8 @@ fn an_element_that_collapses_stops_the_run_and_says_why() {
     let run = ball.run();
     let Ending::Stopped(stop) = &run.ending else { panic!("{:?}", run.ending) };
     // Its law had lost its stability before.
-    let Stop::StabilityLost { time, step, body, element, place, .. } = *stop else {
+    let Stop::StabilityLost { at: StepInstant { time, step }, body, element, place, .. } = *stop
+    else {
         panic!("{stop:?}")
     };
     assert_eq!(body, 1);
@@ -278,7 +279,10 @@ fn a_law_that_loses_its_stability_says_so() {
     let Ending::Stopped(stop) = &run.ending else {
         panic!("{:?} {:?}", run.ending, run.residual_relative)
     };
-    let Stop::StabilityLost { time, body, stretches, place, .. } = stop else { panic!("{stop:?}") };
+    let Stop::StabilityLost { at: StepInstant { time, .. }, body, stretches, place, .. } = stop
+    else {
+        panic!("{stop:?}")
+    };
     let volume = stretches.iter().product::<f64>();
     // In the contact, and not much farther than the limit when it is first seen.
     assert!(*body == 1 && (0.6..0.92).contains(&volume), "{stop:?}");
@@ -303,7 +307,8 @@ fn a_law_that_loses_its_stability_ends_the_run_at_any_speed() {
         let law = Some(HyperelasticLaw::SaintVenantKirchhoff);
         let ball = Ball { nu: 0.47, speed, law, n: 12.0, ..Ball::default() };
         let run = ball.run();
-        let Ending::Stopped(Stop::StabilityLost { step, .. }) = &run.ending else {
+        let Ending::Stopped(Stop::StabilityLost { at: StepInstant { step, .. }, .. }) = &run.ending
+        else {
             panic!("{speed}: {:?}", run.ending)
         };
         let n_steps = run.element_updates.unwrap() / ball.mesh().quads().len() as u64;

@@ -3,7 +3,7 @@
 use crate::common::{COARSE_RUN, HERTZ_TIME, Pair, quantities};
 use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, HistoryRow, Monitor, Progress,
-    SnapshotInstant, SnapshotRequest, Stop,
+    SnapshotInstant, SnapshotRequest, StepInstant, Stop,
 };
 use fem_contact::ContactError;
 use fem_explicit::{ExplicitBodies, ModelError, Settings, collide};
@@ -148,7 +148,9 @@ fn an_interrupted_run_returns_what_it_has() {
             let pair = Pair { history_rows, ..Pair::coarse() };
             let mut stopper = Stopper { left: n_reports, seen: Vec::new() };
             let run = collide(&pair.model(), pair.expected(), &pair.request(), &mut stopper);
-            let Some(&Stop::Interrupted { time, step }) = run.stop() else { panic!("{run:?}") };
+            let Some(&Stop::Interrupted { at: StepInstant { time, step } }) = run.stop() else {
+                panic!("{run:?}")
+            };
             assert_eq!(stopper.seen.len(), n_reports);
             let last = stopper.seen.last().unwrap();
             assert_eq!((last.time, last.step), (time, step));
@@ -199,7 +201,9 @@ fn a_contact_that_grows_out_of_the_candidates_stops_the_run() {
         let pair = Pair { candidate_radius: 0.1e-3, history_rows, ..Pair::coarse() };
         let model = pair.model();
         let run = pair.run_model(&model);
-        let Some(&Stop::ContactBeyondCandidates { time, radius, .. }) = run.stop() else {
+        let Some(&Stop::ContactBeyondCandidates { at: StepInstant { time, .. }, radius, .. }) =
+            run.stop()
+        else {
             panic!("{:?}", run.ending)
         };
         assert_eq!(run.outgrown_radius(), Some(radius));
@@ -219,7 +223,9 @@ fn a_contact_that_grows_out_of_the_candidates_stops_the_run() {
 fn a_run_that_does_not_separate_gives_up() {
     let pair = Pair { max_time: 30e-6, ..Pair::coarse() };
     let run = pair.run();
-    let Some(&Stop::NoSeparation { time, .. }) = run.stop() else { panic!("{:?}", run.ending) };
+    let Some(&Stop::NoSeparation { at: StepInstant { time, .. }, .. }) = run.stop() else {
+        panic!("{:?}", run.ending)
+    };
     assert!(time > 30e-6 && time < 31e-6, "{time}");
     assert_times_increase(&run);
 }

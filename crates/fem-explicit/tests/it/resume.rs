@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::common::{CONTACT_MODULUS, Pair, quantities, stored};
 use fem_collision::{
     BodyInput, Collision, Ending, Monitor, OutputRequest, Progress, SnapshotInstant,
-    SnapshotRequest, Stop,
+    SnapshotRequest, StepInstant, Stop,
 };
 use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
 use fem_material::ActsOn;
@@ -283,7 +283,10 @@ fn a_run_that_is_left_is_interrupted_where_it_is() {
             assert_eq!(run.advance(step), None);
             let time = run.restart_state().time();
             let left = run.finish();
-            assert_eq!(left.ending, Ending::Stopped(Stop::Interrupted { time, step }));
+            assert_eq!(
+                left.ending,
+                Ending::Stopped(Stop::Interrupted { at: StepInstant { time, step } })
+            );
             assert_eq!([left.restitution, left.contact_time], [None; 2]);
             assert!(left.energies.entries().count() > 2 && left.residual.is_some());
             assert_eq!(left.history.is_empty(), request.history_rows == 0);

@@ -236,14 +236,14 @@ fn write_failure_figure(
     collision: &Collision,
 ) -> Result<Option<String>, String> {
     let Some(svg) = failure_figure(simulation, collision) else { return Ok(None) };
-    let name = format!("{stem}_{}.svg", SnapshotInstant::LastSound.name());
+    let name = format!("{stem}_{}.svg", SnapshotInstant::LastValid.name());
     write_whole(&folder.join(&name), folder, svg.as_bytes())
         .map_err(|error| format!("{name} cannot be written: {error}"))?;
     Ok(Some(name))
 }
 
 fn failure_figure(simulation: &Simulation, collision: &Collision) -> Option<String> {
-    let snapshot = collision.snapshot(SnapshotInstant::LastSound)?;
+    let snapshot = collision.snapshot(SnapshotInstant::LastValid)?;
     let near = half_width(collision.max_contact_radius.unwrap_or(0.0), snapshot.approach)?;
     let both = sections(simulation, snapshot)?;
     let time = Unit::fitting(snapshot.time, "s").with_digits(4);

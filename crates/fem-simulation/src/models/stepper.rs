@@ -1,6 +1,6 @@
 //! A collision that is computed in pieces, and its restart state.
 
-use fem_collision::{Approach, Collision, Monitor, Progress, Stop};
+use fem_collision::{Approach, Collision, Monitor, Progress, StepInstant, Stop};
 use serde::{Deserialize, Serialize};
 
 use crate::models::bouncing::Bounces;
@@ -62,7 +62,7 @@ impl<F: Fn(&mut dyn Monitor) -> Collision> Stepper for SingleStep<F> {
     }
 
     fn finish(self: Box<Self>) -> Collision {
-        let not_begun = Stop::Interrupted { time: 0.0, step: 0 };
+        let not_begun = Stop::Interrupted { at: StepInstant { time: 0.0, step: 0 } };
         self.collision.unwrap_or_else(|| Collision::stopped(self.approach, not_begun))
     }
 }

@@ -204,7 +204,7 @@ fn assert_stops_and_is_helped(stopped: Vec<&str>, words: [&str; 3], helped: Vec<
     let key = if stopped.contains(&SVK) { "hyperelastic" } else { "approach_speed" };
     assert!(remedy.contains(key), "{remedy}");
     let kept = collision.snapshots.last().unwrap();
-    assert_eq!(kept.label, Some(fem::SnapshotInstant::LastSound));
+    assert_eq!(kept.label, Some(fem::SnapshotInstant::LastValid));
     let after = run(&helped);
     assert!(after.is_complete(), "{helped:?} {:?}", after.ending);
     assert!(after.residual_relative.unwrap() < 1e-3, "{helped:?}");

@@ -255,8 +255,7 @@ fn an_extreme_mass_names_its_cause() {
 fn the_cause_of_a_failure_is_reported_once() {
     let (simulation, mut collision) = run(GLASS, &["model={ condensed = {} }"]);
     collision.ending = Ending::Stopped(Stop::NoNumber {
-        time: 1e-5,
-        step: 7,
+        at: StepInstant { time: 1e-5, step: 7 },
         body: 0,
         node: 3,
         place: [0.0, 0.0],

@@ -8,6 +8,7 @@
 use std::path::Path;
 
 use fem::{Case, OutputRequest, Simulation, Stop, stop_advice};
+use fem_collision::StepInstant;
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
@@ -208,38 +209,31 @@ fn bodies_that_do_not_separate_need_equilibrium_stiffness() {
 
 /// Returns a stop of each kind.
 fn stops() -> Vec<Stop> {
-    let (time, step) = (1e-6, 10);
+    let time = 1e-6;
+    let at = StepInstant { time, step: 10 };
     let why = String::new;
     let stops = vec![
-        Stop::Interrupted { time, step },
-        Stop::ContactBeyondCandidates { time, step, radius: 1e-3 },
-        Stop::SurfaceTurnsOver { time, step, radius: 1e-3, body: 1, node: 3, place: [1e-3; 2] },
+        Stop::Interrupted { at },
+        Stop::ContactBeyondCandidates { at, radius: 1e-3 },
+        Stop::SurfaceTurnsOver { at, radius: 1e-3, body: 1, node: 3, place: [1e-3; 2] },
         Stop::ContactTooLarge { ratio: 0.9 },
-        Stop::EnergyGrowth { time, step, ratio: 2.0, body: 0, node: 3, place: [1e-3; 2] },
-        Stop::NoNumber { time, step, body: 0, node: 3, place: [1e-3; 2] },
-        Stop::ElementCollapsed {
-            time,
-            step,
-            body: 1,
-            element: 7,
-            place: [1e-3; 2],
-            volume_ratio: -0.1,
-        },
+        Stop::EnergyGrowth { at, ratio: 2.0, body: 0, node: 3, place: [1e-3; 2] },
+        Stop::NoNumber { at, body: 0, node: 3, place: [1e-3; 2] },
+        Stop::ElementCollapsed { at, body: 1, element: 7, place: [1e-3; 2], volume_ratio: -0.1 },
         Stop::StabilityLost {
-            time,
-            step,
+            at,
             body: 1,
             element: 7,
             place: [1e-3; 2],
             stretches: [1.0, 0.9, 1.0],
             law: "hencky".to_string(),
         },
-        Stop::NoStepShortEnough { time, step, body: 0, place: [1e-3; 2], of_contact: true },
-        Stop::NoStepShortEnough { time, step, body: 1, place: [1e-3; 2], of_contact: false },
+        Stop::NoStepShortEnough { at, body: 0, place: [1e-3; 2], of_contact: true },
+        Stop::NoStepShortEnough { at, body: 1, place: [1e-3; 2], of_contact: false },
         Stop::EnergyImbalance { time, relative: 0.1 },
-        Stop::NoSeparation { time, step },
-        Stop::NoContact { time, step, approach: 1e-9 },
-        Stop::TooManyUpdates { time, step, element_updates: 1000 },
+        Stop::NoSeparation { at },
+        Stop::NoContact { at, approach: 1e-9 },
+        Stop::TooManyUpdates { at, element_updates: 1000 },
         Stop::NoContactState { time },
         Stop::NotMade(why()),
         Stop::OutOfMemory(why()),

@@ -239,8 +239,8 @@ impl Bounced {
 /// Returns the stop of a contact with the element updates of all contacts.
 fn of_all(stop: &Stop, element_updates: Option<u64>) -> Stop {
     match (stop, element_updates) {
-        (&Stop::TooManyUpdates { time, step, .. }, Some(element_updates)) => {
-            Stop::TooManyUpdates { time, step, element_updates }
+        (&Stop::TooManyUpdates { at, .. }, Some(element_updates)) => {
+            Stop::TooManyUpdates { at, element_updates }
         }
         _ => stop.clone(),
     }

@@ -12,7 +12,7 @@ use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
 use fem_collision::{
     Approach, BodyInput, Collision, Ending, FLIGHT_AFTER, Monitor, OutputRequest, StaticContact,
-    Stop,
+    StepInstant, Stop,
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
@@ -336,9 +336,10 @@ impl Model for Condensed {
 /// Returns the stop at first touch of a collision that could not begin.
 fn stop_of(error: CondensedError, approach: &Approach) -> Stop {
     match error {
-        CondensedError::ContactBeyondCandidates { radius } => {
-            Stop::ContactBeyondCandidates { time: approach.first_touch(), step: 0, radius }
-        }
+        CondensedError::ContactBeyondCandidates { radius } => Stop::ContactBeyondCandidates {
+            at: StepInstant { time: approach.first_touch(), step: 0 },
+            radius,
+        },
         error => error.into(),
     }
 }
