@@ -39,6 +39,7 @@ mod relaxed;
 mod restart_state;
 mod rigid_partner;
 mod run_cost;
+mod scene;
 mod shipped_cases;
 mod stepper;
 mod stop_advice;

@@ -6,6 +6,8 @@ use fem::Simulation;
 use fem_case::Case;
 use fem_collision::{Account, Collision};
 
+use crate::scene::case_of;
+
 const TWINS: &str = r#"
 [material.glass]
 density = "2390 kg/m^3"
@@ -35,8 +37,7 @@ const RELAXING: &str =
     "material.glass.relaxation={acts_on='shear', terms=[{weight=0.8, decay_rate=5e3}]}";
 
 fn case(overrides: &[&str]) -> Case {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Case::parse("twins.toml", TWINS, Path::new("."), &overrides).unwrap()
+    case_of(TWINS, overrides)
 }
 
 fn run(overrides: &[&str]) -> (Simulation, Collision) {

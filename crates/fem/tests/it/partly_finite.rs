@@ -1,8 +1,8 @@
 //! Finite strain only near the contact: its error, and the elements that it saves.
 
-use std::path::Path;
+use fem::{Collision, Explicit, QuantityOfInterest, Simulation};
 
-use fem::{Case, Collision, Explicit, QuantityOfInterest, Simulation};
+use crate::scene::{case_of, simulation_of};
 
 const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const RELAXING: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -14,7 +14,7 @@ const NOWHERE: &str = "effects.finite_strain='off'";
 
 fn simulation(case: &str, set: &[&str]) -> Simulation {
     let set: Vec<String> = AT_A_THOUSANDTH.iter().chain(set).map(ToString::to_string).collect();
-    Simulation::new(Case::parse("glass.toml", case, Path::new("."), &set).unwrap()).unwrap()
+    simulation_of(case, &set)
 }
 
 /// Returns the differences of two collisions: the restitution's absolute, others relative.
@@ -55,7 +55,7 @@ fn a_third_of_the_elements_is_at_finite_strain() {
     let share = |set: &[&str]| {
         let set: Vec<String> =
             ["accuracy.tolerance='0.1 %'"].iter().chain(set).map(ToString::to_string).collect();
-        let case = Case::parse("glass.toml", RELAXING, Path::new("."), &set).unwrap();
+        let case = case_of(RELAXING, &set);
         let model = Explicit::new(case.scene()).unwrap();
         let bodies = model.bodies();
         let n_finite: usize = bodies.bodies().iter().map(|body| body.n_finite_elements()).sum();

@@ -1,10 +1,9 @@
 //! A ball on spheres so large that waves do not return: the estimated loss agrees with that of elements, and models without
 //! waves report it.
 
-use std::path::Path;
-
 use fem::{Account, QuantityOfInterest, Simulation};
-use fem_case::Case;
+
+use crate::scene::{case_of, simulation_of};
 
 /// A 10 mm glass ball on a large one of the same material.
 const BALL: &str = r#"
@@ -29,9 +28,7 @@ snapshots = []
 "#;
 
 fn simulation(overrides: &[&str]) -> Simulation {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let case = Case::parse("ball.toml", BALL, Path::new("."), &overrides).unwrap();
-    Simulation::new(case).unwrap()
+    simulation_of(BALL, overrides)
 }
 
 /// Returns the loss of restitution that the warning reports.
@@ -179,7 +176,7 @@ fn half_spaces_that_relax_are_within_their_bars() {
 fn switches_that_a_model_cannot_obey_are_refused() {
     for (model, switch) in [("model.hertz={}", "on"), ("model.fem={}", "off")] {
         let set = [model.to_string(), format!("effects.partner_waves='{switch}'")];
-        let case = Case::parse("ball.toml", BALL, Path::new("."), &set).unwrap();
+        let case = case_of(BALL, &set);
         let error = Simulation::new(case).unwrap_err();
         assert_eq!(error.key(), Some("effects.partner_waves"), "{model}: {error}");
     }

@@ -6,6 +6,8 @@ use fem::{Explicit, METHODS, Model, ModelSetup, Plan, SharedModels, Simulation};
 use fem_case::schema::{LawTable, MeshTable, ModelTable};
 use fem_case::{Case, CaseError, CaseFile};
 
+use crate::scene::case_of;
+
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const RELAXING: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
@@ -13,8 +15,7 @@ const RELAXING: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const FINE: &str = "accuracy.tolerance='0.1 %'";
 
 fn case(overrides: &[&str]) -> Case {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Case::parse("glass.toml", GLASS, Path::new("."), &overrides).expect("a valid case")
+    case_of(GLASS, overrides)
 }
 
 fn refusal(overrides: &[&str]) -> CaseError {
@@ -214,7 +215,7 @@ fn a_fault_of_a_default_names_its_key() {
 fn a_method_refuses_a_scene_of_another_model() {
     for model in ["fem={}", "condensed={}", "hertz={}", "ting={}", "law.falcon.c=300"] {
         let set = [format!("model.{model}")];
-        let case = Case::parse("pair.toml", RELAXING, Path::new("."), &set).unwrap();
+        let case = case_of(RELAXING, &set);
         let scene = case.scene();
         for method in METHODS {
             let made = method.build(scene, &SharedModels::default());

@@ -1,10 +1,8 @@
 //! Warnings about plastic yield, in every model.
 
-use std::path::Path;
-
-use fem::Simulation;
 use fem::effects::EffectDecision;
-use fem_case::Case;
+
+use crate::scene::simulation_of;
 
 /// Steel spheres of 5 mm at 5 m/s; real steel yields at some cm/s.
 const STEEL: &str = r#"
@@ -34,9 +32,7 @@ const MODELS: [&str; 5] = [
 ];
 
 fn decision(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let case = Case::parse("pair.toml", text, Path::new("."), &overrides).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    let simulation = simulation_of(text, overrides);
     let setup = simulation.setup();
     let verdict =
         setup.decisions.verdicts.iter().find(|verdict| verdict.name == "plastic yield").unwrap();

@@ -1,9 +1,9 @@
 //! Probes and stress fields: they agree with the run's own fields and with closed forms, and do not change the run.
 
-use std::path::Path;
-
 use fem::schema::{BodyTable, MaterialTable, MeshTable, ModelTable};
 use fem::{Case, CaseFile, Collision, Simulation, Snapshot, SnapshotInstant};
+
+use crate::scene::{case_of, simulation_of};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const COARSE: &str = "mesh.contact_element_size='60 um'";
@@ -12,8 +12,7 @@ const PROBES: &str = "output.probe=[{body='target', r=0, y=0}, \
     {body='target', r='0.1 mm', y='0.15 mm'}, {body='striker', r=0, y='-11.1 mm'}]";
 
 fn simulation(overrides: &[&str]) -> Simulation {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()).unwrap()
+    simulation_of(GLASS, overrides)
 }
 
 fn run(overrides: &[&str]) -> Collision {
@@ -122,8 +121,7 @@ fn samples_are_part_of_the_restart_state() {
 #[test]
 fn a_probe_outside_the_mesh_is_refused() {
     let refusal = |overrides: &[&str]| {
-        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-        let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap();
+        let case = case_of(GLASS, overrides);
         Simulation::new(case).unwrap_err()
     };
     let block = "body.0={name='block', half_space={}, material='glass'}";

@@ -1,10 +1,9 @@
 //! Scenes beyond the range of a model are reported or rejected by every model.
 
-use std::path::Path;
-
-use fem::{Case, Collision, QuantityOfInterest, Simulation, diagnose};
+use fem::{Collision, QuantityOfInterest, Simulation, diagnose};
 
 use crate::coarse::{refused, simulation};
+use crate::scene::simulation_of;
 
 fn warnings(simulation: &Simulation) -> Vec<String> {
     simulation.warnings(&simulation.run(&mut ()))
@@ -82,8 +81,7 @@ fn run(poissons_ratio: f64, model: &str) -> (Simulation, Collision) {
         format!("model={{{model}}}"),
         format!("accuracy.tolerance='{tolerance}'"),
     ];
-    let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    let simulation = simulation_of(GLASS, &overrides);
     let collision = simulation.run(&mut ());
     (simulation, collision)
 }

@@ -1,9 +1,9 @@
 //! Strongly relaxing bodies: their results, and the effective moduli by which effects are judged.
 
-use std::path::Path;
-
 use fem::results::Summary;
-use fem::{Case, QuantityOfInterest, Simulation};
+use fem::{QuantityOfInterest, Simulation};
+
+use crate::scene::simulation_of;
 
 /// Two spheres of 10 mm that relax much faster than their contact.
 const PAIR: &str = "
@@ -31,9 +31,7 @@ const ELASTIC: &str = "material.a.relaxation.terms.0.weight=0";
 const AS_SOFT: &str = "material.a.youngs_modulus='10 kPa'";
 
 fn simulation(set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    let case = Case::parse("pair.toml", PAIR, Path::new("."), &set).unwrap();
-    Simulation::new(case).unwrap()
+    simulation_of(PAIR, set)
 }
 
 fn run(set: &[&str]) -> Summary {

@@ -1,24 +1,20 @@
 //! Restart states: every field of a run is written, and a run that is resumed gives the same results and files.
 
-use std::collections::BTreeSet;
-use std::fmt::Debug;
-use std::path::Path;
-
 use fem::results::{contact_csv, history_csv, write_snapshots};
-use fem::{
-    Case, Collision, Explicit, Identity, RestartState, Simulation, checkpoint, restart_state_of,
-};
+use fem::{Collision, Explicit, Identity, RestartState, Simulation, checkpoint, restart_state_of};
 use serde::Serialize;
 use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fmt::Debug;
+
+use crate::scene::simulation_of;
 
 const BALL: &str = include_str!("rubber_ball.toml");
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const COARSE: &str = "mesh.contact_element_size='0.2 mm'";
 
 fn simulation(text: &str, overrides: &[&str]) -> Simulation {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let case = Case::parse("case.toml", text, Path::new("."), &overrides).unwrap();
-    Simulation::new(case).unwrap()
+    simulation_of(text, overrides)
 }
 
 /// Returns scenes that together have everything that a restart state can hold.

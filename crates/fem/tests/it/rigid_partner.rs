@@ -1,9 +1,9 @@
 //! A very stiff partner is computed as a rigid one.
 
-use std::path::Path;
-
 use fem::effects::EffectDecision;
-use fem::{Case, CaseError, Collision, Simulation};
+use fem::{CaseError, Collision, Simulation};
+
+use crate::scene::case_of;
 
 /// A soft relaxing ball and a steel one, with a ratio of stiffness of 1 to 4e4.
 const SOFT: &str = r#"
@@ -37,7 +37,7 @@ const MODELS: [&str; 3] = ["model.fem={}", "model.condensed={}", "model.ting={}"
 
 fn simulation(set: &[&str]) -> Result<Simulation, CaseError> {
     let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("soft.toml", SOFT, Path::new("."), &set).unwrap())
+    Simulation::new(case_of(SOFT, &set))
 }
 
 fn run(set: &[&str]) -> Collision {

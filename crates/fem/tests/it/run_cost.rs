@@ -1,8 +1,8 @@
 //! The cost of a run is estimated before it: the mesh that its tolerance needs, or an upper bound of the refinement.
 
-use std::path::Path;
+use fem::{ComputedCollision, Cost, ErrorEstimator, RefinedBeforeRun, Simulation};
 
-use fem::{Case, ComputedCollision, Cost, ErrorEstimator, RefinedBeforeRun, Simulation};
+use crate::scene::simulation_of;
 
 /// Two balls, stiff or soft, that relax or not.
 const BALLS: &str = r#"
@@ -62,8 +62,7 @@ const SOFT_AND_RELAXING: &[&str] = &[
 ];
 
 fn simulation(set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("balls.toml", BALLS, Path::new("."), &set).unwrap()).unwrap()
+    simulation_of(BALLS, set)
 }
 
 fn refined_before_run(set: &[&str], goes_on: bool) -> RefinedBeforeRun {

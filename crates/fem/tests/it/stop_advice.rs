@@ -10,6 +10,8 @@ use std::path::Path;
 use fem::{Case, OutputRequest, Simulation, Stop, stop_advice};
 use fem_collision::StepInstant;
 
+use crate::scene::case_of;
+
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
 const PAGE: &str = include_str!("../../../../docs/cases.md");
@@ -149,8 +151,7 @@ const ROWS: [Row; 13] = [
 
 /// Runs a case without snapshots; returns the message and the advice if it is stopped or rejected.
 fn failure(case: &str, overrides: &[&str], give_up_after: Option<f64>) -> Option<(String, String)> {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let case = Case::parse("case.toml", case, Path::new("."), &overrides).unwrap();
+    let case = case_of(case, overrides);
     let mut simulation = match Simulation::new(case) {
         Ok(simulation) => simulation,
         Err(error) => {

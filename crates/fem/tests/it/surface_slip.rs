@@ -1,11 +1,10 @@
 //! Surface slip of unlike bodies: the scenes that need it, and the change that it makes.
 
-use std::path::Path;
-
 use fem::effects::{Effect, EffectDecision, EffectStatus, SurfaceSlip};
 use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 use crate::coarse;
+use crate::scene::simulation_of;
 
 /// A steel ball on a soft sphere ten times as large; the contact radius becomes 0.073 of the ball's radius.
 const STEEL_ON_SOFT: &str = r#"
@@ -44,9 +43,7 @@ const LITTLE_MASS: &str = "time.mass_scaling=2e-4";
 const LAW: &str = "model.law.hertz={}";
 
 fn simulation(set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    let case = Case::parse("steel_on_soft.toml", STEEL_ON_SOFT, Path::new("."), &set).unwrap();
-    Simulation::new(case).unwrap()
+    simulation_of(STEEL_ON_SOFT, set)
 }
 
 fn run(set: &[&str]) -> Collision {

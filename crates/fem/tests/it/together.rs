@@ -1,9 +1,9 @@
 //! Bodies that relax completely stay together in every model.
 
-use std::path::Path;
-
 use fem::{Case, Cost, Ending, OutputRequest, Simulation, SnapshotInstant, Stop};
 use fem_collision::STAY_TOGETHER;
+
+use crate::scene::case_of;
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
@@ -21,7 +21,7 @@ fn case(model: &str, acts_on: &str, weight: f64, time: &str) -> Case {
              relaxation_time='{time}'}}]}}"
         ),
     ];
-    Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()
+    case_of(GLASS, &overrides)
 }
 
 #[test]

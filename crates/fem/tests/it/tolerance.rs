@@ -1,9 +1,9 @@
 //! Refinement until the estimated errors are within the tolerance of the case, or a warning that they are not.
 
-use std::path::Path;
-
 use fem::results::Summary;
 use fem::{Case, Collision, ErrorEstimator, QuantityOfInterest, Simulation};
+
+use crate::scene::simulation_of;
 
 const SOFT_SPHERE: &str = include_str!("../../../../cases/soft_sphere.toml");
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -25,8 +25,7 @@ const FINE: &str = "mesh.contact_element_size='0.35 mm'";
 
 fn simulation(text: &str, set: &[&str]) -> Simulation {
     let set: Vec<String> = set.iter().chain([&NO_SNAPSHOTS]).map(ToString::to_string).collect();
-    let case = Case::parse("case.toml", text, Path::new("."), &set).unwrap();
-    Simulation::new(case).unwrap()
+    simulation_of(text, &set)
 }
 
 fn computed(text: &str, set: &[&str]) -> (Simulation, Collision) {

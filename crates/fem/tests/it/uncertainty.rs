@@ -1,9 +1,9 @@
 //! Model-form errors against explicit elements at finite strain, which have every effect of these scenes.
 
-use std::path::Path;
-
+use fem::QuantityOfInterest;
 use fem::results::{Parts, Quantities, Summary, UncertaintySummary};
-use fem::{Case, QuantityOfInterest, Simulation};
+
+use crate::scene::simulation_of;
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const RUBBER: &str = include_str!("rubber_ball.toml");
@@ -21,9 +21,7 @@ const BLOCK: &str = "body.0={ name = 'striker', half_space = {}, material = 'gla
 const BALL: &str = "body.1.approach_speed='5 m/s'";
 
 fn summary(text: &str, set: &[&str]) -> Summary {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    let case = Case::parse("scene.toml", text, Path::new("."), &set).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    let simulation = simulation_of(text, set);
     let collision = simulation.run(&mut ());
     simulation.summary(&collision)
 }

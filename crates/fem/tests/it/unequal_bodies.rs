@@ -1,8 +1,8 @@
 //! Small bodies on large ones, stiff on soft: added mass is a share of the lighter body.
 
-use std::path::Path;
+use fem::{Collision, QuantityOfInterest, Simulation};
 
-use fem::{Case, Collision, QuantityOfInterest, Simulation};
+use crate::scene::simulation_of;
 
 /// A slow steel ball on a thirty times larger rubber sphere.
 const BALL: &str = r#"
@@ -48,8 +48,7 @@ const SCENES: [&[&str]; 4] = [
 
 fn run(set: &[&[&str]]) -> (Simulation, Collision) {
     let set: Vec<String> = set.concat().into_iter().map(String::from).collect();
-    let case = Case::parse("ball.toml", BALL, Path::new("."), &set).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    let simulation = simulation_of(BALL, &set);
     let collision = simulation.run(&mut ());
     (simulation, collision)
 }

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, QuantityOfInterest, Simulation};
+use fem::{Collision, QuantityOfInterest, Simulation};
 use fem_mesh::HalfDisc;
+
+use crate::scene::{case_of, simulation_of};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 /// Largest contact radius of the pair, m.
@@ -12,8 +14,7 @@ const CONTACT_RADIUS: f64 = 0.2231e-3;
 const RADII: [f64; 2] = [11.1e-3, 7.95e-3];
 
 fn run(overrides: &[String]) -> (Simulation, Collision) {
-    let case = Case::parse("glass.toml", GLASS, Path::new("."), overrides).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    let simulation = simulation_of(GLASS, overrides);
     let collision = simulation.run(&mut ());
     (simulation, collision)
 }
@@ -94,8 +95,7 @@ fn the_coarser_body_counts() {
 #[test]
 fn a_cheaper_model_is_suggested_for_a_long_run() {
     let hint = |overrides: &[&str]| {
-        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-        let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap();
+        let case = case_of(GLASS, overrides);
         Simulation::new(case).unwrap().cheaper()
     };
     let stiff = "material.glass.poissons_ratio=0.499999";
