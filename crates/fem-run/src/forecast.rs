@@ -76,7 +76,7 @@ impl Forecast {
         making: f64,
         is_open: bool,
     ) -> Self {
-        let longer = estimator.updates_over_announced(simulation);
+        let longer = estimator.updates_over_expected(simulation);
         let seconds = seconds(simulation, making, longer);
         let announced = match simulation.setup().cost {
             Cost::Steps { element_updates, .. } => element_updates as f64,

@@ -1,17 +1,17 @@
-//! The front door of fem-run: a case, the model that computes it, and what comes out of it.
+//! The library of fem-run: a case, the model that computes it, and its results.
 //!
 //! ```text
 //! fem_case::Case ─ Scene ─ Method ─ Model ───────────────────── Collision
-//!  text or code     SI     one file  Setup: estimate, plan,      rows, snapshots,
-//!                          a method  effects, cost, warnings     quantities, ending
+//!  text or code     SI     per key   ModelSetup: estimate,       rows, snapshots,
+//!                                    plan, effects, cost         quantities, ending
 //! ```
 //!
-//! One collision is computed by crate `fem-simulation`, many by `fem-study`; their items are here under
-//! one name, beside those of the crates below that a caller needs.
+//! Crate `fem-simulation` computes one collision, `fem-study` many. Their items are re-exported here, with those of the
+//! crates below that a caller needs.
 //!
-//! Without the feature `files` (on by default) nothing here touches a file: a mesh of a case's own is
-//! refused, and what writes result files is not there. Only [`Case::load`] and
-//! [`Sweep::load`](sweep::Sweep::load) read files then, those that they are given or that these name.
+//! Without the feature `files` (on by default) the library accesses no files: mesh files of a case are rejected, and the
+//! functions that write result files are absent. Only [`Case::load`] and [`Sweep::load`](sweep::Sweep::load) read the
+//! files that they are given or that these name.
 
 pub use fem_simulation::{
     AutoMethod, BodyStress, CheckpointError, CheckpointHead, ComputedCollision, Condensed,

@@ -173,7 +173,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let (headline, tolerance) = plan.asked_by;
+    let (headline, tolerance) = plan.limiting_quantity;
     let tolerance = match headline {
         QuantityOfInterest::Restitution => number(tolerance, 3),
         _ => format!("{} %", number(100.0 * tolerance, 3)),

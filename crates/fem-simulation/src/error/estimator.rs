@@ -202,13 +202,13 @@ impl ErrorEstimator {
 
     /// Returns the element updates of a collision over those that closed forms expect, from a coarser run; 1 if closed
     /// forms are sufficient.
-    pub fn updates_over_announced(&mut self, simulation: &Simulation) -> f64 {
+    pub fn updates_over_expected(&mut self, simulation: &Simulation) -> f64 {
         /// Element updates of the coarser run, a tenth of a second.
         const MOST: u64 = 4_000_000;
         let is_open = simulation.reference_updates().is_some()
             && simulation.case().scene().gravity().is_none();
         let subject = Subject::planned(simulation).filter(|_| is_open);
-        let ratio = subject.and_then(|subject| self.runs.updates_over_announced(&subject, MOST));
+        let ratio = subject.and_then(|subject| self.runs.updates_over_expected(&subject, MOST));
         ratio.unwrap_or(1.0)
     }
 

@@ -51,7 +51,7 @@ struct ReferenceRun {
     /// `None` if the model rejects the settings or the run does not end by itself.
     values: Option<Values>,
     /// Element updates over those that closed forms expect.
-    updates_over_announced: f64,
+    updates_over_expected: f64,
 }
 
 /// The reference runs of a case so far, each computed once.
@@ -152,7 +152,7 @@ impl ReferenceRuns {
 
     /// Returns the element updates of the collision over those that closed forms expect, from a coarser run of about
     /// `most` element updates.
-    pub fn updates_over_announced(&mut self, subject: &Subject<'_>, most: u64) -> Option<f64> {
+    pub fn updates_over_expected(&mut self, subject: &Subject<'_>, most: u64) -> Option<f64> {
         let Cost::Steps { element_updates, .. } = subject.simulation.setup().cost else {
             return None;
         };
@@ -160,7 +160,7 @@ impl ReferenceRuns {
         let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
         let most = (PATIENCE * most as f64) as u64;
         let run = self.run(subject, &settings, FarMesh::AsGiven, most)?;
-        run.values.map(|_| run.updates_over_announced)
+        run.values.map(|_| run.updates_over_expected)
     }
 
     /// Returns whether a condensed reference run of a collision has been computed.
@@ -213,12 +213,12 @@ impl ReferenceRuns {
             return Some(&self.known[k]);
         }
         let collided = collide(subject, settings, far_mesh, most_element_updates);
-        let (mut values, mut updates_over_announced) = (None, 1.0);
+        let (mut values, mut updates_over_expected) = (None, 1.0);
         if let Some((reference, collision)) = collided {
             self.count(&collision);
             if collision.is_complete() {
                 values = Some(QuantityOfInterest::ALL.map(|quantity| quantity.of(&collision)));
-                updates_over_announced = over_announced(&reference, &collision).unwrap_or(1.0);
+                updates_over_expected = updates_ratio(&reference, &collision).unwrap_or(1.0);
             } else if most_element_updates < u64::MAX {
                 return None;
             }
@@ -228,7 +228,7 @@ impl ReferenceRuns {
             settings: settings.to_vec(),
             far_mesh,
             values,
-            updates_over_announced,
+            updates_over_expected,
         });
         self.known.last()
     }
@@ -294,7 +294,7 @@ fn collide(
 
 /// Returns the element updates of a collision over those that closed forms expect. Flattened elements have shorter steps,
 /// and a body that stiffens separates sooner.
-fn over_announced(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+fn updates_ratio(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let Cost::Steps { element_updates, .. } = simulation.setup().cost else { return None };
     Some(collision.element_updates? as f64 / element_updates as f64)
 }

@@ -73,7 +73,7 @@ pub struct MeshRule {
     /// The error of the force on the finest mesh, if the tolerance of the case cannot be met.
     pub reached: Option<f64>,
     /// The quantity that needs the smallest elements, and its tolerance.
-    pub asked_by: (QuantityOfInterest, f64),
+    pub limiting_quantity: (QuantityOfInterest, f64),
 }
 
 impl MeshRule {
@@ -88,7 +88,7 @@ impl MeshRule {
             false => (&BOUNDS, FEWEST),
         };
         let later = if at_nodes && scene.gravity().is_some() { LATER_CONTACTS } else { 1.0 };
-        let (least, asked_by) = tolerance(&scene.accuracy(), bounds);
+        let (least, limiting_quantity) = tolerance(&scene.accuracy(), bounds);
         let tolerance = share * least;
         let error = match at_nodes {
             true => AT_NODES,
@@ -110,7 +110,7 @@ impl MeshRule {
             across,
             mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(reached)).min(MOST_MASS),
             reached: (asked_for > MOST).then_some(reached),
-            asked_by,
+            limiting_quantity,
         }
     }
 

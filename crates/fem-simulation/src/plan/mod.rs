@@ -61,7 +61,7 @@ pub struct Plan {
     /// The body with the smaller elements, if the meshes are staggered.
     pub finer_body: Option<usize>,
     /// The quantity that needs the smallest elements and the least added mass, and its tolerance.
-    pub asked_by: (QuantityOfInterest, f64),
+    pub limiting_quantity: (QuantityOfInterest, f64),
     /// Half-width of the block of equal elements, m.
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
@@ -153,7 +153,7 @@ impl Plan {
             gap: scene.gap().unwrap_or(0.0),
             contact_element_size,
             finer_body,
-            asked_by: rule.asked_by,
+            limiting_quantity: rule.limiting_quantity,
             refined_radius,
             growth: scene.mesh().growth,
             far_radius,

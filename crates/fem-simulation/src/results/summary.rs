@@ -127,14 +127,10 @@ impl Quantities {
 
     /// Returns one quantity.
     pub fn number(&self, quantity: QuantityOfInterest) -> Option<f64> {
-        match quantity {
-            QuantityOfInterest::Restitution => self.restitution,
-            QuantityOfInterest::ContactTime => self.contact_time_s,
-            QuantityOfInterest::PeakForce => self.peak_force_n,
-            QuantityOfInterest::MaxApproach => self.max_approach_m,
-            QuantityOfInterest::MaxContactRadius => self.max_contact_radius_m,
-            QuantityOfInterest::PeakPressure => self.peak_pressure_pa,
-        }
+        let Self { restitution, contact_time_s, peak_force_n, max_approach_m, .. } = *self;
+        let (radius, pressure) = (self.max_contact_radius_m, self.peak_pressure_pa);
+        let all = [restitution, contact_time_s, peak_force_n, max_approach_m, radius, pressure];
+        all[quantity as usize]
     }
 }
 

@@ -151,7 +151,7 @@ fn faults_point_at_their_key() {
     fault("law = «{}»", "names no law", "kuwabara_kono");
     fault("law = { hertz = «[]» }", "is an array", "table");
     fault("hertz = { finite_size = «1» }", "finite_size is an integer", "boolean");
-    fault("ting = { tolerance = «\"1 m\"» }", "wants a plain number", "");
+    fault("ting = { tolerance = «\"1 m\"» }", "must be a plain number", "");
     fault("auto = { «best» = true }", "unknown key `best`", "");
     fault("condensed = { vibration_modes = «101» }", "vibration_modes is 101", "whole number");
     fault("condensed = { steps = «49.0» }", "steps is 49", "whole number");

@@ -176,7 +176,7 @@ fn soft_springs_are_not_taken_for_the_mesh() {
 /// and bodies that stiffen or relax touch for another time), and all reference runs cost at most a fifth of the run.
 fn compare_reference_runs(set: &[&str]) {
     let simulation = simulation(set);
-    let longer = ErrorEstimator::default().updates_over_announced(&simulation);
+    let longer = ErrorEstimator::default().updates_over_expected(&simulation);
     let collision = simulation.run(&mut ());
     let updates = collision.element_updates.unwrap() as f64;
     let ratio = updates / (longer * expected_updates(&simulation) as f64);
