@@ -60,7 +60,7 @@ pub struct Check {
     pub source: String,
     /// The reference, SI; `None` for bounds.
     pub reference: Option<f64>,
-    /// Allowed deviation.
+    /// The allowed deviation.
     pub tolerance: Tolerance,
     /// Reason for the tolerance.
     pub reason: String,

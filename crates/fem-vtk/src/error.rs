@@ -126,7 +126,7 @@ pub enum Error {
         place: String,
         /// Value that was found.
         found: String,
-        /// Allowed values.
+        /// The allowed values.
         allowed: String,
     },
 

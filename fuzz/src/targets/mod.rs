@@ -27,7 +27,7 @@ const fn entry(name: &'static str, share: u64, make: fn(&Path) -> Box<dyn Target
     Entry { name, share, make }
 }
 
-/// All targets.
+/// All fuzz targets.
 pub const TARGETS: [Entry; 7] = [
     entry("mesh", 30, |_| Box::new(mesh::MeshFile::new())),
     entry("table", 25, |_| Box::new(table::DataTable::new())),

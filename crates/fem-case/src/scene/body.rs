@@ -127,7 +127,7 @@ pub enum Shape {
         /// Material of the body.
         material: Material,
     },
-    /// A half-space.
+    /// A deformable half-space.
     HalfSpace {
         /// Material of the body.
         material: Material,

@@ -25,7 +25,7 @@ pub struct BodyTable {
     /// A rigid plane of infinite mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall: Option<EmptyTable>,
-    /// A half-space.
+    /// The table of a deformable half-space.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub half_space: Option<EmptyTable>,
 }

@@ -46,7 +46,7 @@ pub struct CaseFile {
     /// End of the run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<StopTable>,
-    /// Element sizes.
+    /// Element sizes of the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshTable>,
     /// Contact method and penalty stiffness.

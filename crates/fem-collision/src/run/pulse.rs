@@ -57,7 +57,7 @@ pub struct ForcePulse {
 /// Largest means over a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PulsePeaks {
-    /// Force, N.
+    /// Contact force, N.
     pub force: f64,
     /// Contact radius, m.
     pub radius: f64,

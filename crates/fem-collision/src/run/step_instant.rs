@@ -31,7 +31,7 @@ impl fmt::Display for StepInstant {
 /// The deepest overlap of a run with its position and instant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DeepestOverlap {
-    /// Overlap, m.
+    /// Numerical overlap, m.
     pub overlap: f64,
     /// Distance from the axis, m.
     pub radius: f64,

@@ -143,7 +143,7 @@ pub struct ModelSetup {
     pub approach: Approach,
     /// Output request of the run.
     pub request: OutputRequest,
-    /// Closed-form estimate.
+    /// Closed-form estimate of the collision.
     pub estimate: Estimate,
     /// Decisions on the effects, with their reasons.
     pub decisions: EffectDecisions,

@@ -14,7 +14,7 @@ pub enum Series {
     Hertz,
     /// Ting's closed form for viscoelastic half-spaces.
     Ting,
-    /// Condensed bodies.
+    /// Condensed bodies without penalty springs.
     Condensed,
     /// Condensed bodies with the penalty springs of explicit elements between them.
     CondensedSprings,

@@ -35,13 +35,13 @@ pub struct Study<'a> {
 /// A variant with its results.
 #[derive(Clone, Copy, Debug)]
 pub struct VariantRun<'a> {
-    /// The variant.
+    /// The computed variant.
     pub variant: &'a Variant,
-    /// Its results.
+    /// The measured results.
     pub measurement: &'a Measurement,
     /// Its run time, s.
     pub seconds: f64,
-    /// Its errors.
+    /// Errors of the results.
     pub errors: VariantErrors,
 }
 

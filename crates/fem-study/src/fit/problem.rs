@@ -45,7 +45,7 @@ pub struct Free {
 pub struct Problem<'a> {
     /// The bodies and the law.
     pub model: &'a Model,
-    /// The data.
+    /// The measured points.
     pub points: &'a [Point],
     /// Values of all parameters; those of the free ones are only guesses.
     pub values: Vec<f64>,

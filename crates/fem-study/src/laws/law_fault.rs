@@ -37,7 +37,7 @@ pub enum LawFault {
     Compared {
         /// The name of the law.
         law: &'static str,
-        /// The reason.
+        /// The reason of the failure.
         error: FitError,
     },
     /// A stiffness is searched for in restitutions without contact times.

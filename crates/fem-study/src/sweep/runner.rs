@@ -151,7 +151,7 @@ pub trait Observer: Sync {
     }
 }
 
-/// No observer.
+/// Observes nothing and admits every member.
 impl Observer for () {
     type Watch = ();
 

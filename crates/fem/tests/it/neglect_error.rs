@@ -258,7 +258,7 @@ fn relaxation_switched_off_is_the_elastic_case() {
     }
 }
 
-/// What a model cannot leave out, it does not pretend to leave out.
+/// A model rejects switching off an effect that it cannot switch off.
 #[test]
 fn what_cannot_be_left_out_is_refused() {
     for (set, key, why) in [

@@ -31,7 +31,7 @@ pub(super) struct Imported {
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Change {
-    /// No modification.
+    /// The file as exported.
     #[default]
     Plain,
     /// Elements under the contact are sheared by half of their height.

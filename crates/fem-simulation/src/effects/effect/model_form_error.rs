@@ -32,7 +32,7 @@ pub struct EffectStatus {
 }
 
 impl ModelFormError {
-    /// No error.
+    /// The absence of any error.
     pub const NOTHING: Self = Self([Some(0.0); 6]);
 
     /// Returns the error whose size for each quantity `size` gives.

@@ -22,7 +22,7 @@ pub struct NeglectError {
 }
 
 impl NeglectError {
-    /// No change.
+    /// The absence of any change.
     pub const NOTHING: Self =
         Self { restitution: Some(0.0), contact_time_s: Some(0.0), peak_force_n: Some(0.0) };
 

@@ -59,7 +59,7 @@ impl SpectrumProblem<'_> {
         self.uncertainties.map_or(1.0, root_mean_square)
     }
 
-    /// Returns ρ_i.
+    /// Returns the ratio ρ_i.
     pub(super) fn ratio(&self, i: usize) -> f64 {
         self.uncertainties.map_or(1.0, |u| u[i] / self.unit())
     }
