@@ -55,7 +55,7 @@ pub struct EffectDecision {
 /// The decisions on all effects of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EffectDecisions {
-    /// Decisions on the effects that the model answers for, in the order of [`EFFECTS`].
+    /// Decisions on the effects that the model supports or lacks, in the order of [`EFFECTS`].
     pub verdicts: Vec<EffectDecision>,
     /// Warnings, in the same order.
     pub warnings: Vec<String>,
@@ -68,7 +68,7 @@ impl EffectDecisions {
     }
 
     /// Replaces decisions by those that the finished collision shows.
-    pub(crate) fn take_result(&mut self, scene: &Scene, collision: &Collision) {
+    pub(crate) fn update_from_result(&mut self, scene: &Scene, collision: &Collision) {
         for verdict in &mut self.verdicts {
             let found = effect_named(verdict.name)
                 .and_then(|effect| effect.support_in_result(scene, collision));
@@ -112,7 +112,7 @@ pub fn decide(
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let name = effect.name();
             decisions.warnings.push(format!(
-                "{name} is switched on although the scene does not call for it, which changes {neglect_error}"
+                "{name} is switched on although the scene does not need it, which changes {neglect_error}"
             ));
         }
         if switch == Some(Switch::Off) && obeys && is_called_for {

@@ -258,7 +258,7 @@ fn summed(
     // Coarser runs of unresolved contacts may not come to an end.
     let is_unresolved = is_unresolved(simulation, collision);
     let floor = floor_of_run(simulation, collision);
-    ModelFormError::by(|quantity| {
+    ModelFormError::from_fn(|quantity| {
         let estimated = parts[quantity as usize].map(|parts| parts.sum());
         let bar = estimated.or(is_unresolved.then_some(0.0))?.max(floor(quantity));
         quantity.of(collision).map(|value| bar * quantity.scale(value))
@@ -267,7 +267,7 @@ fn summed(
 
 /// Returns the errors of a model without elements, from its tolerance.
 fn of_tolerance(collision: &Collision, tolerance: f64) -> ModelFormError {
-    ModelFormError::by(|quantity| {
+    ModelFormError::from_fn(|quantity| {
         let share = match quantity {
             QuantityOfInterest::Restitution
             | QuantityOfInterest::ContactTime

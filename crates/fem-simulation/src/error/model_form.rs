@@ -26,7 +26,7 @@ pub(crate) fn uncertainty(
         errors.fold(ModelFormError::NOTHING, ModelFormError::and)
     };
     let model = sum(&mut all.iter().copied());
-    let known = sum(&mut all.iter().copied().map(ModelFormError::told));
+    let known = sum(&mut all.iter().copied().map(ModelFormError::unknown_as_zero));
     UncertaintySummary::by(|quantity| {
         let of = |error: &ModelFormError| numbers.number(quantity).and(error.size(quantity));
         let model = of(&model);

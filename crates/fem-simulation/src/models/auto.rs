@@ -133,7 +133,7 @@ impl SelectedModel {
         let scene = scene.clone().with_model((CANDIDATES[best].choice)());
         let warning = serves.is_none().then(|| {
             format!(
-                "no model is known to be within the tolerance of the case: {} comes closest, with {:.1} times it",
+                "no model is known to be within the tolerance of the case: {} comes closest, with an expected error of {:.1} times the tolerance",
                 considered[best].model, excess
             )
         });
@@ -272,7 +272,7 @@ impl Candidate {
                 Some(format!("lacks {name}, whose effect cannot be estimated"))
             }
             (None, None, Some((name, part))) if total > 1.0 && part > 0.5 * total => {
-                Some(format!("lacks {name}: {total:.2} times the tolerance"))
+                Some(format!("lacks {name}: an error of {total:.2} times the tolerance"))
             }
             _ if total > 1.0 => Some(format!("has an error of {total:.2} times the tolerance")),
             _ => None,
@@ -297,7 +297,7 @@ impl Candidate {
         let asked = tolerances(&scene.accuracy());
         let scales = scales(estimate);
         let is_made_finer = has_fields && scene.mesh().contact_element_size.is_none();
-        ModelFormError::by(|quantity| {
+        ModelFormError::from_fn(|quantity| {
             let Some(k) = JUDGED.iter().position(|judged| *judged == quantity) else {
                 return Some(0.0);
             };
@@ -337,7 +337,7 @@ fn error_without(
     let is_known = [QuantityOfInterest::Restitution, QuantityOfInterest::PeakForce]
         .into_iter()
         .all(|quantity| error.size(quantity).is_some());
-    is_known.then(|| error.told())
+    is_known.then(|| error.unknown_as_zero())
 }
 
 /// Returns the first effect whose switch in the case the model cannot obey.

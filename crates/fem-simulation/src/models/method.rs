@@ -122,7 +122,7 @@ pub(super) fn estimate_at(scene: &Scene, speed: f64) -> Result<Estimate, Stop> {
 }
 
 /// Begins a collision, in a single piece if the model has no steps.
-pub(crate) fn begun(
+pub(crate) fn start_stepper(
     model: &Arc<dyn Model>,
     approach: &Approach,
     request: &OutputRequest,

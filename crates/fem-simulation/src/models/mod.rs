@@ -47,16 +47,16 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
 /// # Errors
 /// A scene that an effect or the method rejects.
 pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-    let ComputedScene { scene: computed, answers } = ComputedScene::of(scene)?;
+    let ComputedScene { scene: computed, supports } = ComputedScene::of(scene)?;
     let computed = SelectedModel::of(&computed)?.scene;
     let model = method_of(&computed).build(&computed, shared)?;
     let model = match scene.gravity() {
         Some(gravity) => Box::new(Bouncing::new(&computed, gravity, model)?),
         None => model,
     };
-    match answers.is_empty() {
+    match supports.is_empty() {
         true => Ok(model),
-        false => Ok(Box::new(Simplified::new(model, scene, answers)?)),
+        false => Ok(Box::new(Simplified::new(model, scene, supports)?)),
     }
 }
 

@@ -16,36 +16,36 @@ use crate::rejection::Rejection;
 pub(super) struct Simplified {
     model: Box<dyn Model>,
     setup: ModelSetup,
-    answers: Vec<(&'static str, Support)>,
+    supports: Vec<(&'static str, Support)>,
 }
 
 impl Simplified {
-    /// Makes the model of a given scene from that of the transformed scene and the answers of the effects.
+    /// Makes the model of a given scene from that of the transformed scene and the supports of the effects.
     ///
     /// # Errors
     /// A switch of an effect that the model cannot obey.
     pub fn new(
         model: Box<dyn Model>,
         given: &Scene,
-        answers: Vec<(&'static str, Support)>,
+        supports: Vec<(&'static str, Support)>,
     ) -> Result<Self, Rejection> {
         let own = model.setup().clone();
         let estimate = Estimate::checked(given)?;
-        let support = |effect: &dyn Effect| support(effect, &answers, model.as_ref(), &estimate);
+        let support = |effect: &dyn Effect| support(effect, &supports, model.as_ref(), &estimate);
         let decisions = decide(given, &estimate, support)?;
         let setup = ModelSetup { estimate, decisions, ..own };
-        Ok(Self { model, setup, answers })
+        Ok(Self { model, setup, supports })
     }
 }
 
 /// Returns the answer of the effects that transformed the scene, or else the model's support.
 fn support(
     effect: &dyn Effect,
-    answers: &[(&'static str, Support)],
+    supports: &[(&'static str, Support)],
     model: &dyn Model,
     estimate: &Estimate,
 ) -> Option<Support> {
-    let own = answers.iter().find(|(name, _)| *name == effect.name());
+    let own = supports.iter().find(|(name, _)| *name == effect.name());
     own.map(|(_, answer)| answer.clone()).or_else(|| model.support(effect, estimate))
 }
 
@@ -55,7 +55,7 @@ impl Model for Simplified {
     }
 
     fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support> {
-        support(effect, &self.answers, self.model.as_ref(), estimate)
+        support(effect, &self.supports, self.model.as_ref(), estimate)
     }
 
     fn collide(

@@ -1,7 +1,7 @@
 //! The contact method of explicit elements, and the settings that reduce contact noise.
 //!
 //! A massless boundary neither chatters nor gains energy: the force scatters by 0.01 % of its peak. At finite strain and
-//! with bulk viscosity, springs act on nodes with mass instead. With the default penalty factor [`USUAL`] the force then
+//! with bulk viscosity, springs act on nodes with mass instead. With the default penalty factor [`DEFAULT_PENALTY_FACTOR`] the force then
 //! scatters by less than 0.4 % of its peak (measured from factors of 1 to 300: docs/contact.md), and softer springs reduce
 //! the scatter.
 
@@ -9,7 +9,7 @@ use fem_case::{ContactMethod, Scene, Switch};
 
 use crate::effects::{FiniteStrain, contact_method_of_case};
 use crate::estimate::quasi_static::surfaces_slip;
-use crate::plan::Plan;
+use crate::plan::{DEFAULT_PENALTY_FACTOR, Plan};
 
 /// Returns the contact method at small strain.
 pub fn contact_method(scene: &Scene) -> ContactMethod {
@@ -42,8 +42,6 @@ pub fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
     Some(format!("contact.method = \"{word}\" has no effect {why}: \"penalty\" is used"))
 }
 
-/// Default penalty factor.
-const USUAL: f64 = 1.0;
 /// Penalty factor below which the overlap of the surfaces is reported.
 const SOFTEST: f64 = 0.25;
 
@@ -79,10 +77,12 @@ impl ContactNoiseAdvice {
     /// time step: at finite strain a step factor of 0.4 leaves a fifth of it.
     pub(crate) fn advice_on_energy(&self) -> String {
         match *self {
-            Self::Softer { penalty_factor } if penalty_factor <= USUAL => {
+            Self::Softer { penalty_factor } if penalty_factor <= DEFAULT_PENALTY_FACTOR => {
                 "lower time.step_factor".to_string()
             }
-            Self::Softer { .. } => format!("write contact.penalty_factor = {USUAL}"),
+            Self::Softer { .. } => {
+                format!("write contact.penalty_factor = {DEFAULT_PENALTY_FACTOR}")
+            }
             _ => self.advice(),
         }
     }
@@ -93,8 +93,8 @@ impl ContactNoiseAdvice {
             Self::MoreSteps => "raise model.condensed.steps".to_string(),
             Self::ShorterSteps => "lower time.step_factor".to_string(),
             Self::Massless => "write contact.method = \"massless\"".to_string(),
-            Self::Softer { penalty_factor } if penalty_factor > USUAL => {
-                format!("write contact.penalty_factor = {USUAL}")
+            Self::Softer { penalty_factor } if penalty_factor > DEFAULT_PENALTY_FACTOR => {
+                format!("write contact.penalty_factor = {DEFAULT_PENALTY_FACTOR}")
             }
             Self::Softer { penalty_factor } if penalty_factor > SOFTEST => {
                 format!("write contact.penalty_factor = {SOFTEST}")

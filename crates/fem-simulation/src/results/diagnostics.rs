@@ -15,6 +15,7 @@ use crate::error::{
 use crate::estimate::mach;
 use crate::models::method::{Cost, ElementSetup};
 use crate::models::{ModelCandidate, SelectedModel};
+use crate::plan::DEFAULT_PENALTY_FACTOR;
 use crate::plan::Plan;
 use crate::plan::contact_method::ContactNoiseAdvice;
 use crate::plan::mesh_source::longest_contact_edge;
@@ -23,8 +24,6 @@ use crate::simulation::Simulation;
 
 /// Largest overlap of the surfaces over the approach without a warning.
 const LARGEST_PENETRATION: f64 = 0.01;
-/// Default penalty factor, the least that is advised: its springs overlap by less on planned meshes.
-const USUAL: f64 = 1.0;
 /// Safety factor on the advised stiffness of springs.
 const ROOM_OF_ADVICE: f64 = 1.2;
 /// Power of the overlap with which elements are shortened: the overlap falls with the power 0.85 of the element size.
@@ -155,7 +154,8 @@ fn of_elements(
         .and_then(|radius| unresolved_warning(simulation, radius));
     let is_unresolved = is_unresolved(simulation, collision);
     // On a coarse mesh the mesh is the cause of overlap, unless the springs are soft.
-    let is_of_mesh = is_unresolved || (coarse.is_some() && run.plan.penalty_factor >= USUAL);
+    let is_of_mesh =
+        is_unresolved || (coarse.is_some() && run.plan.penalty_factor >= DEFAULT_PENALTY_FACTOR);
     let penetration = run.penetration().filter(|_| !is_of_mesh);
     let is_estimated = errors.discretisation(QuantityOfInterest::PeakForce).is_some();
     let mesh = match (is_unresolved, penetration.is_some()) {
@@ -271,7 +271,7 @@ impl<'a> Run<'a> {
                 100.0 * of_element,
                 self.collision.deepest_overlap.map_or(String::new(), |deepest_overlap| format!(", deepest {deepest_overlap}")),
                 100.0 * LARGEST_PENETRATION,
-                two_digits((ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor).max(USUAL)),
+                two_digits((ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor).max(DEFAULT_PENALTY_FACTOR)),
                 self.shorter_elements(excess)
             )
         })
@@ -282,7 +282,7 @@ impl<'a> Run<'a> {
     fn shorter_elements(&self, excess: f64) -> String {
         let size = self.plan.contact_element_size / (ROOM_OF_ADVICE * excess.powf(SHORTER));
         match self.plan.makes_meshes {
-            _ if self.plan.penalty_factor < USUAL => String::new(),
+            _ if self.plan.penalty_factor < DEFAULT_PENALTY_FACTOR => String::new(),
             true => format!(", or use a mesh.contact_element_size of {} or less", show(size, "m")),
             false => ", or use meshes that are finer at the contact".to_string(),
         }

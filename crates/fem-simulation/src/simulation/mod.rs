@@ -21,7 +21,7 @@ use crate::error::{
 };
 use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
-use crate::models::method::{Cost, Model, ModelSetup, SharedModels, begun};
+use crate::models::method::{Cost, Model, ModelSetup, SharedModels, start_stepper};
 use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
 use crate::models::{ModelCandidate, SelectedModel, chosen, model_of, price_of, resolved};
 use crate::plan::body_source::probes_of;
@@ -346,7 +346,7 @@ impl Simulation {
     /// # Ok::<(), fem_case::CaseError>(())
     /// ```
     pub fn start(&self) -> Box<dyn Stepper> {
-        begun(&self.model, &self.setup().approach, &self.request)
+        start_stepper(&self.model, &self.setup().approach, &self.request)
     }
 
     /// Resumes the collision from a restart state, to the same bits.
@@ -393,7 +393,7 @@ impl Simulation {
             decide(self.case.scene(), &estimate, support).ok()
         });
         let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
-        decisions.take_result(self.case.scene(), collision);
+        decisions.update_from_result(self.case.scene(), collision);
         decisions
     }
 }

@@ -221,7 +221,7 @@ fn loss_of_stability_is_predicted() {
         let collision = simulation.run(&mut ());
         let found = collision.warnings.join("\n")
             + &collision.stop().map(ToString::to_string).unwrap_or_default();
-        assert_eq!(found.contains("lost its stability"), expected, "{speed} {found}");
+        assert_eq!(found.contains("loses ellipticity"), expected, "{speed} {found}");
     }
 }
 

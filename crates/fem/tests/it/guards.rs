@@ -265,7 +265,7 @@ fn the_cause_of_a_failure_is_reported_once() {
     let warnings = simulation.summary(&collision).warnings;
     let of = |word: &str| warnings.iter().filter(|text| text.contains(word)).count();
     assert_eq!(
-        (of("no number"), of("add up"), of("NaN"), of("not finite")),
+        (of("is not a number"), of("add up"), of("NaN"), of("not finite")),
         (1, 0, 0, 1),
         "{warnings:?}"
     );

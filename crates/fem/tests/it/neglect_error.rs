@@ -250,7 +250,7 @@ fn relaxation_switched_off_is_the_elastic_case() {
         let off = simulation(GLASS, &[model, "effects.viscoelasticity=\"off\""]);
         assert_eq!(off.run(&mut ()), run(&elastic, &[model]), "{model}");
         let warnings = off.setup().warnings().join("\n");
-        assert!(warnings.contains("viscoelasticity is called for, but switched off"), "{warnings}");
+        assert!(warnings.contains("viscoelasticity is needed, but switched off"), "{warnings}");
         assert!(warnings.contains("neglects about 0.07"), "{warnings}");
         // It is what the resolved case says again.
         let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();

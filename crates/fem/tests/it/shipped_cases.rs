@@ -55,7 +55,7 @@ const ROWS: [Row; 14] = [
         model: "condensed",
         active: &["viscoelasticity", "surface slip", "rigid partner"],
         why: &[
-            ("rigid partner", "steel has 3.4e-5 of the compliance"),
+            ("rigid partner", "steel contributes 3.4e-5 of the compliance"),
             // β = (1 − 2ν)/(2 − 2ν) = 0.02 makes surface slip negligible.
             ("surface slip", "= 0.0015"),
         ],

@@ -98,7 +98,7 @@ fn unlike_bodies_need_slip_and_a_switch_is_obeyed() {
         assert!(verdict(&plain).active, "{}", verdict(&plain).reason);
         assert!(!words(&plain).contains("slip"), "{}", words(&plain));
         assert!(!verdict(&off).active);
-        assert!(words(&off).contains("surface slip is called for, but switched off"));
+        assert!(words(&off).contains("surface slip is needed, but switched off"));
         // The resolved case has the same decision.
         let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();
         assert!(!verdict(&again).active);

@@ -47,7 +47,7 @@ impl FiniteSizeEffect {
                 Vibration::models_that_serve(estimate)
             )
         });
-        Support::is(is_there, reason).warning(warning)
+        Support::decided(is_there, reason).warning(warning)
     }
 
     /// Returns the error of neglecting the effect for contacts that relaxation makes too wide for its first order: a share

@@ -164,8 +164,8 @@ impl Effect for PartnerWaves {
         Some(Relevance {
             is_called_for: least < RETURN_LIMIT,
             number: format!("shear waves cross {name} {least:.2} times during the contact"),
-            otherwise: "no energy is radiated".to_string(),
-            left_open: format!("radiated waves take {} of the restitution", number(lost, 2)),
+            if_not_needed: "no energy is radiated".to_string(),
+            open_error: format!("radiated waves take {} of the restitution", number(lost, 2)),
             warning,
         })
     }

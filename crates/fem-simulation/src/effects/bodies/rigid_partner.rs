@@ -46,12 +46,12 @@ impl Effect for RigidPartner {
             return Err(refused("rigid_partner and mirror_symmetry are both \"on\""));
         }
         let number = stiffer.number();
-        let answer =
-            Support::is(true, format!("{number}: it is computed as rigid, with its own mass"));
+        let support =
+            Support::decided(true, format!("{number}: it is computed as rigid, with its own mass"));
         let mut shapes = scene.bodies().each_ref().map(|body| body.shape().clone());
         shapes[stiffer.side] = stiffer.body.rigid();
         let scene = RigidPartner.switched(scene, None).with_shapes(shapes);
-        Ok(Some(TransformedScene { scene, answer }))
+        Ok(Some(TransformedScene { scene, support }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
@@ -121,6 +121,10 @@ impl Stiffer<'_> {
 
     /// Returns the deciding number, as text.
     fn number(&self) -> String {
-        format!("{} has {} of the compliance", self.body.name(), engineering::number(self.share, 2))
+        format!(
+            "{} contributes {} of the compliance",
+            self.body.name(),
+            engineering::number(self.share, 2)
+        )
     }
 }

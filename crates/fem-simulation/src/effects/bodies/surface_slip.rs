@@ -44,8 +44,8 @@ impl Effect for SurfaceSlip {
                 "slope of the interface × mismatch of the materials = {}",
                 number(slope, 2)
             ),
-            otherwise: "the surfaces do not slip".to_string(),
-            left_open: format!("{time} of the contact time is open"),
+            if_not_needed: "the surfaces do not slip".to_string(),
+            open_error: format!("{time} of the contact time is open"),
             warning,
         })
     }

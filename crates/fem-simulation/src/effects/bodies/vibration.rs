@@ -113,7 +113,7 @@ impl Vibration {
                  for, the others are left out: use a smaller mesh.contact_element_size for more"
             )
         }));
-        Support::is(n_asked > 0, reason).warning(warnings)
+        Support::decided(n_asked > 0, reason).warning(warnings)
     }
 
     /// Returns the warnings of such a model about the speed.
@@ -182,7 +182,7 @@ impl Vibration {
                 above(estimate, MACH_LIMIT)
             )
         });
-        Support::is(false, "the bodies move as a whole: quasi-static contact").warning(warning)
+        Support::decided(false, "the bodies move as a whole: quasi-static contact").warning(warning)
     }
 }
 

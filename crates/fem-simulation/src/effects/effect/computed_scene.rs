@@ -12,17 +12,17 @@ use crate::rejection::Rejection;
 pub struct TransformedScene {
     /// The transformed scene.
     pub scene: Scene,
-    /// The effect's answer, [`Support::Is`].
-    pub answer: Support,
+    /// The effect's support, [`Support::Is`].
+    pub support: Support,
 }
 
-/// A scene transformed by all effects, with their answers.
+/// A scene transformed by all effects, with their supports.
 #[derive(Clone, Debug)]
 pub(crate) struct ComputedScene {
     /// The transformed scene.
     pub scene: Scene,
-    /// Names and answers of the effects that changed the scene; empty if none did.
-    pub answers: Vec<(&'static str, Support)>,
+    /// Names and supports of the effects that changed the scene; empty if none did.
+    pub supports: Vec<(&'static str, Support)>,
 }
 
 impl ComputedScene {
@@ -34,9 +34,9 @@ impl ComputedScene {
     pub fn of(given: &Scene) -> Result<Self, Rejection> {
         let estimate = Estimate::checked(given)?;
         let mut computed = Self::without_warnings(given, &estimate)?;
-        for (name, answer) in &mut computed.answers {
+        for (name, support) in &mut computed.supports {
             let forced = effect_named(name).and_then(|effect| effect.forced(given, &estimate));
-            *answer = answer.clone().warning(forced);
+            *support = support.clone().warning(forced);
         }
         Ok(computed)
     }
@@ -49,11 +49,11 @@ impl ComputedScene {
 
     /// Transforms a scene without warnings about forced switches.
     fn without_warnings(given: &Scene, estimate: &Estimate) -> Result<Self, Rejection> {
-        let mut computed = Self { scene: given.clone(), answers: Vec::new() };
+        let mut computed = Self { scene: given.clone(), supports: Vec::new() };
         for effect in EFFECTS {
             if let Some(next) = effect.transform(&computed.scene, estimate)? {
                 computed.scene = next.scene;
-                computed.answers.push((effect.name(), next.answer));
+                computed.supports.push((effect.name(), next.support));
             }
         }
         Ok(computed)

@@ -36,7 +36,7 @@ impl ModelFormError {
     pub const NOTHING: Self = Self([Some(0.0); 6]);
 
     /// Returns the error whose size for each quantity `size` gives.
-    pub fn by(size: impl FnMut(QuantityOfInterest) -> Option<f64>) -> Self {
+    pub fn from_fn(size: impl FnMut(QuantityOfInterest) -> Option<f64>) -> Self {
         Self(QuantityOfInterest::ALL.map(size))
     }
 
@@ -49,7 +49,7 @@ impl ModelFormError {
         let both = time.zip(force);
         // Bodies that stay together have no contact time, and come as much closer as they press less.
         let softer = time.or(force);
-        let error = Self::by(|headline| match headline {
+        let error = Self::from_fn(|quantity| match quantity {
             QuantityOfInterest::Restitution => restitution,
             QuantityOfInterest::ContactTime => contact_time_s,
             QuantityOfInterest::PeakForce => peak_force_n,
@@ -67,18 +67,18 @@ impl ModelFormError {
     /// Returns the error of an unknown loss: the restitution is unknown. The other quantities depend on the
     /// moduli, whose scatter is not included.
     pub fn of_loss() -> Self {
-        Self::by(|headline| (headline != QuantityOfInterest::Restitution).then_some(0.0))
+        Self::from_fn(|quantity| (quantity != QuantityOfInterest::Restitution).then_some(0.0))
     }
 
     /// Returns the error of one quantity.
-    pub fn size(&self, headline: QuantityOfInterest) -> Option<f64> {
-        self.0[headline as usize]
+    pub fn size(&self, quantity: QuantityOfInterest) -> Option<f64> {
+        self.0[quantity as usize]
     }
 
     /// Replaces the error of one quantity.
     #[must_use]
-    pub(in crate::effects) fn with(mut self, headline: QuantityOfInterest, size: f64) -> Self {
-        self.0[headline as usize] = Some(size);
+    pub(in crate::effects) fn with(mut self, quantity: QuantityOfInterest, size: f64) -> Self {
+        self.0[quantity as usize] = Some(size);
         self
     }
 
@@ -96,14 +96,14 @@ impl ModelFormError {
     /// Adds two errors; `None` if either is.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
-        Self::by(|headline| {
-            self.size(headline).zip(other.size(headline)).map(|(one, more)| one + more)
+        Self::from_fn(|quantity| {
+            self.size(quantity).zip(other.size(quantity)).map(|(one, more)| one + more)
         })
     }
 
     /// Replaces unknown errors by zero: sums of these are lower bounds.
     #[must_use]
-    pub fn told(self) -> Self {
+    pub fn unknown_as_zero(self) -> Self {
         Self(self.0.map(|error| error.or(Some(0.0))))
     }
 }

@@ -44,7 +44,7 @@ impl NeglectError {
 
     /// Returns the warning for an effect that is called for but switched off.
     pub(crate) fn warning(&self, effect: &str) -> String {
-        format!("{effect} is called for, but switched off, which neglects {self}")
+        format!("{effect} is needed, but switched off, which neglects {self}")
     }
 
     /// Returns a change of the restitution, with the other two unknown.

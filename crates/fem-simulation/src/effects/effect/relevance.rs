@@ -12,9 +12,9 @@ pub struct Relevance {
     /// The deciding number, as text.
     pub number: String,
     /// The consequence if the scene does not call for it, as text.
-    pub otherwise: String,
+    pub if_not_needed: String,
     /// The remaining uncertainty in a model that lacks the effect, as text.
-    pub left_open: String,
+    pub open_error: String,
     /// A warning for models that lack the effect.
     pub warning: Option<String>,
 }

@@ -32,7 +32,7 @@ pub enum Support {
 
 impl Support {
     /// Returns an answer of a model that decides by itself.
-    pub fn is(active: bool, reason: impl Into<String>) -> Self {
+    pub fn decided(active: bool, reason: impl Into<String>) -> Self {
         Self::Is { active, reason: reason.into(), warnings: Vec::new() }
     }
 
@@ -56,30 +56,30 @@ impl Support {
         relevance: Relevance,
         switch: Option<Switch>,
     ) -> (bool, String, Vec<String>) {
-        let Relevance { is_called_for, number, otherwise, left_open, warning } = relevance;
+        let Relevance { is_called_for, number, if_not_needed, open_error, warning } = relevance;
         let none = Vec::new;
         match self {
             Self::Is { active, reason, warnings } => (active, reason, warnings),
             Self::Computes { .. } if is_called_for && switch == Some(Switch::Off) => {
-                (false, joined([&number, "called for, but switched off", &left_open]), none())
+                (false, joined([&number, "needed, but switched off", &open_error]), none())
             }
             Self::Computes { .. } | Self::Inherent { .. } if is_called_for => {
                 (true, number, none())
             }
             Self::Computes { .. } if switch == Some(Switch::On) => {
-                (true, joined([&number, &otherwise, "forced on"]), none())
+                (true, joined([&number, &if_not_needed, "forced on"]), none())
             }
             Self::Computes { idle } | Self::Inherent { idle } => {
-                (false, joined([&number, &otherwise, idle]), none())
+                (false, joined([&number, &if_not_needed, idle]), none())
             }
             Self::Lacks if is_called_for => {
-                let lacking = "called for, but this model lacks it";
+                let lacking = "needed, but this model lacks it";
                 let warnings = warning.into_iter().collect();
-                (false, joined([&number, lacking, &left_open]), warnings)
+                (false, joined([&number, lacking, &open_error]), warnings)
             }
             Self::Lacks => {
                 let warnings = warning.into_iter().collect();
-                (false, joined([&number, &otherwise, ""]), warnings)
+                (false, joined([&number, &if_not_needed, ""]), warnings)
             }
         }
     }
@@ -98,8 +98,8 @@ mod tests {
         Relevance {
             is_called_for,
             number: "x = 1".into(),
-            otherwise: "small".into(),
-            left_open: "all of it is open".into(),
+            if_not_needed: "small".into(),
+            open_error: "all of it is open".into(),
             warning: Some("x is large".into()),
         }
     }
@@ -120,7 +120,7 @@ mod tests {
         let (active, reason, warnings) = Support::Lacks.of(relevance(true), auto);
         assert!(!active && reason.contains("lacks it") && reason.contains("all of it"));
         assert_eq!(warnings, ["x is large"]);
-        let own = Support::is(true, "always").warning(["beware".to_string()]);
+        let own = Support::decided(true, "always").warning(["beware".to_string()]);
         assert_eq!(own.of(relevance(true), None), (true, "always".into(), vec!["beware".into()]));
     }
 

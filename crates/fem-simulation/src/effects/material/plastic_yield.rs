@@ -62,8 +62,8 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevanc
     Relevance {
         is_called_for,
         number: format!("peak pressure / pressure of first yield of {name} = {ratio:.2}"),
-        otherwise: format!("it yields from {} on", show(first.speed, "m/s")),
-        left_open: format!("closed forms give a restitution from {low:.2} to {high:.2}"),
+        if_not_needed: format!("it yields from {} on", show(first.speed, "m/s")),
+        open_error: format!("closed forms give a restitution from {low:.2} to {high:.2}"),
         warning,
     }
 }
@@ -98,14 +98,14 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
     Relevance {
         is_called_for: false,
         number: format!("peak pressure / contact modulus = {share:.3}"),
-        otherwise: match reached.is_empty() {
+        if_not_needed: match reached.is_empty() {
             true => "bodies that are rubber-like, hyperelastic or far stiffer than their partner do not yield"
                 .to_string(),
             false => {
                 format!("the stress reaches {reached}; materials with a lower yield strength flow")
             }
         },
-        left_open: String::new(),
+        open_error: String::new(),
         warning,
     }
 }

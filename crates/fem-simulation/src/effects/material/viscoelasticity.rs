@@ -61,14 +61,15 @@ impl Effect for Viscoelasticity {
             Some(Switch::Off) => {
                 let elastic =
                     materials(scene).map(|material| material.map(Material::without_relaxation));
-                let answer = Support::is(false, format!("{}; switched off", relevance.number));
-                Some(TransformedScene { scene: made_of(scene, elastic), answer })
+                let support =
+                    Support::decided(false, format!("{}; switched off", relevance.number));
+                Some(TransformedScene { scene: made_of(scene, elastic), support })
             }
             Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
                 let n_kept: usize = folded.materials.iter().map(n_terms).sum();
-                let answer =
-                    Support::is(n_kept > 0, in_words(&relevance, &folded, estimate, n_kept));
-                TransformedScene { scene: made_of(scene, folded.materials), answer }
+                let support =
+                    Support::decided(n_kept > 0, in_words(&relevance, &folded, estimate, n_kept));
+                TransformedScene { scene: made_of(scene, folded.materials), support }
             }),
         })
     }

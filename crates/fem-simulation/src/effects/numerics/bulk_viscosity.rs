@@ -62,7 +62,7 @@ impl Effect for BulkViscosity {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let is_finite = FiniteStrain::is_on(scene, estimate);
         let is_called_for = is_called_for(scene, estimate.mach, is_finite);
-        let otherwise = match estimate.mach > MACH_LIMIT {
+        let if_not_needed = match estimate.mach > MACH_LIMIT {
             true => "a contact without mass does not ring behind steep fronts",
             false => "no steep fronts to spread",
         };
@@ -73,8 +73,8 @@ impl Effect for BulkViscosity {
         Some(Relevance {
             is_called_for,
             number: number(estimate),
-            otherwise: otherwise.to_string(),
-            left_open: String::new(),
+            if_not_needed: if_not_needed.to_string(),
+            open_error: String::new(),
             warning,
         })
     }

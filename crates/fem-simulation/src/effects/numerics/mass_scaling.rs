@@ -56,7 +56,7 @@ impl MassScaling {
         let free = masses.into_iter().zip(names);
         let free = free.filter_map(|(mass, name)| Some((mass?, name)));
         let Some((lightest, its)) = free.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            return Support::is(false, NOTHING);
+            return Support::decided(false, NOTHING);
         };
         let each = added.into_iter().zip(masses).zip(names).zip(Self::times(scene));
         let moved = each.filter_map(|(((added, mass), name), times)| {
@@ -78,10 +78,10 @@ impl MassScaling {
         });
         let moved: Vec<String> = moved.collect();
         match moved.is_empty() {
-            true => Support::is(false, NOTHING),
+            true => Support::decided(false, NOTHING),
             false => {
                 let moved = moved.join(" and ");
-                Support::is(
+                Support::decided(
                     true,
                     format!(
                         "moves {moved} to light nodes; the time step is {longer:.1} times longer"

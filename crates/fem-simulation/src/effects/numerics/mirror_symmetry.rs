@@ -53,7 +53,7 @@ impl MirrorSymmetry {
     pub(crate) fn of_half() -> Support {
         let reason = "the bodies are identical: one is computed, against a rigid plane at rest \
                       between them";
-        Support::is(true, reason)
+        Support::decided(true, reason)
     }
 }
 

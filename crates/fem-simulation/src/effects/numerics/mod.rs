@@ -31,7 +31,7 @@ impl ContactSearch {
         let CandidateRegion { radius, n_points, at_nodes } = candidate_region;
         let points = if *at_nodes { "points" } else { "integration points" };
         let flight = "free flight is not stepped";
-        Support::is(
+        Support::decided(
             true,
             format!("{n_points} {points} within {} of the axis; {flight}", show(*radius, "m")),
         )

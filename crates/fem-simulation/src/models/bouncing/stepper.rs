@@ -9,7 +9,7 @@ use fem_mesh::SphereMesh;
 use super::bounced::{Bounced, Bounces};
 use super::chain::Chain;
 use super::{Ball, after_fall, first_request, later_request};
-use crate::models::method::{Model, begun};
+use crate::models::method::{Model, start_stepper};
 use crate::models::stepper::{RestartState, Stepper};
 use crate::rejection::Rejection;
 
@@ -106,7 +106,7 @@ impl BouncingStepper {
         }
         let contact =
             Approach::new([0.0, -speed], 0.0).map_err(|error| Stop::NotMade(error.to_string()))?;
-        Ok(begun(&self.present, &contact, &self.known.request(&self.ball)))
+        Ok(start_stepper(&self.present, &contact, &self.known.request(&self.ball)))
     }
 
     /// Takes the result of a contact and returns the speed (m/s) of the next landing, if there is one.

@@ -29,8 +29,8 @@ pub(super) fn support(
             Vibration::of_modes(estimate, options.vibration_modes, &spheres)
         }
         PenaltySprings::NAME => match options.penalty_springs {
-            true => Support::is(true, "those of the explicit model, at its Gauss points"),
-            false => Support::is(false, "the surfaces do not overlap at the nodes"),
+            true => Support::decided(true, "those of the explicit model, at its Gauss points"),
+            false => Support::decided(false, "the surfaces do not overlap at the nodes"),
         },
         ContactSearch::NAME => ContactSearch::within(&pair?.candidate_region()),
         MirrorSymmetry::NAME if pair.is_none() => MirrorSymmetry::support_by_elements(scene),
@@ -61,7 +61,7 @@ pub(super) fn unread_keys(scene: &Scene, options: CondensedOptions) -> Vec<Strin
     }
     if scene.contact_method().is_some() {
         let what = if options.penalty_springs {
-            "springs are at Gauss points"
+            "the condensed model has penalty springs at Gauss points only"
         } else {
             "contact is exact"
         };

@@ -418,7 +418,7 @@ fn support(
         Viscoelasticity::NAME => Support::Inherent { idle: "" },
         HourglassControl::NAME => {
             let why = "elements with one mean strain need stiffness against hourglass modes";
-            Support::is(true, why)
+            Support::decided(true, why)
         }
         ContactSearch::NAME => ContactSearch::within(&bodies?.candidate_region()),
         MassScaling::NAME => mass_scaling(scene, bodies?),

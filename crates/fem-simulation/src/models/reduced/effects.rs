@@ -65,25 +65,25 @@ fn relaxation(scene: &Scene, estimate: &Estimate) -> Support {
     if has_slow_limit && relevance.is_called_for {
         let reason =
             format!("{reason}; the law has its slow limit, relaxed moduli and viscosities");
-        return Support::is(true, reason).warning(slowness(scene, estimate));
+        return Support::decided(true, reason).warning(slowness(scene, estimate));
     }
     if !relevance.is_called_for {
-        return Support::is(false, reason);
+        return Support::decided(false, reason);
     }
     if scene.effects().viscoelasticity == Some(Switch::On) {
         return Support::Lacks;
     }
     let name = describe(scene.model());
     let warning = format!(
-        "{reason}, which {name} neglects: it uses the instantaneous moduli; use model ting or fem"
+        "{reason}, which {name} neglects: it uses the instantaneous moduli; use model ting, condensed or fem"
     );
-    Support::is(false, format!("{reason}; not in {name}")).warning([warning])
+    Support::decided(false, format!("{reason}; not in {name}")).warning([warning])
 }
 
 fn dashpot(model: &ModelChoice, law: Option<&ContactLaw>) -> Support {
     let name = describe(model);
     let Some(law) = law.filter(|law| law.damping() > 0.0) else {
-        return Support::is(false, format!("{name} has none here"));
+        return Support::decided(false, format!("{name} has no dashpot"));
     };
     let exponent = law.damping_exponent();
     let power = match number(exponent + 1.0, 5).as_str() {
@@ -98,13 +98,13 @@ fn dashpot(model: &ModelChoice, law: Option<&ContactLaw>) -> Support {
     let reason = format!(
         "{name}: force = C{overlap} × speed against the motion, C = {damping} N s/m{power}"
     );
-    Support::is(true, reason)
+    Support::decided(true, reason)
 }
 
 fn finite_size(scene: &Scene, estimate: &Estimate) -> Support {
     let is_there = match scene.model() {
         ModelChoice::Hertz { finite_size } | ModelChoice::Ting { finite_size, .. } => *finite_size,
-        _ => return Support::is(false, "a law's stiffness is given"),
+        _ => return Support::decided(false, "a law's stiffness is given"),
     };
     let reason = match is_there {
         true => "the spheres' own compliance is in series, to first order",

@@ -117,11 +117,11 @@ impl FiniteStrain {
             let answer = answer.or_else(|| Self::of_nearness(scene, estimate));
             return answer.unwrap_or(Support::Computes { idle: "" });
         };
-        let why = format!("called for, but {}", strained.why_unsupported());
+        let why = format!("needed, but {}", strained.why_unsupported());
         let neglect_error = FiniteStrain.neglect_error(scene, estimate).unwrap_or_default();
         let warning = format!("{} is {why}; small strain leaves out {neglect_error}", Self::NAME);
         let active = Self::laws(scene, estimate).iter().any(Option::is_some);
-        Support::is(active, why).warning([warning])
+        Support::decided(active, why).warning([warning])
     }
 }
 
@@ -143,7 +143,7 @@ impl FiniteStrain {
             within / estimate.contact_radius,
             100.0 * LEFT_FAR_AWAY,
         );
-        Some(Support::is(true, format!("{number}; {nearness}")))
+        Some(Support::decided(true, format!("{number}; {nearness}")))
     }
 
     /// Returns the text for a scene whose laws are expected to lose stability.
@@ -166,7 +166,7 @@ impl FiniteStrain {
             material.law().name()
         );
         let number = FiniteStrain.relevance(scene, estimate)?.number;
-        Some(Support::is(true, number).warning([warning]))
+        Some(Support::decided(true, number).warning([warning]))
     }
 }
 
@@ -256,8 +256,8 @@ impl Effect for FiniteStrain {
                     false => "",
                 }
             ),
-            otherwise: format!("small strain leaves out {open}"),
-            left_open: format!("{open} is left out"),
+            if_not_needed: format!("small strain leaves out {open}"),
+            open_error: format!("{open} is left out"),
             warning,
         })
     }
