@@ -127,7 +127,7 @@ fn profile_radius(run: &ExplicitRun) -> Result<f64, StudyError> {
         }
     }
     let [s0, s1, s2, y0, y1] = sums;
-    // α and −β up to the same factor.
+    // These are α and −β up to the same factor.
     let (alpha, slope) = (y0 * s2 - y1 * s1, s0 * y1 - s1 * y0);
     Ok(edge * (-alpha / slope).sqrt())
 }

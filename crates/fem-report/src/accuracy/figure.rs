@@ -64,7 +64,7 @@ fn panel(
         .enumerate()
         .map(|(k, series)| Curve::points_on_line(series.name(), of(series)).like_curve(k));
     let points = POINTS.into_iter().enumerate().map(|(k, series)| {
-        // In the last colour, with markers that no line has.
+        // Points have the last colour, and markers that no line has.
         Curve::points(series.name(), of(series)).like_curve((k + 2) * COLOURS.len() - 1)
     });
     let drawn = LINES.into_iter().chain(POINTS).map(|series| !of(series).is_empty());

@@ -36,7 +36,7 @@ pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Co
     let near = half_width(radius, result.number(&["max_approach_m"]).unwrap_or(0.0))?;
     let first = VtuFile::open(&chosen.first()?.path).ok()?;
     let bodies = bodies(&first, near)?;
-    // Reading files of fine meshes takes most of the time of a page: in parallel.
+    // Files are read in parallel, because those of fine meshes take most of the time of a page.
     let sections: Option<Vec<[Section; 2]>> = std::thread::scope(|scope| {
         let bodies = &bodies;
         let readers: Vec<_> =
@@ -186,7 +186,7 @@ fn outline(quads: &[[u32; 4]], points: &[[f64; 2]], sign: f64) -> Vec<u32> {
     let mut all: Vec<[u32; 2]> = quads.iter().flat_map(sides).collect();
     all.sort_unstable();
     let is_on_axis = |point: u32| points[point as usize][0] == 0.0;
-    // Sides that belong to one element only.
+    // The border consists of the sides that belong to one element only.
     let border = all.chunk_by(|a, b| a == b).filter_map(|same| match same {
         [[a, b]] if !(is_on_axis(*a) && is_on_axis(*b)) => Some([*a, *b]),
         _ => None,

@@ -67,7 +67,7 @@ impl TimeAxis {
         let longest = |results: &mut dyn Iterator<Item = &StoredResult>| {
             results.map(|result| result.last_touch() - result.first_touch()).fold(0.0, f64::max)
         };
-        // Contacts without an end would squeeze the others.
+        // Contacts without an end would shrink the others.
         let own = match longest(&mut results.iter().filter(|result| !result.stays_together())) {
             0.0 => longest(&mut results.iter()),
             own => own,
@@ -180,7 +180,7 @@ pub fn energy_chart(result: &StoredResult) -> Option<Chart> {
     let is_visible = |points: &[(f64, f64)]| {
         let (least, most) = range_with_zero(points);
         let n_known = points.iter().filter(|point| point.1.is_finite()).count();
-        // An energy that a model knows only at the end is no curve.
+        // An energy that a model computes only at the end has no curve.
         most.max(-least) > FAINT * to.max(-from) && 2 * n_known > points.len()
     };
     let visible = accounts.iter().filter(|(_, points)| is_visible(points));

@@ -53,7 +53,7 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
         if let Some(hertz) = HertzCurves::of(result).filter(|_| force > 0.0) {
             let profile = hertz.pressure_under(force);
             let at = |k: u32| {
-                // Closer together toward the edge, where the profile is steep.
+                // Points are denser toward the edge, where the profile is steep.
                 let share = (FRAC_PI_2 * f64::from(k) / f64::from(N_INTERVALS)).sin();
                 let r = share * profile.contact_radius;
                 (r, profile.pressure(r))
@@ -67,7 +67,7 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
     if largest > MOST_OVER_DATA * peak {
         name += &format!(", up to {}", show(largest, "Pa"));
     }
-    // Each in the colour of the computed curve.
+    // Each profile has the colour of the computed curve.
     for (k, points) in hertz_profiles {
         chart = chart.with(Curve::dashed(&name, x.points(&y, &points)).like_curve(k));
     }

@@ -67,7 +67,7 @@ impl FigureChoice {
             }
             None => {
                 let all = (0..keys.len()).filter_map(horizontal);
-                // `max_by_key` takes the last of equal ones.
+                // If counts are equal, `max_by_key` takes the last.
                 let longest = all.rev().max_by_key(|x| {
                     (n_distinct(&x.values), keys[x.key].ends_with("approach_speed"))
                 });

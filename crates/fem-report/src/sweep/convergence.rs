@@ -73,7 +73,7 @@ impl ConvergingCurve {
         }
         let found = Convergence::of(&levels)?;
         let scale = if column == "restitution" { 1.0 } else { found.limit.abs() };
-        // The finest level has no error against itself.
+        // The finest level is the reference and has no error.
         let estimated = levels.iter().filter(|(h, _)| found.is_extrapolated || *h > sizes[0]);
         let error = |(h, q): &(f64, f64)| {
             (resolution.of_value(*h), ((q - found.limit).abs() / scale).max(LEAST))
@@ -88,7 +88,7 @@ impl ConvergingCurve {
     fn order_line(&self, resolution: ResolutionKey) -> Vec<(f64, f64)> {
         let Some(ObservedOrder { order, factor, .. }) = self.found.order else { return Vec::new() };
         let power = |x: f64| factor * resolution.of_value(x).powf(order);
-        // Without a limit the error is against the finest member.
+        // Without a limit the finest member is the reference.
         let sizes = self.places.iter().map(|x| power(*x));
         let finest = sizes.fold(f64::INFINITY, f64::min);
         let reference = if self.found.is_extrapolated { 0.0 } else { finest };
@@ -191,7 +191,7 @@ mod tests {
         let sizes = [80e-6, 56e-6, 40e-6, 28e-6, 20e-6];
         let found = order(size, &sizes, |h| 6e-5 + 2e3 * h * h).unwrap();
         assert!((found - 2.0).abs() < 1e-3, "{found}");
-        // For a number of steps n the order refers to 1/n.
+        // The order of a number of steps n refers to 1/n.
         let steps = [50.0, 100.0, 200.0, 400.0];
         let found = order("model.condensed.steps", &steps, |n| 6e-5 + 1e-5 / n).unwrap();
         assert!((found - 1.0).abs() < 1e-3, "{found}");
@@ -211,7 +211,7 @@ mod tests {
         let converging =
             ConvergingCurve::of(ResolutionKey::of(size).unwrap(), "contact_time_s", &all);
         assert_eq!(title("T", &[converging]), "T: all within 1e-6");
-        // Two levels are too few, and equal sizes vary something else.
+        // Two levels are too few; levels of equal size differ in another key.
         assert_eq!(order(size, &sizes[..2], |h| h), None);
         assert_eq!(order(size, &[1.0, 1.0, 2.0, 3.0], |h| h), None);
     }

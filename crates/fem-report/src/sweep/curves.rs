@@ -117,7 +117,7 @@ fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
         names.dedup();
         values.dedup();
         let (names, values) = (names.join(", "), values.join(" and "));
-        // The value of a model or a material needs no name.
+        // The value of a model or a material needs no key.
         if names == "model" || names == "material" { values } else { format!("{names} = {values}") }
     };
     axes.iter().map(part).collect::<Vec<_>>().join(", ")

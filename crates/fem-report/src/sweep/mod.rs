@@ -125,7 +125,7 @@ fn value_chart(
         None => y,
     };
     let mut chart = chart_axes(&x, &y);
-    // Nothing lies between values that are only counted.
+    // Counted values are not connected by lines.
     let reference_line = if choice.x.is_counted { Line::points } else { Line::dashed };
     let legend = LegendChoice::of(curves, room);
     if let Some(heading) = &legend.heading {
@@ -289,7 +289,7 @@ mod tests {
         // Hertz is near: both are shown.
         let (from, to) = shown(&[60.0, 62.0], &[60.5, 62.6]);
         assert!(from < 60.0 && to > 62.6, "{from} {to}");
-        // A millionth is no curve.
+        // Differences of a millionth are noise.
         let (from, to) = shown(&[1.0 - 2e-6, 1.0 - 1e-6], &[1.0]);
         assert!(to - from > 1e-4, "{from} {to}");
         assert!(shown_range([f64::NAN].into_iter(), [1.0].into_iter()).is_none());

@@ -40,15 +40,6 @@
 use fem_laws::bisection::last_where;
 
 /// The limit of a sequence and its order of convergence.
-///
-/// ```
-/// use fem_study::accuracy::PowerLaw;
-///
-/// let levels = [4.0, 2.8, 2.0, 1.4].map(|h: f64| (h, 0.9 + 0.01 * h * h));
-/// let fit = PowerLaw::fit(&levels).expect("four levels");
-/// assert!((fit.order - 2.0).abs() < 1e-4 && (fit.limit - 0.9).abs() < 1e-5);
-/// assert!(fit.uncertainty < 1e-4);
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw {
     /// The order p.

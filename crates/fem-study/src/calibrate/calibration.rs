@@ -29,21 +29,15 @@ const LEAST_WEIGHT: f64 = 1e-9;
 /// A Prony series, the data that it was found from, and how well they determine it.
 ///
 /// ```
-/// # use std::path::Path;
-/// # let text = "material.glass = { density = 2390, youngs_modulus = 63e9, poissons_ratio = 0.244 }
-/// # [[body]]
-/// # name = 'lower'
-/// # sphere.diameter = 0.0222
-/// # material = 'glass'
-/// # approach_speed = 0.5
-/// # [[body]]
-/// # name = 'upper'
-/// # sphere.diameter = 0.0159
-/// # material = 'glass'";
-/// # let case = fem_case::Case::parse("pair.toml", text, Path::new("."), &[])?;
+/// use fem_case::schema::{BodyTable, MaterialTable};
+/// use fem_case::{Case, CaseFile};
 /// use fem_study::calibrate::{Calibration, CalibrationModel, Settings};
 /// use fem_study::measured::Restitutions;
 ///
+/// let glass = MaterialTable::from_youngs_modulus_poissons_ratio("2390 kg/m^3", "63 GPa", 0.244);
+/// let lower = BodyTable::sphere("lower", "22.2 mm", "glass").approaching("0.5 m/s");
+/// let upper = BodyTable::sphere("upper", "15.9 mm", "glass");
+/// let case = Case::of(CaseFile::of_bodies(lower, upper).with_material("glass", glass))?;
 /// let measured = Restitutions::of("glass", &[(0.1, 0.915), (0.5, 0.925), (1.0, 0.93)]);
 /// let settings =
 ///     Settings { model: CalibrationModel::Ting, n_terms: 2, ..Settings::default() };

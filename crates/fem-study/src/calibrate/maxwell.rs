@@ -66,7 +66,7 @@ impl Maxwell {
         };
         let lack = |time: f64| -> Result<f64, FitError> {
             let mean = differences(time)?.iter().sum::<f64>() / wanted.len() as f64;
-            // Exactly 0 ends the search.
+            // A difference of exactly 0 ends the search.
             Ok(if mean.abs() < SAME { 0.0 } else { mean })
         };
         let (mut first, last) = (SEARCH.0 * contacts.0, SEARCH.1 * contacts.1);

@@ -98,7 +98,7 @@ impl Cradle {
         let (u, v2) = (fastest * a, fastest * b);
         let v1 = u - ratio * v2;
         let e = (1.0 + ratio) * b / a - 1.0;
-        // Of g, l, α, β, m₁, m₂.
+        // Slopes are in the order g, l, α, β, m₁, m₂.
         let inputs = [g, l, alpha, beta, m1, m2];
         let scale = |value: f64| [0.5 * value / g.value, 0.5 * value / l.value];
         let [u_g, u_l] = scale(u);

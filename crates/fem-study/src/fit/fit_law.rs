@@ -158,7 +158,7 @@ impl Problem<'_> {
         let normal = (scaled.transpose() * &scaled).symmetric_eigen();
         let largest = normal.eigenvalues.max();
         let (weakest, least) = normal.eigenvalues.argmin();
-        // Squares of the singular values; rounding may make the least a little negative.
+        // Eigenvalues are squares of the singular values; rounding may make the smallest slightly negative.
         let condition = (largest / least.max(f64::EPSILON * f64::EPSILON)).sqrt();
         if condition > WORST_CONDITION {
             let direction = normal.eigenvectors.column(weakest);

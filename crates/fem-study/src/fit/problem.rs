@@ -232,7 +232,7 @@ impl<'a> Problem<'a> {
     fn default_bounds(&self, parameter: &LawParameter, size: f64) -> (f64, f64) {
         match parameter.role {
             ParameterRole::Number => parameter.limits,
-            // C of ξⁿ spans many decades with n: what is natural at n = 0.5 is not at n = 3.
+            // C of ξⁿ spans many decades with n: its natural size at n = 0.5 is far from that at n = 3.
             ParameterRole::Damping => (size / WIDEST.powi(2), size * WIDEST.powi(2)),
             _ => (size / WIDEST, size * WIDEST),
         }

@@ -75,7 +75,7 @@ impl<'a> LawFit<'a> {
     pub fn compared_with(mut self, family: LawFamily) -> Result<Self, LawFault> {
         let model = self.problem.model.with_family(family)?;
         let mut free = vec![family.parameters()[loss_parameter(family)?].key];
-        // Restitutions do not depend on it.
+        // Restitutions do not depend on the stiffness.
         if self.data.points.iter().any(|point| point.contact_time.is_some()) {
             let parameters = family.parameters().iter();
             let stiff = parameters.filter(|parameter| parameter.role == ParameterRole::Stiffness);
@@ -210,7 +210,7 @@ mod tests {
         assert_eq!(ends(grid(&free, &fit("n", None))), (0.4, 1.1));
         assert_eq!(ends(grid(&free, &fit("a", None))), (0.5, 2.0));
         let (low, high) = ends(grid(&free, &fit("a", Some((0.5, 2.0)))));
-        // 2^2.5 is beyond the bound, its reciprocal is not; powers round.
+        // 2^2.5 is beyond the bound, but its reciprocal is not; powers are rounded.
         assert!((low - 0.5f64.powf(2.5)).abs() < 1e-15 && (high - 3.0).abs() < 1e-15);
     }
 }

@@ -39,7 +39,7 @@ impl LawInversion {
             Some(key) => find_parameter(family, key)?,
             None => loss_parameter(family)?,
         };
-        // A speed is that of the collision.
+        // A parameter that is a speed has the speed of the collision.
         let is_known = |other: usize| {
             other == index || family.parameters()[other].role == ParameterRole::Speed
         };

@@ -109,7 +109,7 @@ impl LawRanking {
             law.weight = criterion.map(|own| share(own) / sum);
         }
         let place = |(law, _): &(RankedLaw, Option<f64>)| {
-            // Without evidence a parameter more has earned nothing.
+            // Without evidence, laws with fewer parameters come first.
             (law.difference.unwrap_or(f64::INFINITY), law.free.len(), law.fit.rms)
         };
         found.sort_by(|a, b| {
@@ -128,7 +128,7 @@ impl LawRanking {
 
 /// Returns the laws that lose energy with their damping free, and again with an exponent free that has a default.
 fn candidates() -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
-    // The general law last: what it makes at its defaults has a name of its own.
+    // The general law comes last, because its defaults are those of a named law.
     let named = LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Power);
     let lossy = named.chain([LawFamily::Power]).filter(|family| loss_parameter(*family).is_ok());
     lossy.flat_map(|family| {
@@ -152,7 +152,7 @@ fn fitted(
     let law = ChosenLaw::of(case, family, &[], end_rule)?;
     let damping = family.parameters()[loss_parameter(family)?].key;
     let free: Vec<&str> = match exponent {
-        // All that would be free without it, and it.
+        // The exponent is free in addition to the usual parameters.
         Some(key) => {
             let alone = law.problem(&data.points, &[])?;
             let keys = alone.free.iter().map(|free| alone.parameter(free.index).key);
@@ -163,7 +163,7 @@ fn fitted(
     let problem = law.problem(&data.points, &free)?;
     let mut free: Vec<&'static str> =
         problem.free.iter().map(|free| problem.parameter(free.index).key).collect();
-    // The damping first.
+    // The damping comes first.
     free.sort_by_key(|key| *key != damping);
     let fit = problem.fit(CONFIDENCE)?;
     Ok(RankedLaw { model: law.model().clone(), free, fit, difference: None, weight: None })
@@ -185,7 +185,7 @@ fn criterion(fit: &Fit, is_weighted: bool) -> Option<f64> {
     let p = fit.estimates.len() as f64;
     let (misfit, q) = match is_weighted {
         true => (fit.sum_of_squares, p),
-        // A fit through all points, to rounding, is not infinitely good.
+        // The misfit of an exact fit is limited by rounding.
         false => (n * (fit.sum_of_squares / n).max(f64::EPSILON.powi(2)).ln(), p + 1.0),
     };
     let left = n - q - 1.0;

@@ -33,7 +33,7 @@ pub(super) fn tabs_for_blanks(text: &str) -> Cow<'_, str> {
     let (Some(header), Some(first)) = (rows.next(), rows.next()) else { return text.into() };
     let n_words = |line: &str| line.split_whitespace().count();
     let has_separator = header.contains([',', ';', '\t']) || header.starts_with("sep=");
-    // A name of two words has one cell below it.
+    // A header of two words in one name has more words than the row below.
     if has_separator || n_words(header) < 2 || n_words(first) != n_words(header) {
         return text.into();
     }
@@ -195,7 +195,7 @@ mod tests {
         ] {
             assert_eq!(read("speed,e,t", row, "100,0.9,60").as_deref(), expected, "{row}");
         }
-        // Names of materials, and a name that has its unit.
+        // Names of materials are not units, and a name may have its unit already.
         assert_eq!(read("a,b", "m,s", "glass,steel"), None);
         assert_eq!(read("v_m_s,e", "m/s,-", "1,0.9").as_deref(), Some("v_m_s,e"));
     }

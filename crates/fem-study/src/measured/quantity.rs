@@ -145,12 +145,12 @@ mod tests {
         assert_eq!(read(Kind::Mass, "2 kg ± 50 %"), (2.0, 1.0));
         for text in ["30 deg ± 0.5 deg", "30 ± 0.5 deg", "30° +- 0.5°"] {
             let (value, uncertainty) = read(Kind::Angle, text);
-            // Products of a rounded π/180.
+            // π/180 is rounded.
             assert!((value - PI / 6.0).abs() < 1e-15, "{text}");
             assert!((uncertainty - PI / 360.0).abs() < 1e-16, "{text}");
         }
         assert_eq!(read(Kind::Angle, "0.35"), (0.35, 0.0));
-        // 350 × 0.001 rounds.
+        // 350 × 0.001 is rounded.
         assert!((read(Kind::Angle, "350 mrad").0 - 0.35).abs() < 1e-15);
     }
 

@@ -34,17 +34,12 @@ impl Restitutions {
     /// The table has an error; the first one is returned.
     ///
     /// ```
-    /// # use std::path::Path;
-    /// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
-    /// # [[body]]
-    /// # name = 'floor'
-    /// # wall = {}
-    /// # [[body]]
-    /// # name = 'ball'
-    /// # sphere.diameter = 0.02
-    /// # material = 'ice'
-    /// # approach_speed = 0.1";
-    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
+    /// # use fem_case::schema::{BodyTable, MaterialTable};
+    /// # use fem_case::{Case, CaseFile};
+    /// # let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
+    /// # let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.1 m/s");
+    /// # let bodies = CaseFile::of_bodies(BodyTable::wall("floor"), ball);
+    /// # let case = Case::of(bodies.with_material("ice", ice))?;
     /// use fem_study::measured::{Restitutions, Table};
     ///
     /// let table = Table::parse("ice.csv", "speed_cm_s,e,sigma\n5,0.6,0.02\n20,0.4,0.02\n")?;

@@ -57,15 +57,7 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     own(&FIRST).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
 });
 
-/// Returns the columns of a table of these summaries, given as JSON: all except those of energies that no summary
-/// has.
-pub fn columns<'s>(summaries: impl IntoIterator<Item = &'s Value>) -> Vec<&'static str> {
-    let mut columns = Columns::default();
-    summaries.into_iter().for_each(|summary| columns.see(summary));
-    columns.names()
-}
-
-/// The columns of a table of summaries that are seen one after the other; see [`columns`].
+/// The columns of a table of summaries: all except those of energies that no summary has.
 #[derive(Clone, Debug)]
 pub struct Columns {
     /// Keys of the optional energies that no summary has had so far.
@@ -186,6 +178,6 @@ mod tests {
         let n_optional =
             Account::all().filter(|account| made_up(*account) == ShownIn::WhereFilled).count();
         assert_eq!(shown(&both[..1]).len(), COLUMNS.len() - n_optional);
-        assert_eq!(columns(&[]).len(), COLUMNS.len() - (n_optional - 1));
+        assert_eq!(Columns::default().names().len(), COLUMNS.len() - (n_optional - 1));
     }
 }

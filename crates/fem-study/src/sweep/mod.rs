@@ -20,7 +20,7 @@ mod runner;
 mod variations;
 
 pub use check::{Checked, check, check_some};
-pub use columns::{COLUMNS, Columns, column_unit, column_words, columns, key_column};
+pub use columns::{COLUMNS, Columns, column_unit, column_words, key_column};
 pub use key_numbers::{KeyNumbers, NumberColumn};
 #[cfg(feature = "csv")]
 pub use members::load;

@@ -58,7 +58,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         keep: impl Fn(ComputedCollision) -> T + Sync,
     ) -> Vec<(usize, Result<T, CaseError>)> {
         let run = |&index: &usize| Some((index, self.observed(index, observer)?.map(&keep)));
-        // A bridge hands members out one by one, in order.
+        // The bridge passes members on one by one, in order.
         let mut kept: Vec<_> = order.iter().par_bridge().filter_map(run).collect();
         kept.sort_by_key(|(index, _)| *index);
         kept

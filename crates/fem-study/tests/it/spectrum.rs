@@ -49,7 +49,7 @@ fn fit(
 
 /// With the right relaxation times and no noise the weights are found.
 #[test]
-fn weights_come_back_at_their_own_times() {
+fn weights_are_found_at_their_own_times() {
     let measured = restitutions(&TRUE).unwrap();
     let found = fit(&measured, None, &TRUE.map(|term| term.1), 0.0).unwrap();
     for (weight, (expected, _)) in found.weights.iter().zip(TRUE) {
@@ -62,7 +62,7 @@ fn weights_come_back_at_their_own_times() {
 /// On a grid of more times the restitutions and the combinations that the data determine are reproduced;
 /// the true weights lie in all ranges.
 #[test]
-fn restitutions_and_determined_combinations_come_back_on_a_grid() {
+fn restitutions_and_determined_combinations_are_found_on_a_grid() {
     let measured = restitutions(&TRUE).unwrap();
     let found = fit(&measured, None, &GRID, 1e-4).unwrap();
     for (e, measured) in found.restitutions.iter().zip(&measured) {
@@ -82,10 +82,10 @@ fn restitutions_and_determined_combinations_come_back_on_a_grid() {
     }
 }
 
-/// With normal noise of a known size the 95 % intervals of all weights and moments contain the truth in 12
+/// With normal noise of a known size the 95 % intervals of both weights contain the truth in 6
 /// trials about as often as they should. Bounds make them conservative.
 #[test]
-fn intervals_are_honest_under_noise() {
+fn intervals_contain_the_truth_under_noise() {
     let exact = restitutions(&TRUE).unwrap();
     let size = 2e-3;
     let times = TRUE.map(|term| term.1);
@@ -109,7 +109,7 @@ fn intervals_are_honest_under_noise() {
     // 11.4 of 12 are expected; the two of a trial are correlated.
     assert!(held >= 9, "{held} of {}", 2 * TRIALS);
     let narrow = fit(&exact, Some(&[size; SPEEDS.len()]), &times, 0.0).unwrap();
-    // An interval that holds everything would be honest, too.
+    // An interval that contains everything would pass, too.
     assert!(narrow.weight_ranges[1].high - narrow.weight_ranges[1].low < 0.2, "{narrow:?}");
 }
 

@@ -8,8 +8,8 @@ use fem::schema::{
     ActsOn, BodyTable, CondensedTable, LimitsTable, MaterialTable, MeshTable, ModelTable, TermTable,
 };
 use fem::sweep::{
-    COLUMNS, Member, Members, Observer, Row, Runner, Variations, check, column_unit, column_words,
-    columns, load, most_expensive_first, sweep_csv,
+    COLUMNS, Columns, Member, Members, Observer, Row, Runner, Variations, check, column_unit,
+    column_words, load, most_expensive_first, sweep_csv,
 };
 use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, SharedModels, Simulation, sweep};
 
@@ -283,7 +283,9 @@ fn rows_are_summaries() {
     assert_eq!(row.value("warnings").as_u64(), Some(summary.warnings.len() as u64));
     assert!(row.value("element_updates").is_null());
 
-    let shown = columns(&[serde_json::to_value(&summary).unwrap()]);
+    let mut shown = Columns::default();
+    shown.see(&serde_json::to_value(&summary).unwrap());
+    let shown = shown.names();
     let mut table = Vec::new();
     sweep_csv(&mut table, ["speed"], &shown, [row]).unwrap();
     let mut reader = csv::Reader::from_reader(table.as_slice());

@@ -85,7 +85,7 @@ impl Imported {
             Change::Shuffled => shuffle(&mut nodes, &mut quads),
             Change::Thin | Change::Inverted => {
                 let [a, b, c, _] = quads[inner(&nodes, &quads, radius)];
-                // Corner b to the middle of the diagonal from a to c, nearly or beyond.
+                // Corner b moves toward the middle of the diagonal from a to c, or beyond it.
                 let [a, c] = [a, c].map(|k| nodes[k as usize]);
                 let share = if let Change::Thin = self.change { 0.99 } else { 1.3 };
                 let b = &mut nodes[b as usize];

@@ -87,7 +87,7 @@ fn surface_stress(r: f64, poissons_ratio: f64) -> [f64; 2] {
 
 /// Returns σ_rz below the surface, with z into the body.
 pub fn shear_below(r: f64, z: f64) -> f64 {
-    // It does not depend on Poisson's ratio.
+    // σ_rz does not depend on Poisson's ratio.
     UNIT.stress(r, z, 0.0)[3]
 }
 

@@ -65,7 +65,7 @@ impl Fields {
             let value = |k: usize| stress.points[nodes[k] as usize][component];
             samples(&places, |k| value(k) / hertz.peak_pressure, profile, poissons_ratio)
         };
-        // With y out of the lower body and into the upper one, z into either.
+        // y points out of the lower body and into the upper one, z into either.
         let sign = if side == 0 { -1.0 } else { 1.0 };
         let inner_shear = (mesh.nodes().iter().zip(&stress.points))
             .map(|(node, stress)| (node.map(|x| x.abs() / hertz.contact_radius), stress))

@@ -91,7 +91,7 @@ fn extremes(findings: &mut Findings, name: &str, ratio: f64) {
     findings.measure_worst(&format!("{name}.largest"), ratio);
     let smallest = format!("{name}.smallest");
     let so_far = findings.quantities.get(&smallest).copied().unwrap_or(f64::INFINITY);
-    // NaN is smaller than anything.
+    // `max` would drop a NaN.
     findings.measure(smallest, if so_far <= ratio { so_far } else { ratio });
 }
 

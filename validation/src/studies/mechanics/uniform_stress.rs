@@ -42,7 +42,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         for &nu in &parameters.poissons_ratios {
             for side in [Side::Below, Side::Above] {
                 let sphere = laboratory.work(|| Ok((unit_sphere(graded, nu, side)?, 0)))?;
-                look(&mut findings, sphere);
+                measure(&mut findings, sphere);
             }
         }
     }
@@ -62,8 +62,8 @@ fn unit_sphere(graded: &Graded, nu: f64, side: Side) -> Result<FreeMotion, Study
     Ok(FreeMotion::new(disc.build()?.on_side(side), &Material::new(1.0, moduli, None)?, 1.0)?)
 }
 
-fn look(findings: &mut Findings, mut sphere: FreeMotion) {
-    // A dilatation of 1 under the pressure of 1, u = −x/3, from a centre that is not the sphere's.
+fn measure(findings: &mut Findings, mut sphere: FreeMotion) {
+    // The displacement u = −x/3 is a dilatation of −1; its centre is not that of the sphere.
     sphere.set_displacement(|[r, y]| [-r / 3.0, -(y - 0.3) / 3.0]);
     let loads = sphere.body().mesh().map(pressure_loads).unwrap_or_default();
     let largest_load = largest(&loads);

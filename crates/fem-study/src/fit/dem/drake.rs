@@ -64,7 +64,7 @@ pub fn fit_dissipation(points: &[Point]) -> Result<Option<HuntCrossley>, FitErro
         )
     };
     let bounds = [((first / REACH).ln(), (last * REACH).ln())];
-    // Of data that rise with speed the sum of squares may have more than one minimum.
+    // For data that rise with speed the sum of squares may have more than one minimum.
     let starts = [first, own[own.len() / 2], last];
     let mut best: Option<(f64, f64)> = None;
     for start in starts {

@@ -39,13 +39,13 @@ pub fn yade_betan(en: f64) -> f64 {
 pub fn hertz_mindlin_entry(pair: &Pair, restitution: f64) -> Result<f64, LawError> {
     let stiffness = 2.0 * pair.contact_modulus() * pair.effective_radius().sqrt();
     let unit = 2.0 * (pair.effective_mass() * stiffness).sqrt();
-    // The same at every speed.
+    // The restitution is the same at every speed.
     let made = |en: f64| {
         let law = power(2.0 / 3.0 * stiffness, 1.5, unit * yade_betan(en), 0.25)?;
         Ok::<f64, LawError>(LawImpact::new(pair, law).impact(1.0)?.restitution)
     };
     made(restitution)?;
-    // The fit's own error; beyond en = 0.999 it is one of 1e-3 and turns.
+    // The entry corrects the error of YADE's fit; beyond en = 0.999 the fit is not monotone.
     let (low, high) = ((restitution - 0.02).max(1e-3), (restitution + 0.02).min(0.999));
     if low >= high || made(low)? >= restitution || made(high)? <= restitution {
         return Ok(restitution);

@@ -126,7 +126,7 @@ mod tests {
     fn an_inner_solution_is_found_and_compression_keeps_the_misfit() {
         let linear = linear();
         let found = linear.solve(0.0, None);
-        // The least ridge, 1e-8, leaves 1e-8.
+        // The smallest ridge, 1e-8, causes an error of 1e-8.
         assert!((found[0] - 0.3).abs() < 1e-7 && (found[1] - 0.4).abs() < 1e-7, "{found:?}");
         let small = linear.compressed();
         for weights in [[0.1, 0.2], [0.5, 0.0]] {

@@ -61,7 +61,7 @@ mod tests {
         assert_eq!(found.degrees_of_freedom, 1);
         assert_eq!(found.misfit(1.0, 2), None);
         let many = PureError { error: 0.1, degrees_of_freedom: 4 };
-        // A sum of 0.04 is the repeats' own; as much again over one is twice the error.
+        // A sum of 0.04 is that of the repeats; the rest over one degree of freedom is twice the error.
         assert!((many.misfit(0.08, 1).unwrap() - 2.0).abs() < 1e-12);
     }
 }

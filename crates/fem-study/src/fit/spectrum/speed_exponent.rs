@@ -59,7 +59,7 @@ pub fn speed_exponent(points: &[SpeedPoint]) -> Option<SpeedExponent> {
         }
         freedom += own.len().saturating_sub(1);
     }
-    // Speeds that differ by rounding are the same.
+    // Speeds that differ by rounding count as equal.
     if sxx < 1e-12 {
         return None;
     }
