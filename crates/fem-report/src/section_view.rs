@@ -1,4 +1,4 @@
-//! Both bodies in section, deformed, with their axial stress σ_yy: the one maker of such pictures.
+//! Sections of both deformed bodies with their axial stress σ_yy. All such pictures of runs are drawn here.
 //!
 //! Sections are half sections (r ≥ 0) in metres and pascals. Heights are measured from the middle of the
 //! contact.

@@ -6,7 +6,7 @@ use fem::sweep::{COLUMNS, Row};
 use fem_case::Sweep;
 
 use super::choice::FigureChoice;
-use super::labels::{plain, short_role};
+use super::labels::{key_symbol, plain};
 
 /// Most members that are drawn.
 const MOST: usize = 4_000;
@@ -111,7 +111,7 @@ fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
         let mut names: Vec<String> = Vec::new();
         let mut values: Vec<String> = Vec::new();
         for (k, key) in of.keys.iter().enumerate() {
-            names.push(short_role(&key.key));
+            names.push(key_symbol(&key.key));
             values.push(plain(&element.displayed(k)));
         }
         names.dedup();

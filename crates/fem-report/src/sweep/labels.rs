@@ -47,7 +47,7 @@ pub fn role_of_all(key: &str) -> String {
 }
 
 /// Returns the symbol of a key, or its last part.
-pub fn short_role(key: &str) -> String {
+pub fn key_symbol(key: &str) -> String {
     let last = key.rsplit('.').next().unwrap_or(key);
     let role = ROLES.iter().find(|(known, _)| *known == last).map(|(_, role)| *role);
     let symbol = role.and_then(|role| role.rsplit_once(' ')).map(|(_, symbol)| symbol);
@@ -91,9 +91,9 @@ mod tests {
 
     #[test]
     fn curves_have_short_names() {
-        assert_eq!(short_role("body.0.approach_speed"), "v");
-        assert_eq!(short_role("body.1.sphere.diameter"), "D");
-        assert_eq!(short_role("time.step_factor"), "step factor");
+        assert_eq!(key_symbol("body.0.approach_speed"), "v");
+        assert_eq!(key_symbol("body.1.sphere.diameter"), "D");
+        assert_eq!(key_symbol("time.step_factor"), "step factor");
         for (value, expected) in [
             ("10 mm", "10 mm"),
             ("{ ting = {} }", "ting"),

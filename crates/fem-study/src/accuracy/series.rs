@@ -123,7 +123,7 @@ impl Series {
         self.preset().name
     }
 
-    /// Whether a user would choose its variants.
+    /// Whether its variants are choices for users; `false` if they only isolate a source of error.
     pub fn is_choice(self) -> bool {
         self.preset().is_choice
     }

@@ -10,7 +10,8 @@ use fem_material::PronyTerm;
 /// Beginning and end of the search over the shortest and the longest contact time: from a nearly complete loss to one
 /// that is too small to be measured.
 const SEARCH: (f64, f64) = (0.2, 1e4);
-/// Number of further steps to shorter times if that is not short enough. There contacts are deeper.
+/// Largest number of further steps to shorter relaxation times if the loss there is still too small; softer bodies have
+/// deeper contacts, which the model may reject.
 const STEP_DOWN: f64 = 4.0;
 const MOST_STEPS_DOWN: usize = 4;
 /// Means of e that differ by less are the same.

@@ -38,7 +38,7 @@
 pub mod cradle;
 pub mod dem;
 mod error;
-mod fit_law;
+mod estimates;
 mod inverse;
 mod least_squares;
 mod model;
@@ -47,7 +47,7 @@ mod profile;
 pub mod spectrum;
 
 pub use error::FitError;
-pub use fit_law::{Estimate, Fit};
+pub use estimates::{Estimate, Fit};
 pub use inverse::{Inversion, invert};
 pub use model::{Model, Outcome};
 pub use problem::{Free, Point, Problem};

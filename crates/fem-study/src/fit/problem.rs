@@ -54,7 +54,7 @@ pub struct Problem<'a> {
 }
 
 /// Factor by which a logarithmic parameter may differ from its natural size.
-const WIDEST: f64 = 1e8;
+const LARGEST_FACTOR_FROM_NATURAL_SIZE: f64 = 1e8;
 
 impl<'a> Problem<'a> {
     /// Creates the problem with these parameters free and all others at their defaults.
@@ -233,8 +233,11 @@ impl<'a> Problem<'a> {
         match parameter.role {
             ParameterRole::Number => parameter.limits,
             // C of ξⁿ spans many decades with n: its natural size at n = 0.5 is far from that at n = 3.
-            ParameterRole::Damping => (size / WIDEST.powi(2), size * WIDEST.powi(2)),
-            _ => (size / WIDEST, size * WIDEST),
+            ParameterRole::Damping => (
+                size / LARGEST_FACTOR_FROM_NATURAL_SIZE.powi(2),
+                size * LARGEST_FACTOR_FROM_NATURAL_SIZE.powi(2),
+            ),
+            _ => (size / LARGEST_FACTOR_FROM_NATURAL_SIZE, size * LARGEST_FACTOR_FROM_NATURAL_SIZE),
         }
     }
 }

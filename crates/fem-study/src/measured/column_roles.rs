@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 /// The end of a column's name that is a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ending {
+pub(super) struct UnitSuffix {
     /// The ending with its underscore.
     pub text: &'static str,
     /// Factor from this unit to SI.
@@ -13,12 +13,12 @@ pub(super) struct Ending {
     pub dimension: [i32; 3],
 }
 
-const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> Ending {
-    Ending { text, scale, dimension }
+const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuffix {
+    UnitSuffix { text, scale, dimension }
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [Ending; 14] = [
+const ENDINGS: [UnitSuffix; 14] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_km_h", 1.0 / 3.6, [1, 0, -1]),
@@ -36,12 +36,12 @@ const ENDINGS: [Ending; 14] = [
 ];
 
 /// Returns the unit in which a column's name ends.
-pub(super) fn ending_of(header: &str) -> Option<Ending> {
+pub(super) fn ending_of(header: &str) -> Option<UnitSuffix> {
     ENDINGS.into_iter().find(|ending| header.ends_with(ending.text))
 }
 
 /// Returns the ending of a unit, given by its factor to SI and its dimension (metre, kilogram, second, byte).
-pub(super) fn ending_like(scale: f64, dimension: [i32; 4]) -> Option<Ending> {
+pub(super) fn ending_like(scale: f64, dimension: [i32; 4]) -> Option<UnitSuffix> {
     let [m, kg, s, bytes] = dimension;
     ENDINGS.into_iter().find(|ending| {
         let is_scale = (ending.scale / scale - 1.0).abs() < 1e-9;

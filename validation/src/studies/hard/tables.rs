@@ -78,7 +78,7 @@ pub(super) fn tabulate_earlier_faults(
     }
     findings.tabulate(
         "Silent errors of an early version, and the present results.",
-        ["fault", "seen then", "held now by", "model", "e", "outcome"],
+        ["fault", "then", "tested by", "model", "e", "outcome"],
         rows,
     );
     Ok(())

@@ -2,10 +2,10 @@
 //!
 //! Half of the scenes are the same each time, half are drawn anew. The limit is that of condensed bodies over the
 //! element size. For explicit elements it includes their difference to condensed bodies on a mesh that is finer than
-//! the one under test ([`Limit`]); its uncertainty is allowed. The result under test has the mesh and the mass scaling
+//! the one under test ([`Limit`]); its uncertainty is added to the bar before the comparison. The result under test has the mesh and the mass scaling
 //! of the default tolerance. A scene is `covered` if all six quantities are within their bars, and `met` if
-//! restitution, contact time, peak force and pressure are within the tolerance. `MODEL.bar` is the median of a bar over
-//! the error, or over the uncertainty of the limit if that is larger.
+//! restitution, contact time, peak force and pressure are within the tolerance. `MODEL.bar` is the median of
+//! bar / max(error, uncertainty of the limit).
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
@@ -21,8 +21,9 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Mass scaling of the explicit elements that a limit is computed from, and elements across the contact.
+/// Mass scaling of the explicit elements that a limit is computed from.
 const LITTLE_MASS: f64 = 2e-4;
+/// Elements across the contact of these, and of the condensed bodies that a limit is computed from.
 const EXPLICIT: [f64; 2] = [8.0, 11.0];
 const CONDENSED: [f64; 5] = [8.0, 11.0, 16.0, 23.0, 32.0];
 /// Number of scenes in each table.

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! (*Drake documentation*, Compliant point contact). The restitution depends on a = d v alone, for any
-//! spring: from v dv/(1 + d v) = −(k/m*) ξ dξ, the same ξ on the way in and out,
+//! spring: from v dv/(1 + d v) = −(k/m*) ξ dξ, integrated over loading and unloading between the same overlaps,
 //!
 //! ```math
 //! (1+e)\,a = \ln\frac{1+a}{1-e\,a} .
