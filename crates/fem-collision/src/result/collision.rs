@@ -167,9 +167,14 @@ impl Collision {
 
     /// Creates an empty result of a collision that was not computed, with the reason.
     pub fn stopped(approach: Approach, stop: Stop) -> Self {
+        Self::empty(approach, Ending::Stopped(stop))
+    }
+
+    /// Creates a result without quantities.
+    pub fn empty(approach: Approach, ending: Ending) -> Self {
         Self {
             approach,
-            ending: Ending::Stopped(stop),
+            ending,
             restitution: None,
             contact_time: None,
             first_contact: None,

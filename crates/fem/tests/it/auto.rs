@@ -5,6 +5,8 @@ use std::path::Path;
 use fem::effects::{Effect, EffectStatus, FiniteSizeEffect};
 use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
+use crate::coarse::simulation_of as simulation;
+
 /// Returns the case of two spheres, the first of which strikes the second.
 fn scene(material: &str, diameters: [&str; 2], speed: &str) -> String {
     let [striker, target] = diameters;
@@ -48,11 +50,6 @@ poissons_ratio = 0.45
 acts_on = "all"
 terms = [{ weight = 0.4, relaxation_time = "0.5 ms" }]
 "#;
-
-fn simulation(text: &str, set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("scene.toml", text, Path::new("."), &set).unwrap()).unwrap()
-}
 
 /// Asserts that restitution (absolute), contact time and peak force (relative) agree within the tolerance.
 fn within(tolerance: f64, found: &Collision, reference: &Collision, what: &str) {

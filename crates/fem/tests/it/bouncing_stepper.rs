@@ -1,18 +1,16 @@
 //! A ball that bounces, put away between two steps and taken up again, is the same ball.
 
-use std::path::Path;
+use fem::{Collision, RestartState, Simulation};
 
-use fem::{Case, Collision, RestartState, Simulation};
+use crate::coarse::simulation_of;
 
 const BALL: &str = include_str!("rubber_ball.toml");
 /// Three elements across the first contact.
 const COARSE: &str = "mesh={contact_element_size='0.6 mm', refined_radius='1.8 mm'}";
 const FEM: &str = "model.fem={}";
 
-fn simulation(overrides: &[&str]) -> Simulation {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let case = Case::parse("ball.toml", BALL, Path::new("."), &overrides).unwrap();
-    Simulation::new(case).unwrap()
+fn simulation(set: &[&str]) -> Simulation {
+    simulation_of(BALL, set)
 }
 
 /// Computes a collision that is stopped after every `n_pieces` advances, stored as bytes and continued by another

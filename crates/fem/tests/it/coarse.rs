@@ -8,6 +8,13 @@ const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 /// A mesh for all approaches.
 const MESH: [&str; 2] = ["mesh.contact_element_size='0.1 mm'", "mesh.refined_radius='0.4 mm'"];
 
+/// Returns the simulation of a case with overrides.
+pub fn simulation_of(text: &str, overrides: &[&str]) -> Simulation {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let case = Case::parse("case.toml", text, Path::new("."), &overrides).unwrap();
+    Simulation::new(case).unwrap()
+}
+
 /// Returns the pair with a method and more overrides, which may name another model.
 pub fn simulation(method: &str, more: &[&str]) -> Simulation {
     Simulation::new(case(method, more)).unwrap()

@@ -1,8 +1,8 @@
 //! The loss that a relaxing run would have without relaxation, compared with elastic runs.
 
-use std::path::Path;
+use fem::Simulation;
 
-use fem::{Case, Simulation};
+use crate::coarse::simulation_of;
 
 /// A soft ball that relaxes, struck by steel.
 const SOFT: &str = "
@@ -15,8 +15,7 @@ const SOFT: &str = "
     output.snapshots = []";
 
 fn simulation(set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("soft.toml", SOFT, Path::new("."), &set).unwrap()).unwrap()
+    simulation_of(SOFT, set)
 }
 
 /// The estimate agrees with elastic runs from a tenth of a contact to hundreds of relaxation times, and its run is computed

@@ -1,9 +1,9 @@
 //! Folded relaxation terms: terms much faster or slower than the contact are not integrated.
 
-use std::path::Path;
-
 use fem::effects::EffectDecision;
-use fem::{Case, Collision, Simulation};
+use fem::{Collision, Simulation};
+
+use crate::coarse::simulation_of as simulation;
 
 /// Ten terms over as many decades, like the fit of a polymer's master curve.
 const POLYMER: &str = r#"
@@ -40,11 +40,6 @@ approach_speed = "0.5 m/s"
 [output]
 snapshots = []
 "#;
-
-fn simulation(text: &str, set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("polymer.toml", text, Path::new("."), &set).unwrap()).unwrap()
-}
 
 fn verdict(simulation: &Simulation) -> &EffectDecision {
     let verdicts = &simulation.setup().decisions.verdicts;

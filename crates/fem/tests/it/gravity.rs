@@ -6,16 +6,16 @@ use fem::{
     Account, BalanceSide, Case, Collision, Ending, HistoryRow, Monitor, Progress, Simulation,
 };
 
+use crate::coarse::simulation_of;
+
 const BALL: &str = include_str!("rubber_ball.toml");
 /// Elements that are as coarse as a test may have them: four across the first contact.
 const COARSE: &str = "mesh={contact_element_size='0.45 mm', refined_radius='1.8 mm'}";
 const ELASTIC: &str = "material.rubber={density=1100, youngs_modulus=20e6, poissons_ratio=0.4}";
 const G: f64 = 9.81;
 
-fn simulation(overrides: &[&str]) -> Simulation {
-    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let case = Case::parse("ball.toml", BALL, Path::new("."), &overrides).unwrap();
-    Simulation::new(case).unwrap()
+fn simulation(set: &[&str]) -> Simulation {
+    simulation_of(BALL, set)
 }
 
 fn run(overrides: &[&str]) -> Collision {

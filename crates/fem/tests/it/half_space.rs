@@ -4,6 +4,8 @@ use std::path::Path;
 
 use fem::{Case, Collision, Simulation};
 
+use crate::coarse::simulation_of;
+
 const BALL: &str = r#"
 [material.steel]
 density = "7850 kg/m^3"
@@ -30,9 +32,7 @@ approach_speed = "0.1 m/s"
 const FINE: &str = "accuracy.tolerance='0.3 %'";
 
 fn simulation(set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    let case = Case::parse("ball.toml", BALL, Path::new("."), &set).unwrap();
-    Simulation::new(case).unwrap()
+    simulation_of(BALL, set)
 }
 
 fn run(set: &[&str]) -> Collision {

@@ -1,9 +1,8 @@
 //! The estimated effect of the inertia of the bodies' deformation, and the limits of models without it.
 
-use std::path::Path;
-
 use fem::effects::{Effect, NeglectError, Vibration};
-use fem::{Case, Simulation};
+
+use crate::coarse::simulation_of as simulation;
 
 /// A ball with its Young's modulus (Pa), Poisson's ratio, density (kg/m³), diameter (m) and speed (m/s).
 #[derive(Clone, Copy)]
@@ -26,11 +25,6 @@ impl Ball {
     fn on(self, other: Self) -> String {
         other.body("lower", other.1) + &self.body("upper", self.1)
     }
-}
-
-fn simulation(text: &str, set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("scene.toml", text, Path::new("."), &set).unwrap()).unwrap()
 }
 
 /// Returns the estimated changes: shares of contact time and peak force, and the restitution.

@@ -29,48 +29,29 @@ pub(super) fn of_impact(
     let first_touch = frame.approach.first_touch();
     let at_stake = frame.energy_scale(impact.max_approach);
     let end = impact.history.last().map(|instant| rows.row(instant));
+    let ending = if is_together { Ending::Together } else { Ending::Parted };
     Collision {
-        approach: frame.approach,
-        ending: if is_together { Ending::Together } else { Ending::Parted },
         restitution: Some(impact.restitution),
         contact_time: impact.contact_time,
         first_contact: Some(first_touch),
         last_contact: impact.contact_time.map(|time| first_touch + time),
         contact_episodes: 1,
         peak_force: Some(impact.peak_force),
-        peak_force_raw: None,
         max_approach: Some(impact.max_approach),
         max_contact_radius: has_radius.then_some(impact.max_contact_radius),
         peak_pressure: impact.peak_pressure,
-        peak_pressure_radius: None,
-        force_scatter: None,
-        noisiest_instant: None,
-        deepest_overlap: None,
-        candidate_region: None,
         initial_energy: Some(frame.kinetic(frame.speed())),
         energies: end.map_or(EnergyLedger::EMPTY, |row| row.energies),
         residual: end.and_then(|row| row.residual),
         residual_relative: Some(instants().map(residual).fold(0.0, nan_aware_max_abs) / at_stake),
-        residual_since: None,
-        energy_growth: None,
-        momentum_residual_relative: None,
         bodies: [0, 1].map(|side: usize| BodyResult {
             mass: frame.masses[side],
             velocity_after: Some(after[side]),
             ..BodyResult::default()
         }),
-        time_step: None,
-        plain_time_step: None,
-        steps: None,
-        element_updates: None,
-        factor_bytes: None,
-        repeated_contact_solutions: None,
-        bounces: Vec::new(),
-        rest: None,
         history: rows.of(impact, pair, law, request.history_rows),
-        snapshots: Vec::new(),
-        probes: Vec::new(),
         warnings: is_together.then(|| STAY_TOGETHER.to_string()).into_iter().collect(),
+        ..Collision::empty(frame.approach, ending)
     }
 }
 
