@@ -27,7 +27,7 @@ use crate::result_folder::run_files::{WrittenResult, longest_name, write_result}
 use crate::result_folder::{Replaces, ResultFolder};
 use crate::text::failure::Failure;
 use crate::text::run_report::report;
-use crate::text::standard_output::{self, one_line};
+use crate::text::standard_output::{self, one_line, shown};
 
 /// How to run a case.
 #[derive(clap::Args, Debug)]
@@ -125,8 +125,8 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     }
     match (published?, computed.collision.stop()) {
         (Some(place), Some(stop)) => {
-            let place = standard_output::one_line(&place.display().to_string());
-            let kept = format!("what was computed so far is in {place}, marked incomplete");
+            let kept =
+                format!("what was computed so far is in {}, marked incomplete", shown(&place));
             Err(stopped(stop, &summary, &kept))
         }
         _ => Ok(()),

@@ -90,7 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Some(out) => out.clone(),
         None => Path::new("runs").join(stem_of(&arguments.sweep)),
     };
-    let pool = pool(arguments.threads)?;
+    let pool = thread_pool(arguments.threads)?;
     let work = Work {
         arguments,
         sweep: &sweep,
@@ -238,7 +238,11 @@ fn reported(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
     checked.oddities.iter().take(MOST_ODDITIES)
 }
 
-fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
+/// Returns a pool of so many threads, by default one per processor.
+///
+/// # Errors
+/// The system has no threads left.
+pub fn thread_pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build();
     pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))
 }

@@ -10,9 +10,9 @@ use fem_validate::{
     Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, hard_scenes, has_hard_scenes,
     load_claims, markdown, pictures,
 };
-use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
+use super::sweep::thread_pool;
 use super::validation_files::{MADE_FROM, PAGE_FILE, write_files};
 use crate::arguments::case::parse_count;
 use crate::progress::ItemProgress;
@@ -20,7 +20,7 @@ use crate::progress::interrupt::Interrupt;
 use crate::result_folder::whole_file::OwnedFileKind;
 use crate::result_folder::{Replaces, ResultFolder};
 use crate::text::failure::Failure;
-use crate::text::standard_output::{self, one_line};
+use crate::text::standard_output::{self, one_line, shown};
 use crate::text::tables::{headed, table};
 
 /// Identifies the Markdown tables of this command.
@@ -74,7 +74,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let claims = load_claims(&arguments.claims, &arguments.names).map_err(refused)?;
     if claims.is_empty() {
-        let place = one_line(&arguments.claims.display().to_string());
+        let place = shown(&arguments.claims);
         let message = format!("{place}: none of its folders has a claim.toml");
         return Err(Failure::bad_input(message).with_help(
             "run fem-run validate in its source folder, or name the folder of the claims with --claims",
@@ -129,9 +129,7 @@ fn run(
     arguments: &Arguments,
     interrupt: &Interrupt,
 ) -> Result<Vec<ClaimResult>, Failure> {
-    let threads = arguments.threads.map_or(0, NonZeroUsize::get);
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
+    let pool = thread_pool(arguments.threads)?;
     let progress = ItemProgress::new(interrupt.clone(), "claims", claims.len(), arguments.quiet);
     let shelf = Shelf::default();
     let results = pool.install(|| {
@@ -192,7 +190,7 @@ fn report(results: &[ClaimResult], place: &Path) -> String {
     let n_failed = results.iter().flat_map(|result| &result.checks).filter(|c| !c.passed).count();
     let plural = if results.len() == 1 { "" } else { "s" };
     text += &format!("{} claim{plural}, {n_checks} checks, {n_failed} failed\n", results.len());
-    text + &format!("Page: {}\n", one_line(&place.join(PAGE_FILE).display().to_string()))
+    text + &format!("Page: {}\n", shown(&place.join(PAGE_FILE)))
 }
 
 fn rows(result: &ClaimResult) -> Vec<[String; 7]> {

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::{Replaces, ResultFolder, ResultPath};
 use crate::text::failure::Failure;
-use crate::text::standard_output::{self, one_line};
+use crate::text::standard_output::{self, shown};
 
 /// Options for the result folder of a command.
 #[derive(clap::Args, Clone, Debug)]
@@ -115,8 +115,7 @@ impl CommandOutput {
         if self.quiet {
             return Ok(());
         }
-        let place = one_line(&place.display().to_string());
-        standard_output::print(&format!("{}\nResult: {place}\n", text()))
+        standard_output::print(&format!("{}\nResult: {}\n", text(), shown(&place)))
     }
 }
 

@@ -22,6 +22,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::text::failure::Failure;
+use crate::text::standard_output::shown;
 use existing_output::{ExistingOutput, ExistingResult};
 use hidden_folder::HiddenFolder;
 use whole_file::write_lasting;
@@ -125,7 +126,7 @@ impl ResultFolder {
         let target = resolve(out)?;
         check_place(out, &target, &replaces)?;
         let cannot = |error: io::Error| {
-            let message = format!("--out {}: a result cannot be written here: {error}", show(out));
+            let message = format!("--out {}: a result cannot be written here: {error}", shown(out));
             Failure::bad_input(message).with_help("name a folder in a place that you may write to")
         };
         let parent = target.parent().unwrap_or(Path::new("/")).to_path_buf();
@@ -172,9 +173,9 @@ impl ResultFolder {
         let may_replace = |old: &ExistingResult| is_whole && replaces.allows(old);
         let placed = put_in_place(&mut hidden, &self.target, &self.shown, may_replace);
         placed.map_err(|error| {
-            let shown = show(&self.shown);
-            let message = format!("--out {shown}: the result cannot be moved here: {error}");
-            Failure::failed(message).with_help(format!("it is kept in {}", show(&hidden.keep())))
+            let place = shown(&self.shown);
+            let message = format!("--out {place}: the result cannot be moved here: {error}");
+            Failure::failed(message).with_help(format!("it is kept in {}", shown(&hidden.keep())))
         })
     }
 }
@@ -192,7 +193,7 @@ impl Drop for ResultFolder {
 /// Returns the absolute path of `out` with symbolic links resolved.
 fn resolve(out: &Path) -> Result<PathBuf, Failure> {
     let fault = |found: &str| {
-        Failure::bad_input(format!("--out {}: {found}", show(out)))
+        Failure::bad_input(format!("--out {}: {found}", shown(out)))
             .with_help("name a folder for the result, such as --out runs/first")
     };
     if out.symlink_metadata().is_ok() {
@@ -208,7 +209,7 @@ fn resolve(out: &Path) -> Result<PathBuf, Failure> {
 }
 
 fn check_place(out: &Path, target: &Path, replaces: &Replaces) -> Result<(), Failure> {
-    let named = show(out);
+    let named = shown(out);
     let refuse = |found: &str| {
         Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
             "name another folder with --out, or move this one away; only result folders of fem-run \
@@ -319,8 +320,4 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(suffix);
     path.with_file_name(name)
-}
-
-fn show(path: &Path) -> String {
-    crate::text::standard_output::one_line(&path.display().to_string())
 }

@@ -10,7 +10,7 @@ use fem_case::engineering::show;
 
 use super::ResultFolder;
 use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::standard_output::shown;
 
 pub use super::existing_output::RESTART_FILE;
 
@@ -39,7 +39,7 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
 pub fn read_restart(folder: &Path, identity: &Identity) -> Result<Option<RestartState>, Failure> {
     let path = folder.join(RESTART_FILE);
     let refused = |what: &dyn std::fmt::Display| {
-        let name = one_line(&path.display().to_string());
+        let name = shown(&path);
         Failure::bad_input(format!("--restart: {name}: {what}")).with_help(
             "name the folder of this run with --out, or start anew without --restart; a restart file \
              works only with the build and the case that wrote it",

@@ -7,7 +7,7 @@ use std::path::Path;
 use tempfile::NamedTempFile;
 
 use crate::text::failure::Failure;
-use crate::text::standard_output::{self, one_line};
+use crate::text::standard_output::{self, shown};
 
 /// Beginning of the names of temporary files.
 pub const PREFIX: &str = ".fem-run-";
@@ -89,7 +89,7 @@ impl OwnedFileKind {
     /// # Errors
     /// The extension is wrong, or another file is in the way.
     pub fn check(&self, path: &Path) -> Result<(), Failure> {
-        let shown = one_line(&path.display().to_string());
+        let shown = shown(path);
         let Self { what, extension, option, .. } = self;
         if path.extension().is_some_and(|found| !found.eq_ignore_ascii_case(extension)) {
             let message = format!("{shown}: a {what} of fem-run is a .{extension} file");
@@ -120,7 +120,7 @@ impl OwnedFileKind {
             return Ok(None);
         }
         self.check(path)?;
-        let shown = one_line(&path.display().to_string());
+        let shown = shown(path);
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         write_whole(path, folder.unwrap_or(Path::new(".")), text.as_bytes()).map_err(|error| {
             let help =

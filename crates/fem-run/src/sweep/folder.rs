@@ -17,7 +17,7 @@ use crate::result_folder::missing_parents;
 use crate::result_folder::recover_leftovers;
 use crate::result_folder::whole_file::{PREFIX, write_streamed};
 use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::standard_output::shown;
 
 /// The manifest: the varied keys, and the values and identities of the members.
 pub const MANIFEST_FILE: &str = "sweep.json";
@@ -48,7 +48,7 @@ impl SweepFolder {
     /// The place holds something other than a sweep.
     pub fn check(&self) -> Result<(), Failure> {
         let out = &self.path;
-        let named = one_line(&out.display().to_string());
+        let named = shown(out);
         let refuse = |found: &str| {
             Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
                 "name another folder with --out, or move this one away; only a folder of fem-run \
@@ -83,7 +83,7 @@ impl SweepFolder {
     ) -> Result<(), Failure> {
         self.check()?;
         let out = &self.path;
-        let named = one_line(&out.display().to_string());
+        let named = shown(out);
         recover_leftovers(out);
         recover_leftovers(&out.join(MEMBERS));
         let made: Vec<_> = missing_parents(&out.join(MEMBERS));

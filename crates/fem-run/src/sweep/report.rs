@@ -16,7 +16,7 @@ use super::cost_estimate::{SweepCost, TotalTime};
 use super::member_store::LINE_BYTES;
 use crate::forecast::estimated;
 use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::standard_output::{one_line, shown};
 use crate::text::tables::table;
 
 /// Prints one line on stderr about the members and their cost.
@@ -76,8 +76,8 @@ pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder:
     };
     let mut alignment = vec![Left; sweep.keys().count()];
     alignment.extend([Right; 5]);
-    let shown = collected.shown.iter().map(row);
-    let mut text = table(&alignment, std::iter::once(header).chain(shown));
+    let rows = collected.shown.iter().map(row);
+    let mut text = table(&alignment, std::iter::once(header).chain(rows));
     let (n_done, n_shown) = (collected.n_done, collected.shown.len());
     if n_done > n_shown {
         text += &format!("… and {} more\n", n_done - n_shown);
@@ -85,7 +85,7 @@ pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder:
     if n_done < n_members {
         text += &format!("\n{n_done} of {n_members} members are done.\n");
     }
-    text + &format!("\nResult: {}\n", one_line(&folder.join(SWEEP_FILE).display().to_string()))
+    text + &format!("\nResult: {}\n", shown(&folder.join(SWEEP_FILE)))
 }
 
 fn result_cells(row: &Row) -> [String; 5] {

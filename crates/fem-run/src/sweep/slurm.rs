@@ -19,7 +19,7 @@ use super::folder::SweepFolder;
 use super::report::{duration, member_file_size};
 use crate::arguments::case::{parse_count, stem_of};
 use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::standard_output::{one_line, shown};
 
 /// File name of the script for `sbatch`.
 const SCRIPT_FILE: &str = "sweep.sbatch";
@@ -172,7 +172,7 @@ impl SlurmBatch {
 
     /// Returns what was written, and what to do with it.
     pub fn report(&self, script: &Path, submitted: Option<&str>) -> String {
-        let script = one_line(&script.display().to_string());
+        let script = shown(script);
         let Self { n_shards, n_left, seconds, .. } = self;
         let files = match self.is_packed {
             true => {

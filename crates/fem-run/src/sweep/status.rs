@@ -14,7 +14,7 @@ use super::folder::{MANIFEST_FILE, SweepFolder};
 use super::member_store::ShardFilter;
 use super::report::duration;
 use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::standard_output::{one_line, shown};
 use crate::text::tables::table;
 
 /// The keys of `sweep.json` that are read.
@@ -44,7 +44,7 @@ fn digest<'de, D: Deserializer<'de>>(from: D) -> Result<u64, D::Error> {
 /// The folder holds no sweep.
 pub fn status(folder: &Path) -> Result<String, Failure> {
     let place = folder.join(MANIFEST_FILE);
-    let name = one_line(&folder.display().to_string());
+    let name = shown(folder);
     let refuse = |found: String| {
         let help = "name the folder of a sweep, such as fem-run sweep --status runs/sweep_speed";
         Failure::bad_input(format!("{name}: {found}")).with_help(help)

@@ -11,7 +11,7 @@ use fem_case::engineering::{Unit, number, show};
 use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
 use indicatif::{DecimalBytes, HumanCount};
 
-use super::standard_output::one_line;
+use super::standard_output::{one_line, shown};
 use super::tables::{headed, table};
 
 /// Stands for a missing number.
@@ -63,7 +63,7 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
         effects(summary.effects.iter().map(|effect| &effect.verdict))
     );
     text += &warnings(&summary.warnings);
-    let place = place.map_or("not written".into(), |place| one_line(&place.display().to_string()));
+    let place = place.map_or("not written".into(), shown);
     let _ = writeln!(text, "\nResult: {place}");
     text
 }

@@ -1,10 +1,16 @@
 //! Printing of results and warnings.
 
 use std::io::{ErrorKind, Write, stderr, stdout};
+use std::path::Path;
 
 use super::failure::Failure;
 
 pub use fem_report::number_text::one_line;
+
+/// Returns a path as messages show it, in one line.
+pub fn shown(path: &Path) -> String {
+    one_line(&path.display().to_string())
+}
 
 /// Prints text to stdout. A reader that has gone away (`fem-run check CASE | head`) is no error.
 ///

@@ -2,20 +2,16 @@
 
 use crate::common::Place;
 
-const TING: [&str; 2] = ["--set", "model.ting={}"];
-const SLOWER: [&str; 4] = ["--set", "model.ting={}", "--set", "body.0.approach_speed=0.25"];
-
-fn run<'a>(more: &[&[&'a str]]) -> Vec<&'a str> {
-    [&["case.toml"][..], &more.concat()].concat()
-}
+const TING: &str = "case.toml --set model.ting={}";
+const SLOWER: &str = "case.toml --set model.ting={} --set body.0.approach_speed=0.25";
 
 /// Without --out nothing is lost, and each case finds its own folder again.
 #[test]
 fn another_case_takes_a_folder_of_its_own() {
     let place = Place::new();
-    place.succeed(&run(&[&TING]));
+    place.succeed(TING);
     let first = place.read("runs/case/summary.json");
-    let ran = place.succeed(&run(&[&SLOWER]));
+    let ran = place.succeed(SLOWER);
     let own = place.list("runs").pop().unwrap();
     assert!(own.starts_with("case-") && own.len() == "case-".len() + 8, "{own}");
     assert_eq!(place.read("runs/case/summary.json"), first);
@@ -24,28 +20,27 @@ fn another_case_takes_a_folder_of_its_own() {
     ran.prints(&format!("Result: runs/{own}\n"));
 
     place.write(&format!("runs/{own}/notes.txt"), "mine");
-    place.succeed(&run(&[&SLOWER]));
-    place.succeed(&run(&[&TING]));
+    place.succeed(SLOWER);
+    place.succeed(TING);
     assert_eq!(place.list("runs"), ["case", own.as_str()]);
     assert_eq!(place.read(format!("runs/{own}/notes.txt")), b"mine");
-    place.succeed(&run(&[&SLOWER, &["--force"]]));
+    place.succeed((SLOWER, "--force"));
     assert_eq!(place.json("runs/case/summary.json")["bodies"][0]["velocity_before_m_s"], 0.25);
 }
 
 #[test]
 fn a_named_folder_of_another_case_is_refused() {
     let place = Place::new();
-    let out = ["--out", "out"];
-    place.succeed(&run(&[&TING, &out]));
+    place.succeed((TING, "--out out"));
     let before = place.result("out");
     place
-        .fails(2, &run(&[&SLOWER, &out]))
+        .fails(2, (SLOWER, "--out out"))
         .tells("--out out: this folder holds the result of another case|--force");
     assert_eq!(
         (place.result("out"), place.list(".")),
         (before, vec!["case.toml".into(), "out".into()])
     );
-    place.succeed(&run(&[&SLOWER, &out, &["--force"]]));
+    place.succeed((SLOWER, "--out out --force"));
 }
 
 /// Units, title, comments, file name and figures do not make another case; any key does, even if it changes
@@ -53,15 +48,14 @@ fn a_named_folder_of_another_case_is_refused() {
 #[test]
 fn a_case_is_what_it_asks_to_be_computed() {
     let place = Place::new();
-    let out = ["--out", "out", "--quiet"];
-    place.succeed(&run(&[&TING, &out]));
+    let out = "--out out --quiet";
+    place.succeed((TING, out));
     let text = place.text("case.toml");
     let text = text.replace("\"63 GPa\"", "6.3e10").replace("A pair", "The pair");
     place.write("same.toml", &format!("# the same\n{text}"));
-    place.succeed(("same.toml", TING, out));
-    place.succeed(&run(&[&TING, &out, &["--set", "output.snapshots=[]"]]));
-    let limits = ["--set", "limits.elements=1e6"];
-    assert_eq!(place.run(&run(&[&TING, &out, &limits])).code, Some(2));
+    place.succeed(("same.toml --set model.ting={}", out));
+    place.succeed((TING, out, "--set output.snapshots=[]"));
+    place.fails(2, (TING, out, "--set limits.elements=1e6"));
 }
 
 /// A fit, and the run of its case.
@@ -69,15 +63,15 @@ fn a_case_is_what_it_asks_to_be_computed() {
 fn commands_do_not_replace_each_others_results() {
     let place = Place::new();
     place.write("data.csv", "speed_m_s,restitution\n0.1,0.95\n0.5,0.92\n");
-    let fit = ["fit", "case.toml", "--data", "data.csv", "--law", "kuwabara_kono", "-q"];
-    place.succeed(&run(&[&TING, &["--out", "out"]]));
+    let fit = "fit case.toml --data data.csv --law kuwabara_kono -q";
+    place.succeed((TING, "--out out"));
     place.fails(2, (fit, "--out out"));
-    place.succeed(&fit);
+    place.succeed(fit);
     // Other options of the same fit replace it, another case does not.
     place.succeed((fit, "--confidence 0.9"));
     place.succeed((fit, ["--set", "body.0.sphere.diameter='2 cm'"]));
     let folders = place.list("runs");
     assert_eq!(folders.len(), 2, "{folders:?}");
     assert!(folders[0] == "data_fit" && folders[1].starts_with("data_fit-"), "{folders:?}");
-    assert_eq!(place.run(&run(&[&TING, &["--out", "runs/data_fit"]])).code, Some(2));
+    place.fails(2, (TING, "--out runs/data_fit"));
 }

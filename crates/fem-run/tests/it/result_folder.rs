@@ -217,14 +217,14 @@ fn folders_of_others_are_refused() {
         assert_eq!(place.list(&folder), [name]);
     }
     std::fs::create_dir(place.path("empty")).unwrap();
-    place.succeed("case.toml --out empty");
+    place.succeed("case.toml --set model=ting --out empty");
     assert!(place.path("empty/summary.json").exists());
 }
 
 #[test]
 fn the_folder_one_is_in_is_refused() {
     let place = Place::new();
-    place.succeed("case.toml --out out");
+    place.succeed("case.toml --set model=ting --out out");
     let mut command = place.command("../case.toml --out .");
     let ran: crate::common::Ran = command.current_dir(place.path("out")).output().unwrap().into();
     assert_eq!(ran.code, Some(2));
@@ -239,7 +239,7 @@ fn a_symbolic_link_stays_and_what_it_points_at_is_replaced() {
     std::fs::create_dir_all(place.path("disk/real")).unwrap();
     symlink("disk/real", place.path("link")).unwrap();
     for _ in 0..2 {
-        place.succeed("case.toml --out link");
+        place.succeed("case.toml --set model=ting --out link");
         assert!(place.path("link").symlink_metadata().unwrap().is_symlink());
         assert!(place.path("disk/real/summary.json").exists());
         assert_eq!(place.list("disk"), ["real"]);
@@ -251,22 +251,22 @@ fn a_symbolic_link_stays_and_what_it_points_at_is_replaced() {
 #[test]
 fn a_failed_run_keeps_what_it_has_marked_incomplete() {
     let place = Place::new();
-    place.succeed("case.toml --out out");
-    for out in ["out", "out/", "fresh"] {
+    place.succeed("case.toml --set model=ting --out out");
+    for out in ["out/", "fresh"] {
         place.fails(1, (["case.toml", "--out", out, "--force"], FAILS)).tells("marked incomplete");
         let summary = place.json(&format!("{}/summary.json", out.trim_end_matches('/')));
         assert_eq!(summary["complete"], false);
         assert!(summary["stopped_because"].is_string());
     }
     assert_eq!(place.list("."), ["case.toml", "fresh", "out"]);
-    place.succeed("case.toml --out out --force");
+    place.succeed("case.toml --set model=ting --out out --force");
     assert_eq!(place.json("out/summary.json")["complete"], true);
 }
 
 #[test]
 fn a_refused_run_leaves_an_older_result_alone() {
     let place = Place::new();
-    place.succeed("case.toml --out out");
+    place.succeed("case.toml --set model=ting --out out");
     let before = place.read("out/summary.json");
     place.fails(2, "case.toml --out out --set body.0.approach_speed=-1");
     assert_eq!(place.read("out/summary.json"), before);

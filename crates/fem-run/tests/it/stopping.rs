@@ -123,7 +123,7 @@ mod signals {
     #[test]
     fn what_an_interrupted_run_has_takes_the_place_of_an_older_result() {
         let place = Place::new();
-        place.succeed("case.toml");
+        place.succeed("case.toml --set model=ting");
         let (mut child, _stderr) = start(&place, &["--force"]);
         send(&child, Signal::SIGINT);
         assert_eq!(child.wait().unwrap().code(), Some(130));
@@ -134,12 +134,12 @@ mod signals {
     #[test]
     fn a_killed_run_leaves_an_older_result_alone() {
         let place = Place::new();
-        place.succeed("case.toml");
+        place.succeed("case.toml --set model=ting");
         let before = place.read("runs/case/summary.json");
         let (mut child, _stderr) = start(&place, &[]);
         child.kill().unwrap();
         child.wait().unwrap();
         assert_eq!(place.read("runs/case/summary.json"), before);
-        place.succeed("case.toml");
+        place.succeed("case.toml --set model=ting");
     }
 }

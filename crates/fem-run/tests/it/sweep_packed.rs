@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::Place;
+use crate::common::{Place, Words};
 
 const SWEEP: &str = "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = { from = '0.1 m/s', to = 1.0, n = 30 }\n";
 const TING: [&str; 2] = ["--set", "model.ting={}"];
@@ -14,7 +14,7 @@ fn place() -> Place {
     place
 }
 
-fn sweep(place: &Place, words: &[&str]) -> String {
+fn sweep(place: &Place, words: impl Words) -> String {
     place.succeed(("sweep", words, TING)).stderr
 }
 
@@ -26,10 +26,10 @@ fn same_table(place: &Place) {
 }
 
 #[test]
-fn a_packed_sweep_has_one_file_and_the_same_table() {
+fn a_packed_sweep_has_one_file_the_same_table_and_survives_a_kill() {
     let place = place();
-    sweep(&place, &["folders.toml", "--out", "folders"]);
-    sweep(&place, &["packed.toml", "--out", "packed"]);
+    sweep(&place, "folders.toml --out folders");
+    sweep(&place, "packed.toml --out packed");
     same_table(&place);
     let packs = place.list("packed/members");
     assert!(packs.len() == 1 && packs[0].starts_with("1-of-1."), "{packs:?}");
@@ -39,26 +39,16 @@ fn a_packed_sweep_has_one_file_and_the_same_table() {
     let alone = format!("folders/members/{}/summary.json", line["member"].as_str().unwrap());
     let mut summaries = [line["summary"].clone(), place.json(&alone)];
     for summary in &mut summaries {
-        summary
-            .as_object_mut()
-            .unwrap()
-            .retain(|key, _| !["cost", "files"].contains(&key.as_str()));
+        let summary = summary.as_object_mut().unwrap();
+        summary.retain(|key, _| !["cost", "files"].contains(&key.as_str()));
     }
     assert_eq!(summaries[0], summaries[1]);
     assert_eq!(text.lines().count(), 30);
-}
-
-/// A killed process leaves an incomplete line; complete lines are used.
-#[test]
-fn a_line_that_breaks_off_is_computed_again_and_no_other() {
-    let place = place();
-    sweep(&place, &["folders.toml", "--out", "folders"]);
-    sweep(&place, &["packed.toml", "--out", "packed"]);
-    let pack = format!("packed/members/{}", place.list("packed/members")[0]);
-    let text = place.text(&pack);
+    // A killed process leaves an incomplete line; complete lines are used.
+    let pack = format!("packed/members/{}", packs[0]);
     let kept: Vec<&str> = text.split_inclusive('\n').take(12).collect();
     fs::write(place.path(&pack), &kept.concat()[..kept.concat().len() - 40]).unwrap();
-    let said = sweep(&place, &["packed.toml", "--out", "packed"]);
+    let said = sweep(&place, "packed.toml --out packed");
     assert!(said.contains("30 members; 11 done before, 19 to run"), "{said}");
     assert_eq!(place.list("packed/members").len(), 2);
     same_table(&place);
@@ -75,7 +65,7 @@ fn a_line_that_breaks_off_is_computed_again_and_no_other() {
 #[test]
 fn shards_have_a_file_each() {
     let place = place();
-    sweep(&place, &["folders.toml", "--out", "folders"]);
+    sweep(&place, "folders.toml --out folders");
     for shard in ["2/3", "3/3"] {
         sweep(&place, &["packed.toml", "--out", "packed", "--no-merge", "--shard", shard]);
     }
@@ -85,11 +75,11 @@ fn shards_have_a_file_each() {
     let left = |n: &str| done.lines().any(|line| line.starts_with("left ") && line.ends_with(n));
     // The first process has written a sweep.json with what it knows.
     assert!(left(" 0"), "{done}");
-    let said = sweep(&place, &["packed.toml", "--out", "packed", "--shard", "1/2"]);
+    let said = sweep(&place, "packed.toml --out packed --shard 1/2");
     assert!(said.contains("15 in this shard; 10 done before, 5 to run"), "{said}");
-    let said = sweep(&place, &["packed.toml", "--out", "packed", "--no-merge", "--shard", "2/2"]);
+    let said = sweep(&place, "packed.toml --out packed --no-merge --shard 2/2");
     assert!(said.contains("15 in this shard; 10 done before, 5 to run"), "{said}");
-    sweep(&place, &["packed.toml", "--out", "packed", "--merge"]);
+    sweep(&place, "packed.toml --out packed --merge");
     same_table(&place);
 }
 

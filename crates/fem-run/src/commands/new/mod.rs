@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::arguments::case::stem_of;
 use crate::commands::{materials, schema};
 use crate::text::failure::Failure;
-use crate::text::standard_output::{self, one_line};
+use crate::text::standard_output::{self, one_line, shown};
 
 /// The text of a new case; `{…}` are placeholders.
 const TEMPLATE: &str = include_str!("template.toml");
@@ -64,7 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.quiet {
         return Ok(());
     }
-    let name = one_line(&path.display().to_string());
+    let name = shown(&path);
     let word = shell_word(&name);
     let beside = match wrote_schema {
         true => format!(", with {SCHEMA_FILE} for your editor"),
@@ -131,7 +131,7 @@ fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Fail
 }
 
 fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let name = one_line(&path.display().to_string());
+    let name = shown(path);
     let file = OpenOptions::new().write(true).create_new(true).open(path);
     let mut file = file.map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => Failure::bad_input(format!("{name} exists"))
@@ -152,7 +152,7 @@ fn write_schema(path: &Path) -> Result<bool, Failure> {
             return Ok(false);
         }
     }
-    let name = one_line(&path.display().to_string());
+    let name = shown(path);
     let written = fs::write(path, schema::text_of(&schema));
     written.map_err(|error| Failure::failed(format!("{name} cannot be written: {error}")))?;
     Ok(true)
