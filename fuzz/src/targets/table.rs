@@ -45,7 +45,7 @@ impl Target for DataTable {
             for kind in KINDS {
                 match parse_measured(kind, piece) {
                     Err(error) => {
-                        drop(rejected(&error.to_string().replace(char::is_control, " "))?)
+                        rejected(&error.to_string().replace(char::is_control, " "))?;
                     }
                     Ok(it) if it.value.is_finite() && it.uncertainty >= 0.0 => {}
                     Ok(it) => return Err(format!("{piece:?} is {it:?}")),
@@ -73,7 +73,9 @@ impl Target for DataTable {
             match one {
                 Ok(()) => is_read = true,
                 Err(error) if error.message.starts_with("FINDING") => return Err(error.message),
-                Err(error) => drop(faulty(&error)?),
+                Err(error) => {
+                    faulty(&error)?;
+                }
             }
         }
         Ok(if is_read { Taken::Accepted } else { Taken::Rejected })
