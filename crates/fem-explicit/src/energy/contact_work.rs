@@ -56,7 +56,8 @@ impl ContactWork {
         }
     }
 
-    /// Takes the forces of a step (s) in which the nodes have just moved.
+    /// Takes the forces of a step (s) in which the nodes have just moved, the contact force (N), and the energy that
+    /// the contact stored before (J).
     pub fn begin_step(
         &mut self,
         model: &ExplicitBodies,

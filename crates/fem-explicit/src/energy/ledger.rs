@@ -61,7 +61,7 @@ pub(crate) struct Ledger {
     /// Result of the last balance.
     shown: Shown,
     /// Its change since by the contact.
-    since: ContactWork,
+    pub since: ContactWork,
 }
 
 /// The result of a balance.
@@ -151,20 +151,6 @@ impl Ledger {
     /// Returns the present residual, as far as it comes from the contact, J.
     pub fn residual(&self) -> f64 {
         self.shown.residual + self.since.energy
-    }
-
-    /// Takes the forces of a step (s) in which the nodes have just moved, the contact force (N), and the energy that
-    /// the contact held before (J).
-    pub fn begin_step(
-        &mut self,
-        model: &ExplicitBodies,
-        held: f64,
-        time_step: f64,
-        state: &State,
-        scratch: &Scratch,
-        force: f64,
-    ) {
-        self.since.begin_step(model, held, time_step, state, scratch, force);
     }
 
     /// Updates the largest residuals of energy and momentum.

@@ -192,7 +192,7 @@ fn move_on(
     log.advance(model, scratch, time_step);
     let held = held_by(model, state, contact);
     advance(model, state, scratch);
-    ledger.begin_step(model, held, time_step, state, scratch, contact.force);
+    ledger.since.begin_step(model, held, time_step, state, scratch, contact.force);
 }
 
 /// Records the state in which a run has stopped: it ends the samples and the history, and is the last valid state if

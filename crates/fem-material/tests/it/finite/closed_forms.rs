@@ -1,5 +1,5 @@
-//! Laws against closed forms of the textbooks, in stretches, E and ν, which the code knows nothing
-//! of: it has K, G, and the tensors.
+//! Laws against closed forms of the textbooks, in stretches, E and ν, which the code does not
+//! use: it has K, G, and the tensors.
 
 use fem_material::finite::HyperelasticLaw;
 
@@ -35,7 +35,7 @@ fn assert_free_and(found: [f64; 2], free: usize, expected: f64, what: &str) {
     assert!((loaded - expected).abs() < ROUNDING, "{what}: {loaded}, expected {expected}");
 }
 
-/// Uniaxial stress along y: what P_yy and the lateral stretch are.
+/// P_yy and the lateral stretch in uniaxial stress along y.
 #[test]
 fn uniaxial_stress() {
     let e = 2.0;
@@ -137,7 +137,7 @@ fn simple_shear() {
     }
 }
 
-/// Rubber: G (λ − 1/λ²) of the incompressible solid (Treloar 1943). What ν < 1/2 changes falls as
+/// Rubber: G (λ − 1/λ²) of the incompressible solid (Treloar 1943). The effect of ν < 1/2 falls as
 /// 1 − 2ν.
 #[test]
 fn nearly_incompressible_rubber_is_treloars() {
@@ -166,9 +166,9 @@ fn nearly_incompressible_rubber_is_treloars() {
     }
 }
 
-/// The page's table of a bar of ν = 0.45: the closed forms' rows, above, to four digits.
+/// The table of the docs for a bar of ν = 0.45 has the values of these closed forms, to four digits.
 #[test]
-fn the_table_of_the_page_is_so() {
+fn the_table_of_the_docs_is_right() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/finite-strain.md");
     let page = std::fs::read_to_string(page).unwrap();
     for x in [0.5, 0.7, 0.9, 1.1, 1.5] {

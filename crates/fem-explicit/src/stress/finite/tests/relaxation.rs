@@ -102,26 +102,13 @@ fn held(law: HyperelasticLaw, acts_on: ActsOn) -> (SphereMesh, March) {
     (mesh, march)
 }
 
-/// At a fixed past.
+/// Forces are the derivative of the stored energy at fixed internal variables.
 #[test]
-fn forces_are_the_derivative_of_what_is_stored() {
+fn forces_are_the_derivative_of_the_stored_energy() {
     for acts_on in MODES {
         for law in HyperelasticLaw::ALL {
             let (_, march) = held(law, acts_on);
-            let f = march.forces();
-            let size = vector(&f).amax();
-            for k in (0..2 * f.len()).step_by(7) {
-                // Errors of δ² and of rounding over δ are 1e-9 of the largest force.
-                let delta = 1e-5;
-                let at = |shift: f64| {
-                    let mut moved = march.u.clone();
-                    moved[k / 2][k % 2] += shift;
-                    march.energies(&moved).0
-                };
-                let slope = (at(delta) - at(-delta)) / (2.0 * delta);
-                let error = (slope + f[k / 2][k % 2]).abs();
-                assert!(error < 1e-7 * size, "{law:?} {k}: {error:e} of {size}");
-            }
+            assert_forces_are_slopes(&march.forces(), &march.u, |u| march.energies(u).0, law);
         }
     }
 }
@@ -161,9 +148,9 @@ fn energy_balances() {
     }
 }
 
-/// The past lies in the undeformed element: a rotation of the present turns stress and amplitude forces.
+/// Internal variables belong to the undeformed element: a rotation turns stress and amplitude forces.
 #[test]
-fn a_rotation_turns_what_has_relaxed() {
+fn a_rotation_turns_relaxed_stress() {
     let series_of = relaxing_glass(&TERMS, ActsOn::All);
     let series = series_of.relaxation().unwrap();
     for law in HyperelasticLaw::ALL {
