@@ -39,8 +39,6 @@ use crate::simulation::Simulation;
 #[derive(Clone, Debug, Default)]
 pub struct ErrorEstimator {
     pub(super) runs: ReferenceRuns,
-    /// A refinement that was too expensive and its element updates.
-    pub(super) too_expensive: Option<(f64, u64)>,
 }
 
 /// The estimated errors of a collision.
@@ -97,7 +95,7 @@ impl ErrorEstimator {
     pub fn estimate(&mut self, simulation: &Simulation, collision: &Collision) -> ErrorEstimate {
         let mut estimate = self.bars(simulation, collision);
         if let Err(reason) = self.refined(simulation, collision, &estimate) {
-            estimate.not_refined = reason;
+            estimate.not_refined = Some(reason);
         }
         self.complete(simulation, collision, estimate)
     }

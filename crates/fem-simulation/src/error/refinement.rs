@@ -40,8 +40,6 @@ pub(super) const MOST_LEVELS: usize = 4;
 pub(super) const MOST_UPDATES: u64 = 150_000_000;
 /// Most elements of a finer mesh of condensed bodies, which take a second.
 pub(super) const MOST_ELEMENTS: u64 = 60_000;
-/// Refinements that differ by a smaller share make the same mesh.
-const SAME_REFINEMENT: f64 = 0.01;
 
 /// A simulation on the mesh that its tolerance needs, as far as that is known before the run.
 #[derive(Debug)]
@@ -149,7 +147,7 @@ impl ErrorEstimator {
                 }
                 Ok(None) => break errors,
                 Err(reason) => {
-                    errors.not_refined = reason;
+                    errors.not_refined = Some(reason);
                     break errors;
                 }
             }
@@ -158,23 +156,15 @@ impl ErrorEstimator {
         Ok(ComputedCollision { simulation, collision, errors })
     }
 
-    /// Returns the case on a finer mesh if its collision misses a tolerance and the mesh may be refined.
-    pub fn refine(&mut self, simulation: &Simulation, collision: &Collision) -> Option<Simulation> {
-        let errors = self.bars(simulation, collision);
-        self.refined(simulation, collision, &errors).ok().flatten()
-    }
-
     /// Returns the case on a finer mesh if a tolerance is missed, or the reason why there is none.
     pub(super) fn refined(
         &mut self,
         simulation: &Simulation,
         collision: &Collision,
         errors: &ErrorEstimate,
-    ) -> Result<Option<Simulation>, Option<NotRefined>> {
-        match missed(simulation, collision, errors).first() {
-            Some(miss) => self.finer(simulation, miss, Some(collision)).map(Some).map_err(Some),
-            None => Ok(None),
-        }
+    ) -> Result<Option<Simulation>, NotRefined> {
+        let missed = missed(simulation, collision, errors);
+        missed.first().map(|miss| self.finer(simulation, miss, Some(collision))).transpose()
     }
 
     /// Returns the largest miss that condensed reference runs expect: `None` if only the collision shows the error,
@@ -213,12 +203,6 @@ impl ErrorEstimator {
             return Err(NotRefined::TooExpensive { updates: None });
         }
         let by = refinement_ratio(miss.excess_of_mesh()).clamp(STEPS[0], STEPS[1]);
-        let refinement = by * simulation.refinement;
-        if let Some((known, updates)) = self.too_expensive
-            && (refinement / known - 1.0).abs() < SAME_REFINEMENT
-        {
-            return Err(NotRefined::TooExpensive { updates: Some(updates) });
-        }
         let level = RefinementLevel {
             contact_element_size_m: elements.plan.contact_element_size,
             element_updates: met.and_then(|collision| collision.element_updates),
@@ -239,11 +223,10 @@ impl ErrorEstimator {
         match finer.setup().cost {
             Cost::Steps { element_updates, .. } => {
                 let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);
-                if element_updates > most {
-                    self.too_expensive = Some((refinement, element_updates));
-                    return Err(NotRefined::TooExpensive { updates: Some(element_updates) });
+                match element_updates > most {
+                    true => Err(NotRefined::TooExpensive { updates: Some(element_updates) }),
+                    false => Ok(finer),
                 }
-                Ok(finer)
             }
             Cost::Factors { elements, .. } if elements > MOST_ELEMENTS => {
                 Err(NotRefined::TooExpensive { updates: None })
