@@ -78,7 +78,7 @@ pub fn fit(given: &Given, options: &[String]) -> Result<Value, Failure> {
 /// Runs `fem-run invert`.
 ///
 /// # Errors
-/// As [`fit`].
+/// The same as those of [`fit`].
 pub fn invert(given: &Given, options: &[String]) -> Result<Value, Failure> {
     commands::laws::invert::numbers(&parsed("invert", &[&given.name], options)?, given.case()?)
 }
@@ -86,7 +86,7 @@ pub fn invert(given: &Given, options: &[String]) -> Result<Value, Failure> {
 /// Runs `fem-run export`; `texts` contains the snippets.
 ///
 /// # Errors
-/// As [`fit`].
+/// The same as those of [`fit`].
 pub fn export(given: &Given, options: &[String]) -> Result<Value, Failure> {
     let before = [&[given.name.as_str()][..], &given.data()].concat();
     let arguments = parsed("export", &before, options)?;
@@ -96,7 +96,7 @@ pub fn export(given: &Given, options: &[String]) -> Result<Value, Failure> {
 /// Runs `fem-run calibrate`; `relaxation_toml` is the table to paste into a case.
 ///
 /// # Errors
-/// As [`fit`].
+/// The same as those of [`fit`].
 pub fn calibrate(given: &Given, options: &[String]) -> Result<Value, Failure> {
     let before = [&[given.name.as_str()][..], &given.data()].concat();
     let arguments = parsed("calibrate", &before, options)?;
@@ -106,7 +106,7 @@ pub fn calibrate(given: &Given, options: &[String]) -> Result<Value, Failure> {
 /// Runs `fem-run cradle` and returns one object per trial, in a list if there is a table.
 ///
 /// # Errors
-/// As [`fit`].
+/// The same as those of [`fit`].
 pub fn cradle(given: &Given, options: &[String]) -> Result<Value, Failure> {
     let arguments = parsed("cradle", &given.data(), options)?;
     commands::laws::cradle::numbers(&arguments, given.table.as_ref())

@@ -57,7 +57,7 @@ impl CaseArguments {
     /// run the case.
     ///
     /// # Errors
-    /// As [`CaseArguments::load`].
+    /// The same as those of [`CaseArguments::load`].
     pub fn load_and_warn(&self) -> Result<Case, CaseError> {
         let case = self.load()?;
         standard_output::warn(case.scene().implausible_numbers());
@@ -67,7 +67,7 @@ impl CaseArguments {
     /// Reads the case with another tolerance.
     ///
     /// # Errors
-    /// As [`CaseArguments::load`].
+    /// The same as those of [`CaseArguments::load`].
     pub fn load_within(&self, within: &ToleranceArguments) -> Result<Case, CaseError> {
         self.overridden(&[&self.set[..], within.tolerance.as_slice()].concat())
     }

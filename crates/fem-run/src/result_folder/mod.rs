@@ -117,7 +117,7 @@ impl ResultFolder {
     /// Claims a folder where nothing is left to recover.
     ///
     /// # Errors
-    /// As [`ResultFolder::claim`].
+    /// The same as those of [`ResultFolder::claim`].
     pub fn claim_recovered(
         out: &Path,
         longest_name: &str,

@@ -100,7 +100,7 @@ impl SweepFolder {
     /// Claims a folder that may hold this sweep already, filter manifest is then left unchanged.
     ///
     /// # Errors
-    /// As [`SweepFolder::claim`].
+    /// The same as those of [`SweepFolder::claim`].
     pub fn join(&self, mark: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         match self.path.join(MANIFEST_FILE).is_file() && is_ours(&self.path).unwrap_or(false) {
             true => Ok(()),

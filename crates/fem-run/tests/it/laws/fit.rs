@@ -4,10 +4,10 @@ use std::path::Path;
 
 use crate::common::{CASE, Place};
 
-const ICE: &str = include_str!("../../../../cases/ice_2cm.toml");
-const BRIDGES: &str = include_str!("../../../../validation/data/bridges_ice.csv");
-const GLASS_POINT: &str = include_str!("../../../../validation/data/paper_glass.csv");
-const TRIALS: &str = include_str!("../../../../validation/data/cradle_trials.csv");
+const ICE: &str = include_str!("../../../../../cases/ice_2cm.toml");
+const BRIDGES: &str = include_str!("../../../../../validation/data/bridges_ice.csv");
+const GLASS_POINT: &str = include_str!("../../../../../validation/data/paper_glass.csv");
+const TRIALS: &str = include_str!("../../../../../validation/data/cradle_trials.csv");
 
 fn ice() -> Place {
     let place = Place::with(ICE);

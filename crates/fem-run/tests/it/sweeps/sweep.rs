@@ -348,7 +348,7 @@ fn the_shipped_sweep_is_sound() {
 
 #[test]
 fn the_page_on_sweeps_is_true() {
-    let page = include_str!("../../../../docs/sweeps.md");
+    let page = include_str!("../../../../../docs/sweeps.md");
     let place = Place::new();
     // An empty shard checks all members and computes none.
     let arguments = "sweep sweep.toml --out out --shard 9999/9999";

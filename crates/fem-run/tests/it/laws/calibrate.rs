@@ -2,11 +2,11 @@
 
 use crate::common::{CASE, Place};
 
-const ICE: &str = include_str!("../../../../cases/ice_2cm.toml");
-const BRIDGES: &str = include_str!("../../../../validation/data/bridges_ice.csv");
-const GLASS_POINT: &str = include_str!("../../../../validation/data/paper_glass.csv");
-const PAIRINGS: &str = include_str!("../../../../validation/data/synthetic_pairings.csv");
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+const ICE: &str = include_str!("../../../../../cases/ice_2cm.toml");
+const BRIDGES: &str = include_str!("../../../../../validation/data/bridges_ice.csv");
+const GLASS_POINT: &str = include_str!("../../../../../validation/data/paper_glass.csv");
+const PAIRINGS: &str = include_str!("../../../../../validation/data/synthetic_pairings.csv");
+const GLASS: &str = include_str!("../../../../../cases/glass_0.5ms.toml");
 
 /// One element size for all speeds, for the data and for the fit.
 const MESH: [&str; 2] =
@@ -186,7 +186,7 @@ fn calibrated(csv: &str, more: &[&str]) -> (String, serde_json::Value) {
 
 #[test]
 fn a_wall_has_no_diameter_to_give() {
-    let place = Place::with(include_str!("../../../../cases/glass_on_wall.toml"));
+    let place = Place::with(include_str!("../../../../../cases/glass_on_wall.toml"));
     place.write("nine.csv", PAIRINGS);
     let ran = place.fails(2, "calibrate case.toml --data nine.csv");
     ran.tells("nine.csv:4: diameter_1_mm|is a wall|leave the column out");

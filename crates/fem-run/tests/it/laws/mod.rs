@@ -1,0 +1,4 @@
+//! Commands about contact laws and measured data.
+
+mod calibrate;
+mod fit;
