@@ -6,4 +6,3 @@ mod massless;
 mod node_forces;
 mod relaxation;
 mod stability;
-mod vibration;

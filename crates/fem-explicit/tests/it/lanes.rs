@@ -6,19 +6,15 @@ use fem_explicit::{
     limit_lanes,
 };
 use fem_material::finite::HyperelasticLaw;
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
-use fem_mesh::{HalfDisc, Side};
+use fem_material::{ActsOn, PronySeries, PronyTerm};
+
+use crate::common::{unit_glass, unit_sphere};
 
 /// A unit sphere that hits a wall at a tenth of the shear wave speed, with relaxation terms of these weights.
 fn model(weights: &[f64], acts_on: ActsOn, parts: Parts, viscosity: bool) -> ExplicitBodies {
-    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.0 * 1.244, 0.244).unwrap();
     let term = |(k, &weight): (usize, &f64)| PronyTerm { weight, relaxation_time: 0.2 + k as f64 };
     let terms = weights.iter().enumerate().map(term).collect();
-    let material = Material::new(1.0, moduli, PronySeries::new(terms, acts_on).ok()).unwrap();
-    // 96 elements and a few more, so that some lanes are empty.
-    let disc =
-        HalfDisc { radius: 1.0, contact_element_size: 0.1, refined_radius: 0.5, growth: None };
-    let mesh = disc.build().unwrap().on_side(Side::Above);
+    let (mesh, material) = (unit_sphere(10.0), unit_glass(PronySeries::new(terms, acts_on).ok()));
     let coefficients = ViscosityCoefficients::default();
     let force = BulkViscosity::new(&mesh, &material, coefficients, 0.7).unwrap();
     let forces = viscosity.then(|| Box::new(force) as Box<dyn NodeForce>);

@@ -15,3 +15,4 @@ mod rigid;
 mod sampled_history;
 mod slip;
 mod stress;
+mod vibration;

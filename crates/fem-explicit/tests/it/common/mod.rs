@@ -8,7 +8,7 @@ use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, 
 use fem_explicit::{ContactMethod, ExplicitBodies, Parts, RestartState, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
-use fem_mesh::{HalfDisc, Side};
+use fem_mesh::{HalfDisc, Side, SphereMesh};
 
 /// Hertz' contact time and approach at 0.5 m/s.
 pub const HERTZ_TIME: f64 = 63.235e-6;
@@ -197,4 +197,17 @@ pub fn quantities(run: &Collision) -> Quantities {
         velocity_after: run.bodies.map(|body| body.velocity_after.unwrap()),
         steps: run.steps.unwrap(),
     }
+}
+
+/// Returns a glass of ν = 0.244 in units of density, shear modulus and so of the shear wave speed.
+pub fn unit_glass(relaxation: Option<PronySeries>) -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.0 * 1.244, 0.244).unwrap();
+    Material::new(1.0, moduli, relaxation).unwrap()
+}
+
+/// Returns an upper unit sphere with `n` elements over the radius, nearly uniform.
+pub fn unit_sphere(n: f64) -> SphereMesh {
+    let disc =
+        HalfDisc { radius: 1.0, contact_element_size: 1.0 / n, refined_radius: 0.5, growth: None };
+    disc.build().unwrap().on_side(Side::Above)
 }

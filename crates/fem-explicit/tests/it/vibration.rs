@@ -4,16 +4,15 @@
 
 use std::f64::consts::PI;
 
+use fem_explicit::FreeMotion;
 use fem_material::finite::HyperelasticLaw;
-use fem_mesh::Side;
 
-use crate::FreeMotion;
-use crate::test_support::{unit_glass, unit_sphere};
+use crate::common::{unit_glass, unit_sphere};
 
 /// Starts the unit sphere with a velocity field of (r, y), y from its centre, and finds the
 /// frequency near `guess` at which Σ m v₀·u, with a Hann window over 24 periods, is strongest.
 fn frequency(n: f64, guess: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> f64 {
-    let sphere = FreeMotion::new(unit_sphere(n, Side::Above), &unit_glass(), 0.9).unwrap();
+    let sphere = FreeMotion::new(unit_sphere(n), &unit_glass(None), 0.9).unwrap();
     frequency_of(sphere, guess, velocity)
 }
 
@@ -80,15 +79,15 @@ fn oblate_prolate_mode_0s2() {
 /// rounding, and by the strain.
 #[test]
 fn small_vibrations_at_finite_strain_are_as_before() {
-    let mesh = || unit_sphere(8.0, Side::Above);
+    let mesh = || unit_sphere(8.0);
     for (guess, axial) in [(4.38361, 1.0), (2.63906, -2.0)] {
         let velocity = |[r, y]: [f64; 2]| [1e-9 * r, 1e-9 * axial * y];
-        let small = FreeMotion::new(mesh(), &unit_glass(), 0.5).unwrap();
+        let small = FreeMotion::new(mesh(), &unit_glass(None), 0.5).unwrap();
         let time_step = small.time_step();
         let before = frequency_of(small, guess, velocity);
         for law in HyperelasticLaw::ALL {
             let at = |step_factor: f64| {
-                FreeMotion::at_finite_strain(mesh(), &unit_glass(), law, step_factor).unwrap()
+                FreeMotion::at_finite_strain(mesh(), &unit_glass(None), law, step_factor).unwrap()
             };
             let finite = at(0.5 * time_step / at(0.5).time_step());
             assert!((finite.time_step() / time_step - 1.0).abs() < 1e-14);
