@@ -193,7 +193,7 @@ fn is_slow(said: &Said) -> bool {
 fn check(is_asked: fn(&Said) -> bool) {
     let place = place();
     for (name, material) in [("marble", "soda-lime-glass"), ("steel", "steel")] {
-        place.succeed(&["new", name, "--material", material, "--partner", "wall"]);
+        place.succeed(["new", name, "--material", material, "--partner", "wall"]);
     }
     for said in SAID.iter().filter(|said| is_asked(said)) {
         let text = Page::load(said.page).text.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -26,7 +26,7 @@ fn a_table_a_page_and_a_picture_are_written() {
     assert!(page.contains("![errors over seconds](accuracy.svg)"), "{page}");
     // The suggested setting is valid input.
     let advised = page.split("--set '").nth(1).and_then(|rest| rest.split('\'').next()).unwrap();
-    place.succeed(&["case.toml", "--set", advised, "--out", "advised", "--quiet"]);
+    place.succeed(["case.toml", "--set", advised, "--out", "advised", "--quiet"]);
     // A repeated study replaces the result.
     place.succeed("accuracy case.toml --budget 1e-3 --out out --quiet");
     let page = place.text("out/accuracy.md");

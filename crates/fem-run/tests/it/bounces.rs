@@ -14,7 +14,7 @@ fn three_bounces_are_printed_summed_up_and_written_down() {
         let model = format!("model.{model}={{}}");
         let bounces = if has_rest { "stop.bounces=500" } else { "stop.bounces=3" };
         let set = ["ball.toml", "--set", model.as_str(), "--set", bounces, "--out", "out"];
-        let printed = place.succeed(&set).stdout;
+        let printed = place.succeed(set).stdout;
         assert!(printed.contains("bounce ") && printed.contains("\n3 "), "{printed}");
         assert_eq!(printed.contains("at rest from"), has_rest, "{printed}");
         let summary = place.json("out/summary.json");
@@ -38,7 +38,7 @@ fn three_bounces_are_printed_summed_up_and_written_down() {
 fn a_ball_that_fell_is_drawn_on_the_floor() {
     let place = Place::new();
     place.write("ball.toml", BALL);
-    place.succeed(&["ball.toml", "--set", "model.condensed={}", "--out", "out"]);
+    place.succeed(["ball.toml", "--set", "model.condensed={}", "--out", "out"]);
     let file = VtuFile::open(place.path("out/ball_1_maximum.vtu")).unwrap();
     let points = file.quad_mesh().unwrap().points;
     let displacement = file.point_data("displacement").unwrap();

@@ -25,7 +25,7 @@ fn trials_are_counted_by_themselves() {
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
     for (case, has_trials) in [("rubber.toml", true), ("auxetic.toml", false)] {
-        let ran = place.succeed(&[case, "--out", case.trim_end_matches(".toml")]);
+        let ran = place.succeed([case, "--out", case.trim_end_matches(".toml")]);
         let summary = place.json(&format!("{}/summary.json", case.trim_end_matches(".toml")));
         let seconds = |key: &str| summary["cost"][key].as_f64().unwrap();
         assert_eq!(seconds("trials_s") > 0.0, has_trials, "{case}: {}", summary["cost"]);
@@ -62,12 +62,12 @@ fn check_tells_what_may_follow() {
     for key in ["restitution", "peak_force_n"] {
         assert_eq!(place.json("again/summary.json")[key], place.json("out/summary.json")[key]);
     }
-    let condensed = place.succeed(&["check", "case.toml", "--set", "model.condensed={}"]).stdout;
+    let condensed = place.succeed(["check", "case.toml", "--set", "model.condensed={}"]).stdout;
     let time = condensed.lines().find(|line| line.starts_with("# time  ")).unwrap();
     assert!(time.contains("about ") && time.contains("here, after"), "{time}");
     // The case gives its element size.
     assert!(!condensed.contains("mesh refinement"), "{condensed}");
-    let open = place.succeed(&["check", "auxetic.toml", "--set", "model.condensed={}"]).stdout;
+    let open = place.succeed(["check", "auxetic.toml", "--set", "model.condensed={}"]).stdout;
     let most = "misses accuracy.tolerance: at most 4 finer meshes, ";
     assert!(open.contains(most) && open.contains("s more\n"), "{open}");
 }
@@ -116,7 +116,7 @@ fn little_mass_that_is_moved_is_not_none() {
         "--set",
         "mesh.contact_element_size='50 um'",
     ];
-    let told = place.succeed(&tight).stdout;
+    let told = place.succeed(tight).stdout;
     let row = told.lines().find(|line| line.starts_with("# time.mass_scaling")).unwrap();
     assert!(row.contains("e-") && !row.contains("0.00"), "{row}");
 }
@@ -129,7 +129,7 @@ fn a_sweep_tells_of_finer_meshes() {
     let sweep = "case = 'rubber.toml'\nvary.'accuracy.tolerance' = ['1 %', '3 %']\n";
     place.write("sweep.toml", sweep);
     let told = |set: &str| {
-        let ran = place.succeed(&["sweep", "sweep.toml", "--dry-run", "--set", set]);
+        let ran = place.succeed(["sweep", "sweep.toml", "--dry-run", "--set", set]);
         ran.stderr.contains(" threads, up to ")
             && ran.stderr.contains("if meshes have to be refined")
     };

@@ -162,7 +162,7 @@ fn what_does_not_come_back_or_end_is_said() {
     assert!(stuck["warnings"].to_string().contains("stay together"), "{stuck}");
     let creep = "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}";
     place
-        .fails(1, &["case.toml", "--out", "out", "--force", "--set", creep])
+        .fails(1, ["case.toml", "--out", "out", "--force", "--set", creep])
         .tells("remedy: lower the damping");
     assert_eq!(place.json("out/summary.json")["complete"], false);
     for (value, message) in [
@@ -170,7 +170,7 @@ fn what_does_not_come_back_or_end_is_said() {
         ("model.law.kuwabara_kono={}", "flows"),
         ("model.auto={best=true}", "unknown key `best`"),
     ] {
-        place.fails(2, &["check", "case.toml", "--set", value]).tells(message);
+        place.fails(2, ["check", "case.toml", "--set", value]).tells(message);
     }
 }
 
@@ -181,7 +181,7 @@ fn check_and_the_announcement_name_the_model() {
         ("model.ting={}", "model ting, one degree of freedom"),
         ("model.law.falcon.c=300", "model law falcon"),
     ] {
-        let checked = place.succeed(&["check", "case.toml", "--set", model]);
+        let checked = place.succeed(["check", "case.toml", "--set", model]);
         checked.prints(named);
         place.write("resolved.toml", &checked.stdout);
         place.succeed("resolved.toml --out out --force").tells(named);

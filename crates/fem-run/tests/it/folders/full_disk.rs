@@ -59,7 +59,7 @@ fn a_table_needs_no_disk() {
 #[test]
 fn what_lacks_files_goes_beside_an_older_result() {
     let place = Place::new();
-    place.succeed(&FINE);
+    place.succeed(FINE);
     let before = place.result("runs/case");
     let ran = run_within(&place, 325, &FINE);
     assert_eq!(ran.code, Some(1), "{}", ran.stderr);

@@ -38,7 +38,7 @@ fn folders_of_the_killed_go_and_those_of_the_living_stay() {
     assert_eq!(hidden(&place).len(), 2);
     killed.kill().unwrap();
     killed.wait().unwrap();
-    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "out"]);
+    place.succeed(["case.toml", "--set", "model.ting={}", "--out", "out"]);
     assert_eq!(hidden(&place), of_living);
     kill(Pid::from_raw(living.id() as i32), Signal::SIGINT).unwrap();
     assert_eq!(living.wait().unwrap().code(), Some(130));
@@ -49,9 +49,9 @@ fn folders_of_the_killed_go_and_those_of_the_living_stay() {
 /// Writes two results of the case, `older` and `newer`, the older one with a file of the user.
 fn two_results() -> Place {
     let place = Place::new();
-    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "older"]);
+    place.succeed(["case.toml", "--set", "model.ting={}", "--out", "older"]);
     place.write("older/notes.txt", "mine");
-    place.succeed(&["case.toml", "--set", "model.hertz={}", "--out", "newer"]);
+    place.succeed(["case.toml", "--set", "model.hertz={}", "--out", "newer"]);
     place
 }
 
@@ -68,7 +68,7 @@ fn rename(place: &Place, from: &str, to: &str) {
 }
 
 fn sweep(place: &Place) {
-    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "another"]);
+    place.succeed(["case.toml", "--set", "model.ting={}", "--out", "another"]);
     assert_eq!(hidden(place), [""; 0]);
 }
 
@@ -142,7 +142,7 @@ fn hidden_folders_of_others_stay() {
     fs::create_dir(place.path(".fem-run-mine")).unwrap();
     place.write(".fem-run-mine/notes.txt", "mine");
     place.write(".fem-run-notes.tmp", "mine");
-    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "out"]);
+    place.succeed(["case.toml", "--set", "model.ting={}", "--out", "out"]);
     assert_eq!(hidden(&place), [".fem-run-mine", ".fem-run-notes.tmp"]);
     assert_eq!(place.list(".fem-run-mine"), ["notes.txt"]);
 }
@@ -154,10 +154,10 @@ fn a_sweep_sweeps_its_members() {
     let text = "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = [0.1, 0.2]\n";
     place.write("sweep.toml", text);
     let sweep = ["sweep", "sweep.toml", "--set", "model.ting={}", "--quiet"];
-    place.succeed(&sweep);
+    place.succeed(sweep);
     let folder = "runs/sweep/members/.fem-run-a";
     fs::create_dir(place.path(folder)).unwrap();
     place.write(&format!("{folder}/{LOCK}"), "0123456789abcdef");
-    place.succeed(&sweep);
+    place.succeed(sweep);
     assert_eq!(place.list("runs/sweep/members").len(), 2);
 }

@@ -96,7 +96,7 @@ fn a_mesh_replaces_only_a_mesh() {
     assert_eq!(place.read("meshes/target.vtu"), b"mine");
     for size in ["60e-6", "70e-6"] {
         let set = format!("mesh.contact_element_size={size}");
-        place.succeed(&["mesh", "case.toml", "--set", &set]);
+        place.succeed(["mesh", "case.toml", "--set", &set]);
     }
 }
 
@@ -105,7 +105,7 @@ fn overrides_change_the_run() {
     let place = Place::new();
     let speed = |value: &str| {
         let set = format!("body.0.approach_speed={value}");
-        place.succeed(&["case.toml", "--out", "out", "--force", "--set", &set]);
+        place.succeed(["case.toml", "--out", "out", "--force", "--set", &set]);
         place.json("out/summary.json")["bodies"][0]["velocity_before_m_s"].as_f64()
     };
     assert_eq!(speed("'25 cm/s'"), Some(0.25));

@@ -16,8 +16,8 @@ fn another_case_takes_a_folder_of_its_own() {
     assert!(own.starts_with("case-") && own.len() == "case-".len() + 8, "{own}");
     assert_eq!(place.read("runs/case/summary.json"), first);
     let said = format!("result: runs/{own}, since runs/case holds that of another case");
-    ran.tells(&said);
-    ran.prints(&format!("Result: runs/{own}\n"));
+    ran.tells(said);
+    ran.prints(format!("Result: runs/{own}\n"));
 
     place.write(&format!("runs/{own}/notes.txt"), "mine");
     place.succeed(SLOWER);

@@ -241,10 +241,10 @@ fn without_a_file_a_run_starts_anew_and_says_so() {
     assert_eq!(place.result("runs/case"), place.result("other"));
     // A model without restart state.
     place
-        .succeed(&["case.toml", "--checkpoint-every", "1", "--set", "model.ting={}"])
+        .succeed(["case.toml", "--checkpoint-every", "1", "--set", "model.ting={}"])
         .tells("leaves no restart file");
     for seconds in ["-1", "nan", "soon"] {
-        assert_eq!(place.run(&["case.toml", "--checkpoint-every", seconds]).code, Some(2));
+        assert_eq!(place.run(["case.toml", "--checkpoint-every", seconds]).code, Some(2));
     }
 }
 

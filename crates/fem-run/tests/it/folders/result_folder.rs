@@ -110,7 +110,7 @@ fn the_folder_holds_what_the_contract_says() {
 fn a_wall_has_neither_elements_nor_mass() {
     let place = Place::new();
     let wall = "body.1={name='floor', wall={}}";
-    place.succeed(&["case.toml", "--set", wall, "--out", "out"]);
+    place.succeed(["case.toml", "--set", wall, "--out", "out"]);
     let summary = place.json("out/summary.json");
     let floor = &summary["bodies"][1];
     assert_eq!((floor["elements"].as_u64(), floor["nodes"].as_u64()), (Some(0), Some(0)));
@@ -141,7 +141,7 @@ fn snapshots_can_be_a_count_times_or_none() {
     let place = Place::new();
     let snapshots = |value: &str| {
         let set = format!("output.snapshots={value}");
-        let ran = place.succeed(&["case.toml", "--set", &set, "--out", "out"]);
+        let ran = place.succeed(["case.toml", "--set", &set, "--out", "out"]);
         let names = place.list("out").into_iter().filter(|name| name.starts_with("case"));
         (names.collect::<Vec<_>>(), ran.stdout)
     };
@@ -162,7 +162,7 @@ fn probes_have_a_table() {
     place.succeed("case.toml --out none");
     assert!(!place.list("none").contains(&"probes.csv".to_string()));
     let probes = "output.probe=[{body='target', r=0, y=0}, {body='target', r='0.1 mm', y='1 mm'}]";
-    place.succeed(&["case.toml", "--set", probes, "--out", "out"]);
+    place.succeed(["case.toml", "--set", probes, "--out", "out"]);
     let files = place.json("out/summary.json")["files"].clone();
     assert!(files.as_array().unwrap().contains(&"probes.csv".into()), "{files}");
     let text = place.text("out/probes.csv");
@@ -188,7 +188,7 @@ fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
     std::fs::create_dir(place.path("out/plots")).unwrap();
     place.write("out/plots/force.svg", "mine too");
     place.write("other.toml", crate::common::CASE);
-    place.succeed(&["other.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
+    place.succeed(["other.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
     let files = "contact.csv history.csv notes.txt other.pvd other.vtu.series other_0_maximum.vtu plots \
                  report.html summary.json";
     assert_eq!(place.list("out").join(" "), files);
@@ -197,7 +197,7 @@ fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
     assert_eq!(place.list("."), ["case.toml", "other.toml", "out"]);
     // A file of the user with a name that the program now needs.
     place.write("out/case_0_maximum.vtu", "mine");
-    place.succeed(&["case.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
+    place.succeed(["case.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
     assert_eq!(place.read("out/case_0_maximum.vtu.kept"), b"mine");
 }
 
@@ -208,7 +208,7 @@ fn folders_of_others_are_refused() {
         let folder = format!("folder of {name}");
         std::fs::create_dir(place.path(&folder)).unwrap();
         place.write(&format!("{folder}/{name}"), text);
-        let ran = place.fails(2, &["case.toml", "--out", &folder]);
+        let ran = place.fails(2, ["case.toml", "--out", &folder]);
         assert!(
             ran.stderr.contains(&folder) && ran.stderr.contains("move this one"),
             "{}",
@@ -225,7 +225,7 @@ fn folders_of_others_are_refused() {
 fn the_folder_one_is_in_is_refused() {
     let place = Place::new();
     place.succeed("case.toml --set model=ting --out out");
-    let mut command = place.command("../case.toml --out .");
+    let mut command = place.command("../case.toml --set model=ting --out .");
     let ran: crate::common::Ran = command.current_dir(place.path("out")).output().unwrap().into();
     assert_eq!(ran.code, Some(2));
     ran.tells("you are in");
@@ -281,7 +281,7 @@ fn runs_at_once_do_not_mix_their_files() {
         let children = labels.map(|label| {
             let set = format!("output.snapshots=['{label}']");
             let arguments = ["case.toml", "--quiet", "--out", "out", "--set", &set];
-            place.command(&arguments).spawn().unwrap()
+            place.command(arguments).spawn().unwrap()
         });
         for mut child in children {
             assert_eq!(child.wait().unwrap().code(), Some(0));

@@ -37,7 +37,7 @@ fn the_papers_point_determines_one_combination_of_four() {
     let (_, after) = rest.split_once("[[body]]").unwrap();
     let table = place.text("runs/glass_calibrate/relaxation.toml");
     place.write("pasted.toml", &format!("{before}\n{table}\n[[body]]{after}"));
-    place.succeed(&["pasted.toml", "--set", "model.condensed={}", "--out", "run", "--quiet"]);
+    place.succeed(["pasted.toml", "--set", "model.condensed={}", "--out", "run", "--quiet"]);
     let restitution = number(&place.json("run/summary.json")["restitution"]);
     assert!((restitution - 0.925).abs() < 2e-4, "{restitution}");
 
@@ -289,7 +289,7 @@ fn a_mesh_that_the_case_spoils_is_the_cases_fault() {
         ("mesh.refined_radius=0.02", "--set mesh.refined_radius=…:1:21: "),
         ("body.0.sphere.mesh='no.vtu'", "--set body.0.sphere.mesh=…:1:20: "),
     ] {
-        let ran = place.fails(2, &["calibrate", "case.toml", "--data", "e.csv", "--set", set]);
+        let ran = place.fails(2, ["calibrate", "case.toml", "--data", "e.csv", "--set", set]);
         assert!(ran.stderr.starts_with(&format!("error: {at}")), "{}", ran.stderr);
     }
 }

@@ -187,7 +187,7 @@ fn a_case_gives_its_law() {
 
     let glass = Place::new();
     let tsuji = "model.law={tsuji={e=0.9,end='zero_overlap'}}";
-    glass.succeed(&["export", "case.toml", "--set", tsuji]);
+    glass.succeed(["export", "case.toml", "--set", tsuji]);
     let e = glass.json("runs/case_export/export.json")["snippets"][0]["restitution"].as_f64();
     // The law gives it at each speed, to its tolerance.
     assert!((e.unwrap() - 0.9).abs() < 1e-7, "{e:?}");
@@ -203,7 +203,7 @@ fn a_case_gives_its_law() {
     let row = ran.stdout.lines().find(|line| line.starts_with("zhang_whiten")).unwrap();
     let alpha: f64 = row.split_whitespace().nth(3).unwrap().parse().unwrap();
     let law = format!("model.law={{zhang_whiten={{alpha={alpha}}}}}");
-    glass.succeed(&["case.toml", "--set", &law, "--out", "run"]);
+    glass.succeed(["case.toml", "--set", &law, "--out", "run"]);
     let e = glass.json("run/summary.json")["restitution"].as_f64().unwrap();
     // The value is printed with seven digits.
     assert!((e - 0.92).abs() < 1e-6, "{e}");
@@ -258,12 +258,12 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     );
     assert_eq!(numbers["has_hertz_times"], true);
     // Ting's model replaces a model with elements.
-    place.succeed(&["export", "case.toml", "--set", "model.condensed={}", "--quiet", "--out", "c"]);
+    place.succeed(["export", "case.toml", "--set", "model.condensed={}", "--quiet", "--out", "c"]);
     assert_eq!(place.read("c/lammps_tsuji.in"), place.read("runs/case_export/lammps_tsuji.in"));
     // LIGGGHTS and YADE have no such wall.
     let wall = "body.1={name='floor',wall={}}";
     place
-        .succeed(&["export", "case.toml", "--set", wall, "--out", "wall"])
+        .succeed(["export", "case.toml", "--set", wall, "--out", "wall"])
         .prints("not written for LIGGGHTS and YADE");
     assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 10);
     let elastic = Place::with(&CASE.replace("[material.glass.relaxation]", "[material.other.relaxation]")
@@ -290,7 +290,7 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
     let table = place.text("all/pairs.csv");
     assert_eq!((rows.len(), table.lines().count()), (10, 11));
     let unlike = ["body.0.sphere.diameter='2 mm'", "body.1.sphere.diameter='1 cm'"];
-    place.succeed(&["export", "case.toml", "--set", unlike[0], "--set", unlike[1], "--out", "one"]);
+    place.succeed(["export", "case.toml", "--set", unlike[0], "--set", unlike[1], "--out", "one"]);
     let one = place.json("one/export.json");
     assert_eq!(rows[1]["restitution"], one["snippets"][0]["restitution"]);
     assert_eq!(rows[1]["entries"]["lammps_viscoelastic_eta"], one["snippets"][1]["entries"]["eta"]);
@@ -308,7 +308,7 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
         ("--materials", "lib:stel", "did you mean lib:steel?"),
         ("--diameters", "2 kg", "this is not a length"),
     ] {
-        place.fails(2, &["export", "case.toml", option, value]).tells(expected);
+        place.fails(2, ["export", "case.toml", option, value]).tells(expected);
     }
 }
 
@@ -330,7 +330,7 @@ fn cradle_of_one_trial_and_of_a_file() {
     // The output of the cradle is input of the fit.
     let data = "runs/trials_cradle/cradle.csv";
     let fit = ["fit", "case.toml", "--data", data, "--law", "kuwabara_kono", "--out", "fit"];
-    place.succeed(&fit);
+    place.succeed(fit);
     assert_eq!(place.json("fit/fit.json")["weighted"], true);
     let refused = |options: &str, expected: &str| {
         place.fails(2, ("cradle --length '20 cm ± 1 mm'", options)).tells(expected);
@@ -359,10 +359,9 @@ fn slips_of_the_hand_are_answered() {
         ("mishra", "did you mean mishra_murty?"),
         ("tsuji", "remove the separator of thousands"),
     ] {
-        place.fails(2, &["fit", "case.toml", "--data", "parted.csv", "--law", law]).tells(told);
+        place.fails(2, ["fit", "case.toml", "--data", "parted.csv", "--law", law]).tells(told);
     }
-    let invert =
-        |e: &str| place.run(&["invert", "case.toml", "--law", "tsuji", "--restitution", e]);
+    let invert = |e: &str| place.run(["invert", "case.toml", "--law", "tsuji", "--restitution", e]);
     assert_eq!(invert("90%").stdout, invert("0.9").stdout);
     assert_eq!(invert("90%").code, Some(0));
     for e in ["-0.9", "0.9 m", "much"] {
@@ -404,7 +403,7 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/data/bridges_ice.csv");
     let all =
         ["fit", "case.toml", "--data", data.to_str().unwrap(), "--law", "all", "--out", "out"];
-    let ran = place.succeed(&all);
+    let ran = place.succeed(all);
     // With the exponents of Mishra & Murty, one parameter fits like two with n = 0.73.
     let lines: Vec<&str> = ran.stdout.lines().collect();
     assert!(lines[1].starts_with("mishra_murty      c "), "{}", ran.stdout);

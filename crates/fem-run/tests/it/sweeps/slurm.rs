@@ -98,7 +98,7 @@ fn a_slurm_that_is_not_there_or_refuses_is_told() {
     let place = place();
     let submit = ["sweep", "sweep.toml", "--slurm", "--time=10", "--submit"];
     stand_in(&place, "sbatch", "echo no partition >&2; exit 1");
-    let ran = place.command(&submit).env("PATH", path_with(&place)).output().unwrap();
+    let ran = place.command(submit).env("PATH", path_with(&place)).output().unwrap();
     let stderr = String::from_utf8(ran.stderr).unwrap();
     assert_eq!(ran.status.code(), Some(1));
     assert!(stderr.contains("no partition") && stderr.contains("the script is kept"), "{stderr}");
@@ -132,6 +132,6 @@ fn a_sweep_says_how_far_it_is() {
     place.fails(1, "sweep sweep.toml --out out --merge").tells("3 of 7 members are done");
     fs::create_dir(place.path("mine")).unwrap();
     for folder in ["mine", "none"] {
-        place.fails(2, &["sweep", "--status", folder]).tells("sweep.json");
+        place.fails(2, ["sweep", "--status", folder]).tells("sweep.json");
     }
 }

@@ -217,7 +217,7 @@ fn threads_and_shards_give_the_same_bytes() {
     // The other shards run at the same time.
     let start = |shard| {
         let arguments = ["sweep", "sweep.toml", "--out", "shards", "--quiet", "--shard", shard];
-        place.command(&arguments).spawn().unwrap()
+        place.command(arguments).spawn().unwrap()
     };
     for mut child in ["1/4", "2/4", "4/4"].map(start) {
         assert_eq!(child.wait().unwrap().code(), Some(0));
@@ -325,7 +325,7 @@ fn only_a_new_folder_or_a_sweep_is_written_into() {
     fs::create_dir(place.path("mine")).unwrap();
     place.write("mine/notes.txt", "mine");
     for out in ["result", "file", "mine", "file/below", "."] {
-        place.fails(2, &["sweep", "sweep.toml", "--out", out]).tells(&format!("--out {out}"));
+        place.fails(2, ["sweep", "sweep.toml", "--out", out]).tells(format!("--out {out}"));
     }
     assert_eq!(place.list("mine"), ["notes.txt"]);
     // The same message without a run.
@@ -343,7 +343,7 @@ fn the_shipped_sweep_is_sound() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sweep_speed.toml");
     // Only the first member: the slowest speed, on a coarse mesh.
     let arguments = ["sweep", file, "--shard", "1/12", "--set", "mesh.contact_element_size=20e-6"];
-    place.succeed(&arguments).prints("1 of 12 members are done");
+    place.succeed(arguments).prints("1 of 12 members are done");
 }
 
 #[test]

@@ -139,7 +139,7 @@ fn faults_of_the_base_case_and_of_overrides_are_told_as_such() {
         ("body.0.approach_speed=2", "varies body.0.approach_speed"),
         ("nonsense", "no `=`"),
     ] {
-        let ran = place.fails(2, &["sweep", "sweep.toml", "--set", set]);
+        let ran = place.fails(2, ["sweep", "sweep.toml", "--set", set]);
         assert!(ran.stderr.starts_with("error: --set "), "{}", ran.stderr);
         ran.tells(expected);
     }
@@ -196,7 +196,7 @@ fn warnings_of_members_are_told_once() {
     let arguments = ["sweep", "sweep.toml", "--quiet", "--set", set, "--set", library];
     // A finished sweep prints them again.
     for _ in 0..2 {
-        let ran = place.succeed(&arguments);
+        let ran = place.succeed(arguments);
         let told: Vec<&str> =
             ran.stderr.lines().filter(|line| line.contains("is not published")).collect();
         assert!(
@@ -216,7 +216,7 @@ fn a_range_may_begin_in_another_unit() {
     let place = Place::new();
     let range = "'body.0.approach_speed' = { from = '50 mm/s', to = '2 m/s', n = 3, log = true }";
     place.write("sweep.toml", &vary(range));
-    place.succeed(&["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
+    place.succeed(["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
     let table = place.text("runs/sweep/sweep.csv");
     let texts: Vec<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
     assert!(texts.len() == 3 && texts[0] == "50 mm/s" && texts[2] == "2 m/s", "{texts:?}");
@@ -226,7 +226,7 @@ fn a_range_may_begin_in_another_unit() {
     // A bare number is SI.
     let range = "'body.0.approach_speed' = { from = '50 mm/s', to = 2, n = 3, log = true }";
     place.write("sweep.toml", &vary(range));
-    place.succeed(&["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
+    place.succeed(["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
     let table = place.text("runs/sweep/sweep.csv");
     let texts: Vec<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
     assert!(texts[0] == "50 mm/s" && texts[2] == "2.0", "{texts:?}");

@@ -42,7 +42,7 @@ fn a_new_case_is_sound_with_all_that_its_comments_offer() {
         [("sphere", "soda-lime-glass"), ("wall", "pmma"), ("half-space", "lib:pvb")]
     {
         let name = format!("{partner}_0.5ms");
-        let ran = place.succeed(&["new", &name, "--partner", partner, "--material", material]);
+        let ran = place.succeed(["new", &name, "--partner", partner, "--material", material]);
         let file = format!("{name}.toml");
         ran.prints(&file);
         let text = place.text(&file);
@@ -50,8 +50,8 @@ fn a_new_case_is_sound_with_all_that_its_comments_offer() {
         for place in ["{below}", "{table}", "{relaxation}", "{gravity}", "{material}", "{file}"] {
             assert!(!text.contains(place), "{text}");
         }
-        place.succeed(&[&file, "--set", "model.hertz={}"]);
-        place.succeed(&["check", &file]);
+        place.succeed([&file, "--set", "model.hertz={}"]);
+        place.succeed(["check", &file]);
         // A bare # precedes a key, `# ` precedes text.
         let is_offer =
             |line: &str| line.starts_with('#') && !line.starts_with("# ") && line.len() > 1;
@@ -94,7 +94,7 @@ fn a_new_case_overwrites_nothing() {
 fn a_schema_has_the_keys_of_the_reader() {
     let place = Place::new();
     let read = |of: &str| -> serde_json::Value {
-        serde_json::from_str(&place.succeed(&["schema", of]).stdout).unwrap()
+        serde_json::from_str(&place.succeed(["schema", of]).stdout).unwrap()
     };
     let keys = |schema: &serde_json::Value| -> Vec<String> {
         schema["properties"].as_object().unwrap().keys().cloned().collect()
@@ -110,7 +110,7 @@ fn a_schema_has_the_keys_of_the_reader() {
         ("material.glass.nothing=1", keys(&schema["definitions"]["MaterialTable"])),
         ("model.law.tsuji.nothing=1", keys(&schema["definitions"]["TsujiTable"])),
     ] {
-        assert_eq!(told(&place.run(&["check", "case.toml", "--set", at]).stderr), keys, "{at}");
+        assert_eq!(told(&place.run(["check", "case.toml", "--set", at]).stderr), keys, "{at}");
     }
     place.write("sweep.toml", "nothing = 1\ncase = 'case.toml'\nvary = { title = ['a'] }\n");
     assert_eq!(told(&place.run("sweep sweep.toml").stderr), keys(&read("sweep")));
@@ -130,7 +130,7 @@ fn a_word_that_is_nearly_a_command_is_asked_about() {
     }
     // The word is meant as a file.
     for file in ["mesh.toml", "glass"] {
-        place.run(&[file]).tells("there is no such file");
+        place.run([file]).tells("there is no such file");
     }
 }
 

@@ -6,10 +6,6 @@ use crate::common::Place;
 
 const TING: [&str; 4] = ["case.toml", "--set", "model.ting={}", "--quiet"];
 
-fn text(place: &Place, name: &str) -> String {
-    place.text(name)
-}
-
 /// Checks that a page loads nothing from elsewhere.
 fn stands_alone(page: &str) {
     for address in ["src=", "href=", "url(", "@import", "<link", "fetch("] {
@@ -28,7 +24,7 @@ fn a_kink_of_the_contact_radius_is_explained() {
         let relaxation =
             format!("material.glass.relaxation={{ acts_on = \"all\", terms = {terms} }}");
         place.succeed((TING, ["--set", &relaxation, "--out", seconds]));
-        text(&place, &format!("{seconds}/report.html")).contains("has a kink at its maximum")
+        place.text(format!("{seconds}/report.html")).contains("has a kink at its maximum")
     };
     assert!(of("2e-6") && !of("1.0"));
 }
@@ -37,8 +33,8 @@ fn a_kink_of_the_contact_radius_is_explained() {
 #[test]
 fn a_run_with_fields_has_all_of_it_on_a_page() {
     let place = Place::new();
-    place.succeed(&["case.toml", "--set", "model.condensed={}", "--quiet"]);
-    let page = text(&place, "runs/case/report.html");
+    place.succeed(["case.toml", "--set", "model.condensed={}", "--quiet"]);
+    let page = place.text("runs/case/report.html");
     stands_alone(&page);
     let summary = place.json("runs/case/summary.json");
     let restitution = format!("{:.3}", summary["restitution"].as_f64().unwrap());
@@ -62,11 +58,11 @@ fn a_run_with_fields_has_all_of_it_on_a_page() {
     // An older result gets the same page as a new one.
     fs::remove_file(place.path("runs/case/report.html")).unwrap();
     place.succeed("report runs/case");
-    assert_eq!(text(&place, "runs/case/report.html"), page);
+    assert_eq!(place.text("runs/case/report.html"), page);
     // Each figure is also written by itself, as XML.
     for what in ["contours", "force", "approach", "radius", "pressure", "energy", "profile"] {
-        place.succeed(&["plot", "runs/case", "--what", what]);
-        let svg = text(&place, &format!("{what}.svg"));
+        place.succeed(["plot", "runs/case", "--what", what]);
+        let svg = place.text(format!("{what}.svg"));
         assert!(svg.starts_with("<svg xmlns=") && svg.ends_with("</svg>\n"), "{what}");
     }
 }
@@ -74,8 +70,8 @@ fn a_run_with_fields_has_all_of_it_on_a_page() {
 #[test]
 fn a_result_without_fields_has_a_page_and_no_picture_of_them() {
     let place = Place::new();
-    place.succeed(&TING);
-    let page = text(&place, "runs/case/report.html");
+    place.succeed(TING);
+    let page = place.text("runs/case/report.html");
     stands_alone(&page);
     assert!(page.contains("Contact radius a [µm]") && !page.contains("<figure>"));
     place.fails(2, "plot runs/case --what contours").tells("nothing to draw");
@@ -95,7 +91,7 @@ fn a_title_is_text() {
     let place = Place::new();
     let title = ["--set", "title='<script>alert(1)</script>'"];
     place.succeed((TING, title));
-    let page = text(&place, "runs/case/report.html");
+    let page = place.text("runs/case/report.html");
     assert!(!page.contains("<script>alert"));
     assert_eq!(page.matches("<script>").count(), 1);
 }
@@ -107,7 +103,7 @@ fn several_results_are_compared() {
     let fast = ["--set", "body.0.approach_speed='1 m/s'", "--out", "fast"];
     place.succeed((TING, fast));
     place.succeed("report slow fast --out both.html");
-    let page = text(&place, "both.html");
+    let page = place.text("both.html");
     stands_alone(&page);
     // The force grows by 2^(6/5) less relaxation; the difference is printed as a share.
     let force = |name: &str| place.json(&format!("{name}/summary.json"))["peak_force_n"].as_f64();
@@ -128,7 +124,7 @@ fn a_comparison_tells_what_differs_first() {
     let fast = ["--set", "body.0.approach_speed='4 m/s'", "--out", "glass_fast_0.5"];
     place.succeed((condensed, fast));
     place.succeed("report glass_on_glass glass_fast_0.5 --out both.html");
-    let page = text(&place, "both.html");
+    let page = place.text("both.html");
     assert_eq!(page.matches(">glass_fast_0.5</text>").count(), 5, "in the legend of each chart");
     let (before, rest) = page.split_once("<details>").unwrap();
     let (folded, _) = rest.split_once("</details>").unwrap();
@@ -138,7 +134,7 @@ fn a_comparison_tells_what_differs_first() {
     let longest = page.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(str::len).max();
     assert!(longest.is_some_and(|n| n <= 12), "{longest:?}");
     for folders in [["glass_on_glass", "glass_on_glass"], ["glass_on_glass", "./glass_on_glass/"]] {
-        place.fails(2, &["report", folders[0], folders[1]]).tells("named twice");
+        place.fails(2, ["report", folders[0], folders[1]]).tells("named twice");
     }
 }
 
@@ -153,7 +149,7 @@ fn snapshots_have_the_fields_that_are_asked_for() {
         let snapshot = place.list(out).into_iter().find(|name| name.ends_with("maximum.vtu"));
         let file = fem_vtk::VtuFile::open(place.path(out).join(snapshot.unwrap())).unwrap();
         let has = |name: &str| [file.point_data(name).is_ok(), file.cell_data(name).is_ok()];
-        let page = text(&place, &format!("{out}/report.html"));
+        let page = place.text(format!("{out}/report.html"));
         (["displacement", "velocity", "sigma_yy", "von_mises", "body"].map(has), page)
     };
     let (arrays, page) = run("['displacement', 'sigma_yy']", "some");
@@ -163,7 +159,7 @@ fn snapshots_have_the_fields_that_are_asked_for() {
     let (arrays, page) = run("[]", "none");
     assert_eq!(arrays, [[false; 2], [false; 2], [false; 2], [false; 2], [true; 2]]);
     assert!(!page.contains("<figure>") && page.contains("Contact pressure p ["));
-    place.fails(2, &["case.toml", "--set", "output.fields=['sigma_zz']"]).tells("sigma_yy");
+    place.fails(2, ["case.toml", "--set", "output.fields=['sigma_zz']"]).tells("sigma_yy");
 }
 
 /// A ball on a wall fills its picture: the wall is a strip, with the body above it.
@@ -173,7 +169,7 @@ fn the_frame_follows_what_is_there() {
     let wall = ["--set", "body.0={ name = 'floor', wall = {} }", "--set", "model.condensed={}"];
     let moves = ["--set", "body.1.approach_speed='0.5 m/s'", "--quiet"];
     place.succeed(("case.toml", wall, moves));
-    let page = text(&place, "runs/case/report.html");
+    let page = place.text("runs/case/report.html");
     assert_eq!(page.matches("class=\"rigid ink stroke\"").count(), 4);
     // The height of a frame over its width: 0.625; it was 0.85 when as much of the wall as of the
     // ball was shown.
@@ -186,13 +182,13 @@ fn the_frame_follows_what_is_there() {
 #[test]
 fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
     let place = Place::new();
-    place.succeed(&TING);
+    place.succeed(TING);
     for folder in [".", "nowhere"] {
-        place.fails(2, &["report", folder]).tells("summary.json cannot be read");
+        place.fails(2, ["report", folder]).tells("summary.json cannot be read");
     }
     place.write("mine.html", "<p>mine</p>");
     place.fails(2, "report runs/case --out mine.html");
-    assert_eq!(text(&place, "mine.html"), "<p>mine</p>");
+    assert_eq!(place.text("mine.html"), "<p>mine</p>");
     place.succeed("report runs/case");
 }
 
@@ -200,9 +196,9 @@ fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
 #[test]
 fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
     let place = Place::new();
-    place.succeed(&TING);
+    place.succeed(TING);
     place.succeed((TING, "--out runs/other"));
-    let summary = text(&place, "runs/case/summary.json");
+    let summary = place.text("runs/case/summary.json");
     fn own(name: &str) -> Vec<&str> {
         vec!["plot", "runs/case", "--what", "force", "--out", name]
     }
@@ -223,14 +219,14 @@ fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
         place.write(name, &old);
         let ran = place.fails(2, &command);
         assert!(ran.stderr.contains(name) && ran.stderr.contains("--out"), "{}", ran.stderr);
-        assert_eq!(text(&place, name), old, "{command:?}");
+        assert_eq!(place.text(name), old, "{command:?}");
     }
     // They overwrite their own files, and `-` is no file.
     for _ in 0..2 {
         place.succeed(&own("own.svg"));
     }
     let printed = place.run(&own("-"));
-    assert_eq!((printed.code, printed.stdout), (Some(0), text(&place, "own.svg")));
+    assert_eq!((printed.code, printed.stdout), (Some(0), place.text("own.svg")));
     assert!(!place.path("-").exists());
 }
 
@@ -259,8 +255,8 @@ fn hertz_far_away_does_not_flatten_the_curves() {
     for stiffness in ["1e3 N/m", "1e10 N/m"] {
         let place = Place::new();
         let law = format!("model.law={{linear={{k=\"{stiffness}\"}}}}");
-        place.succeed(&["case.toml", "--set", &law, "--quiet"]);
-        let page = text(&place, "runs/case/report.html");
+        place.succeed(["case.toml", "--set", &law, "--quiet"]);
+        let page = place.text("runs/case/report.html");
         assert!(page.contains(">Hertz, up to "), "{stiffness}");
         let [width, height] = share(&page);
         assert!(width > 0.6 && height > 0.7, "{stiffness}: {width} × {height}");
@@ -277,10 +273,10 @@ fn a_contact_without_an_end_does_not_squeeze_the_others() {
     place.succeed((TING, ["--set", stays, "--out", "stays"]));
     assert!(place.json("stays/summary.json")["contact_time_s"].is_null());
     place.succeed("report leaves stays --out both.html");
-    let [width, height] = share(&text(&place, "both.html"));
+    let [width, height] = share(&place.text("both.html"));
     assert!(width > 0.8 && height > 0.8, "{width} × {height}");
     // The error by neglected effects of bodies that stay together is printed beside the number.
-    let page = text(&place, "stays/report.html");
+    let page = place.text("stays/report.html");
     let value = page.split("<small>restitution</small><b>").nth(1).unwrap();
     assert!(value.starts_with("0.000 ± 0.0"), "{}", &value[..40]);
     assert!(page.contains("neglected effects 0.0"));
@@ -297,7 +293,7 @@ fn ten_results_are_told_apart() {
     }
     let folders: Vec<&str> = names.iter().map(String::as_str).collect();
     place.succeed(("report", &folders, "--out all.html"));
-    let page = text(&place, "all.html");
+    let page = place.text("all.html");
     let strokes =
         page.split("<path class=\"c").skip(1).map(|path| path.split(" d=").next().unwrap());
     let strokes: std::collections::BTreeSet<&str> =
@@ -316,9 +312,9 @@ fn names_errors_and_instants_are_what_they_are() {
         ["case.toml", "--set", "model.condensed={}", "--set", "output.snapshots=40", "--quiet"];
     place.succeed((film, "--out a_film"));
     place.succeed("report b_fem a_film --out both.html");
-    let page = text(&place, "both.html");
+    let page = place.text("both.html");
     assert!(page.contains(">b_fem</text>") && page.contains(">a_film</text>"));
-    let page = text(&place, "a_film/report.html");
+    let page = place.text("a_film/report.html");
     let summary = place.json("a_film/summary.json");
     assert!(summary["restitution"].is_number());
     // At least three profiles are visible: half the approach, the peak force, half again.

@@ -86,10 +86,10 @@ fn help_version_and_completions_are_there() {
     }
     assert!(place.succeed("--version").stdout.starts_with("fem-run "));
     for command in ["check", "mesh", "completions"] {
-        place.succeed(&[command, "--help"]);
+        place.succeed([command, "--help"]);
     }
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let script = place.succeed(&["completions", shell]).stdout;
+        let script = place.succeed(["completions", shell]).stdout;
         assert!(script.contains("fem-run"), "{shell}");
     }
 }
