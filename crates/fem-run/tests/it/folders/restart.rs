@@ -189,7 +189,7 @@ fn a_restart_file_of_another_case_or_build_is_refused() {
     {
         let ran = restart(set);
         assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-        ran.tells("of another case");
+        ran.tells("belongs to another case");
     }
     let text = String::from_utf8_lossy(&file).to_string();
     let (_, numerics) = text.split_once("\"numerics\":\"").unwrap();
@@ -202,11 +202,11 @@ fn a_restart_file_of_another_case_or_build_is_refused() {
     };
     let digit = if file[place_of] == b'0' { b'1' } else { b'0' };
     for (bytes, message) in [
-        (with(place_of, digit), "of another build"),
+        (with(place_of, digit), "belongs to another build"),
         (with(line + 100, file[line + 100] ^ 1), "damaged"),
         (file[..file.len() - 1].to_vec(), "damaged"),
-        (file[..line].to_vec(), "no checkpoint"),
-        (Vec::new(), "no checkpoint"),
+        (file[..line].to_vec(), "not a checkpoint"),
+        (Vec::new(), "not a checkpoint"),
     ] {
         fs::write(place.path(&path), bytes).unwrap();
         let ran = restart(&[]);
@@ -230,7 +230,7 @@ fn another_case_leaves_the_restart_file_alone() {
     place.fails(2, ("case.toml --out runs/case", ting));
     // Nor does another case continue it.
     fs::remove_dir_all(place.path("runs").join(&place.list("runs")[1])).unwrap();
-    place.fails(2, ("case.toml --restart", ting)).tells("of another case");
+    place.fails(2, ("case.toml --restart", ting)).tells("belongs to another case");
 }
 
 #[test]
