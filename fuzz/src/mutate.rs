@@ -182,7 +182,7 @@ mod tests {
 
     /// Many mutated texts are still TOML, most differ from the original, and they are reproducible.
     #[test]
-    fn texts_change_and_stay_texts() {
+    fn mutated_texts_differ_and_are_reproducible() {
         let others = [b"a = 1\nb = { c = 'x' }\n".to_vec(), b"[d]\ne = 2.5\n".to_vec()];
         let changed = |input| {
             let mut text = others[0].clone();

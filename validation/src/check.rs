@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn tolerances_are_held_from_both_sides_and_nan_fails() {
+    fn check_applies_tolerances_on_both_sides_and_rejects_nan() {
         let cases = [
             (check(Some(2.0), Tolerance::Relative(0.01)), [1.99, 2.01], [1.97, 2.03]),
             (check(Some(-2.0), Tolerance::Relative(0.01)), [-1.99, -2.01], [-1.97, 2.0]),

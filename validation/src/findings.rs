@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_worst_is_the_largest_and_nan_stays() {
+    fn measure_worst_keeps_the_largest_value_or_nan() {
         let worst = |values: &[f64]| {
             let mut findings = Findings::new();
             values.iter().for_each(|&value| findings.measure_worst("q", value));

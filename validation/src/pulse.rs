@@ -198,7 +198,7 @@ mod tests {
 
     /// An oscillation by a per cent with a period of a hundredth hardly changes the height.
     #[test]
-    fn oscillations_do_not_change_the_pulse() {
+    fn pulse_height_and_width_are_insensitive_to_oscillations() {
         let quiet = pulse(|t| (std::f64::consts::PI * t).sin());
         let ringing = pulse(|t| (std::f64::consts::PI * t).sin() + 0.01 * (628.3 * t).sin());
         let change = force(&ringing) / force(&quiet) - 1.0;

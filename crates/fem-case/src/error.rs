@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_displays_as_one_block() {
+    fn case_error_displays_source_marker_label_and_help() {
         let text = "# µ\n\tsphere = { diameter = \"22.2 kg\" }\n";
         let start = text.find("\"22").unwrap();
         let error = CaseError::new("a.toml", "\"22.2 kg\" is a mass")
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn spans_that_do_not_fit_are_trimmed() {
+    fn case_error_trims_spans_outside_the_text() {
         let text = "µ = 1\r\nb";
         for start in 0..12 {
             for end in 0..12 {

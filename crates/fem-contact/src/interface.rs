@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn points_see_the_true_arcs_and_cover_the_plane() {
+    fn contact_points_have_the_gap_of_the_arcs_and_cover_the_area() {
         let (lower, upper) = (sphere(2.0, 0.1, Side::Below), sphere(1.0, 0.07, Side::Above));
         let surfaces = [Surface::of_sphere(&lower), Surface::of_sphere(&upper)];
         let [lower, upper] = surfaces.clone();
@@ -291,7 +291,7 @@ mod tests {
 
     /// Equal meshes share their nodes but for rounding: no slivers.
     #[test]
-    fn equal_meshes_make_one_piece_an_element() {
+    fn equal_meshes_have_one_interval_per_element() {
         let [lower, upper] =
             [Side::Below, Side::Above].map(|side| Surface::of_sphere(&sphere(1.0, 0.1, side)));
         let n_nodes = lower.radii.iter().take_while(|r| **r < 0.39).count();

@@ -165,7 +165,7 @@ mod tests {
     /// Radius and pressure are the same together and by themselves, for contacts with fewer nodes than are stored,
     /// as many, and more, at one surface and at both.
     #[test]
-    fn both_readings_are_those_of_each() {
+    fn radius_and_pressure_together_equal_the_separate_results() {
         let hertz = |n: usize, length: f64| {
             (0..n).map(move |k| {
                 let r = k as f64 * length;

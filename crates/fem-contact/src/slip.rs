@@ -286,7 +286,7 @@ mod tests {
 
     /// Surfaces that touch have a gap of second order in their slip; without slip the error is the slope times it.
     #[test]
-    fn surfaces_that_touch_are_closed_to_second_order() {
+    fn touching_surfaces_have_a_gap_of_second_order_in_slip() {
         // Linear displacement between nodes misses κh²/8 of the parabola, at ε = 0.
         let flat = gaps_of_a_closed_interface(0.0, None)[0];
         assert!(flat < 1.2 * (0.5 + 1.0) * SIZE.powi(2) / 8.0, "{flat:e}");

@@ -133,7 +133,7 @@ mod tests {
 
     /// Two roots in one place are found to the root of a rounding; of nothing it is nothing.
     #[test]
-    fn of_double_roots_and_of_nothing() {
+    fn largest_eigenvalue_handles_double_zero_and_huge_roots() {
         let diagonal = [2.0, 5.0, 5.0, 1.0, 0.0, 0.0, 0.5, 3.0];
         let of = |diagonal: [f64; 8]| {
             let matrix = ElementMatrix::from_diagonal(&SVector::from(diagonal));

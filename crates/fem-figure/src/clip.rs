@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_leaves_the_axes_is_cut_where_it_does_and_comes_back_as_another() {
+    fn line_leaving_the_axes_is_clipped_into_separate_lines() {
         let tall = of(&[(0.0, 0.0), (1.0, 2.0), (2.0, 2.0), (3.0, 0.0)]);
         assert_eq!(tall, [[(0.0, 0.0), (0.5, 1.0)], [(2.5, 1.0), (3.0, 0.0)]]);
         // One segment passes through the axes, one passes beside them.
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_parts_a_line() {
+    fn nan_splits_a_line() {
         let parted = of(&[(0.0, 0.1), (1.0, 0.2), (2.0, f64::NAN), (3.0, 0.3), (4.0, 0.4)]);
         assert_eq!(parted, [[(0.0, 0.1), (1.0, 0.2)], [(3.0, 0.3), (4.0, 0.4)]]);
         assert!(of(&[(0.0, f64::NAN), (1.0, 0.5)]).is_empty());

@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_two_of_twenty_eight_curves_are_alike() {
+    fn styles_of_28_curves_are_distinct() {
         for mark in [Mark::Line, Mark::Dashed] {
             let seen: std::collections::BTreeSet<_> = (0..28)
                 .map(|k| (COLOURS[k % COLOURS.len()], LineStyle::of_curve(k).dashes(mark)))

@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_that_stands_has_zero_in_it_and_room_above() {
+    fn axis_from_zero_contains_zero_and_has_headroom() {
         let scale = Scale::of(&Axis::new("F"), [2.0, 100.0].into_iter(), true).unwrap();
         assert_eq!((scale.share(0.0), scale.share(105.0)), (0.0, 1.0));
         let free = Scale::of(&Axis::new("t"), [2.0, 100.0].into_iter(), false).unwrap();

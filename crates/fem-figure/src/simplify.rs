@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_out_is_nowhere_further_than_the_tolerance() {
+    fn simplified_curve_deviates_by_at_most_the_tolerance() {
         let curve: Vec<[f64; 2]> = (0..=1000)
             .map(|k| f64::from(k) / 1000.0)
             .map(|t| [400.0 * t, 200.0 * (6.0 * t).sin()])
@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_and_ends_stay() {
+    fn simplification_keeps_corners_and_ends() {
         let corner = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 5.0], [2.0, 9.0]];
         assert_eq!(simplify(&corner, 0.1), [0, 2, 4]);
         assert_eq!(simplify(&corner[..1], 0.1), [0]);

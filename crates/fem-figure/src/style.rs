@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_two_curves_along_a_number_are_alike() {
+    fn gradient_colours_of_curves_are_distinct() {
         for n in [1, 2, 8, 40] {
             let colours: std::collections::BTreeSet<String> =
                 (0..n).map(|k| colour_along(k, n)).collect();
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn ticks_are_short() {
+    fn tick_labels_are_short() {
         for (value, expected) in
             [(0.1 + 0.2, "0.3"), (0.0, "0"), (1e-7, "1e-7"), (-2.5e8, "-2.5e8"), (1000.0, "1000")]
         {

@@ -57,7 +57,7 @@ fn a_region_is_its_outline_without_inner_edges() {
 }
 
 #[test]
-fn constant_fields_are_all_or_nothing() {
+fn region_of_a_constant_field_is_whole_or_empty() {
     let section = square(4, |_| 0.7);
     for (level, inside) in [(0.69, 0.0), (0.7, 1.0), (0.71, 1.0)] {
         let area = Region::at_most(&section, level).area();

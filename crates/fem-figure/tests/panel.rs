@@ -18,7 +18,7 @@ fn force() -> Chart {
 }
 
 #[test]
-fn a_panel_is_small_and_names_its_curves() {
+fn panel_svg_is_small_and_labels_its_curves() {
     let svg = panel(&force()).unwrap();
     assert_eq!(svg, panel(&force()).unwrap());
     // A picture keeps a few dozen of the thousand points of a smooth curve.
@@ -34,7 +34,7 @@ fn a_panel_is_small_and_names_its_curves() {
 
 /// The peak of 98 N is drawn at 98 on the axis, between the lines of 80 and 100.
 #[test]
-fn a_curve_lies_where_its_axis_says() {
+fn curve_peak_is_drawn_at_its_axis_value() {
     let svg = panel(&force()).unwrap();
     let line = |number: &str| {
         let end = svg.find(&format!(">{number}</text>")).unwrap();
@@ -50,7 +50,7 @@ fn a_curve_lies_where_its_axis_says() {
 }
 
 #[test]
-fn nothing_to_draw_is_no_picture() {
+fn panel_without_points_is_none() {
     let empty = Chart::new(Axis::new("t"), Axis::new("F"));
     assert_eq!(panel(&empty), None);
     let nan = empty.with(Curve::line("a", vec![(0.0, f64::NAN)]));
@@ -58,7 +58,7 @@ fn nothing_to_draw_is_no_picture() {
 }
 
 #[test]
-fn names_are_text_and_nothing_else() {
+fn curve_names_are_escaped() {
     let chart = Chart::new(Axis::new("t"), Axis::new("F"));
     let chart = chart.with(Curve::line("<script>&", vec![(0.0, 1.0), (1.0, 2.0)]));
     let svg = panel(&chart).unwrap();

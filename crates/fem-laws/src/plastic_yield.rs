@@ -125,7 +125,7 @@ mod tests {
 
     /// Thornton's own limits: 1 at first yield, 1.185 (v_Y/v)^(1/4) far beyond.
     #[test]
-    fn thorntons_restitution_has_his_limits() {
+    fn thornton_restitution_has_its_published_limits() {
         assert!((thornton(1.0) - 1.0).abs() < 1e-12, "{}", thornton(1.0));
         for x in [1e-4, 1e-6] {
             assert!((thornton(x) / (1.185 * f64::powf(x, 0.25)) - 1.0).abs() < 2e-3, "{x}");
@@ -138,7 +138,7 @@ mod tests {
 
     /// Two steel spheres of 5 mm at 5 m/s, as in Johnson, section 11.5: yield at some cm/s.
     #[test]
-    fn steel_yields_at_some_centimetres_a_second() {
+    fn steel_spheres_yield_at_the_published_speed() {
         let (modulus, nu, density) = (210e9, 0.3, 7850.0);
         let radius: f64 = 2.5e-3;
         let mass = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * density;

@@ -125,7 +125,7 @@ mod tests {
     /// Speeds of Rayleigh's wave over c_s: 0.8741, 0.9194, 0.9553 at ν = 0, 1/4, 1/2 (Rayleigh 1885;
     /// Achenbach, *Wave Propagation in Elastic Solids*, table 5.1).
     #[test]
-    fn rayleighs_wave_has_its_speed() {
+    fn rayleigh_wave_has_the_published_speed() {
         for (nu, speed) in [(0.0, 0.8741), (0.25, 0.9194), (0.5, 0.9553)] {
             let squared_ratio = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu));
             let function = |x: f64| {
@@ -143,7 +143,7 @@ mod tests {
     /// Miller & Pursey (1955) for ν = 1/4: of the energy that a spot radiates 67.4 % goes into
     /// Rayleigh's wave, 25.8 % into shear and 6.9 % into pressure waves.
     #[test]
-    fn energy_goes_where_miller_and_pursey_find_it() {
+    fn radiated_shares_equal_those_of_miller_and_pursey() {
         // Shear waves of ξ < γ run beside pressure waves there: the two are told apart only in their
         // sum, 32.6 %.
         let squared_ratio: f64 = 1.0 / 3.0;
@@ -161,7 +161,7 @@ mod tests {
 
     /// Hunter: 1.04 (v/c₀)^(3/5), of a half-sine in place of the pulse.
     #[test]
-    fn a_ball_on_a_half_space_of_its_material() {
+    fn radiated_share_of_a_ball_equals_hunters() {
         let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(1.0, 0.25).unwrap();
         let material = Material::new(1.0, moduli, None).unwrap();
         let modulus = moduli.plane_strain_modulus();
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn every_material_has_a_coefficient() {
+    fn radiation_coefficient_is_finite_for_any_poissons_ratio() {
         for nu in [-0.99, -0.5, 0.0, 0.3, 0.49, 0.4999, 0.499999] {
             let found = radiation_coefficient(nu);
             assert!(found > 0.05 && found < 5.0, "{nu}: {found}");

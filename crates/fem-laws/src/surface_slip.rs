@@ -223,7 +223,7 @@ mod tests {
     /// Under Hertz' pressure: the surface moves inward as Johnson's eq. 3.41b has it, and what the slope
     /// and the traction along r do to the gap is the same everywhere.
     #[test]
-    fn the_gap_widens_by_the_same_everywhere() {
+    fn slip_changes_the_gap_by_a_constant() {
         let [lower, upper] = materials();
         let both = slip([&lower, &upper]);
         let (a, p0) = (1.0, 1.0);
@@ -265,7 +265,7 @@ mod tests {
     /// Nothing between like materials, against a wall, or with Dundurs' β = 0; the order of the bodies is
     /// no matter; a stiffer body that is the more curved one makes the contact stiffer.
     #[test]
-    fn where_it_is_nothing_and_which_sign_it_has() {
+    fn slip_compliance_vanishes_for_like_bodies_and_has_the_right_sign() {
         let [soft, hard] = materials();
         let [a, b] = [1.0, 2.0];
         let of = |first: (f64, Option<&Material>), second: (f64, Option<&Material>)| {

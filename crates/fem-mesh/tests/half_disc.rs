@@ -93,7 +93,7 @@ fn surface_measures_sum_to_the_lateral_area() {
 }
 
 #[test]
-fn spheres_of_all_sizes_mesh() {
+fn sphere_meshes_of_all_sizes_have_good_quality() {
     for radius in [0.5e-6_f64, 1e-3, 5.0, 1e6] {
         for fraction in [0.25, 0.05, 1e-3, 1e-7] {
             let size = radius * fraction;
@@ -112,7 +112,7 @@ fn spheres_of_all_sizes_mesh() {
 
 /// A block for a contact as wide as the sphere.
 #[test]
-fn blocks_of_all_sizes_mesh() {
+fn block_meshes_of_all_sizes_have_good_quality() {
     for share in [0.5, 0.7, 0.9, 1.0_f64] {
         for n in [2.0, 8.0, 25.0] {
             let (radius, refined_radius) = (1e-2_f64, share * 1e-2);
@@ -163,7 +163,7 @@ fn an_exported_mesh_comes_back_the_same() {
 }
 
 #[test]
-fn foreign_meshes_are_repaired_or_refused() {
+fn imported_meshes_are_repaired_or_rejected() {
     let mesh = glass(60e-6).build().unwrap();
     let (nodes, quads) = (mesh.nodes().to_vec(), mesh.quads().to_vec());
     let import = |nodes: &[[f64; 2]], quads: &[[u32; 4]]| {

@@ -31,13 +31,13 @@ fn inner((nodes, quads): &Mesh) -> (u32, usize) {
 }
 
 #[test]
-fn the_sphere_itself_is_taken() {
+fn valid_sphere_mesh_is_imported() {
     let (nodes, quads) = sphere();
     assert!(SphereMesh::import(RADIUS, nodes, quads).is_ok());
 }
 
 #[test]
-fn nodes_at_one_place_are_named() {
+fn coincident_nodes_are_rejected_by_number() {
     let (node, _) = inner(&sphere());
     let n = sphere().0.len();
     let said = refusal(|mesh| {
@@ -49,7 +49,7 @@ fn nodes_at_one_place_are_named() {
 }
 
 #[test]
-fn a_second_body_is_named_by_a_node() {
+fn second_body_is_rejected_with_a_node_number() {
     let n = sphere().0.len() as u32;
     let said = refusal(|(nodes, quads)| {
         nodes.extend(nodes.clone().iter().map(|[r, y]| [r + 0.05, *y]));
@@ -65,7 +65,7 @@ fn a_second_body_is_named_by_a_node() {
 /// A corner beyond the diagonal: the winding is that of most of the element, its Jacobian at the corner is
 /// not.
 #[test]
-fn an_element_that_is_turned_over_is_named() {
+fn inverted_element_is_rejected_by_number() {
     let (node, element) = inner(&sphere());
     let said = refusal(|(nodes, quads)| {
         let quad = quads[element];
@@ -79,7 +79,7 @@ fn an_element_that_is_turned_over_is_named() {
 
 /// The first in the order of numbers, not of a map.
 #[test]
-fn the_same_mesh_is_refused_by_the_same_words() {
+fn import_error_of_a_mesh_is_reproducible() {
     let said = || refusal(|(_, quads)| quads.extend(quads.clone()));
     let first = said();
     assert!(first.contains("has two elements on the same side"), "{first}");

@@ -31,7 +31,7 @@ fn boundaries_lie_on_the_axis_the_plane_and_the_far_circle() {
 }
 
 #[test]
-fn cells_keep_their_shape_whatever_the_distance() {
+fn element_quality_is_independent_of_the_far_radius() {
     for far_radius in [2e-3, 0.1, 1e3] {
         let disc = block(far_radius);
         let mesh = disc.build().unwrap();
@@ -66,7 +66,7 @@ fn quads_fill_the_half_ball() {
 }
 
 #[test]
-fn what_cannot_be_meshed_is_refused() {
+fn quarter_disc_rejects_impossible_parameters() {
     let refused = |disc: QuarterDisc| disc.build().unwrap_err();
     assert!(matches!(refused(block(0.5e-3)), MeshError::FarRadius { .. }));
     for far_radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {

@@ -100,7 +100,7 @@ mod tests {
 
     /// By hand: 1 kg at 3 m/s and 2 kg at rest have 1.5 J of common and 3 J of relative motion.
     #[test]
-    fn common_and_relative_motion_are_the_whole() {
+    fn common_and_relative_motion_add_up_to_the_kinetic_energy() {
         assert_eq!(Masses([1.0, 2.0]).motions([3.0, 0.0]), Some((1.5, 3.0)));
         assert_eq!(Masses([f64::INFINITY, 2.0]).motions([0.0, -3.0]), Some((0.0, 9.0)));
         assert_eq!(Masses([f64::INFINITY, 2.0]).motions([1.0, -3.0]), None);

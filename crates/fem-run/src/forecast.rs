@@ -217,7 +217,7 @@ mod tests {
 
     /// Factors are made once: 4 s of factors and a fifth of the steps in 1 s make 9 s.
     #[test]
-    fn factors_are_made_once() {
+    fn remaining_time_counts_factorisation_once() {
         let patient =
             Patient { begin: Instant::now(), before: 4.0, seen: (5.0, 0.2), is_over: true };
         assert!((patient.collision() - 9.0).abs() < 1e-12);

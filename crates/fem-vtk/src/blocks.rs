@@ -208,7 +208,7 @@ mod tests {
 
     /// Numbers without pattern are stored, with a header and a check sum per block; zeros are compressed.
     #[test]
-    fn only_what_shrinks_is_compressed() {
+    fn incompressible_blocks_are_stored() {
         let noise: Vec<u8> = (0..9000u64)
             .flat_map(|k| (k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 40)).to_le_bytes())
             .collect();

@@ -46,7 +46,7 @@ fn peak_of_refusal(n_points: usize, header: &[u64], blocks: &[u8]) -> usize {
 }
 
 #[test]
-fn promises_and_bombs_cost_no_memory() {
+fn hostile_headers_and_zlib_bombs_use_little_memory() {
     // 32 MiB of zeros in 32 KiB.
     let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
     encoder.write_all(&vec![0; 1 << 25]).unwrap();

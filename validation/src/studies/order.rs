@@ -18,7 +18,7 @@ mod tests {
     use super::fitted_order;
 
     #[test]
-    fn powers_are_found() {
+    fn fitted_order_recovers_a_power() {
         let pairs = [1.0, 0.5, 0.25].map(|size: f64| (size, -3.0 * size.powf(1.7)));
         assert!((fitted_order(pairs) - 1.7).abs() < 1e-14);
         assert!(fitted_order([(1.0, 0.1)]).is_nan());

@@ -358,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn it_serializes_as_the_si_number() {
+    fn quantity_serializes_as_the_si_number() {
         let json = |toml| serde_json::to_string(&quantity::<Length>(toml)).unwrap();
         assert_eq!(json("'22.2 mm'"), "0.0222");
         assert_eq!(json("3"), "3.0");

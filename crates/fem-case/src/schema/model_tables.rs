@@ -333,7 +333,7 @@ mod tests {
 
     /// Every key belongs to exactly one set of keys, and every set is of keys that the law has.
     #[test]
-    fn sets_of_keys_are_the_keys() {
+    fn law_key_sets_contain_every_key_of_the_law_once() {
         for family in LawFamily::ALL {
             let keys = LawTable::KEYS.iter().filter(|key| key.family == family);
             let keys: Vec<_> = keys.map(|key| key.key).collect();

@@ -66,7 +66,7 @@ fn materials_are_solids_with_a_source() {
 
 /// PVB relaxes to almost nothing, as the eleven terms of the paper add up to.
 #[test]
-fn the_terms_of_pvb_add_up() {
+fn pvb_equilibrium_shear_modulus_is_the_published_fraction() {
     let case = parse(BALL, &["body.1.material='lib:pvb'"]).unwrap();
     let material = case.scene().bodies()[1].material().unwrap();
     let lasting = material.equilibrium_shear_modulus() / material.instantaneous().shear_modulus();
@@ -74,7 +74,7 @@ fn the_terms_of_pvb_add_up() {
 }
 
 #[test]
-fn a_case_gets_the_table_of_its_material() {
+fn library_material_is_copied_into_the_case() {
     let case = parse(BALL, &[]).unwrap();
     let pmma = &materials()["pmma"].material;
     assert_eq!(case.file().material.get("lib:pmma").unwrap().density.si(), pmma.density.si());
@@ -92,7 +92,7 @@ fn a_case_gets_the_table_of_its_material() {
 }
 
 #[test]
-fn the_text_of_a_table_is_the_same_material() {
+fn printed_material_table_equals_the_library_material() {
     for name in materials().keys() {
         let text = BALL.replace("lib:pmma", name) + &table_text(name).unwrap();
         let own = parse(&text, &[]).unwrap();

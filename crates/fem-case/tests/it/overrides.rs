@@ -58,7 +58,7 @@ fn values_are_replaced_and_added() {
 }
 
 #[test]
-fn they_are_applied_left_to_right() {
+fn overrides_are_applied_left_to_right() {
     let case = with(&["start={gap = 1}", "start.gap=2", "start.gap=3"]).unwrap();
     assert_eq!(case.scene().gap(), Some(3.0));
     let case = with(&["start.gap=2", "start={}"]).unwrap();
@@ -98,7 +98,7 @@ fn fault(key: &str, marked: &str, message: &str) {
 }
 
 #[test]
-fn faults_in_the_value() {
+fn faults_in_an_overrides_value_are_marked() {
     fault(
         "body.0.approach_speed",
         "body.0.approach_speed=«1 kg/s»",
@@ -163,7 +163,7 @@ fn text_that_is_not_toml_is_a_string() {
 }
 
 #[test]
-fn faults_in_the_key() {
+fn faults_in_an_overrides_key_are_marked() {
     fault("body.2.name", "body.«2».name='x'", "not an index of this array of 2");
     fault("body.2", "body.«2»={}", "not an index of this array of 2");
     fault("body.first.name", "body.«first».name='x'", "not an index");

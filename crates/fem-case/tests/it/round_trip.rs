@@ -169,7 +169,7 @@ fn repository_case(name: &str) -> Case {
 }
 
 #[test]
-fn the_glass_pair_is_the_contracts() {
+fn glass_case_has_the_published_bodies_and_material() {
     let scene = repository_case("glass_0.5ms.toml").scene().clone();
     assert_eq!(scene.title(), "Glass on glass, 22.2 mm striking 15.9 mm at 0.5 m/s");
     let [striker, target] = &scene.bodies();
@@ -190,7 +190,7 @@ fn the_glass_pair_is_the_contracts() {
 }
 
 #[test]
-fn its_variants_differ_only_in_relaxation() {
+fn variants_of_the_glass_case_differ_only_in_relaxation() {
     let pair = repository_case("glass_0.5ms.toml").scene().clone();
     let elastic = repository_case("glass_0.5ms_elastic.toml").scene().clone();
     let elastic_bulk = repository_case("glass_0.5ms_elastic_bulk.toml").scene().clone();

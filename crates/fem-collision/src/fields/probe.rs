@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_outside_is_not_found() {
+    fn probe_outside_the_mesh_is_none() {
         let mesh = mesh(Side::Above);
         let recovery = StressRecovery::new(&mesh);
         for place in [[0.0, -0.1], [0.9, 0.1], [-0.1, 1.0], [0.0, 2.1], [f64::NAN, 1.0]] {

@@ -86,7 +86,7 @@ mod tests {
 
     /// By hand: c_p = 2 at λ + 2μ = 4 and ρ = 1; 1.2 contact times of 10 take it 24 far.
     #[test]
-    fn waves_do_not_reach_the_end() {
+    fn far_radius_exceeds_the_distance_of_pressure_waves() {
         let moduli = ElasticModuli::from_bulk_shear(8.0 / 3.0, 1.0).unwrap();
         let material = Material::new(1.0, moduli, None).unwrap();
         assert!((far_radius_of_waves(&material, 10.0, 0.5) - 24.5).abs() < 1e-12);

@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn the_most_is_allowed_and_one_more_is_not() {
+    fn output_request_rejects_more_than_the_maximum_rows_and_snapshots() {
         let rows = |history_rows| OutputRequest { history_rows, ..OutputRequest::history() };
         assert_eq!(rows(OutputRequest::MOST_ROWS).check(), Ok(()));
         for n in [OutputRequest::MOST_ROWS + 1, usize::MAX] {
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn times_are_times() {
+    fn output_request_rejects_invalid_times() {
         for wrong in [-1e-9, f64::INFINITY, f64::NAN] {
             let request = SnapshotRequest::Times(vec![0.0, 1e-6, wrong]);
             let error = snapshots(request).check().unwrap_err();

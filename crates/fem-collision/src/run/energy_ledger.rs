@@ -194,14 +194,14 @@ mod tests {
 
     /// `name` and `side` index the table by the variant.
     #[test]
-    fn lines_are_in_the_order_of_the_variants() {
+    fn ledger_lines_are_in_the_order_of_the_accounts() {
         for (k, (account, ..)) in LINES.iter().enumerate() {
             assert_eq!(*account as usize, k);
         }
     }
 
     #[test]
-    fn the_residual_is_the_balance_of_the_sides() {
+    fn residual_is_held_energy_minus_supplied_energy() {
         let mut book = EnergyLedger::EMPTY.with(Account::Kinetic, 3.0).with(Account::WallWork, 0.5);
         assert_eq!(book.residual(2.5), 0.0);
         book.add(Account::ViscousDissipation, 0.25);

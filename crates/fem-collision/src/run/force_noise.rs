@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn the_scatter_of_a_pulse_is_what_was_put_on_it() {
+    fn force_noise_recovers_the_added_scatter() {
         // Alternating forces are anticorrelated: a bend is twice the deviation.
         let found = scatter(1000, 1e-2).unwrap();
         assert!((found - 2e-2 / 1.5_f64.sqrt()).abs() < 1e-4, "{found}");
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn the_noisiest_moment_is_where_the_force_bends_most() {
+    fn noisiest_instant_is_at_the_largest_second_difference() {
         let mut scatter = ForceNoise::default();
         assert_eq!(scatter.noisiest_instant(), None);
         for (step, force) in [1.0, 1.1, 1.0, 4.0, 1.0, 1.2].into_iter().enumerate() {

@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_run_is_thinned_and_keeps_what_is_essential() {
+    fn long_history_is_thinned_and_keeps_essential_rows() {
         for n_rows in [16, 100] {
             for n_steps in [1_000, 100_000, 345_678] {
                 let mut history = History::new(n_rows, n_rows as f64);
@@ -241,7 +241,7 @@ mod tests {
     /// A run that offers every step keeps a few thousand rows, both sides of every change of contact,
     /// and its last step.
     #[test]
-    fn a_run_that_is_followed_keeps_both_sides_of_a_change() {
+    fn followed_history_keeps_rows_on_both_sides_of_a_contact_change() {
         let (last, closed) = (100_003, 777..90_001);
         let mut history = History::new(1000, 5000.0);
         for step in 0..=last {

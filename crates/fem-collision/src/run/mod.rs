@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_worst_is_the_largest_magnitude_and_nan_stays() {
+    fn nan_aware_max_returns_the_largest_value_or_nan() {
         let of = |values: &[f64]| {
             values.iter().fold(0.0, |so_far, &value| nan_aware_max_abs(so_far, value))
         };

@@ -61,7 +61,7 @@ mod tests {
 
     /// The fraction never decreases and never reaches 1; after half of the expected time it is a half.
     #[test]
-    fn the_share_that_is_done_grows_and_stays_below_the_whole() {
+    fn progress_fraction_increases_and_stays_below_one() {
         assert_eq!(Progress::share(0.5, 1.0), 0.5);
         let shares = (0..1000).map(|k| Progress::share(0.02 * f64::from(k), 1.0));
         let shares: Vec<f64> = shares.collect();

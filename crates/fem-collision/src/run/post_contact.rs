@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_follows_the_last_contact_counts() {
+    fn vibration_energy_is_averaged_after_the_last_contact_only() {
         let mut vibration = PostContactVibration::default();
         assert_eq!(vibration.vibration_energy(), None);
         for (is_closed, energy) in [(true, 5.0), (false, 9.0), (true, 5.0)] {

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_not_the_peak() {
+    fn averaged_peak_force_is_insensitive_to_noise() {
         for (n_steps, per_instant) in [(12_000, 12), (2_000, 1)] {
             let (peaks, largest) = pulse(n_steps, per_instant, 0.03, 0.0);
             assert!((largest - 1.03).abs() < 1e-4);
@@ -273,7 +273,7 @@ mod tests {
 
     /// A pulse between two instants keeps the largest values of its steps.
     #[test]
-    fn a_pulse_between_instants_keeps_its_largest() {
+    fn pulse_shorter_than_an_interval_keeps_its_peaks() {
         let mut short = ForcePulse::default();
         for (time, impulse) in [(0.0, 0.0), (1.0, 0.01), (2.0, 0.01)] {
             short.observe(time, impulse, 0.5, 2.0);

@@ -193,7 +193,7 @@ mod tests {
     /// A Maxwell body creeps if it relaxes faster than half of its own clock, and bounces if slower:
     /// e = exp(−π ζ/√(1 − ζ²)) with ζ = 1/(2 ω τ), from F̈ + Ḟ/τ + ω² F = 0.
     #[test]
-    fn a_maxwell_body_parts_or_stays_as_its_damping_says() {
+    fn maxwell_body_separates_or_rests_by_its_damping_ratio() {
         let found = |relaxation_time: f64| {
             let mut rest = RestCriterion::new(&frame());
             collide(0.0, relaxation_time, |now| rest.observe(now), 10_000_000)
@@ -212,7 +212,7 @@ mod tests {
 
     /// A weak spring still acts after the dashpot has relaxed: a larger restitution than the bound is detected.
     #[test]
-    fn a_weak_spring_that_parts_them_is_not_overlooked() {
+    fn rest_criterion_detects_separation_by_a_weak_spring() {
         for spring in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             for time in [0.03, 0.1, 0.3, 1.0, 3.0] {
                 let mut rest = RestCriterion::new(&frame());
@@ -226,7 +226,7 @@ mod tests {
 
     /// A restart state of other bodies is recognised.
     #[test]
-    fn another_speed_or_mass_is_of_other_bodies() {
+    fn rest_criterion_rejects_the_state_of_other_bodies() {
         let frame = frame();
         let mut rest = RestCriterion::new(&frame);
         let held =

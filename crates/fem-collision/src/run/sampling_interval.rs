@@ -93,7 +93,7 @@ mod tests {
 
     /// The number of samples is close to the requested one for any number of steps.
     #[test]
-    fn the_nearest_stride_keeps_about_as_many() {
+    fn nearest_stride_gives_about_the_requested_number_of_samples() {
         for n_steps in [700_u64, 1000, 1400, 1499, 1500, 1999, 2999, 7600, 123_456] {
             let interval = SamplingInterval::nearest(1000, n_steps as f64);
             assert!(interval.is_consistent());
@@ -105,7 +105,7 @@ mod tests {
 
     /// A long run keeps two to four times as many samples as requested.
     #[test]
-    fn a_long_run_has_as_many_instants() {
+    fn long_run_keeps_two_to_four_times_the_requested_samples() {
         for n_steps in [10_000_u64, 300_000, 1 << 20] {
             let mut interval = SamplingInterval::new(100, 300.0);
             for step in 0..n_steps {

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_deepest_stays_and_the_first_of_equals() {
+    fn deepest_overlap_keeps_the_first_of_equal_maxima() {
         let of = |overlap: f64, step: u64| {
             let at = StepInstant { time: 1e-6 * step as f64, step };
             DeepestOverlap { overlap, radius: 0.0, at }

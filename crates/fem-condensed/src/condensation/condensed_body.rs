@@ -311,7 +311,7 @@ mod tests {
 
     /// A factor that is not kept changes nothing, and is made where it is asked for.
     #[test]
-    fn what_is_not_kept_is_made_again() {
+    fn discarded_factor_is_rebuilt_with_the_same_results() {
         let [kept, made] = [true, false].map(|keeps| unit_sphere(0.1, 5, Side::Above, keeps));
         assert_eq!(kept.compliance, made.compliance);
         assert!(kept.bytes() > 0 && made.bytes() == 0);
@@ -322,7 +322,7 @@ mod tests {
     /// Balanced loads ask nothing of the hold: the forces of the solution are the loads, the
     /// ground's among them.
     #[test]
-    fn the_hold_carries_nothing() {
+    fn balanced_loads_give_no_reaction_at_the_support() {
         let body = unit_sphere(0.1, 4, Side::Above, true);
         let loads = body.balanced_load(&Mat::from_fn(4, 1, |i, _| [1.0, -0.3, 0.2, 0.7][i]));
         let total: f64 =

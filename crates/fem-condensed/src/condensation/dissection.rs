@@ -237,7 +237,7 @@ mod tests {
     /// Every node once; and what is eliminated in two pieces neither of which is in a later one of both has no
     /// element in common: the columns of the factor that a piece has are few.
     #[test]
-    fn pieces_are_small_and_know_little_of_each_other() {
+    fn dissection_covers_every_node_once_with_small_pieces() {
         for (mesh, most) in [(sphere(0.02), 2.0), (half_space(), 2.0)] {
             let n_nodes = mesh.nodes().len();
             let Dissection { nodes, ends } = Dissection::new(&mesh, |node| node != 0);

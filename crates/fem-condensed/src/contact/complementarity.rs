@@ -153,7 +153,7 @@ mod tests {
 
     /// Random problems: the conditions themselves are the test.
     #[test]
-    fn the_conditions_hold() {
+    fn random_contact_problems_satisfy_complementarity() {
         for seed in 0..200 {
             let (compliance, overlap) = problem(seed);
             let n = overlap.len();
@@ -176,7 +176,7 @@ mod tests {
 
     /// Points that follow each other closely, as Gauss points of soft bodies do, pushed as no disc is.
     #[test]
-    fn no_problem_takes_more_than_some_rounds_a_point() {
+    fn active_set_iterations_do_not_exceed_the_number_of_points() {
         for n in [10, 40, 160] {
             // 1/(1 + |i − j|) is positive definite: a convex function of the distance (Pólya).
             let compliance =

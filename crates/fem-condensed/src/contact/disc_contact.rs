@@ -193,7 +193,7 @@ mod tests {
 
     /// The remaining overlap outside of a disc is that left by its forces.
     #[test]
-    fn what_is_left_outside_is_the_overlap_there() {
+    fn remaining_overlap_outside_the_disc_is_that_of_its_forces() {
         let n = 6;
         let near = |i: usize, j: usize| (-0.3 * i.abs_diff(j) as f64).exp();
         let mut solver = DiscContactSolver::new(Mat::from_fn(n, n, near));

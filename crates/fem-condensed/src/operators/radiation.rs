@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn without_a_coefficient_there_are_none() {
+    fn zero_radiation_coefficients_give_no_radiation() {
         for none in [[None; 2], [Some(0.0), None]] {
             assert!(WaveRadiation::new(none, 1.0, 0.1).is_none());
         }
@@ -139,7 +139,7 @@ mod tests {
 
     /// A force F = t²/2, by hand: y = t²/2 − τt + τ²(1 − e^{−t/τ}), u = −γ(t − τ(1 − e^{−t/τ})).
     #[test]
-    fn the_lagging_force_is_the_closed_form() {
+    fn lagged_force_equals_the_closed_form_at_second_order() {
         let error = |n_steps: u32| {
             let step = 2.0 / f64::from(n_steps);
             let mut waves = WaveRadiation::new([Some(0.2), Some(0.1)], 0.5, step).unwrap();
@@ -163,7 +163,7 @@ mod tests {
 
     /// The work of any force history is stored or radiated.
     #[test]
-    fn energy_is_kept() {
+    fn work_equals_stored_plus_radiated_energy() {
         let imbalance = |n_steps: u32| {
             let step = 3.0 / f64::from(n_steps);
             let mut waves = WaveRadiation::new([Some(0.2), None], 0.4, step).unwrap();

@@ -348,7 +348,7 @@ mod tests {
 
     /// Leaving out modes that have not moved changes nothing, also where the contact grows and shrinks.
     #[test]
-    fn what_has_not_moved_is_left_out() {
+    fn omitting_unmoved_modes_leaves_results_unchanged() {
         let [mut triangular, mut turned] = triangular_and_turned();
         for (step, n_closed) in [1, 1, 2, 3, 3, 2, 1, 0, 0].into_iter().enumerate() {
             let forces: Vec<f64> = (0..n_closed).map(|k| (1 + step + 3 * k) as f64).collect();

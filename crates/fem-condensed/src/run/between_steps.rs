@@ -82,7 +82,7 @@ mod tests {
 
     /// A parabola is what it is, its integral and its slope, too.
     #[test]
-    fn a_parabola_is_exact() {
+    fn step_parabola_reproduces_a_parabola_exactly() {
         let f = |t: f64| 2.0 - 3.0 * t + 5.0 * t * t;
         let integral = |t: f64| 2.0 * t - 1.5 * t * t + 5.0 / 3.0 * t * t * t;
         let step = StepParabola::new(Some(f(-1.0)), f(0.0), f(1.0));
@@ -95,7 +95,7 @@ mod tests {
 
     /// Integrals over many steps are of third order, without a step before of second.
     #[test]
-    fn integrals_converge() {
+    fn step_integrals_converge_at_third_order() {
         let error = |n: usize, knows: bool| {
             let f = |k: f64| (k / n as f64).exp();
             let sum: f64 = (0..n)
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn the_highest_of_a_parabola_lies_between_its_points() {
+    fn interpolated_peak_lies_between_the_steps() {
         let highest = |values: &[f64]| {
             let mut peak = InterpolatedPeak::default();
             values.iter().for_each(|&value| peak.observe(value));

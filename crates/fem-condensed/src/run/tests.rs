@@ -60,7 +60,7 @@ fn is_kept_so_far(collision: &Collision) -> bool {
 }
 
 #[test]
-fn energy_out_of_nowhere_stops_condensed_bodies() {
+fn added_energy_stops_the_condensed_run() {
     let run = disturbed(|motion| motion.rate *= 1.5);
     let Some(&Stop::EnergyImbalance { time, relative }) = run.stop() else { panic!("{run:?}") };
     assert!(relative > LARGEST_IMBALANCE && relative < 1.5, "{relative}");
@@ -69,7 +69,7 @@ fn energy_out_of_nowhere_stops_condensed_bodies() {
 }
 
 #[test]
-fn a_motion_that_is_no_number_stops_condensed_bodies() {
+fn motion_with_nan_stops_the_condensed_run() {
     let run = disturbed(|motion| motion.rate = f64::NAN);
     assert!(matches!(run.stop(), Some(Stop::NoContactState { .. })), "{:?}", run.ending);
     assert!(is_kept_so_far(&run));

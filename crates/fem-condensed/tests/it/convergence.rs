@@ -74,7 +74,7 @@ fn order_in_the_element_size() {
 
 /// Two blocks of the basis for a relaxing shear are as good as four.
 #[test]
-fn blocks_of_the_shear_basis() {
+fn two_shear_blocks_equal_four_within_tolerance() {
     for (terms, tolerance) in
         // Two blocks leave the fifth power of 1 − g: 1e-9 and 1e-5 measured.
         [(vec![(1.0, 2708.0)], 1e-7), (vec![(0.3, 1e3), (0.2, 2e4), (0.4, 1e5)], 3e-5)]
@@ -97,7 +97,7 @@ fn blocks_of_the_shear_basis() {
 
 /// A relaxation of weight zero is none, to the bit; one that has no time to act is nearly none.
 #[test]
-fn off_is_absent() {
+fn zero_weight_relaxation_equals_elastic_to_the_bit() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(8.0);
     let plain = scene.collide(&pair);
@@ -115,7 +115,7 @@ fn off_is_absent() {
 
 /// The work of a collision: steps, and contact problems that needed more than one solution.
 #[test]
-fn cost_in_counters() {
+fn collisions_need_few_steps_and_no_repeated_contact_solutions() {
     let relaxing = material(GLASS, All, &[(1.0, 2708.0)]);
     let scene = Scene::paper(relaxing.clone(), relaxing);
     let pair = scene.condensed(8.0);

@@ -127,7 +127,7 @@ fn loss(run: &Collision) -> f64 {
 
 /// a/R → 0: Hertz. The mesh is 5e-5 and 2e-3 off, as between spheres.
 #[test]
-fn a_slow_ball_is_hertz() {
+fn slow_ball_on_a_half_space_equals_hertz() {
     let ball = Ball::of_glass(1e-7);
     let (pair, hertz) = (ball.condensed(), ball.hertz());
     let run = pair.impact(ball.speed, [None; 2], CondensedPair::N_STEPS).unwrap();
@@ -179,7 +179,7 @@ fn a_relaxing_half_space_is_ting() {
 
 /// Slow: what Hertz' pulse radiates (Hunter 1957), and nothing else changes.
 #[test]
-fn a_slow_ball_radiates_as_its_pulse_says() {
+fn slow_ball_loses_the_radiated_energy_of_the_hertz_pulse() {
     let ball = Ball::of_glass(1e-4);
     let pair = ball.condensed();
     let elastic = pair.impact(ball.speed, [None; 2], MANY_STEPS).unwrap();
@@ -198,7 +198,7 @@ fn a_slow_ball_radiates_as_its_pulse_says() {
 /// v/c₀ = 1e-3, where the pulse is another already: explicit elements, whose half-space has waves of its
 /// own. A few thousandths of the loss measured.
 #[test]
-fn a_fast_ball_loses_what_explicit_elements_say() {
+fn fast_ball_loss_equals_that_of_explicit_elements() {
     let ball = Ball { elements: 6.0, ..Ball::of_glass(5.0) };
     let reference = ball.explicit();
     let pair = ball.condensed();
@@ -218,7 +218,7 @@ fn a_fast_ball_loses_what_explicit_elements_say() {
 
 /// Without radiation bodies are elastic to the bit; a small coefficient has a small effect.
 #[test]
-fn no_radiation_is_none_and_little_is_little() {
+fn zero_radiation_is_elastic_and_small_radiation_loss_is_linear() {
     let ball = Ball::of_glass(5.0);
     let pair = ball.condensed();
     let run = |damping: Damping<'_>| pair.impact(ball.speed, damping, MANY_STEPS).unwrap();
@@ -243,7 +243,7 @@ fn no_radiation_is_none_and_little_is_little() {
 
 /// Beside relaxation, modes of the ball and penalty springs; a soft ball and a hard block.
 #[test]
-fn waves_leave_beside_all_else() {
+fn radiation_adds_to_losses_by_relaxation_modes_and_springs() {
     let polymer = || material(POLYMER, ActsOn::Shear, &[(0.3, 2e4), (0.3, 2e3)]);
     for (ball, block) in [(polymer(), glass()), (glass(), polymer()), (polymer(), polymer())] {
         let ball = Ball { ball, block, speed: 2.0, elements: 6.0, reach: 1.0 };
@@ -267,7 +267,7 @@ fn waves_leave_beside_all_else() {
 
 /// Fields of a half-space: nothing moves far away, and the poles stay together.
 #[test]
-fn fields_of_a_half_space() {
+fn half_space_fields_vanish_far_away_and_poles_stay_together() {
     let ball = Ball::of_glass(1.0);
     let pair = ball.condensed();
     let request = OutputRequest {
@@ -293,7 +293,7 @@ fn fields_of_a_half_space() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn half_space_rejects_a_plane_partner_and_invalid_damping() {
     let ball = Ball::of_glass(1.0);
     for upper in [BodyInput::Wall, ball.half_space(1.0)] {
         let refused = CondensedPair::new([ball.half_space(1.0), upper], ball.settings());

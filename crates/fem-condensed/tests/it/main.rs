@@ -2,14 +2,14 @@
 
 mod common;
 mod convergence;
-mod explicit;
+mod explicit_agreement;
 mod half_space;
-mod limits;
+mod history_rows;
+mod known_limits;
+mod no_separation;
 mod quantities;
-mod refusals;
+mod rejected_inputs;
 mod rigid;
-mod rows;
 mod snapshots;
 mod springs;
-mod together;
 mod unlike_meshes;

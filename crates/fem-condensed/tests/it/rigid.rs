@@ -152,9 +152,9 @@ fn a_stiff_partner_approaches_the_rigid_one() {
     }
 }
 
-/// The same elements and penalty springs step by step; see `explicit.rs` for the tolerances.
+/// The same elements and penalty springs step by step; see `explicit_agreement.rs` for the tolerances.
 #[test]
-fn a_rigid_partner_is_the_explicit_one() {
+fn condensed_rigid_partner_equals_the_explicit_one() {
     let soft = material(GLASS, All, &[(0.8, 5e3)]);
     let hertz = HertzImpact::new(&pair_of(&soft), 0.5).unwrap();
     let stiffness = 5.0 * pair_of(&soft).contact_modulus();
@@ -212,7 +212,7 @@ fn snapshots_have_the_fields_of_the_other_body() {
 }
 
 #[test]
-fn impossible_bodies_are_refused() {
+fn condensed_pair_rejects_impossible_rigid_bodies() {
     let scene = Scene::paper(glass(), glass());
     let [_, upper] = scene.inputs(4.0);
     let new = |radius: f64, mass: f64| {

@@ -26,7 +26,7 @@ fn drawn(
 
 /// Everything that the snapshots say about the bodies as a whole, for every kind of body.
 #[test]
-fn snapshots_are_the_motion() {
+fn snapshots_agree_with_the_rigid_body_motion() {
     let cases = [
         (glass(), glass(), 0),
         (relaxing(All), glass(), 0),
@@ -168,7 +168,7 @@ fn vibration_energy_is_that_of_the_fields() {
 ///
 /// of displacements that are linear in between.
 #[test]
-fn stress_sees_the_history_of_displacements_and_of_vibrations() {
+fn effective_displacement_is_the_convolution_with_the_modulus() {
     let (weight, rate) = (0.6, 3e4);
     let relaxing = material(GLASS, All, &[(weight, rate)]);
     let scene = Scene { speed: 8.0, ..Scene::paper(relaxing.clone(), relaxing) };
@@ -217,7 +217,7 @@ fn stress_sees_the_history_of_displacements_and_of_vibrations() {
 
 /// Counts and times.
 #[test]
-fn counts_and_times() {
+fn snapshots_by_count_and_time_are_at_the_requested_instants() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(6.0);
     let run = scene.collide(&pair);

@@ -72,7 +72,7 @@ fn the_effect_of_springs_falls_with_their_stiffness() {
 /// A region that ends inside of the contact is detected for any pattern of closed points: the same
 /// collision in a larger region, or none.
 #[test]
-fn no_stiffness_hides_the_end_of_the_region() {
+fn too_small_candidate_region_is_detected_for_any_spring_stiffness() {
     let scene = Scene::paper(glass(), glass());
     let contact_radius = scene.hertz().max_contact_radius();
     for factor in FACTORS {

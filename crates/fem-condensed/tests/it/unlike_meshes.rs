@@ -18,7 +18,7 @@ fn run(scene: &Scene, elements: [f64; 2]) -> Collision {
 /// Limits are converged quasi-static finite elements of another code, tolerances those of matching
 /// meshes; forces on the nearest nodes alone would be 0.9 % off in contact time.
 #[test]
-fn a_finer_partner_spoils_nothing() {
+fn finer_partner_mesh_keeps_the_accuracy_of_matching_meshes() {
     let elastic = Scene::paper(glass(), glass());
     let hertz = elastic.hertz();
     for elements in [[8.0, 12.0], [12.0, 8.0], [8.0, 16.0], [16.0, 8.0]] {
@@ -52,7 +52,7 @@ fn the_coarser_mesh_decides() {
 
 /// Which body is the finer does not matter, and neither does the order of the bodies.
 #[test]
-fn bodies_may_change_places() {
+fn swapped_bodies_with_unlike_meshes_give_the_same_results() {
     let scene = Scene::paper(glass(), glass());
     let one = run(&scene, [8.0, 13.0]);
     let turned = Scene { bodies: [scene.bodies[1].clone(), scene.bodies[0].clone()], speed: 0.5 };

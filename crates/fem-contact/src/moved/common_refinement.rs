@@ -220,7 +220,7 @@ mod tests {
     /// The lower bound of the depth finds the same closed points as the arcs do, and evaluates the arcs of few
     /// others, which decides the cost of the contact. A sphere is pressed on a sphere, a rigid sphere and a plane.
     #[test]
-    fn points_that_are_open_are_known_without_their_arcs() {
+    fn open_points_are_found_without_evaluating_arcs() {
         let others =
             [sphere(1.0, 0.011, Side::Above), Surface::rigid_sphere(1.5).unwrap(), Surface::wall()];
         for upper in others {

@@ -181,7 +181,7 @@ mod tests {
     /// Hertz' profile, and profiles that relaxation has flattened and steepened by half, from 2.2 elements on. The
     /// ratio of Hertz' profile is constant; that of the others is most curved within the last element.
     #[test]
-    fn profiles_come_back_from_the_means_of_their_hats() {
+    fn pressure_profiles_are_recovered_from_hat_function_means() {
         for bend in [0.0, 0.5, -0.6] {
             let profile = |x: f64| (1.0 - x).sqrt() * (1.0 + bend * x);
             for (across, tolerance) in [(2.2, 0.08), (3.75, 0.06), (10.3, 0.015)] {
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_few_places_carry_the_force_of_an_ellipse() {
+    fn sampled_elliptic_pressure_integrates_to_the_force() {
         let (nodes, force) = means(|x| (1.0 - x).sqrt(), 0.1, 13);
         let curve = PressureCurve::new(&nodes, 1.0, force).unwrap();
         let places = [0.0].into_iter().chain(places_inside(1.0, 32)).chain([1.0]);
@@ -211,7 +211,7 @@ mod tests {
 
     /// A ring that presses, a single node, and nothing.
     #[test]
-    fn rings_stay_open_inside_and_single_nodes_carry_their_force() {
+    fn pressure_of_a_ring_and_of_a_single_node_carries_the_force() {
         let ring = [(0.0, 0.0), (0.3, 0.0), (0.6, 1.0), (0.9, 0.5), (1.2, 0.0)];
         let curve = PressureCurve::new(&ring, 1.0, 2.0).unwrap();
         assert!(curve.at(0.2) == 0.0 && curve.at(0.6) > 0.0 && curve.at(1.0) == 0.0);

@@ -73,7 +73,7 @@ mod tests {
     /// Meshes with 3 to 45 elements per contact radius that differ by half an element are staggered; meshes of equal
     /// size, one of twice the resolution, and rigid surfaces are not.
     #[test]
-    fn staggered_meshes_are_known_by_their_elements() {
+    fn staggered_meshes_are_recognised_by_element_size() {
         for across in [3.5, 8.0, 45.0] {
             let lengths = [across - 0.25, across + 0.25].map(|across: f64| Some(1.0 / across));
             assert!(are_staggered(lengths) && are_staggered([lengths[1], lengths[0]]));

@@ -42,7 +42,7 @@ fn hats_have_their_moments() {
 /// Hertz' profile and one that relaxation has flattened, p = (1 − x)^½ (1 + x/2), without what elements do to
 /// them: the pressure comes back but for the constants, whose part is taken off here.
 #[test]
-fn the_pressure_on_the_axis_of_exact_means_comes_back() {
+fn centre_pressure_is_recovered_from_exact_means() {
     for (flat, tolerance) in [(0.0, 2e-4), (0.5, 3e-3)] {
         let radius = 10.3 * SIZE;
         let profile = |x: f64| {
@@ -66,7 +66,7 @@ fn the_pressure_on_the_axis_of_exact_means_comes_back() {
 
 /// With one or two nodes no profile is fitted: the pressure is that of the axis node, corrected.
 #[test]
-fn few_nodes_leave_the_axis_nodes_own() {
+fn centre_pressure_of_few_nodes_is_that_of_the_axis_node() {
     let nodes = [(0.0, 2.0), (SIZE, 0.0), (2.0 * SIZE, 0.0)].into_iter();
     let radius = contact_radius(nodes.clone(), ContactEnforcement::Rigid);
     assert_eq!(radius, 0.5 * SIZE);
@@ -96,7 +96,7 @@ fn ending(ratio: f64, radius: f64, steeper: f64) -> Vec<(f64, f64)> {
 
 /// At the ratios of the table, with a fall inside as the table has it, the edge is where it says.
 #[test]
-fn the_edge_is_where_the_layer_has_it() {
+fn contact_radius_equals_the_tabulated_edge_offset() {
     for (ratio, springs, rigid, fall) in [
         (0.08, -0.274, -0.230, -0.018),
         (0.25, -0.053, -0.024, -0.0225),
@@ -121,7 +121,7 @@ fn the_edge_is_where_the_layer_has_it() {
 /// Pressure that falls less steeply inside than an ellipse's ends nearer, as that of bodies that relax does;
 /// by no more than half an element.
 #[test]
-fn a_profile_that_is_no_ellipse_ends_nearer() {
+fn contact_radius_shrinks_for_a_flatter_profile() {
     let at = |steeper: f64| {
         let nodes = ending(0.5, 7.382 * SIZE, (1.0 - 0.0025) * steeper);
         contact_radius(nodes.into_iter(), ContactEnforcement::Springs) / SIZE

@@ -81,7 +81,7 @@ fn wall_passes_the_patch_test_from_either_side() {
 
 /// A wall is a body whose surface is flat.
 #[test]
-fn wall_is_a_plane() {
+fn wall_force_equals_that_of_a_huge_sphere() {
     let size = 30e-6;
     let upper = sphere(7.95e-3, size, 0.3e-3, Side::Above);
     // A sphere of 8 km, with segments of the same length.
@@ -100,7 +100,7 @@ fn wall_is_a_plane() {
 
 /// Forces balance, are frictionless, and are −∂energy/∂displacement on both sides, with points that are open.
 #[test]
-fn forces_balance_and_derive_from_the_energy() {
+fn straight_contact_forces_balance_and_derive_from_the_energy() {
     for sizes in [[30e-6, 30e-6], [30e-6, 37e-6], [15e-6, 300e-6]] {
         let meshes = glass_pair(sizes);
         let (interface, u) = (interface(&meshes, 0.4e-3), ragged(&meshes, 20e-6));
@@ -113,7 +113,7 @@ fn forces_balance_and_derive_from_the_energy() {
 }
 
 #[test]
-fn an_open_contact_does_nothing() {
+fn open_contact_has_no_force_radius_or_pressure() {
     let meshes = glass_pair([30e-6, 30e-6]);
     let interface = interface(&meshes, 0.4e-3);
     let u = [rigid(&meshes[0], 0.0), rigid(&meshes[1], 1e-12)];
@@ -160,7 +160,7 @@ fn limit_is_reached_when_the_outermost_point_closes() {
 }
 
 #[test]
-fn is_closed_agrees_with_the_forces() {
+fn is_closed_agrees_with_the_straight_contact_forces() {
     let meshes = glass_pair([30e-6, 37e-6]);
     let interface = interface(&meshes, 0.4e-3);
     let mut n_closed = 0;

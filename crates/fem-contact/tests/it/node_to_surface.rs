@@ -50,7 +50,7 @@ fn uniform_penetration_loads_nodes_by_their_hats() {
 
 /// Against a wall there is one pass, with all of the area.
 #[test]
-fn a_wall_is_met_in_one_pass() {
+fn wall_contact_has_one_pass_with_the_whole_area() {
     let mesh = flat(0.01, Side::Above);
     let surfaces = [Surface::wall(), Surface::of_sphere(&mesh)];
     let [wall, sphere] = surfaces.clone();
@@ -63,7 +63,7 @@ fn a_wall_is_met_in_one_pass() {
 }
 
 #[test]
-fn forces_balance_and_derive_from_the_energy() {
+fn node_to_surface_forces_balance_and_derive_from_the_energy() {
     let meshes = glass_pair([30e-6, 37e-6]);
     let interface = interface(&meshes, 0.4e-3);
     let u = ragged(&meshes, 20e-6);

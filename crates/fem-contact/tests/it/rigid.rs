@@ -41,7 +41,7 @@ fn a_rigid_sphere_overlaps_with_its_true_arc() {
 
 /// A plane is a sphere without end: r²/2R = 1e-17 m of a sphere of 1e10 m.
 #[test]
-fn a_wall_is_a_rigid_sphere_without_end() {
+fn wall_equals_a_rigid_sphere_of_huge_radius() {
     let mesh = sphere(7.95e-3, 40e-6, 0.5e-3, Side::Above);
     let make = |lower: Surface| {
         ContactInterface::new(lower, Surface::of_sphere(&mesh), STIFFNESS, 0.0, 0.4e-3).unwrap()

@@ -36,7 +36,7 @@ fn scenes() -> Vec<(SlippingInterface, [Field; 2])> {
 
 /// Forces balance and are −∂energy/∂displacement along r and y, including the rotation of the slope.
 #[test]
-fn forces_balance_and_derive_from_the_energy() {
+fn slipping_forces_balance_and_derive_from_the_energy() {
     for (interface, u) in scenes() {
         let (total, f) = slipping_forces(&interface, &u);
         assert!(total.n_closed > 10 && total.n_closed < interface.interface().n_points());
@@ -71,7 +71,7 @@ fn forces_balance_and_derive_from_the_energy() {
 /// Facing points that move alike do not slip: force, pressure and radius are those of the plain
 /// interface; only the shares along r are new.
 #[test]
-fn what_moves_alike_does_not_slip() {
+fn equal_surface_motion_gives_the_forces_without_slip() {
     let meshes = glass_pair([30e-6, 30e-6]);
     let plain = interface(&meshes, 0.4e-3);
     let slipping = SlippingInterface::new(plain.clone());
@@ -93,7 +93,7 @@ fn what_moves_alike_does_not_slip() {
 }
 
 #[test]
-fn is_closed_agrees_with_the_forces() {
+fn is_closed_agrees_with_the_slipping_forces() {
     let meshes = glass_pair([30e-6, 37e-6]);
     let interface = SlippingInterface::new(interface(&meshes, 0.4e-3));
     let mut n_closed = 0;

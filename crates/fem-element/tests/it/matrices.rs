@@ -38,7 +38,7 @@ fn matrices_are_symmetric_and_semidefinite_with_the_right_nullity() {
 }
 
 #[test]
-fn rolling_of_a_ring_costs_the_mean_gradient_element_nothing() {
+fn mean_gradient_element_has_no_energy_in_ring_rolling() {
     let geometry = QuadGeometry::new(&DISTORTED);
     let hoop: f64 = geometry.hoop.iter().sum();
     let height = (0..4).map(|a| geometry.hoop[a] * DISTORTED[a][1]).sum::<f64>() / hoop;
@@ -64,7 +64,7 @@ fn linear_fields_have_the_energy_of_their_strain() {
 }
 
 #[test]
-fn dilatation_is_the_same_in_both_kinds() {
+fn bulk_matrices_of_b_bar_and_mean_gradient_are_equal() {
     assert_eq!(b_bar(&DISTORTED).bulk, mean_gradient(&QuadGeometry::new(&DISTORTED)).bulk);
 }
 
@@ -91,7 +91,7 @@ fn bending_deviation(radius: f64, skew: f64) -> f64 {
 /// The hourglass stiffness is that of B-bar but for the hoop strain φ/r, which it leaves out:
 /// the difference is of the order (h/r)².
 #[test]
-fn hourglass_bends_like_b_bar() {
+fn hourglass_stiffness_approaches_b_bar_at_second_order() {
     // (h/r)²/20 on a rectangle.
     assert!(bending_deviation(1.0, 0.0) < 0.05);
     let order = (bending_deviation(4.0, 0.0) / bending_deviation(8.0, 0.0)).log2();

@@ -128,7 +128,7 @@ mod tests {
     /// Mass and mass centre stay, to rounding; the nodes have none, and no other loses any that the
     /// factor does not take: at a surface, and of an element that keeps one corner.
     #[test]
-    fn mass_and_its_centre_stay() {
+    fn massless_boundary_keeps_mass_and_mass_centre() {
         let mesh = sphere(0.05, 0.2, Side::Above);
         let geometries = geometries(&mesh);
         let volumes: Vec<_> = geometries.iter().map(|geometry| geometry.nodal_volumes).collect();

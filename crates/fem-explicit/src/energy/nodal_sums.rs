@@ -124,7 +124,7 @@ mod tests {
     /// Against sums of one node after the other, for any number of nodes; the numbers are small integers over
     /// 8, whose sums have no rounding.
     #[test]
-    fn the_sums_are_those_of_one_node_after_the_other() {
+    fn nodal_sums_equal_sequential_sums() {
         for n in 0..19_usize {
             let number = |k: usize, a: usize| ((a * k * k + 3 * k + a) % 17) as f64 / 8.0 - 1.0;
             let field = |a: usize| -> Vec<[f64; 2]> {

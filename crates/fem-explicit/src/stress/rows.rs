@@ -157,7 +157,7 @@ mod tests {
     /// The cost of a step: blocks and rings lie in rows, except the halves of the first and of the last ring along the nodes of a
     /// block that are not neighbours.
     #[test]
-    fn meshes_that_are_made_here_are_rows() {
+    fn built_in_meshes_are_packed_into_element_rows() {
         for m in [3, 5, 10, 20] {
             let mesh = sphere(0.1 / m as f64, 0.1, Side::Above);
             let (rows, others) = packed(&mesh);
@@ -192,7 +192,7 @@ mod tests {
 
     /// The last nodes are not the first of an eight that would read beyond them.
     #[test]
-    fn stretches_end_with_the_nodes() {
+    fn element_rows_read_no_nodes_beyond_the_mesh() {
         let mesh = sphere(0.02, 0.1, Side::Below);
         let (rows, _) = packed(&mesh);
         let n = mesh.nodes().len();

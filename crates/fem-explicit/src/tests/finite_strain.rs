@@ -157,7 +157,7 @@ fn the_critical_step_beside_a_deformed_body_is_safe() {
 /// A very light rigid sphere with dashpots, under a ball at finite strain that has become wider by a third: the step is
 /// that of the sphere, and shorter as the area of the surface is larger.
 #[test]
-fn the_critical_step_of_a_rigid_sphere_knows_the_area_of_its_partner() {
+fn critical_step_of_a_rigid_sphere_falls_with_its_partners_area() {
     let rigid = BodyInput::Rigid { radius: 1.0, mass: 1e-6 };
     let model = with_deformed_upper([rigid, glass_sphere(8.0, Side::Above)], 100.0);
     let mut state = State::at_first_touch(&model);
@@ -214,7 +214,7 @@ fn every_step_of_a_collision_is_stable() {
 /// A bound costs as much as ten updates: there is one in ten steps at most. Fast elements that do not decide on
 /// the step would have one in three steps.
 #[test]
-fn the_step_is_bounded_now_and_then() {
+fn critical_step_is_computed_at_most_every_tenth_step() {
     let sphere = glass_sphere(16.0, Side::Above);
     let law = Some(HyperelasticLaw::NeoHooke);
     let parts = Parts { finite_strain: [None, law], ..Parts::default() };
@@ -275,7 +275,7 @@ fn every_step_of_bulging_spheres_is_stable() {
 /// A flank that stands upright where it is closed: no step is short enough, and the stop names the contact and
 /// the place, not the element that happens to be compressed most.
 #[test]
-fn what_no_step_is_short_enough_for_is_named() {
+fn too_short_a_step_names_the_contact_on_steep_flanks() {
     let sphere =
         |side: Side| BodyInput::Sphere { mesh: unit_sphere(4.0, side), material: unit_glass() };
     let law = Some(HyperelasticLaw::NeoHooke);

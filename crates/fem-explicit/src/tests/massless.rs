@@ -72,7 +72,7 @@ fn largest_square(stiffness: &DMatrix<f64>, model: &ExplicitBodies) -> f64 {
 /// Whatever is closed and however stiff: without the springs in the bound, and with the elements that
 /// lost corners.
 #[test]
-fn the_critical_time_step_is_safe_and_knows_no_springs() {
+fn massless_critical_step_is_safe_and_independent_of_springs() {
     for sizes in [[0.25, 0.25], [0.25, 0.125], [0.25, 0.05]] {
         let mut steps = Vec::new();
         for stiffness in [1.0, 100.0, 1e4] {
@@ -145,7 +145,7 @@ fn worst_lack(stiffness: f64, materials: [&Material; 2], slips_at: Option<f64>) 
 /// At the end of each step nothing pulls at the bare nodes: what is handed over to their neighbours is
 /// rounding of the forces of elements.
 #[test]
-fn bare_nodes_are_in_balance() {
+fn massless_nodes_are_in_balance() {
     let relaxing = |acts_on| relaxing_glass(&[(0.4, 0.3), (0.5, 3.0)], acts_on);
     for glass in [unit_glass(), relaxing(ActsOn::All), relaxing(ActsOn::Shear)] {
         let lack = worst_lack(50.0, [&glass, &glass], None);
@@ -156,7 +156,7 @@ fn bare_nodes_are_in_balance() {
 
 /// Nor where springs turn, by up to a tenth: to what ends the passes. In one pass it would be 1e-5.
 #[test]
-fn bare_nodes_that_slip_are_in_balance() {
+fn slipping_massless_nodes_are_in_balance() {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(0.3, 0.0).unwrap();
     let soft = Material::new(1.0, moduli, None).unwrap();
     let relaxing = relaxing_glass(&[(0.4, 0.3), (0.5, 3.0)], ActsOn::Shear);

@@ -72,7 +72,7 @@ fn a_free_motion_under_weight_is_the_closed_form_and_balances() {
 
 /// A rigid sphere moves in closed form too, with balanced energy and momentum, while the body below is far away.
 #[test]
-fn a_rigid_sphere_falls_too() {
+fn rigid_sphere_under_weight_has_the_closed_form_motion() {
     let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Below), material: unit_glass() };
     let bodies = [sphere, BodyInput::Rigid { radius: 0.5, mass: 3.0 }];
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
@@ -105,7 +105,7 @@ fn a_rigid_sphere_falls_too() {
 
 /// A weight is ρ V g, whatever mass scaling moves, and its potential that times the height.
 #[test]
-fn moved_mass_weighs_what_it_did() {
+fn mass_scaling_leaves_weight_and_potential_unchanged() {
     let gravity = 0.7;
     for mass_scaling in [0.0, 0.05] {
         let sphere =

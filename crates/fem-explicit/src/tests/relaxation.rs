@@ -129,7 +129,7 @@ fn effective_displacement_of_a_state_is_what_the_step_leaves() {
 
 /// Terms of no weight keep no history; an elastic body has no branch at all.
 #[test]
-fn branches_without_weight_are_absent() {
+fn zero_weight_terms_keep_no_history() {
     let n_history = |model: &crate::ExplicitBodies| model.bodies().each_ref().map(Body::n_history);
     // The effective displacement and one branch.
     let (model, _) = strained(relaxing_glass(&[(0.0, 1.0), (0.5, 1.0)], ActsOn::All));

@@ -125,7 +125,7 @@ fn lumped_mass_is_that_of_the_sphere() {
 }
 
 #[test]
-fn mass_scaling_moves_what_the_bound_needs_and_stays_in_its_budget() {
+fn mass_scaling_lengthens_the_step_within_its_budget() {
     let mesh = sphere(0.02, 0.06, Side::Above);
     let bound = lumped(&mesh, unit_glass()).bound;
     let plain = bound.critical_time_step();
@@ -153,7 +153,7 @@ fn mass_scaling_moves_what_the_bound_needs_and_stays_in_its_budget() {
 
 /// Nodes that all need more have nothing to give: the step ends where half of what is spare is taken.
 #[test]
-fn nodes_give_no_more_than_half_of_what_they_can_spare() {
+fn mass_scaling_takes_at_most_half_of_the_spare_mass() {
     let bound = lumped(&unit_sphere(8.0, Side::Above), unit_glass()).bound;
     let mass: f64 = bound.mass.iter().sum();
     let scaled = bound.scaled_time_step(mass);
@@ -164,7 +164,7 @@ fn nodes_give_no_more_than_half_of_what_they_can_spare() {
 }
 
 #[test]
-fn no_mass_scaling_is_no_mass_scaling() {
+fn zero_mass_scaling_leaves_step_and_masses_unchanged() {
     let bound = lumped(&unit_sphere(8.0, Side::Above), unit_glass()).bound;
     let plain = bound.critical_time_step();
     assert_eq!(bound.scaled_time_step(0.0), plain);

@@ -44,7 +44,7 @@ fn variation(run: &Collision, value: impl Fn(&HistoryRow) -> f64) -> f64 {
 }
 
 #[test]
-fn a_fast_impact_rings_less_and_balances() {
+fn bulk_viscosity_reduces_ringing_and_energy_balances() {
     let often = Pair { history_rows: 2000, ..fast() };
     let (bare, viscous) = (often.run(), viscous(&often));
     let ups_and_downs = [&bare, &viscous].map(|run| {
@@ -71,7 +71,7 @@ fn a_fast_impact_rings_less_and_balances() {
 /// It takes a share of third order from a smooth motion, and of lower order from the edge of a contact, where the
 /// pressure ends as a square root.
 #[test]
-fn what_it_takes_of_a_slow_pair_is_little_and_falls_fast() {
+fn bulk_viscosity_loss_of_a_slow_pair_converges_to_zero() {
     let [coarse, fine] = [90e-6, 45e-6].map(|element_size| {
         let pair = Pair { element_size, history_rows: 0, ..Pair::default() };
         loss(&viscous(&pair))
@@ -84,7 +84,7 @@ fn what_it_takes_of_a_slow_pair_is_little_and_falls_fast() {
 }
 
 #[test]
-fn it_is_resumed_and_another_is_refused() {
+fn restart_keeps_bulk_viscosity_and_rejects_other_coefficients() {
     let pair = Pair { velocities: [5.0, 0.0], history_rows: 0, ..fast() };
     let (bare, usual) = (pair.model(), model(&pair, ViscosityCoefficients::default()));
     let n_bytes = |model: &ExplicitBodies| {

@@ -14,7 +14,7 @@ fn noise(run: &Collision) -> f64 {
 /// 10.681 µm (small strain, contact along the common normal), by springs between nodes with mass, and by a
 /// massless boundary, which has less noise and a longer step.
 #[test]
-fn elastic_collisions_are_the_converged_one() {
+fn elastic_collisions_equal_converged_finite_elements() {
     let pair = |method| Pair { method, history_rows: 0, ..Pair::default() };
     let runs = [ContactMethod::Penalty, ContactMethod::Massless].map(|method| {
         let run = pair(method).run();
@@ -68,7 +68,7 @@ fn elastic_collisions_are_the_converged_one() {
 
 /// Converged quasi-static finite elements: 0.92763 if all moduli relax, 0.94811 if only shear does.
 #[test]
-fn viscoelastic_collisions_are_the_converged_ones() {
+fn viscoelastic_collisions_equal_converged_finite_elements() {
     let all = [(ActsOn::All, 0.92763), (ActsOn::Shear, 0.94811)];
     let methods = [ContactMethod::Penalty, ContactMethod::Massless];
     for ((acts_on, e), method) in all.into_iter().flat_map(|case| methods.map(|m| (case, m))) {
@@ -118,7 +118,7 @@ const SI: [f64; 3] = [1.0; 3];
 /// Roundings of 1e-16 a step, ten thousand steps; the contact is smooth enough not to amplify
 /// them. 2e-13 is measured.
 #[test]
-fn units_do_not_matter() {
+fn results_are_independent_of_units() {
     let plain = &*COARSE_RUN;
     for units in [[1e-3, 1.0, 1.0], [1e3, 1.0, 1.0], [1.0, 1e-3, 1.0], [1e2, 1e-4, 3e-7]] {
         let run = Pair { units, ..Pair::coarse() }.run();
@@ -129,7 +129,7 @@ fn units_do_not_matter() {
 
 /// Displacements reach 0.15 mm instead of 0.03 mm: 1e-12 is measured.
 #[test]
-fn a_common_velocity_does_not_matter() {
+fn results_are_independent_of_a_common_velocity() {
     let plain = &*COARSE_RUN;
     let moving = Pair { velocities: [2.5, 2.0], ..Pair::coarse() }.run();
     let difference = difference((plain, SI), (&moving, SI));
@@ -161,7 +161,7 @@ fn a_gap_delays_the_collision() {
 }
 
 #[test]
-fn swapped_bodies_collide_in_the_mirror() {
+fn swapped_bodies_give_mirrored_results() {
     let plain = &*COARSE_RUN;
     let pair = Pair { radii: [7.95e-3, 11.1e-3], velocities: [0.0, -0.5], ..Pair::coarse() };
     let mirrored = Collision { peak_pressure: plain.peak_pressure, ..pair.run() };
@@ -180,7 +180,7 @@ fn swapped_bodies_collide_in_the_mirror() {
 /// A rigid wall is the plane of symmetry of twins. The penetration at the wall is half of that
 /// between twins: half the penalty gives the same pressure, and the same critical time step.
 #[test]
-fn a_wall_is_the_mirror_of_a_twin() {
+fn wall_contact_equals_the_mirrored_twin_pair() {
     let pair = |velocities| Pair { radii: [7.95e-3; 2], velocities, ..Pair::coarse() };
     let twins = pair([0.5, -0.5]);
     let settings = twins.settings();

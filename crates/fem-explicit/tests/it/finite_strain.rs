@@ -207,7 +207,7 @@ fn a_body_at_finite_strain_meets_one_at_small_strain() {
 /// The step follows the critical one: shorter while the ball is pressed flat, and long again; a run that is
 /// resumed in between does the same steps.
 #[test]
-fn the_time_step_follows_and_resumes() {
+fn time_step_follows_the_critical_step_and_resumes_to_the_bit() {
     let terms: &[(f64, f64)] = &[(0.5, 1e-3), (0.2, 1e-2)];
     let ball = Ball { speed: 8.0, n: 6.0, nu: 0.45, penalty: 1.0, terms, ..Ball::default() };
     let model = ball.model();
@@ -239,7 +239,7 @@ fn the_time_step_follows_and_resumes() {
 /// A law that softens in compression, at a speed at which it loses stability before the energy is checked, stops the
 /// run with body, element and time.
 #[test]
-fn an_element_that_collapses_stops_the_run_and_says_why() {
+fn lost_ellipticity_stops_the_run_and_names_the_element() {
     let law = Some(HyperelasticLaw::SaintVenantKirchhoff);
     let ball = Ball { nu: 0.3, speed: 60.0, law, ..Ball::default() };
     let run = ball.run();
@@ -267,7 +267,7 @@ fn an_element_that_collapses_stops_the_run_and_says_why() {
 /// energy does not add up, and says which element it was; a slower one whose energy does comes through, and warns of
 /// it; a still slower one, and neo-Hooke's, has nothing to say.
 #[test]
-fn a_law_that_loses_its_stability_says_so() {
+fn loss_of_ellipticity_warns_or_stops_the_run() {
     let ball = |law: HyperelasticLaw, speed: f64| Ball {
         nu: 0.45,
         speed,
@@ -386,7 +386,7 @@ fn run_pressed_flat(bodies: [BodyInput; 2], speed: f64) -> Collision {
 /// At 0.4 to 0.6 of their shear wave speed rubber balls become half as high, and a flank above the edge of the
 /// contact is upright. It touches nothing, so that it asks for no shorter step and stops no run.
 #[test]
-fn flanks_that_bulge_over_the_contact_are_no_matter() {
+fn overhanging_flanks_outside_the_contact_do_not_stop_the_run() {
     let unlike = || {
         [rubber_ball(11e-3, 7.0, 1e6, Side::Below), rubber_ball(17.5e-3, 11.0, 3e6, Side::Above)]
     };

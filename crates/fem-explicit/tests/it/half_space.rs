@@ -207,7 +207,7 @@ fn a_partner_forty_times_larger_is_a_half_space() {
 /// Slow: Hertz. The ball's own finite size is 3/4 per mille of the approach a per cent of a/R, the mesh
 /// and the penalty some per mille.
 #[test]
-fn a_slow_ball_is_hertz() {
+fn slow_ball_on_a_half_space_equals_hertz() {
     let run = Ball { speed: 0.2, ..Ball::default() }.run();
     let hertz = Hertz::at(0.2);
     assert!((run.contact_time.unwrap() / hertz.time - 1.0).abs() < 4e-3);
@@ -246,7 +246,7 @@ fn a_far_boundary_that_is_too_near_is_reported() {
 
 /// Above as below, and in a moving frame: a half-space that moves does work on the ball.
 #[test]
-fn a_half_space_may_lie_above_and_move() {
+fn half_space_above_or_moving_gives_the_same_restitution() {
     let still = Ball { speed: 20.0, ..Ball::default() };
     let here = still.run();
     let above = Ball { half_space: Side::Above, ..still.clone() }.run();
@@ -266,7 +266,7 @@ fn a_half_space_may_lie_above_and_move() {
 /// A half-space that relaxes loses what it radiates and what it dissipates; resumed from a restart
 /// state it has the same bits.
 #[test]
-fn a_half_space_may_relax() {
+fn relaxing_half_space_adds_loss_and_resumes_to_the_bit() {
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         let terms = vec![PronyTerm { weight: 0.5, relaxation_time: 1e-4 }];
         let series = PronySeries::new(terms, acts_on).unwrap();
@@ -311,7 +311,7 @@ fn radiated_waves_do_not_separate_bodies() {
 
 /// The mass that may be moved in the half-space is a share of the mass of the ball.
 #[test]
-fn mass_scaling_is_measured_by_the_ball() {
+fn half_space_mass_scaling_is_limited_by_the_mass_of_the_ball() {
     let model = Ball::default().model();
     let [block, ball] = model.bodies();
     for body in [block, ball] {
@@ -324,7 +324,7 @@ fn mass_scaling_is_measured_by_the_ball() {
 }
 
 #[test]
-fn a_half_space_meets_a_sphere() {
+fn half_space_rejects_a_plane_partner() {
     let block = |side: Side| {
         let disc = QuarterDisc {
             far_radius: 1.0,

@@ -67,7 +67,7 @@ fn lanes_of_every_kind_give_the_same_bits() {
 
 /// A single relaxation term at finite strain has a loop of its own, which gives the same as that of several terms.
 #[test]
-fn one_term_relaxes_like_several() {
+fn single_relaxation_term_gives_the_bits_of_several() {
     for law in HyperelasticLaw::ALL {
         let history = |weights: &[f64]| {
             let parts = Parts { finite_strain: [None, Some(law)], ..Parts::default() };

@@ -12,7 +12,7 @@ fn coarse() -> Pair {
 /// For any stiffness the step stays the same, to the bit, and no energy is gained. The softest springs let the
 /// spheres overlap by some of their contact radius.
 #[test]
-fn no_stiffness_gains_energy() {
+fn massless_step_and_energy_are_independent_of_stiffness() {
     let step = coarse().model().time_step();
     for penalty_factor in [1e-3, 1e-2, 0.1, 10.0, 1e2, 1e3, 1e4] {
         let soft = if penalty_factor < 0.1 { 2e-3 } else { coarse().max_time };
@@ -49,7 +49,7 @@ fn close(one: &Collision, other: &Collision, tolerance: f64) {
 /// Between twins lies a plane that neither passes, on which each overlaps by half: half of the springs
 /// in series. A wall that moves is no other.
 #[test]
-fn a_wall_is_the_mirror_of_a_twin() {
+fn massless_wall_contact_equals_the_mirrored_twin_pair() {
     let twins = |velocities, penalty_factor| Pair {
         radii: [7.95e-3; 2],
         velocities,
@@ -71,7 +71,7 @@ fn a_wall_is_the_mirror_of_a_twin() {
 }
 
 #[test]
-fn swapped_bodies_collide_in_the_mirror() {
+fn massless_swapped_bodies_give_mirrored_results() {
     let plain = coarse().run();
     let swapped = Pair { radii: [7.95e-3, 11.1e-3], velocities: [0.0, -0.5], ..coarse() };
     let swapped = Collision { peak_pressure: plain.peak_pressure, ..swapped.run() };
@@ -80,7 +80,7 @@ fn swapped_bodies_collide_in_the_mirror() {
 
 /// A rigid sphere has the same mass and step with any springs; a very large one behaves as a wall.
 #[test]
-fn a_rigid_sphere_collides() {
+fn massless_rigid_sphere_conserves_energy_and_becomes_a_wall() {
     let with = |body: BodyInput, penalty_factor: f64| {
         let pair = Pair { velocities: [0.0, -0.5], penalty_factor, ..coarse() };
         pair.run_model(&pair.model_of([body, pair.sphere(1)]))
@@ -98,7 +98,7 @@ fn a_rigid_sphere_collides() {
 
 /// The contents of the buffers of the boundary do not change results.
 #[test]
-fn a_resumed_run_is_the_same_to_the_bit() {
+fn massless_resumed_run_is_the_same_to_the_bit() {
     let pair = Pair { relaxation: Some(ActsOn::Shear), ..coarse() };
     let model = pair.model();
     assert_eq!(pair.in_pieces(&model, 61), pair.run_model(&model));

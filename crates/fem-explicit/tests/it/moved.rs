@@ -39,7 +39,7 @@ fn check_balance(found: &Quantities) {
 /// The pressure is per area of now and not of the undeformed body: under Hertz' pressure p0 the axis is
 /// stretched by ε_rr = −(1 + ν)(1 − 2ν) p0/2E, and the area by twice that.
 #[test]
-fn like_bodies_and_a_wall_meet_as_on_undeformed_surfaces() {
+fn like_bodies_on_deformed_surfaces_equal_undeformed_ones() {
     let pair = Pair::default();
     let with_wall = [BodyInput::Wall, pair.sphere(1)];
     for bodies in [[pair.sphere(0), pair.sphere(1)], with_wall] {
@@ -68,7 +68,7 @@ fn like_bodies_and_a_wall_meet_as_on_undeformed_surfaces() {
 /// undeformed surfaces by hand, changed T by −0.58 to −0.59 %, F by 0.76 to 0.79 % at 8 to 14 elements
 /// a contact radius.
 #[test]
-fn slip_of_unlike_bodies_is_there() {
+fn unlike_bodies_on_deformed_surfaces_include_the_surface_slip() {
     let (contact_radius, speed) = (0.147e-3, 0.54);
     let sphere = |radius, modulus, poisson, density, side| {
         let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(modulus, poisson).unwrap();
@@ -108,7 +108,7 @@ fn slip_of_unlike_bodies_is_there() {
 
 /// A rigid sphere is one node: momentum and energy are kept as between meshes.
 #[test]
-fn a_rigid_sphere_can_be_met() {
+fn rigid_sphere_on_deformed_surfaces_balances_energy_and_momentum() {
     let pair = Pair::default();
     let mass = 2390.0 * 4.0 / 3.0 * std::f64::consts::PI * pair.radii[0].powi(3);
     let bodies = [BodyInput::Rigid { radius: pair.radii[0], mass }, pair.sphere(1)];
@@ -123,7 +123,7 @@ fn a_rigid_sphere_can_be_met() {
 
 /// The dashpots' force and work are history: a run in pieces is the same.
 #[test]
-fn a_run_can_be_resumed() {
+fn deformed_surface_run_resumes_to_the_bit() {
     let pair = Pair::small();
     let [plain, moved] = of_pair(&pair, [0, 1].map(|body| pair.sphere(body)));
     let start = Run::new(&moved, pair.expected(), &pair.request()).restart_state().clone();
@@ -196,7 +196,7 @@ fn the_largest_force_is_not_the_ringing_of_springs() {
 /// A ball as soft as foam hits a wall at one and a half times its shear wave speed: its surface folds,
 /// and that is what the run says, with what it has.
 #[test]
-fn a_surface_that_folds_is_a_stop() {
+fn folding_surface_stops_the_run() {
     let (bodies, settings) = rubber(2e-3, 0.0149);
     let folding = model(bodies, Approach::at(60.0).unwrap(), &settings, true);
     let expected = Expectation { contact_time: 1e-3, approach: 20e-3 };
@@ -218,7 +218,7 @@ fn a_surface_that_folds_is_a_stop() {
 /// bodies at small strain do not. Energy and momentum are kept, the largest force is no ringing, and a run
 /// in pieces is the same.
 #[test]
-fn a_body_at_finite_strain_has_it_by_itself() {
+fn finite_strain_selects_deformed_surface_contact_by_default() {
     let (on_wall, settings) = rubber(1.2e-3, 10e-3);
     let [_, ball] = &on_wall;
     let steel = ElasticModuli::from_youngs_modulus_poissons_ratio(2e9, 0.3).unwrap();

@@ -141,7 +141,7 @@ impl Monitor for Stopper {
 }
 
 #[test]
-fn an_interrupted_run_returns_what_it_has() {
+fn interrupted_run_returns_its_results_so_far() {
     let whole = &*COARSE_RUN;
     for history_rows in [1000, 100_000, 10] {
         for n_reports in [1, 25] {
@@ -196,7 +196,7 @@ fn a_finished_run_reports_its_progress() {
 }
 
 #[test]
-fn a_contact_that_grows_out_of_the_candidates_stops_the_run() {
+fn contact_beyond_the_candidate_region_stops_the_run() {
     for history_rows in [1000, 100_000] {
         let pair = Pair { candidate_radius: 0.1e-3, history_rows, ..Pair::coarse() };
         let model = pair.model();
@@ -220,7 +220,7 @@ fn a_contact_that_grows_out_of_the_candidates_stops_the_run() {
 }
 
 #[test]
-fn a_run_that_does_not_separate_gives_up() {
+fn run_without_separation_stops_at_its_time_limit() {
     let pair = Pair { max_time: 30e-6, ..Pair::coarse() };
     let run = pair.run();
     let Some(&Stop::NoSeparation { at: StepInstant { time, .. }, .. }) = run.stop() else {

@@ -33,7 +33,7 @@ fn n_bytes(pair: &Pair, model: &ExplicitBodies) -> usize {
 
 /// A part that is off is absent: the same bits, and the same size of the restart state.
 #[test]
-fn no_part_is_no_part() {
+fn default_parts_change_neither_bits_nor_restart_size() {
     let pair = small();
     let (plain, other) = (pair.model(), model(&pair, Parts::default()));
     assert_eq!(pair.run_model(&plain), pair.run_model(&other));
@@ -67,7 +67,7 @@ impl NodeForce for Pull {
 
 /// Bodies that fall together collide as if they did not fall.
 #[test]
-fn a_common_fall_does_not_matter() {
+fn results_are_independent_of_a_common_acceleration() {
     let pair = small();
     let plain = pair.run();
     // A tenth of the speed of approach in the contact time.
@@ -292,7 +292,7 @@ impl Contact for Counting {
 /// Another contact takes the place of the penalty's; its history is behind that of the bodies'
 /// parts and resumed with it.
 #[test]
-fn a_contact_with_history_takes_the_place_of_the_penalty() {
+fn custom_contact_replaces_the_penalty_contact_and_resumes() {
     for relaxation in [None, Some(fem_material::ActsOn::Shear)] {
         let pair = Pair { relaxation, ..small() };
         let contact = || Some(Box::new(Counting::of(&pair)) as Box<dyn Contact>);

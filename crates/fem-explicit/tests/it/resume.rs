@@ -85,7 +85,7 @@ fn a_run_resumes_from_its_first_steps() {
 
 /// A history that is thinned, a wall that moves, a contact that stops the run or does not end.
 #[test]
-fn odd_runs_resume_alike() {
+fn stopped_thinned_and_moving_wall_runs_resume_to_the_bit() {
     let wall = Pair { velocities: [1.5, 1.0], ..Pair::small() };
     let bodies = [BodyInput::Wall, wall.sphere(1)];
     let wall_model = wall.model_of(bodies);
@@ -105,7 +105,7 @@ fn odd_runs_resume_alike() {
 }
 
 #[test]
-fn one_step_at_a_time_is_many_at_once() {
+fn single_steps_equal_many_steps_at_once() {
     for pair in materials() {
         let model = pair.model();
         let new = || Run::new(&model, pair.expected(), &pair.request());
@@ -126,7 +126,7 @@ fn one_step_at_a_time_is_many_at_once() {
 
 /// No step is no step.
 #[test]
-fn nothing_happens_by_itself() {
+fn advance_by_zero_steps_leaves_restart_state_unchanged() {
     let (pair, model) = (Pair::small(), Pair::small().model());
     let mut run = Run::new(&model, pair.expected(), &pair.request());
     let start = run.restart_state().clone();
@@ -269,7 +269,7 @@ fn an_ended_run_does_no_step_more() {
 
 /// At the start, in contact and in the flight after it; with rows and without.
 #[test]
-fn a_run_that_is_left_is_interrupted_where_it_is() {
+fn run_finished_early_is_interrupted_at_its_step() {
     let pair = Pair::small();
     let model = pair.model();
     let n_steps = pair.run_model(&model).steps.unwrap();
@@ -299,7 +299,7 @@ fn a_run_that_is_left_is_interrupted_where_it_is() {
 
 /// A run that owns a share of its model can be handed on.
 #[test]
-fn a_run_can_hold_its_model() {
+fn run_owning_its_model_moves_to_another_thread() {
     fn begun(pair: &Pair) -> Run<Arc<ExplicitBodies>> {
         Run::new(Arc::new(pair.model()), pair.expected(), &pair.request())
     }

@@ -127,7 +127,7 @@ fn a_heavy_rigid_sphere_that_moves_is_balanced() {
         pair.run_model(&pair.model_of(heavy))
     };
     let (plain, moving) = (run([0.5, 0.0]), run([10.5, 10.0]));
-    // As of other bodies, see `a_common_velocity_does_not_matter`; displacements are larger.
+    // As of other bodies, see `results_are_independent_of_a_common_velocity`; displacements are larger.
     assert!(differences(&plain, &moving).iter().all(|off| *off < 1e-9));
     for run in [plain, moving] {
         let found = quantities(&run);
@@ -158,7 +158,7 @@ fn a_body_that_relaxes_completely_stays_with_a_rigid_sphere() {
 }
 
 #[test]
-fn swapped_bodies_collide_in_the_mirror() {
+fn rigid_partner_swapped_gives_mirrored_results() {
     let plain = coarse();
     let mirrored = Pair { radii: [7.95e-3, 11.1e-3], velocities: [0.0, -0.5], ..coarse() };
     let [one, other] =
@@ -203,7 +203,7 @@ fn a_stiff_partner_approaches_the_rigid_one() {
 /// A heavy rigid sphere asks for the step of a wall. As a mesh, 1e4 times stiffer, it would take √1e4
 /// times as many steps, less what the springs take of the soft body's own, of twice as many elements.
 #[test]
-fn a_rigid_partner_costs_nothing() {
+fn rigid_partner_has_no_elements_and_keeps_the_wall_time_step() {
     let pair = coarse();
     let step = |lower: BodyInput| pair.model_of([lower, pair.sphere(1)]);
     let wall = step(BodyInput::Wall);
@@ -240,7 +240,7 @@ fn a_light_rigid_bead_is_stable() {
 }
 
 #[test]
-fn a_resumed_run_is_the_same_to_the_bit() {
+fn rigid_partner_resumed_run_is_the_same_to_the_bit() {
     for rigid in 0..2 {
         let relaxation = Some(ActsOn::Shear);
         let snapshots = SnapshotRequest::Count(3);
@@ -268,7 +268,7 @@ fn a_resumed_run_is_the_same_to_the_bit() {
 }
 
 #[test]
-fn impossible_bodies_are_refused() {
+fn explicit_bodies_reject_impossible_rigid_bodies() {
     let pair = coarse();
     let new = |radius: f64, mass: f64| {
         let bodies = [BodyInput::Rigid { radius, mass }, pair.sphere(1)];

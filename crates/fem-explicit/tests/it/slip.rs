@@ -89,7 +89,7 @@ fn like_bodies_hardly_slip() {
 /// For any stiffness of the springs: the same steps, one contact without chatter, and no energy is gained. Springs
 /// between masses, a hundred times as stiff, close and open a hundred times.
 #[test]
-fn a_boundary_without_mass_slips_quietly_at_any_stiffness() {
+fn massless_slipping_boundary_is_stable_at_any_stiffness() {
     let pair = Pair { method: ContactMethod::Massless, ..pair() };
     let run = |factor: f64| {
         let mut bodies = [pair.sphere(0), pair.sphere(1)];
@@ -117,7 +117,7 @@ fn a_boundary_without_mass_slips_quietly_at_any_stiffness() {
 
 /// To the same bits, and not from the restart state of a model without slip.
 #[test]
-fn a_run_in_pieces_is_the_same() {
+fn slipping_run_resumes_to_the_bit() {
     for method in [ContactMethod::Penalty, ContactMethod::Massless] {
         is_the_same_in_pieces(&Pair { element_size: 120e-6, method, ..pair() });
     }

@@ -97,7 +97,7 @@ fn point_stresses_converge_at_second_order() {
 }
 
 #[test]
-fn invariants_of_known_states() {
+fn stress_invariants_equal_those_of_known_states() {
     let close = |(p, m): (f64, f64), (pressure, mises): (f64, f64)| {
         // A few roundings.
         (p - pressure).abs() < 1e-15 && (m - mises).abs() < 1e-15

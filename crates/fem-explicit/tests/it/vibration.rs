@@ -78,7 +78,7 @@ fn oblate_prolate_mode_0s2() {
 /// Small vibrations at finite strain are those of small strain: at the same step the frequencies differ by
 /// rounding, and by the strain.
 #[test]
-fn small_vibrations_at_finite_strain_are_as_before() {
+fn small_vibrations_at_finite_strain_have_small_strain_frequencies() {
     let mesh = || unit_sphere(8.0);
     for (guess, axial) in [(4.38361, 1.0), (2.63906, -2.0)] {
         let velocity = |[r, y]: [f64; 2]| [1e-9 * r, 1e-9 * axial * y];

@@ -162,7 +162,7 @@ mod tests {
 
     /// Corners of a square stay, and so does a dent.
     #[test]
-    fn corners_and_dents_stay() {
+    fn rounding_keeps_corners_and_dents() {
         let mut square = half_disc(2);
         assert_eq!(square.rounded(1e-6), square);
         square = half_disc(10);

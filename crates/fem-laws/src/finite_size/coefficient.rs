@@ -110,7 +110,7 @@ mod tests {
 
     /// The sum to a million terms, whose rest is the integral of its leading term to 1/N²; rounding of it.
     #[test]
-    fn few_terms_are_the_whole_series() {
+    fn truncated_series_equals_a_million_terms() {
         const N: usize = 1_000_000;
         for nu in [-0.5, 0.0, 0.244, 0.45, 0.4999] {
             let sum = |end: usize| (0..end).map(summand(nu)).sum::<f64>();

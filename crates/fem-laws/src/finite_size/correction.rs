@@ -99,7 +99,7 @@ mod tests {
 
     /// δ(u) and du/dδ, put back.
     #[test]
-    fn correction_is_inverted() {
+    fn finite_size_correction_inverts_approach_and_slope() {
         let correction = Correction { alpha: -0.03, beta: 0.002 };
         for scale in [0.0, 1.0] {
             for approach in [1e-30, 1e-9, 0.3, 1.0, 3.0f64] {

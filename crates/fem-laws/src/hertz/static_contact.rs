@@ -49,7 +49,7 @@ mod tests {
 
     /// At the approach of a force, Hertz' spring has that force and his contact that radius.
     #[test]
-    fn it_is_a_point_of_the_spring() {
+    fn static_hertz_equals_the_spring_at_its_force() {
         let ball = Partner::Sphere { radius: 0.01, mass: 0.01, plane_strain_modulus: 2e6 };
         let pair = Pair::new(ball, Partner::Wall).unwrap();
         let at_rest = StaticHertz::new(&pair, 0.1).unwrap();

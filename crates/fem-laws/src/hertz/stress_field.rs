@@ -119,7 +119,7 @@ mod tests {
 
     /// Far away it is Boussinesq's point force, σ_zz = −3F z³/2πρ⁵.
     #[test]
-    fn far_away_only_the_force_is_felt() {
+    fn far_stress_equals_boussinesqs_point_force() {
         for (r, z) in [(0.0, 100.0), (60.0, 80.0), (100.0, 1.0)] {
             let [_, zz, _, rz] = UNIT.stress(r, z, 0.3);
             let rho: f64 = 100.0_f64.hypot(if r == 100.0 { 1.0 } else { 0.0 });

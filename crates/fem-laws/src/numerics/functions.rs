@@ -36,7 +36,7 @@ mod tests {
 
     /// Each has an error below one unit in the last place.
     #[test]
-    fn functions_are_those_of_the_system_but_for_the_last_digit() {
+    fn own_functions_agree_with_the_system_to_the_last_digit() {
         let same = |own: f64, system: f64| {
             assert!((own - system).abs() <= 2.0 * f64::EPSILON * system.abs(), "{own} {system}");
         };
@@ -54,7 +54,7 @@ mod tests {
 
     /// The system's library usually rounds this one to the nearest, one digit lower: it is not asked.
     #[test]
-    fn the_last_digit_is_not_the_systems() {
+    fn exp_does_not_call_the_system_library() {
         assert_eq!(exp(1.0), std::f64::consts::E + 2.0 * f64::EPSILON);
     }
 }

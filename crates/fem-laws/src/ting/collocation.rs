@@ -174,7 +174,7 @@ mod tests {
 
     /// Against a composite Gauss rule with 400 panels, on both sides of the change of method.
     #[test]
-    fn fading_moments_are_the_integral() {
+    fn fading_moments_equal_numerical_integrals() {
         let weights = Interpolation::new().weights(&integral_moments(1.0));
         for theta in [1.0, 0.37] {
             for z in [0.0, 1e-9, 0.1, 0.99, 1.01, 2.71, 3.0, 30.0] {

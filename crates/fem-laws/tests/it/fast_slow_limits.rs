@@ -124,7 +124,7 @@ fn weak_terms_are_never_worse_than_estimate() {
 }
 
 #[test]
-fn moduli_of_fast_terms_are_gone() {
+fn fast_terms_are_removed_from_the_moduli() {
     let terms = [(0.25, 1e7), (0.25, 1.0), (0.125, 1e-7)];
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         let glass = glass(&terms, acts_on);
@@ -145,7 +145,7 @@ fn moduli_of_fast_terms_are_gone() {
 }
 
 #[test]
-fn what_matters_stays() {
+fn terms_near_the_contact_time_are_not_folded() {
     // A fluid's only term, however fast; and a term of the contact time.
     for terms in [&[(1.0, 1e9)][..], &[(0.3, 3.0)]] {
         let glass = glass(terms, ActsOn::Shear);
@@ -161,7 +161,7 @@ fn what_matters_stays() {
 
 /// All folded terms together keep the tolerance, and the tighter one folds less.
 #[test]
-fn the_sum_keeps_the_tolerance() {
+fn folded_terms_together_stay_within_the_tolerance() {
     let terms: Vec<(f64, f64)> = (-8..=8).map(|k| (0.05, 10f64.powi(k))).collect();
     let glass = glass(&terms, ActsOn::Shear);
     let mut before = usize::MAX;
@@ -187,7 +187,7 @@ fn rigid_and_elastic_bodies_have_no_terms() {
 }
 
 #[test]
-fn impossible_data_are_refused() {
+fn fast_slow_limits_reject_impossible_data() {
     let steel = steel();
     assert_eq!(FastSlowLimits::new([None; 2], 1e-5, &of_each(1e-4)), Err(LawError::TwoWalls));
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -197,7 +197,7 @@ fn impossible_data_are_refused() {
 }
 
 #[test]
-fn differences_are_found_less_reference() {
+fn impact_difference_is_found_minus_reference() {
     let (elastic, relaxing) = (steel(), glass(&[(0.3, 1.0)], ActsOn::All));
     let (found, reference) = (ting([&elastic; 2]), ting([&relaxing; 2]));
     let difference = ImpactDifference::of(&found, &reference);

@@ -32,7 +32,7 @@ fn slow(pair: &Pair) -> f64 {
 
 /// ½ m v² + m g δ = 2/5 K δ^(5/2), and ∫dδ/δ̇ twice.
 #[test]
-fn an_elastic_ball_goes_as_deep_as_its_energy_says() {
+fn elastic_ball_under_gravity_has_the_approach_of_its_energy() {
     let pair = pair_of(&rubber(&[]));
     let (mass, stiffness) =
         (pair.effective_mass(), HertzImpact::new(&pair, 1.0).unwrap().stiffness());
@@ -72,7 +72,7 @@ fn an_elastic_ball_goes_as_deep_as_its_energy_says() {
 
 /// The same integrals without series, recursion or polynomials.
 #[test]
-fn a_relaxing_ball_is_what_direct_integration_makes_of_it() {
+fn relaxing_ball_under_gravity_equals_direct_integration() {
     let material = rubber(&[(0.5, 10e-3)]);
     let pair = pair_of(&material);
     let relaxation = PairRelaxation::new(None, Some(&material)).unwrap();
@@ -129,7 +129,7 @@ fn a_linear_law_with_a_weight_is_a_closed_form() {
 }
 
 #[test]
-fn a_ball_that_turns_back_or_creeps_stays() {
+fn slow_relaxing_ball_under_gravity_stays_in_contact() {
     // Fast relaxation, to a half and to nothing.
     for (weight, time) in [(0.5, 10e-3), (1.0, 1e-3), (0.9, 2e-3)] {
         let material = rubber(&[(weight, time)]);
@@ -144,7 +144,7 @@ fn a_ball_that_turns_back_or_creeps_stays() {
 
 /// The path between the instants satisfies m δ̈ = m g − F, and flies on in a parabola.
 #[test]
-fn the_path_falls() {
+fn impact_path_with_gravity_obeys_the_equation_of_motion() {
     let material = rubber(&[]);
     let pair = pair_of(&material);
     let impact = ting(&material).impact(slow(&pair)).unwrap();

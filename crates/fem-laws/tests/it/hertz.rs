@@ -7,7 +7,7 @@ use crate::common::{assert_close, glass, glass_pair};
 /// Reference numbers for glass, 22.2 mm on 15.9 mm, to one unit of the last digit printed: the
 /// table cuts 72.6378 µs to 72.637 and has 1.3550 GPa for 1.35491.
 #[test]
-fn reference_table() {
+fn hertz_equals_the_reference_table() {
     let pair = glass_pair();
     // m/s; then T in µs, δ_max in µm, F in N, a in mm, p₀ in GPa.
     let table = [
@@ -54,7 +54,7 @@ fn contact_time_coefficient_is_the_energy_integral() {
 
 /// T ∝ v^(−1/5), δ ∝ v^(4/5), F ∝ v^(6/5), a ∝ p₀ ∝ v^(2/5), over twelve decades.
 #[test]
-fn speeds_are_similar() {
+fn hertz_quantities_scale_with_powers_of_speed() {
     let pair = glass_pair();
     let unit = HertzImpact::new(&pair, 1.0).unwrap();
     for exponent in -9..=3 {
@@ -201,7 +201,7 @@ fn history_starts_as_its_series() {
 }
 
 #[test]
-fn open_contact_carries_nothing() {
+fn open_hertz_contact_has_no_force_or_pressure() {
     let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
     for open in [-1e-3, -1e-12, 0.0] {
         assert_eq!(impact.force(open), 0.0);

@@ -54,7 +54,7 @@ fn axis_stress_is_the_sum_of_boussinesqs_point_loads() {
 }
 
 #[test]
-fn stress_at_the_surface_and_far_below() {
+fn axis_stress_has_the_closed_form_at_the_surface_and_far_below() {
     let surface = CONTACT.axis_stress(0.0, 0.3);
     assert_eq!(surface.axial, -3.0);
     // −p₀(1 + 2ν)/2.

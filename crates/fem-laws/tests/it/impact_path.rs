@@ -85,7 +85,7 @@ fn energy_is_balanced_at_and_between_the_instants() {
 }
 
 #[test]
-fn the_path_is_hertz_motion() {
+fn elastic_impact_path_equals_hertz_motion() {
     let closed = HertzImpact::new(&pair(), SPEED).unwrap();
     let end = closed.contact_time();
     let peak = closed.peak_force();
@@ -119,7 +119,7 @@ fn the_path_is_hertz_motion() {
 }
 
 #[test]
-fn a_relaxing_contact_loses_what_its_work_is_in_the_end() {
+fn relaxing_impact_dissipates_the_lost_kinetic_energy() {
     let impact = ting(&[(1.0, 2708.0)], false);
     let (first, last) = (impact.history[1], *impact.history.last().unwrap());
     assert_eq!((first.strain_energy, first.dissipated), (None, None));

@@ -150,7 +150,7 @@ fn kuwabara_kono_is_the_published_pade_form() {
 
 /// 1 − e of C ξⁿ ξ̇ grows as v^((4n−1)/5), and n = 1/4 is independent of speed.
 #[test]
-fn dissipation_exponents() {
+fn loss_grows_with_the_power_of_the_damping_exponent() {
     let pair = glass_pair();
     for n in [0.25, 0.4, 0.5, 0.65, 0.8, 1.0, 1.5] {
         let loss = |speed: f64| {
@@ -227,7 +227,7 @@ fn hunt_crossley_is_right_to_first_order() {
 
 /// One law under several names.
 #[test]
-fn named_laws_coincide_where_they_should() {
+fn equivalent_named_laws_have_the_same_coefficients() {
     let (pair, glass) = (glass_pair(), glass());
     let a = 3e-7;
     let reference = kuwabara_kono(&pair, a).unwrap();
@@ -262,7 +262,7 @@ fn dissipation_time_of_viscosities() {
 
 /// A → 0 is Hertz; A = 0 exactly so.
 #[test]
-fn damping_fades_into_hertz() {
+fn law_without_damping_equals_hertz() {
     let pair = glass_pair();
     let elastic = impact(hertz(&pair).unwrap(), 0.5);
     let none = impact(bordbar_hyppanen(&pair, 0.0, 0.65).unwrap(), 0.5);
@@ -275,7 +275,7 @@ fn damping_fades_into_hertz() {
 
 /// Dimensions leave one number, so extreme collisions are a moderate one in other units.
 #[test]
-fn extremes_are_similar_to_the_moderate() {
+fn extreme_masses_and_speeds_give_the_similar_restitution() {
     let moderate = impact(kuwabara_kono(&glass_pair(), 1e-6).unwrap(), 0.5).restitution;
     for mass in [1e-12, 1.0, 1e6] {
         for speed in [1e-9, 1.0, 1e3] {
@@ -294,7 +294,7 @@ fn extremes_are_similar_to_the_moderate() {
 
 /// However strong the damping, the answer is right or a refusal.
 #[test]
-fn heavy_damping() {
+fn heavy_damping_gives_the_limit_or_an_error() {
     let pair = glass_pair();
     let mut last = 1.0;
     for time in [1e-6, 1e-5, 1e-4, 1e-3, 1e-1, 1e3] {
@@ -319,7 +319,7 @@ fn heavy_damping() {
 
 /// Error against a run at the finest tolerance, over three orders of the tolerance.
 #[test]
-fn tolerance_is_kept() {
+fn law_impact_error_is_below_its_tolerance() {
     let pair = glass_pair();
     for n in [0.0, 0.25, 0.5, 0.65, 1.5] {
         let law = bordbar_hyppanen(&pair, 1e-6, n).unwrap();
@@ -334,7 +334,7 @@ fn tolerance_is_kept() {
 }
 
 #[test]
-fn history_is_the_motion() {
+fn law_history_agrees_with_the_impact_result() {
     let pair = glass_pair();
     let found = impact(kuwabara_kono(&pair, 1e-6).unwrap(), 0.5);
     let (first, last) = (found.history[0], *found.history.last().unwrap());
@@ -357,7 +357,7 @@ fn history_is_the_motion() {
 }
 
 #[test]
-fn impossible_data_are_refused() {
+fn contact_laws_reject_impossible_data() {
     let pair = glass_pair();
     let negative = |quantity, value| Err(LawError::Negative { quantity, value });
     assert_eq!(kuwabara_kono(&pair, -1.0), negative("dissipation_time", -1.0));

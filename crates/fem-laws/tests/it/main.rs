@@ -9,7 +9,7 @@ mod hertz_pressure;
 mod impact_path;
 mod kelvin_limit;
 mod laws;
-mod left_out;
+mod neglect_errors;
 mod pair;
 mod pair_relaxation;
 mod ramirez;

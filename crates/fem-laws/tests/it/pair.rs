@@ -45,7 +45,7 @@ fn shares_of_the_compliance_are_moduli_over_each_other() {
 }
 
 #[test]
-fn wall_leaves_the_sphere_as_it_is() {
+fn pair_with_a_wall_has_the_values_of_the_sphere() {
     let pair = Pair::new(Partner::Wall, sphere(0.1, 0.3, 7e10)).unwrap();
     assert_eq!(pair.effective_radius(), 0.1);
     assert_eq!(pair.effective_mass(), 0.3);
@@ -83,7 +83,7 @@ fn impossible_partners_are_refused_by_name() {
 
 /// A half-space drops out of radius and mass, a rigid sphere out of the modulus; binary fractions.
 #[test]
-fn what_is_infinite_drops_out() {
+fn infinite_radius_mass_or_modulus_drops_out_of_the_pair() {
     let block = Partner::HalfSpace { plane_strain_modulus: 20.0 };
     let pair = Pair::new(block, sphere(0.25, 3.0, 5.0)).unwrap();
     assert_eq!(pair.effective_radius(), 0.25);
@@ -113,7 +113,7 @@ fn half_space_of_a_material_has_its_modulus() {
 }
 
 #[test]
-fn something_round_must_meet_something_that_deforms() {
+fn pair_rejects_two_planes_two_rigid_and_two_held_bodies() {
     let block = Partner::HalfSpace { plane_strain_modulus: 20.0 };
     let rigid = sphere(1.0, 1.0, f64::INFINITY);
     assert_eq!(Pair::new(block, block), Err(LawError::NoSphere));
@@ -127,6 +127,6 @@ fn something_round_must_meet_something_that_deforms() {
 
 /// Momentum: a ball of 1 kg comes at 4 m/s and leaves at 2; the block of 8 kg has 6 kg m/s.
 #[test]
-fn a_large_partner_has_the_impulse() {
+fn restitution_of_mass_centres_follows_from_momentum() {
     assert_eq!(restitution_of_mass_centres(0.5, 0.125), (2.0 + 6.0 / 8.0) / 4.0);
 }

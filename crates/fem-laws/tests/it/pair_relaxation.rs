@@ -107,7 +107,7 @@ fn series_is_the_rational_function_in_s() {
 }
 
 #[test]
-fn limits() {
+fn pair_relaxation_has_instantaneous_and_equilibrium_limits() {
     for pair in pairs() {
         let found = relaxation(&pair);
         assert!((found.relaxation(0.0) - 1.0).abs() < NEAR_TIMES);
@@ -145,7 +145,7 @@ fn constant_poissons_ratio_keeps_the_series() {
 
 /// One Maxwell term in shear on a wall: the quadratic in s solved by hand.
 #[test]
-fn maxwell_shear_on_a_wall() {
+fn maxwell_shear_on_a_wall_equals_the_closed_form() {
     let found = PairRelaxation::new(Some(&material(2.5, 0.25, ActsOn::Shear, &[(1.0, 1.0)])), None)
         .unwrap();
     // G = 1, K = 5/3, with σ = s/(s+1): E* = 4σ(5+σ)/(5+4σ) = 4s(6s+5)/((s+1)(9s+5)).
@@ -162,7 +162,7 @@ fn maxwell_shear_on_a_wall() {
 
 /// Gaver & Stehfest's inversion of E*(s)/s, which uses real s only.
 #[test]
-fn laplace_inversion() {
+fn pair_relaxation_equals_numerical_laplace_inversion() {
     const N: usize = 14;
     let factorial = |n: usize| (1..=n).map(|i| i as f64).product::<f64>();
     let weights: Vec<f64> = (1..=N)
@@ -218,7 +218,7 @@ fn order_of_the_bodies_does_not_matter() {
 }
 
 #[test]
-fn impossible_data_are_refused() {
+fn pair_relaxation_rejects_impossible_data() {
     assert_eq!(PairRelaxation::new(None, None), Err(LawError::TwoWalls));
     let instant = material(1e9, 0.3, ActsOn::All, &[(0.5, 1e-310)]);
     assert!(PairRelaxation::new(Some(&instant), None).is_err());

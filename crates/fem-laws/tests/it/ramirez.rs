@@ -26,7 +26,7 @@ fn restitution(x: f64) -> f64 {
 }
 
 #[test]
-fn series_to_the_second_order() {
+fn restitution_equals_the_series_to_second_order() {
     let first = PI.sqrt() * gamma(0.6) / (2f64.powf(0.2) * 5f64.powf(0.4) * gamma(2.1));
     assert!((first - 1.15344).abs() < 1e-5, "{first}");
     let remainder = |x: f64| 1.0 - first * x + 0.6 * first * first * x * x - restitution(x);

@@ -61,7 +61,7 @@ fn reference_with_elastic_bulk_modulus() {
 
 /// The direct sums converge to the collocation solution.
 #[test]
-fn independent_integration() {
+fn ting_equals_direct_integration() {
     let materials = [
         glass(ActsOn::All, &[(1.0, 2708.0)]),
         glass(ActsOn::Shear, &[(1.0, 2708.0)]),
@@ -107,7 +107,7 @@ fn elastic_limits_are_hertz() {
 
 /// A fast Maxwell fluid only brakes: m* v = K δ^(3/2)/β, for ever.
 #[test]
-fn viscous_limit() {
+fn fast_maxwell_fluid_stops_at_the_viscous_approach() {
     let material = glass(ActsOn::All, &[(1.0, 1e10)]);
     let found = ting(&material).impact(0.5).unwrap();
     let pair = pair_of(&material);
@@ -120,7 +120,7 @@ fn viscous_limit() {
 
 /// From elastic to viscous over 18 decades of the rate: always an answer, always possible.
 #[test]
-fn all_rates_are_survived() {
+fn ting_returns_a_valid_result_at_all_rates() {
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         for weight in [1e-9, 0.1, 0.9, 1.0 - 1e-6, 1.0] {
             for exponent in -2..=10 {
@@ -151,7 +151,7 @@ fn bodies_that_flow_come_to_rest() {
 
 /// Many terms over twelve decades, against speed and mass in other units: similarity in βT.
 #[test]
-fn units_do_not_matter() {
+fn ting_is_independent_of_units() {
     let terms: Vec<(f64, f64)> =
         (0..25).map(|k| (0.036, 10f64.powf(-2.0 + 0.5 * f64::from(k)))).collect();
     let reference = ting(&glass(ActsOn::All, &terms)).impact(0.5).unwrap();
@@ -173,7 +173,7 @@ fn units_do_not_matter() {
 }
 
 #[test]
-fn history_is_the_motion() {
+fn ting_history_agrees_with_the_impact_result() {
     let material = glass(ActsOn::Shear, &[(1.0, 1e4)]);
     let (found, pair) = (ting(&material).impact(0.5).unwrap(), pair_of(&material));
     let (first, last) = (found.history[0], *found.history.last().unwrap());
@@ -205,7 +205,7 @@ fn history_is_the_motion() {
 }
 
 #[test]
-fn impossible_data_are_refused() {
+fn ting_rejects_impossible_speeds() {
     let material = glass(ActsOn::All, &[(1.0, 2708.0)]);
     for value in [0.0, -1.0, f64::INFINITY] {
         let refused = LawError::NotPositive { quantity: "approach_speed", value };
@@ -216,7 +216,7 @@ fn impossible_data_are_refused() {
 /// A step that shrinks to none ends at once, and not after all the steps that a collision may take: where
 /// surfaces slip by more than the contact has, nothing is solved.
 #[test]
-fn a_step_that_gets_nowhere_is_the_last() {
+fn vanishing_time_step_returns_not_finished_at_once() {
     let glass = glass(ActsOn::Shear, &[(0.15, 2708.0)]);
     let face = |material| SlipSurface::new(1.0 / 7.95e-3, material);
     let ting = ting(&glass).with_surface_slip(SurfaceSlip::new([face(Some(&glass)), face(None)]));

@@ -177,7 +177,7 @@ fn at_laplace(material: &Material, s: f64) -> Material {
 
 /// The direct sums with that kernel converge to the collocation solution.
 #[test]
-fn independent_integration() {
+fn ting_with_finite_size_equals_direct_integration() {
     let all = glass(ActsOn::All, &[(1.0, 0.5 / CONTACT_TIME)]);
     let solid = glass(ActsOn::All, &[(0.6, 1.0 / CONTACT_TIME)]);
     let shear = glass(ActsOn::Shear, &[(1.0, 0.5 / CONTACT_TIME)]);
@@ -236,7 +236,7 @@ fn finite_size_fades_with_the_contact() {
 
 /// Relaxed before the collision begins, and never: elastic, with Poisson's ratio of then.
 #[test]
-fn elastic_limits() {
+fn ting_with_finite_size_has_elastic_limits() {
     let relaxed = at_laplace(&glass(ActsOn::Shear, &[(0.6, 1.0)]), 1e-30);
     for (rate, expected) in [(1e-6, elastic(63e9, 0.244)), (1e13, relaxed)] {
         let found = ting([&glass(ActsOn::Shear, &[(0.6, rate)]); 2]).impact(0.5).unwrap();
@@ -250,7 +250,7 @@ fn elastic_limits() {
 
 /// With a bulk modulus so large that ν stays at 1/2, it does not matter which moduli relax.
 #[test]
-fn incompressible_bodies_do_not_mind_the_bulk_modulus() {
+fn relaxing_moduli_do_not_matter_for_incompressible_bodies() {
     let of = |acts_on| restitution(&relaxing(0.499_999, acts_on, &[(1.0, 1e4)]), 0.5);
     // 1 − 2ν.
     assert_close(of(ActsOn::Shear), of(ActsOn::All), 1e-5);
@@ -259,7 +259,7 @@ fn incompressible_bodies_do_not_mind_the_bulk_modulus() {
 /// From elastic to viscous, like bodies and very unlike ones, auxetic to incompressible: always an
 /// answer, or a contact that is too large.
 #[test]
-fn all_rates_are_survived() {
+fn ting_with_finite_size_returns_a_valid_result_at_all_rates() {
     let soft = elastic(1e5, 0.1);
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         for nu in [-0.9, 0.0, 0.244, 0.499_999_9] {
@@ -284,7 +284,7 @@ fn all_rates_are_survived() {
 }
 
 #[test]
-fn impossible_data_are_refused() {
+fn ting_with_finite_size_rejects_impossible_data() {
     let material = glass(ActsOn::All, &[(1.0, 2708.0)]);
     let found = ting([&material; 2]).impact(100.0);
     assert!(matches!(found, Err(LawError::OutsideValidity { .. })));

@@ -42,7 +42,7 @@ fn loss(impact: &Impact) -> f64 {
 /// Hunter (1957), 1.04 (v/c₀)^(3/5) at ν = 1/4; with Hertz' pulse instead of his simpler one 1.1115, by
 /// hand in `radiation.rs`.
 #[test]
-fn small_losses_are_hunters() {
+fn small_radiation_losses_equal_hunters() {
     let material = elastic();
     for ratio in [1e-7, 1e-6, 1e-5, 1e-4, 1e-3] {
         let found = radiating(&material, &material, ratio * bar_wave_speed(&material));
@@ -55,7 +55,7 @@ fn small_losses_are_hunters() {
 
 /// Next to the fine waves, as the docs of the forecast say: a loss of 0.6 % of the restitution.
 #[test]
-fn coarse_waves_are_good_enough_for_a_forecast() {
+fn coarse_waves_estimate_the_loss_of_fine_waves() {
     let material = elastic();
     let speed = 5e-4 * bar_wave_speed(&material);
     let (_, plain) = on_block(&material, &material);
@@ -78,7 +78,7 @@ fn coarse_waves_are_good_enough_for_a_forecast() {
 
 /// A share that overflows is none that is small.
 #[test]
-fn a_share_that_is_no_number_is_beyond_the_limit() {
+fn radiation_share_that_overflows_is_outside_validity() {
     let material = elastic();
     let waves = on_block(&material, &material).1.with_radiation([&material]).unwrap();
     for speed in [1e100, 1e150, 1e200] {
@@ -141,7 +141,7 @@ fn reduced_order(hertz: &HertzImpact, damping: f64) -> f64 {
 }
 
 #[test]
-fn independent_integration() {
+fn ting_with_radiation_equals_reduced_order_integration() {
     let material = elastic();
     for ratio in [1e-4, 1e-3, 3e-3, 1e-2] {
         let speed = ratio * bar_wave_speed(&material);
@@ -157,7 +157,7 @@ fn independent_integration() {
 }
 
 #[test]
-fn energy_is_held_or_has_left() {
+fn initial_energy_equals_stored_plus_radiated() {
     let glass = elastic();
     let (pair, ting) = on_block(&glass, &glass);
     let size = FiniteSize::new(Some((RADIUS, &glass)), None).unwrap();
@@ -188,7 +188,7 @@ fn energy_is_held_or_has_left() {
 
 /// The losses by relaxation and by waves add up while both are small.
 #[test]
-fn small_losses_add() {
+fn small_relaxation_and_radiation_losses_add() {
     let elastic = elastic();
     let alone = loss(&radiating(&elastic, &elastic, 0.5));
     for acts_on in [ActsOn::All, ActsOn::Shear] {
@@ -215,7 +215,7 @@ fn mass(material: &Material) -> f64 {
 
 /// A ball of the same stuff that also radiates, and a rigid one of the same mass that does not.
 #[test]
-fn each_body_radiates_for_itself() {
+fn losses_of_two_radiating_bodies_add() {
     let glass = elastic();
     let (_, ting) = on_block(&glass, &glass);
     let once = loss(&radiating(&glass, &glass, 0.01));
@@ -234,7 +234,7 @@ fn each_body_radiates_for_itself() {
 }
 
 #[test]
-fn no_radiating_body_is_no_radiation() {
+fn ting_without_radiating_bodies_is_unchanged() {
     let glass = material(&[(0.5, 1e4)], ActsOn::Shear);
     let (_, ting) = on_block(&glass, &glass);
     let found = ting.clone().with_radiation([]).unwrap().impact(0.5).unwrap();
@@ -244,7 +244,7 @@ fn no_radiating_body_is_no_radiation() {
 
 /// The size of the steps does not matter, nor the share of the slow force: a looser tolerance.
 #[test]
-fn accuracy_is_as_asked() {
+fn ting_with_radiation_is_accurate_to_its_tolerance() {
     let relaxing = material(&[(0.3, 2e4), (0.3, 2e5)], ActsOn::Shear);
     let (_, ting) = on_block(&relaxing, &elastic());
     let ting = ting.with_radiation([&elastic()]).unwrap();
@@ -262,7 +262,7 @@ fn accuracy_is_as_asked() {
 
 /// From elastic to viscous: an answer, and hardly more energy than without.
 #[test]
-fn all_rates_are_survived() {
+fn ting_with_radiation_returns_a_valid_result_at_all_rates() {
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         for weight in [0.5, 1.0] {
             for exponent in [-2, 1, 3, 4, 5, 6, 7, 9] {

@@ -166,7 +166,7 @@ mod tests {
 
     /// Both ways, where they meet, and between.
     #[test]
-    fn the_change_of_the_root_keeps_its_own_last_digit() {
+    fn inverse_cube_root_change_is_exact_to_two_units_of_the_last_digit() {
         for size in [1e-12f64, 1e-6, 9.99e-4, 1.001e-3, 0.1, 0.6] {
             for d in [size, -size] {
                 let exact = (-d.ln_1p() / 3.0).exp_m1();

@@ -163,7 +163,7 @@ fn messages_name_what_was_found_and_what_is_allowed() {
 }
 
 #[test]
-fn stress_is_the_derivative_of_the_energy() {
+fn linear_stress_is_the_derivative_of_the_energy() {
     for nu in [-0.5, 0.0, 0.244, 0.49] {
         let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(1.0, nu).unwrap();
         let strain = [0.3, -0.7, 0.2, 0.5];

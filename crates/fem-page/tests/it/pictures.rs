@@ -9,7 +9,7 @@ const ASK: RecordedAmount = RecordedAmount { rows: 300, frames: 3 };
 /// The middle of three recorded times is within one step of the largest approach: its stress is the largest
 /// pressure, recovered from elements of a twelfth of the contact radius, and its force the largest force.
 #[test]
-fn the_picture_of_the_middle_has_the_largest_pressure() {
+fn picture_at_maximum_approach_has_the_largest_pressure() {
     let mut session = Session::default();
     let outcome = run(&mut session, &(GLASS.to_string() + CONDENSED), ASK);
     assert_eq!(outcome.frames.len(), 3);
@@ -33,7 +33,7 @@ fn the_picture_of_the_middle_has_the_largest_pressure() {
 }
 
 #[test]
-fn a_model_without_elements_has_no_picture_but_curves() {
+fn model_without_elements_has_curves_and_no_picture() {
     let mut session = Session::default();
     let outcome = run(&mut session, &(GLASS.to_string() + "\n[model]\nting = {}\n"), ASK);
     assert!(session.picture(0, 2.5).is_none() && outcome.frames.is_empty());
@@ -46,7 +46,7 @@ fn a_model_without_elements_has_no_picture_but_curves() {
 /// An energy that is negligible next to the others has no curve: glass without relaxation loses no energy
 /// to it.
 #[test]
-fn energy_has_a_curve_where_there_is_some() {
+fn negligible_energies_have_no_curve() {
     let of = |text: &str| {
         let outcome = run(&mut Session::default(), &(text.to_string() + CONDENSED), ASK);
         outcome.charts.energy.expect("energies")
@@ -59,7 +59,7 @@ fn energy_has_a_curve_where_there_is_some() {
 /// Ting's model separates stored energy from heat only at the end: until then they are one curve, from
 /// first touch on.
 #[test]
-fn what_a_model_does_not_tell_apart_is_one_curve() {
+fn ting_shows_stored_and_dissipated_energy_as_one_curve() {
     let ting = GLASS.to_string() + "\n[model]\nting = {}\n";
     let chart = run(&mut Session::default(), &ting, ASK).charts.energy.expect("energies");
     assert!(chart.contains(">deformation and heat<"), "{chart}");
@@ -69,7 +69,7 @@ fn what_a_model_does_not_tell_apart_is_one_curve() {
 /// Far away a sphere looks round although its mesh is coarse on the far side, and lengths are in a unit that
 /// suits the window.
 #[test]
-fn a_whole_sphere_is_round_and_has_short_numbers() {
+fn whole_sphere_outline_is_round_with_short_tick_labels() {
     let mut session = Session::default();
     run(&mut session, &(GLASS.to_string() + CONDENSED), ASK);
     let [near, far] = [2.5, 200.0].map(|width| session.picture(1, width).unwrap().svg);
@@ -97,7 +97,7 @@ fn a_whole_sphere_is_round_and_has_short_numbers() {
 }
 
 #[test]
-fn a_page_asks_for_charts_of_its_own() {
+fn chart_spec_draws_curves_and_rejects_unknown_keys() {
     let spec = |text: &str| serde_json::from_str::<ChartSpec>(text);
     let chart = spec(
         r#"{"x": "speed [m/s]", "y": "T [µs]", "logarithmic": [true, true], "range": [40, 100], "curves":

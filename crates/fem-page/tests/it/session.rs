@@ -24,7 +24,7 @@ fn fault(text: &str) -> CaseFault {
 
 /// The results have the same bits as the command's, also after other cases and after unfinished ones.
 #[test]
-fn numbers_are_those_of_a_simulation_whatever_came_before() {
+fn session_results_equal_the_simulation_after_any_earlier_runs() {
     let mut session = Session::default();
     let text = GLASS.to_string() + CONDENSED;
     for other in [&text.replace("22.2 mm", "10 mm"), &text.replace("0.5 m/s\"", "3 m/s\""), &text] {
@@ -87,7 +87,7 @@ fn bodies_that_stay_together_have_no_contact_time() {
 }
 
 #[test]
-fn faults_say_where_and_what_is_allowed() {
+fn session_errors_have_key_line_and_help() {
     let negative = fault(&GLASS.replace("22.2 mm\" }", "-1 mm\" }"));
     assert_eq!(negative.key.as_deref(), Some("body.0.sphere.diameter"));
     assert_eq!((negative.line, negative.column), (Some(20), Some(23)));
@@ -110,7 +110,7 @@ fn faults_say_where_and_what_is_allowed() {
 
 /// A browser has less memory than the plan allows; the case can set a higher limit.
 #[test]
-fn what_a_browser_has_no_memory_for_is_refused() {
+fn case_beyond_the_browser_memory_limit_is_rejected() {
     let fine = GLASS.to_string() + "[mesh]\ncontact_element_size = \"2 um\"\n" + CONDENSED;
     let fault = fault(&fine);
     assert!(fault.text.contains("limits.memory"), "{}", fault.text);
@@ -120,7 +120,7 @@ fn what_a_browser_has_no_memory_for_is_refused() {
 
 /// A run that the reader ends is reported as far as it got; nothing is computed afterwards.
 #[test]
-fn a_run_can_be_ended_before_it_is_over() {
+fn run_finished_early_is_reported_as_incomplete() {
     let mut session = Session::default();
     let begun = session.begin(GLASS, ASK).unwrap();
     assert!(begun.price.element_updates.is_some_and(|updates| updates > 1_000_000));
@@ -133,7 +133,7 @@ fn a_run_can_be_ended_before_it_is_over() {
 
 /// An invalid case discards the case before it.
 #[test]
-fn a_fault_leaves_nothing_to_run() {
+fn invalid_case_discards_the_case_before_it() {
     let mut session = Session::default();
     session.begin(GLASS, ASK).unwrap();
     assert!(session.begin("title = 1", ASK).is_err());

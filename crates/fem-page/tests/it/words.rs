@@ -23,7 +23,7 @@ fn every_effect_and_account_has_plain_words() {
 
 /// The page cuts a relaxation off at its table, and starts with a material of the library.
 #[test]
-fn materials_have_their_relaxation_last() {
+fn library_material_text_ends_with_its_relaxation() {
     let all = LibraryEntry::all();
     assert!(all.len() > 10);
     for material in &all {

@@ -181,7 +181,7 @@ mod tests {
 
     /// An error that is partly unknown is neither written as ± nor compared with a difference.
     #[test]
-    fn a_partly_known_error_is_no_bar() {
+    fn partly_known_error_is_not_printed_as_an_error_bar() {
         let parts = |discretisation, model, model_at_least| Parts {
             discretisation: Some(discretisation),
             model,

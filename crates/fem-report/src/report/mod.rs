@@ -214,7 +214,7 @@ mod tests {
     use super::with_code;
 
     #[test]
-    fn keys_in_warnings_are_code_and_nothing_is_markup() {
+    fn warning_text_is_escaped_and_keys_are_code() {
         assert_eq!(
             with_code("a<b & `x = {}` or `y`"),
             "a&lt;b &amp; <code>x = {}</code> or <code>y</code>"

@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn numerical_keys_have_orders_and_physics_has_none() {
+    fn convergence_order_is_given_for_numerical_keys_only() {
         let size = "mesh.contact_element_size";
         let sizes = [80e-6, 56e-6, 40e-6, 28e-6, 20e-6];
         let found = order(size, &sizes, |h| 6e-5 + 2e3 * h * h).unwrap();

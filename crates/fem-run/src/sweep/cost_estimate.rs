@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_between_samples_goes_by_powers() {
+    fn cost_between_samples_is_interpolated_geometrically() {
         let sample = |rank, ratio| ForecastSample { rank, ratio, most: 2.0 * ratio };
         let samples = [sample(2, 16.0), sample(4, 4.0), sample(6, 1.0)];
         let told = [0, 2, 3, 4, 5, 6, 9].map(|rank| at_rank(&samples, |it| it.ratio, rank));
@@ -131,7 +131,7 @@ mod tests {
 
     /// A sweep takes at least as long as its longest member.
     #[test]
-    fn no_sweep_is_shorter_than_its_longest_member() {
+    fn sweep_time_is_at_least_that_of_its_longest_member() {
         let mut total = TotalTime::default();
         [5.0, 4.0, 3.0].into_iter().for_each(|seconds| total.add(seconds));
         assert_eq!([1, 2, 4].map(|n| total.on(n)), [12.0, 6.0, 5.0]);

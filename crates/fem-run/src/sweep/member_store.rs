@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shard_looks_at_its_own_packs_and_at_those_of_other_rounds() {
+    fn shard_reads_its_own_packs_and_those_of_other_shard_counts() {
         let own = ShardFilter::Shard("2/3".parse().unwrap());
         let names = ["2-of-3.a.jsonl", "1-of-3.b.jsonl", "1-of-4.c.jsonl", "mine.jsonl"];
         assert_eq!(names.map(|name| own.has(name)), [true, false, true, true]);

@@ -240,7 +240,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_come_out_of_a_shell_as_they_went_in() {
+    fn quoted_words_survive_the_shell() {
         for word in ["a b", "it's", "body.0.name='\"x\"'", "", "$HOME `id` \\", "ünï/10 %"] {
             let ran =
                 Command::new("sh").args(["-c", &format!("printf %s {}", quoted(word))]).output();
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn what_slurm_says_is_one_line_that_can_be_read() {
+    fn slurm_output_is_shown_as_one_sanitised_line() {
         assert_eq!(
             one_line_output(b" sbatch: error: no host\r\n\nsbatch: fatal: \x1b[2J\n"),
             "sbatch: error: no host; sbatch: fatal: \u{fffd}[2J"

@@ -13,7 +13,7 @@ const COLUMNS: [(&str, &str, f64); 4] = [
 
 #[test]
 #[ignore = "8 s; .ci/run runs it"]
-fn what_accuracy_costs_is_what_is_computed() {
+fn accuracy_page_table_equals_computed_results() {
     let (page, place) = (Page::load("docs/accuracy.md"), Place::new());
     let rows =
         page.text.lines().skip_while(|line| !line.starts_with("| elements at the contact |"));

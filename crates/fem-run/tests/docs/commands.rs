@@ -49,7 +49,7 @@ fn fault(command: &Shown) -> Option<String> {
 }
 
 #[test]
-fn commands_are_understood() {
+fn commands_in_docs_are_parsed() {
     let mut shown = Vec::new();
     for page in Page::all() {
         shown.extend(page.blocks().iter().flat_map(|block| commands(&page, block)));

@@ -17,7 +17,7 @@ fn lines() -> Vec<Vec<String>> {
 
 #[test]
 #[ignore = "7 s; .ci/run runs it"]
-fn the_contact_table_is_what_runs_show() {
+fn contact_page_table_equals_computed_results() {
     let (rows, lines) = (rows::rows(), lines());
     assert_eq!(rows.len(), lines.len(), "cargo run --release -p fem-run --example contact");
     for (row, line) in rows.iter().zip(lines) {

@@ -28,7 +28,7 @@ fn lines() -> Vec<Vec<String>> {
 }
 
 #[test]
-fn rows_are_those_of_the_benchmark() {
+fn effects_page_has_the_rows_of_the_benchmark() {
     let shown: Vec<[String; 2]> =
         lines().iter().map(|cells| [cells[0].replace('`', ""), cells[1].clone()]).collect();
     let expected: Vec<[String; 2]> =
@@ -57,7 +57,7 @@ fn every_effect_that_is_computed_has_a_row() {
 
 /// An effect is off on one side of its row and on on the other.
 #[test]
-fn an_effect_is_off_on_one_side_and_on_on_the_other() {
+fn effects_benchmark_compares_each_effect_off_and_on() {
     for row in ROWS.iter().filter(|row| !KEPT.contains(&row.name)) {
         let is_on = |side: &rows::Side| {
             let simulation = side.simulation();
@@ -72,7 +72,7 @@ fn an_effect_is_off_on_one_side_and_on_on_the_other() {
 
 /// The restart state at the start has the size of that at the end, except for a few numbers that grow.
 #[test]
-fn bytes_of_state_are_those_of_a_run() {
+fn effects_page_restart_sizes_equal_those_of_runs() {
     for (row, cells) in ROWS.iter().zip(lines()) {
         let sides = [(row.off, &cells[7]), (Some(row.on), &cells[8])];
         for (side, shown) in sides {

@@ -69,7 +69,7 @@ fn defined(source: &str) -> HashSet<&str> {
 }
 
 #[test]
-fn places_in_the_source_are_there() {
+fn source_pointers_in_docs_exist() {
     let mut faults = Vec::new();
     let mut n_items = 0;
     for page in Page::all() {
@@ -89,7 +89,7 @@ fn places_in_the_source_are_there() {
 }
 
 #[test]
-fn links_lead_somewhere() {
+fn links_in_docs_have_targets() {
     let mut faults = Vec::new();
     for page in Page::all() {
         let folder = page.path.rsplit_once('/').map_or("", |(folder, _)| folder);
@@ -126,7 +126,7 @@ fn every_page_is_in_the_index() {
 }
 
 #[test]
-fn items_are_what_a_file_defines() {
+fn pointer_check_finds_the_items_defined_in_a_file() {
     let source = "pub(crate) fn one<T>(x: T) {}\n// fn two\nmod three;\npub const FOUR: u8 = 4;\n\
                   use five::six;\npub struct Seven(u8);\n";
     let mut names: Vec<_> = defined(source).into_iter().collect();

@@ -221,12 +221,12 @@ fn pages_with_output_are_checked() {
 
 #[test]
 #[ignore = "21 s; .ci/run runs it"]
-fn the_readme_shows_what_is_printed() {
+fn readme_output_equals_printed_output() {
     check("README.md", Pace::Quick, Digits::All);
 }
 
 #[test]
-fn the_page_on_fits_shows_what_is_printed() {
+fn fits_page_output_equals_printed_output() {
     check("docs/fits.md", Pace::Quick, Digits::All);
 }
 
@@ -240,35 +240,35 @@ fn commands_of_the_first_pages_run() {
 }
 
 #[test]
-fn the_page_on_cradles_shows_what_is_printed() {
+fn cradle_page_output_equals_printed_output() {
     check("docs/cradle.md", Pace::Quick, Digits::All);
 }
 
 #[test]
-fn the_page_on_calibration_shows_what_is_printed() {
+fn calibrate_page_output_equals_printed_output() {
     check("docs/calibrate.md", Pace::Quick, Digits::ButLast);
 }
 
 #[test]
 #[ignore = "takes seconds; .ci/run asks for it"]
-fn the_page_on_fits_shows_what_takes_longer() {
+fn fits_page_slow_output_equals_printed_output() {
     check("docs/fits.md", Pace::Slow, Digits::All);
 }
 
 #[test]
 #[ignore = "takes seconds; .ci/run asks for it"]
-fn the_page_on_sweeps_lists_what_is_left() {
+fn sweeps_page_slow_output_equals_printed_output() {
     check("docs/sweeps.md", Pace::Slow, Digits::All);
 }
 
 #[test]
 #[ignore = "takes seconds; .ci/run asks for it"]
-fn the_page_on_calibration_shows_what_takes_longer() {
+fn calibrate_page_slow_output_equals_printed_output() {
     check("docs/calibrate.md", Pace::Slow, Digits::ButLast);
 }
 
 #[test]
-fn lines_that_are_shown_follow_each_other() {
+fn shown_lines_must_be_consecutive_in_the_printed_output() {
     let printed = "a\nb 1.25 m\nc\n";
     assert!(contains(printed, "b 1.25 m\nc\n", Digits::All));
     assert!(!contains(printed, "a\nc\n", Digits::All));

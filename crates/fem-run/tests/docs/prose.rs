@@ -176,13 +176,13 @@ const SAID: [Said; 13] = [
 ];
 
 #[test]
-fn sizes_that_sentences_name_are_so() {
+fn sizes_stated_in_docs_equal_computed_results() {
     check(|said| !is_slow(said));
 }
 
 #[test]
 #[ignore = "takes seconds; .ci/run asks for it"]
-fn sizes_of_slow_collisions_that_sentences_name_are_so() {
+fn sizes_of_slow_collisions_in_docs_equal_computed_results() {
     check(is_slow);
 }
 

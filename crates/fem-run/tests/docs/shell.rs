@@ -66,7 +66,7 @@ pub fn words(line: &str) -> Vec<String> {
 }
 
 #[test]
-fn words_are_parted_as_a_shell_does() {
+fn command_lines_in_docs_are_split_like_a_shell() {
     let line = r#"fem-run a.toml --set b='"1 m/s"' --shard "$TASK_ID/10" '' # and so on"#;
     let expected = ["fem-run", "a.toml", "--set", r#"b="1 m/s""#, "--shard", "1/10", ""];
     assert_eq!(words(line), expected);

@@ -24,7 +24,7 @@ fn cells(case: &Case, name: &str) -> [String; 3] {
 }
 
 #[test]
-fn every_case_has_its_line() {
+fn cases_page_lists_every_shipped_case() {
     let mut expected = Vec::new();
     for entry in fs::read_dir(root().join("cases")).unwrap() {
         let path = entry.unwrap().path();

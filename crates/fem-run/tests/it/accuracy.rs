@@ -35,7 +35,7 @@ fn a_table_a_page_and_a_picture_are_written() {
 
 /// The tolerance decides which variants are suggested.
 #[test]
-fn the_tolerance_is_that_of_the_case() {
+fn accuracy_suggests_variants_for_the_given_tolerance() {
     let place = elastic();
     for (tolerance, begins) in [
         ("1 %", "Within 1 % in e, T and F and 3 % in the peak pressure: "),

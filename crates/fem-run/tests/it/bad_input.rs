@@ -115,7 +115,7 @@ fn unknown_materials_are_refused() {
 }
 
 #[test]
-fn meshes_too_coarse_or_too_dear_are_refused_and_limits_override() {
+fn too_coarse_or_expensive_meshes_are_rejected_unless_limits_allow() {
     check("\"90 um\"", "\"30 mm\"", "too large");
     check("\"90 um\"", "\"1 nm\"", "can be numbered");
     check("\"90 um\"", "\"50 nm\"", "limits.elements");
@@ -166,7 +166,7 @@ fn files_that_are_no_case_are_refused() {
 }
 
 #[test]
-fn command_lines_that_mean_nothing_are_refused() {
+fn meaningless_command_lines_are_rejected() {
     let place = Place::new();
     for (arguments, expected) in [
         (&["case.toml", "--threads", "0"][..], "--threads"),
@@ -183,7 +183,7 @@ fn command_lines_that_mean_nothing_are_refused() {
 }
 
 #[test]
-fn places_that_cannot_be_written_are_refused_before_the_run() {
+fn unwritable_output_folders_are_rejected_before_the_run() {
     let place = Place::new();
     place.write("file", "mine");
     for out in ["file", "file/below", "file/far/below", "case.toml", "/", ".", "nowhere/.."] {
@@ -205,7 +205,7 @@ fn places_that_cannot_be_written_are_refused_before_the_run() {
 
 /// Options of other programs: the message names the one of this program.
 #[test]
-fn slips_of_the_command_line_are_answered() {
+fn command_line_mistakes_get_a_suggested_fix() {
     let place = Place::new();
     for (arguments, expected) in [
         (&["run", "case.toml"][..], "running a case needs no command: fem-run CASE.toml"),

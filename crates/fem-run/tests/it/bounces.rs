@@ -7,7 +7,7 @@ use crate::common::Place;
 const BALL: &str = include_str!("../../../../cases/three_bounces.toml");
 
 #[test]
-fn three_bounces_are_printed_summed_up_and_written_down() {
+fn bounces_are_printed_and_written_to_summary_and_history() {
     for (model, has_rest) in [("ting", false), ("condensed", true)] {
         let place = Place::new();
         place.write("ball.toml", BALL);

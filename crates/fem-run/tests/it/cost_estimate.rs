@@ -20,7 +20,7 @@ output.snapshots = []
 /// Runs on meshes that were refined later are counted separately; if the first mesh suffices, there are
 /// none.
 #[test]
-fn trials_are_counted_by_themselves() {
+fn summary_separates_trial_time_from_solve_time() {
     let place = Place::new();
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
@@ -42,7 +42,7 @@ fn trials_are_counted_by_themselves() {
 /// `check` names the refined mesh if it is known before the run, and else the upper bound of refinement;
 /// also for condensed bodies.
 #[test]
-fn check_tells_what_may_follow() {
+fn check_states_the_refined_mesh_or_the_refinement_bound() {
     let place = Place::new();
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
@@ -74,7 +74,7 @@ fn check_tells_what_may_follow() {
 
 /// Spheres of metres may be intended: their sizes are printed with the unit, without a warning.
 #[test]
-fn spheres_of_metres_are_named_with_their_unit() {
+fn check_prints_the_size_of_metre_spheres_without_a_warning() {
     let place = Place::new();
     let sizes = |value: &str| {
         let set = |k: usize| format!("body.{k}.sphere.diameter={value}");
@@ -106,7 +106,7 @@ fn spheres_of_metres_are_named_with_their_unit() {
 
 /// Mass scaling is not rounded to zero.
 #[test]
-fn little_mass_that_is_moved_is_not_none() {
+fn check_does_not_round_small_mass_scaling_to_zero() {
     let place = Place::new();
     let tight = [
         "check",
@@ -123,7 +123,7 @@ fn little_mass_that_is_moved_is_not_none() {
 
 /// A sweep's cost estimate includes the mesh refinement that some members need.
 #[test]
-fn a_sweep_tells_of_finer_meshes() {
+fn sweep_cost_estimate_includes_mesh_refinement() {
     let place = Place::new();
     place.write("rubber.toml", RUBBER);
     let sweep = "case = 'rubber.toml'\nvary.'accuracy.tolerance' = ['1 %', '3 %']\n";
@@ -141,7 +141,7 @@ fn a_sweep_tells_of_finer_meshes() {
 /// The reference run for a given mesh follows the collision and may take ten times its memory. The estimate
 /// is within a factor of 1.7, since bytes per element come from other scenes.
 #[test]
-fn memory_is_announced_with_what_tells_the_error() {
+fn memory_estimate_includes_the_reference_run() {
     let place = Place::new();
     place.write("polymer.toml", include_str!("../../../../cases/polymer_ten_terms.toml"));
     place.write("wall.toml", include_str!("../../../../cases/glass_on_wall.toml"));

@@ -73,7 +73,7 @@ fn every_model_writes_the_same_keys_and_columns() {
 
 /// Printed digits of the closed form, and of the independent quasi-static solution.
 #[test]
-fn hertz_and_ting_are_the_published_numbers() {
+fn hertz_and_ting_give_the_published_numbers() {
     let place = Place::new();
     for (speed, time, approach, force, radius, pressure) in [
         (0.1, 87.247, 2.9643, 15.513, 0.11718, 0.5394),
@@ -155,7 +155,7 @@ fn laws_give_the_restitution_of_their_closed_form() {
 }
 
 #[test]
-fn what_does_not_come_back_or_end_is_said() {
+fn law_without_separation_or_end_is_reported() {
     let place = Place::new();
     let stuck = summary(&place, &["model.law.power={k=1e9, gamma=1.5, c=1e300, n=5}"]);
     assert_eq!((number(&stuck["restitution"]), stuck["contact_time_s"].is_null()), (0.0, true));
@@ -238,7 +238,7 @@ fn condensed_bodies_write_all_files_of_finite_elements() {
 
 /// The cost of a condensed run, and its error estimates.
 #[test]
-fn condensed_bodies_report_cost_and_doubts() {
+fn condensed_summary_reports_cost_and_error_estimates() {
     let place = Place::new();
     let good = summary(&place, &["model.condensed={}"]);
     let cost = &good["cost"];

@@ -73,7 +73,7 @@ fn a_run_that_fails_is_a_claim_that_fails() {
 }
 
 #[test]
-fn a_claim_may_have_any_model() {
+fn claims_are_evaluated_for_any_model() {
     for model in ["model.condensed={}", "model.ting={}"] {
         let place = place(CHECK);
         let text =

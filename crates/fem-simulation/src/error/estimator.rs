@@ -283,7 +283,7 @@ mod tests {
 
     /// The bar is F_s |Δ| + c (h/a)² + scatter + added mass, and the pressure's floor depends on its own radius.
     #[test]
-    fn a_bar_is_the_formula() {
+    fn error_bar_is_the_sum_of_its_documented_parts() {
         let calibration = Calibration { name: "", safety_factor: 2.0, edge: [0.16; 6] };
         let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
         for (k, parts) in parts.into_iter().enumerate() {

@@ -66,7 +66,7 @@ mod tests {
 
     /// Each mesh takes eight times the one before, until the last ones approach the limit.
     #[test]
-    fn the_last_mesh_takes_the_most() {
+    fn refinement_cost_bound_counts_the_largest_meshes() {
         assert_eq!(of_levels(0, 100.0, [2.0, 8.0], 1.0), 0.0);
         assert_eq!(of_levels(1, 1.9, [2.0, 8.0], 1.0), 0.0);
         assert_eq!(of_levels(1, 5.0, [2.0, 8.0], 1.0), 5.0);

@@ -122,7 +122,7 @@ mod tests {
 
     /// The change and its printed override give the same scene.
     #[test]
-    fn the_override_is_what_is_applied() {
+    fn case_variation_equals_its_printed_override() {
         let settings = [
             Setting::Hertz { finite_size: false },
             Setting::Hertz { finite_size: true },

@@ -184,7 +184,7 @@ mod tests {
 
     /// The choice of a model computes each impact once, also those that fail.
     #[test]
-    fn no_impact_is_computed_twice() {
+    fn model_selection_computes_each_impact_once() {
         let case = Case::parse("extreme.toml", EXTREME, Path::new("."), &[]).unwrap();
         let before = COMPUTED.get();
         let _ = SelectedModel::of(case.scene());

@@ -221,7 +221,7 @@ mod tests {
 
     /// If only one body is compliant, staggering has no effect: the oscillation is that of a ball on a wall.
     #[test]
-    fn a_stiff_partner_leaves_the_oscillation() {
+    fn stiff_partner_needs_the_element_size_of_a_wall() {
         let stiff = "material.stiff={ density=7800, youngs_modulus='63 TPa', poissons_ratio=0.3 }";
         let set = ["accuracy.tolerance='0.1 %'", stiff, "body.1.material='stiff'"];
         let across = mesh_rule(&[&set[..], &["effects.rigid_partner='off'"]].concat()).across;

@@ -25,7 +25,7 @@ fn below() -> Vec<String> {
 
 /// The solvers and what they stand on two crates further down, but not what stands on this crate.
 #[test]
-fn it_is_of_all_that_computes() {
+fn build_digest_covers_all_solver_crates() {
     let below = below();
     for name in [
         "fem-simulation",
@@ -42,7 +42,7 @@ fn it_is_of_all_that_computes() {
 
 /// A build that had not looked at its sources again would have an older one.
 #[test]
-fn it_is_that_of_the_sources_as_they_are() {
+fn build_digest_equals_that_of_the_current_sources() {
     assert_eq!(digest(&own(), env!("FEM_NUMERICS_TARGET")).unwrap(), fem_simulation::NUMERICS);
     assert_eq!(fem_simulation::NUMERICS.len(), 16);
     assert_ne!(digest(&own(), "another machine").unwrap(), fem_simulation::NUMERICS);
@@ -84,7 +84,7 @@ fn change(path: &Path) {
 
 /// Wherever the workspace lies; a line in any crate below, a version, a level of optimisation moves it.
 #[test]
-fn it_moves_with_what_decides_bits() {
+fn build_digest_changes_with_sources_versions_and_opt_level() {
     let place = copy();
     let own = place.path().join("crates/fem-simulation");
     let now = || digest(&own, env!("FEM_NUMERICS_TARGET")).unwrap();
@@ -108,7 +108,7 @@ fn it_moves_with_what_decides_bits() {
 
 /// As cargo unpacks it from a registry: alone, and no other crate is where a neighbour would be.
 #[test]
-fn a_crate_on_its_own_has_one_too() {
+fn build_digest_exists_for_an_unpacked_crate() {
     let place = copy();
     let alone = place.path().join("fem-simulation-0.1.0");
     fs::rename(place.path().join("crates/fem-simulation"), &alone).unwrap();

@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn names_have_one_spelling() {
+    fn column_names_are_normalised() {
         for (header, expected) in [
             ("Speed_cm_s", "speed_cm_s"),
             ("Impact speed [cm/s]", "impact_speed_cm_s"),

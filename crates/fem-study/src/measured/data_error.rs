@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_has_its_place_and_no_control_characters() {
+    fn data_error_has_its_line_and_no_control_characters() {
         let error = DataError::new("e.csv", "speed is \"\u{1b}[2J\"");
         assert_eq!(error.to_string(), "e.csv: speed is \"\u{fffd}[2J\"");
         assert_eq!(error.in_line(3).to_string(), "e.csv:3: speed is \"\u{fffd}[2J\"");

@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_has_its_place() {
+    fn row_errors_name_file_line_and_column() {
         let names = ["d1", "d2"];
         for (text, expected) in [
             ("d1;d2\n1;2\n1\n", "pairs.csv:3"),

@@ -123,7 +123,7 @@ mod tests {
 
     /// A sweep may keep a million members.
     #[test]
-    fn a_member_is_two_numbers() {
+    fn sweep_member_has_16_bytes() {
         assert_eq!(size_of::<Member>(), 16);
     }
 }

@@ -23,7 +23,7 @@ fn noise_shows_in_the_uncertainty() {
 }
 
 #[test]
-fn levels_come_in_any_order() {
+fn power_law_fit_is_independent_of_level_order() {
     let mut levels = [(4.0, 1.41), (2.8, 1.27), (2.0, 1.21), (1.4, 1.13), (1.0, 1.105)];
     let fit = PowerLaw::fit(&levels).unwrap();
     levels.reverse();
@@ -75,7 +75,7 @@ fn explicit_and_condensed_results_are_compared_on_the_same_mesh() {
 
 /// A difference within the scatter is left out, and increases the uncertainty of the limit.
 #[test]
-fn scatter_is_no_part_of_the_limit() {
+fn scatter_enters_the_uncertainty_and_not_the_limit() {
     let condensed = levels(&[8.0, 5.6, 4.0, 2.8, 2.0, 1.4, 1.0], |h| 3.0 + 0.01 * h * h);
     let explicit = vec![(8.0, 3.64 - 0.02), (4.0, 3.16 + 0.01)];
     let limit = Limit::of(&condensed, &condensed, &explicit).unwrap();
@@ -96,7 +96,7 @@ fn a_different_limit_with_springs_adds_uncertainty() {
 }
 
 #[test]
-fn one_level_is_not_certain() {
+fn limit_of_one_level_has_infinite_uncertainty() {
     assert_eq!(Limit::of(&[], &[], &[(1.0, 2.0)]).unwrap().uncertainty, f64::INFINITY);
     assert_eq!(Limit::of(&[], &[], &[]), None);
 }

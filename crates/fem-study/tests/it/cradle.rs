@@ -47,7 +47,7 @@ fn conservation_laws_hold() {
 
 /// Equal balls without loss exchange their velocities; at the highest rise e = 1.
 #[test]
-fn elastic_limits() {
+fn elastic_cradle_exchanges_velocities() {
     let equal = Cradle { masses: [Measured::exact(1.0); 2], ..cradle() };
     let angle = Measured::exact(0.3);
     let swing = equal.swing(&Trial { release: angle, rise: angle }).unwrap();
@@ -127,7 +127,7 @@ fn the_uncertainty_of_e_is_that_of_random_inputs() {
 }
 
 #[test]
-fn meaningless_values_are_rejected() {
+fn cradle_rejects_meaningless_values() {
     let (good, trial) = (cradle(), trial());
     let angle = |value: f64| Measured::exact(value);
     for release in [0.0, -0.1, 1.6, 30.0, f64::NAN] {

@@ -89,7 +89,7 @@ fn entry(snippets: &[fem_study::fit::dem::Snippet], name: &str, key: &str) -> f6
 /// In runs of LAMMPS of 22 July 2025 an entered 0.92 makes 0.94322 and 0.889 makes 0.92014 (`.ci/check_dem.py`); here
 /// its formula is integrated.
 #[test]
-fn lammps_tsuji_damps_too_little() {
+fn lammps_tsuji_restitution_exceeds_the_entered_one() {
     let pair = export().pair;
     let alpha = |e: f64| {
         1.2728 - 4.2783 * e + 11.087 * e * e - 22.348 * e.powi(3) + 27.467 * e.powi(4)

@@ -62,7 +62,7 @@ fn ice_with_both_parameters_free() {
 
 /// Data without errors give the parameters that made them, whichever are free.
 #[test]
-fn exact_data_give_back_the_parameters() {
+fn fit_of_exact_data_recovers_the_parameters() {
     let speeds = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
     let cases: [(LawFamily, &[f64], &[&str]); 6] = [
         (LawFamily::KuwabaraKono, &[1e-6], &["a"]),
@@ -107,7 +107,7 @@ fn contact_times_fix_the_stiffness() {
 /// A law with one e at all speeds, fitted to scattered data, has their mean, a standard error of
 /// s/√N, and Student's interval with t = 2.776 for 4 degrees of freedom.
 #[test]
-fn interval_of_a_mean_is_students() {
+fn fit_interval_of_a_mean_is_students_t() {
     let model = glass_model(LawFamily::Tsuji, None);
     let data = [0.90, 0.91, 0.92, 0.93, 0.94];
     let points: Vec<Point> =
@@ -177,7 +177,7 @@ fn undetermined_parameters_are_rejected() {
 
 /// One point determines one parameter exactly, without an interval.
 #[test]
-fn one_point_and_one_parameter() {
+fn fit_of_one_point_has_no_interval() {
     let model = glass_model(LawFamily::BordbarHyppanen, None);
     let points = [Point::new(0.5, 0.925)];
     let mut problem = Problem::new(&model, &points, &["a"]).unwrap();

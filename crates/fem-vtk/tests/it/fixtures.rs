@@ -64,7 +64,7 @@ fn every_encoding_gives_the_same_mesh_and_data() {
 }
 
 #[test]
-fn one_quadrilateral_has_one_byte_of_types() {
+fn file_of_one_quadrilateral_is_read() {
     let mesh = read_quad_mesh(fixture("vtk_one_quad_plain_u32.vtu")).unwrap();
     assert_eq!(mesh.quads, [[0, 1, 5, 4]]);
 }
@@ -87,7 +87,7 @@ fn another_compressor_is_refused_with_the_remedy() {
 }
 
 #[test]
-fn a_missing_array_is_named_with_those_that_are_there() {
+fn missing_array_error_lists_the_available_arrays() {
     let file = VtuFile::open(fixture("meshio_zlib.vtu")).unwrap();
     let error = file.point_data("pressure").unwrap_err();
     assert!(matches!(error, Error::MissingArray { .. }));

@@ -2,6 +2,6 @@
 
 mod collection;
 mod fixtures;
-mod hostile;
-mod refusals;
+mod hostile_files;
+mod rejected_inputs;
 mod round_trip;

@@ -29,7 +29,7 @@ fn climb(text: &str, most_updates: u64) -> (Variants, Vec<Option<(Measurement, f
 /// to 0.05 % in contact time and force at this contact radius of 0.03 ball radii. The error falls with the element
 /// size.
 #[test]
-fn the_limit_is_that_of_theory_and_errors_fall() {
+fn accuracy_limit_equals_theory_and_errors_fall_with_element_size() {
     let (variants, measured) = climb(BALL, 4_000_000);
     let accuracy = case(BALL).scene().accuracy();
     let study = Study::of(&variants, &measured, &accuracy);
@@ -96,7 +96,7 @@ fn the_cheapest_variant_within_the_tolerance_is_chosen() {
 
 /// Each part of the error has a value for each quantity. Compliant springs lengthen contact time and approach.
 #[test]
-fn the_error_has_parts() {
+fn accuracy_gives_the_error_of_each_source() {
     let (variants, measured) = climb(BALL, 30_000_000);
     let study = Study::of(&variants, &measured, &case(BALL).scene().accuracy());
     let part = |source| study.parts.iter().find(|part| part.source == source).unwrap();

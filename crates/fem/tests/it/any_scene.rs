@@ -197,7 +197,7 @@ fn condensed_bodies_conserve_energy_and_momentum() {
 
 /// A case with numbers of any size ends with finite estimates or names the key to change, at 1e300 as at 1.
 #[test]
-fn a_check_ends_at_any_size() {
+fn check_of_extreme_sizes_gives_finite_estimates_or_a_key() {
     const TABLES: [&str; 5] =
         ["fem]", "condensed]", "ting]\nfinite_size=true", "auto]", "law]\nhertz={}"];
     const RELAXATIONS: [&str; 2] =

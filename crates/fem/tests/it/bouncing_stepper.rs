@@ -2,7 +2,7 @@
 
 use fem::{Collision, RestartState, Simulation};
 
-use crate::coarse::simulation_of;
+use crate::coarse_mesh::simulation_of;
 
 const BALL: &str = include_str!("rubber_ball.toml");
 /// Three elements across the first contact.

@@ -3,7 +3,7 @@
 use fem::{Approach, OutputRequest, Simulation};
 use fem_collision::Account;
 
-use crate::coarse::simulation;
+use crate::coarse_mesh::simulation;
 
 /// 65 m/s is the limit, a fiftieth of the shear wave speed.
 const SLOW: &str = "body.0.approach_speed='60 m/s'";
@@ -79,7 +79,7 @@ fn another_approach_has_its_own_decision() {
 
 /// Half of a scene has the same viscosity at half of the speed.
 #[test]
-fn half_of_the_work_gives_the_whole() {
+fn mirrored_bulk_viscosity_equals_that_of_the_full_pair() {
     let whole = fem(&[FAST, TWINS, "effects.mirror_symmetry='off'"]).run(&mut ());
     let mirrored = fem(&[FAST, TWINS]).run(&mut ());
     assert_eq!(mirrored.steps, whole.steps);
@@ -93,7 +93,7 @@ fn half_of_the_work_gives_the_whole() {
 
 /// Off gives the same bits as absent, without a key in summary and history.
 #[test]
-fn off_is_absent() {
+fn bulk_viscosity_off_equals_absent_to_the_bit() {
     let [absent, off, on] = ["effects={}", OFF, ON].map(|switch| {
         let simulation = fem(&[SLOW, switch]);
         let collision = simulation.run(&mut ());

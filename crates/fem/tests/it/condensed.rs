@@ -104,7 +104,7 @@ fn a_wall_at_rest_and_a_moving_one() {
 }
 
 #[test]
-fn a_resolved_case_computes_the_same() {
+fn resolved_condensed_case_gives_the_same_results() {
     for value in [CONDENSED, "model.condensed={vibration_modes=4, penalty_springs=true, steps=300}"]
     {
         let first = simulation(&[value, "mesh.contact_element_size='50 um'"]);
@@ -181,7 +181,7 @@ fn restitution(case: Case, shared: &SharedModels) -> f64 {
 
 /// Each pair of bodies is factored once in any order, and the order does not change the results.
 #[test]
-fn nine_pairings_take_nine_factors_in_any_order() {
+fn nine_pairings_need_nine_factors_in_any_order() {
     let run = |speed_is_slow: bool, shared: &SharedModels| -> Vec<f64> {
         nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, shared)).collect()
     };
@@ -251,7 +251,7 @@ fn threads_do_not_factor_a_pair_twice() {
 
 /// A contact beyond the condensed region enlarges the pair of that case alone.
 #[test]
-fn an_enlarged_pair_is_not_put_back() {
+fn enlarged_pair_is_not_shared_with_other_cases() {
     let shared = SharedModels::default();
     let soft = |weight: f64| {
         let terms = format!(
@@ -353,7 +353,7 @@ fn assert_longer_steps(relaxations: &[(&str, f64)]) {
 
 /// By default a collision takes about three hundred steps and has a thousand history rows.
 #[test]
-fn few_steps_are_enough() {
+fn default_condensed_run_takes_300_steps_and_1000_rows() {
     let run = run(&[CONDENSED]);
     let (steps, rows) = (run.steps.unwrap(), run.history.len());
     assert!(steps < 320 && (1000..1400).contains(&rows), "{steps} steps, {rows} rows");

@@ -4,7 +4,7 @@ use fem::{Case, Collision, Simulation};
 use fem_case::ContactMethod;
 use fem_collision::Account;
 
-use crate::coarse::simulation;
+use crate::coarse_mesh::simulation;
 
 const MASSLESS: &str = "contact.method='massless'";
 const PENALTY: &str = "contact.method='penalty'";
@@ -125,7 +125,7 @@ fn a_remedy_is_advised_for_ringing_springs() {
 
 /// Half of a collision of like bodies gives the same results as the whole.
 #[test]
-fn half_of_the_work_gives_the_whole() {
+fn mirrored_massless_pair_equals_full_pair_at_half_the_updates() {
     let whole = run(&[TWINS, MASSLESS, "effects.mirror_symmetry='off'"]);
     let mirrored = run(&[TWINS, MASSLESS]);
     assert_eq!(mirrored.element_updates.map(|n| 2 * n), whole.element_updates);
@@ -138,7 +138,7 @@ fn half_of_the_work_gives_the_whole() {
 
 /// Bounces of a ball gain no energy.
 #[test]
-fn bounces_gain_nothing() {
+fn massless_bounces_gain_no_energy() {
     let floor = [
         "body.0={name='floor', wall={}}",
         "body.1.approach_speed=0.5",
@@ -157,7 +157,7 @@ fn bounces_gain_nothing() {
 
 /// A ball on a half-space leaves as with penalty springs.
 #[test]
-fn a_ball_leaves_a_half_space() {
+fn massless_restitution_on_a_half_space_equals_penalty() {
     let block = [
         "body.0={name='block', half_space={}, material='glass'}",
         "body.1.approach_speed=0.5",

@@ -44,7 +44,7 @@ const GLASS: (f64, f64) = (0.244, 63e9);
 /// gap is zero inside but for the overlap of springs, and δ (x²/2 − 1 + ((2 − x²) asin(1/x) + √(x² − 1))/π) outside (Johnson
 /// 1985, (3.42)). The surfaces move inward by (1 − 2ν)(1 + ν) a p₀ (1 − (1 − x²)^{3/2})/(3 E x) (his (3.41b)).
 #[test]
-fn the_contact_is_that_of_hertz() {
+fn contact_profile_at_maximum_equals_hertz() {
     for set in LIKE_HERTZ {
         let (simulation, collision) = run(set);
         let hertz = simulation.setup().estimate.hertz;

@@ -36,7 +36,7 @@ fn a_forced_effect_that_the_model_lacks_is_rejected() {
 
 /// Every key of `[effects]` is the switch of one effect, whose name is the key with spaces.
 #[test]
-fn every_switch_has_its_effect() {
+fn every_effects_key_is_the_switch_of_one_effect() {
     let on = EffectsTable {
         viscoelasticity: Some(Switch::On),
         finite_strain: Some(Switch::On),
@@ -62,7 +62,7 @@ fn every_switch_has_its_effect() {
 /// Every model supports an effect or has no use for it, so that a new effect must be added to one of the two lists of each
 /// model.
 #[test]
-fn every_model_answers_for_every_effect() {
+fn every_model_supports_or_excludes_every_effect() {
     let reduced = [
         "viscoelasticity",
         "dashpot",

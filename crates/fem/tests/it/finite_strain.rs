@@ -148,7 +148,7 @@ fn a_nearly_incompressible_body_is_rejected_if_forced_and_warned_of_otherwise() 
 
 /// A case with too many terms is computed at small strain with a warning, and rejected only if forced.
 #[test]
-fn too_many_terms_stay_at_small_strain() {
+fn too_many_relaxation_terms_are_computed_at_small_strain() {
     let terms: Vec<String> =
         (0..40).map(|k| format!("{{weight=0.01, relaxation_time={}e-5}}", 10 + k)).collect();
     let many =

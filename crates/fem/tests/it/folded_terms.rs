@@ -3,7 +3,7 @@
 use fem::effects::EffectDecision;
 use fem::{Collision, Simulation};
 
-use crate::coarse::simulation_of as simulation;
+use crate::coarse_mesh::simulation_of as simulation;
 
 /// Ten terms over as many decades, like the fit of a polymer's master curve.
 const POLYMER: &str = r#"

@@ -6,7 +6,7 @@ use fem::{
     Account, BalanceSide, Case, Collision, Ending, HistoryRow, Monitor, Progress, Simulation,
 };
 
-use crate::coarse::simulation_of;
+use crate::coarse_mesh::simulation_of;
 
 const BALL: &str = include_str!("rubber_ball.toml");
 /// Elements that are as coarse as a test may have them: four across the first contact.
@@ -232,7 +232,7 @@ fn a_ball_that_flows_sinks_with_a_warning() {
 
 /// The contact tends to that without gravity, and the difference is proportional to gravity.
 #[test]
-fn the_limit_of_small_gravity_is_no_gravity() {
+fn contact_with_small_gravity_tends_to_that_without() {
     for model in ["model.ting={}", "model.condensed={}", "model.law.falcon.c=10", "model.fem={}"] {
         let at = |gravity: &str| {
             let touching = ["body.1.approach_speed=0.5", "start.gap=0"];

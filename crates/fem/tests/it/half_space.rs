@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fem::{Case, Collision, Simulation};
 
-use crate::coarse::simulation_of;
+use crate::coarse_mesh::simulation_of;
 
 const BALL: &str = r#"
 [material.steel]

@@ -57,7 +57,7 @@ fn close(a: f64, b: f64, scale: f64, relative: f64) {
 }
 
 #[test]
-fn half_of_the_scene_gives_the_same_results() {
+fn mirrored_scene_gives_the_results_of_the_full_scene() {
     for (model, relative) in [
         // The steps are the same, and rounding does not grow.
         ("model.fem={}", 1e-8),
@@ -159,7 +159,7 @@ fn only_identical_bodies_are_mirrored() {
 
 /// A resolved case is mirrored too, with the same bits.
 #[test]
-fn a_resolved_case_computes_the_same() {
+fn resolved_mirrored_case_gives_the_same_bits() {
     let (first, expected) = run(&[]);
     let text = first.resolved().to_toml().unwrap();
     let again = Case::parse("again.toml", &text, Path::new("."), &[]).unwrap();

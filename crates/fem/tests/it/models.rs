@@ -194,7 +194,7 @@ fn an_override_of_another_model_replaces_the_first() {
 }
 
 #[test]
-fn a_resolved_case_computes_the_same() {
+fn resolved_reduced_model_case_gives_the_same_results() {
     for value in [
         "model.ting={}",
         "model.hertz={finite_size=true}",
@@ -215,7 +215,7 @@ fn a_resolved_case_computes_the_same() {
 }
 
 #[test]
-fn finite_elements_are_for_the_model_fem() {
+fn explicit_new_rejects_a_scene_of_another_model() {
     let case = parse(GLASS, &["model.ting={}"]).unwrap();
     let refusal = Explicit::new(case.scene()).unwrap_err();
     assert_eq!(refusal.key, "model.ting");
@@ -248,7 +248,7 @@ fn the_slow_limit_of_the_materials() {
 }
 
 #[test]
-fn energies_velocities_and_walls() {
+fn reduced_models_conserve_energy_and_momentum_in_any_frame() {
     let frames = [
         &["body.0.approach_speed=0.5"][..],
         &["body.0.approach_speed=0.2", "body.1.approach_speed=0.3"],
@@ -286,7 +286,7 @@ fn energies_velocities_and_walls() {
 }
 
 #[test]
-fn bodies_may_change_places() {
+fn swapped_bodies_give_the_same_results_in_reduced_models() {
     let swapped = [
         "body.0={name='target', sphere={diameter='15.9 mm'}, material='glass'}",
         "body.1={name='striker', sphere={diameter='22.2 mm'}, material='glass', approach_speed=0.5}",

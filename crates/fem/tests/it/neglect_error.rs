@@ -124,14 +124,14 @@ const PENALTY: &str = "contact.method='penalty'";
 /// Every effect that a switch leaves out, in the models that obey it, alone and beside the others: waves of
 /// what relaxes, relaxation of what radiates, a rigid partner that would do both.
 #[test]
-fn every_switch_changes_what_is_foretold() {
+fn every_switch_changes_results_as_estimated() {
     switches_change_what_is_foretold(false);
 }
 
 /// The rest of the scenes, with explicit elements.
 #[test]
 #[ignore = "13 s; .ci/run runs it"]
-fn every_switch_of_explicit_elements_changes_what_is_foretold() {
+fn every_switch_of_explicit_elements_changes_results_as_estimated() {
     switches_change_what_is_foretold(true);
 }
 
@@ -189,7 +189,7 @@ fn switches_change_what_is_foretold(slow: bool) {
 
 /// Numbers, or none, however extreme a scene is.
 #[test]
-fn extreme_scenes_have_numbers_or_none() {
+fn neglect_errors_of_extreme_scenes_are_finite_or_none() {
     for model in [TING, "model.hertz={}"] {
         for size in ["1 um", "1 km"] {
             for modulus in ["1 mPa", "1e21 Pa"] {
@@ -224,7 +224,7 @@ fn extreme_scenes_have_numbers_or_none() {
 /// From relaxation that hardly begins within the contact to one that is over in a twentieth of it, of
 /// glass and of rubber, of both moduli and of the shear modulus, in every model that has it.
 #[test]
-fn relaxation_is_worth_what_is_foretold() {
+fn neglect_error_of_relaxation_equals_that_of_runs() {
     let rate = |rate: &str| format!("material.glass.relaxation.terms.0.decay_rate='{rate} 1/s'");
     let weight = |weight: f64| format!("material.glass.relaxation.terms.0.weight={weight}");
     for (rates, weights) in [("200", 1.0), ("2708", 1.0), ("3e4", 0.5), ("3e5", 0.3)] {
@@ -260,7 +260,7 @@ fn relaxation_switched_off_is_the_elastic_case() {
 
 /// A model rejects switching off an effect that it cannot switch off.
 #[test]
-fn what_cannot_be_left_out_is_refused() {
+fn switching_off_an_unswitchable_effect_is_rejected() {
     for (set, key, why) in [
         (["model.fem={}", "effects.hourglass_control=\"off\""], "hourglass_control", "stiffness"),
         (["model.hertz={}", "effects.hourglass_control=\"on\""], "hourglass_control", "hertz"),

@@ -61,7 +61,7 @@ fn relaxation_widens_the_expected_contact() {
 }
 
 #[test]
-fn the_resolved_case_makes_the_same_problem() {
+fn resolved_case_has_the_same_plan_and_time_step() {
     let first = case(&["mesh.contact_element_size='60 um'"]);
     let text = Simulation::resolve(&first).unwrap().to_toml().unwrap();
     let again = Case::parse("resolved.toml", &text, Path::new("."), &[]).unwrap();

@@ -119,7 +119,7 @@ fn the_cost_of_further_scenes_is_estimated() {
 
 /// Without time for reference runs the mesh may be refined after the run.
 #[test]
-fn without_reference_runs_the_mesh_is_open() {
+fn mesh_may_be_refined_after_the_run_without_reference_runs() {
     let RefinedBeforeRun { simulation, is_open } = refined_before_run(AUXETIC, false);
     assert!(is_open && simulation.levels().is_empty());
     assert!(simulation.refinement_bound().unwrap().over_first > 1.0);
@@ -158,7 +158,7 @@ fn a_mesh_is_refined_up_to_the_limit_for_any_poissons_ratio() {
 /// Soft springs are named as the cause, once before the run and once after it. The mesh is not refined against them, and
 /// the advice helps.
 #[test]
-fn soft_springs_are_not_taken_for_the_mesh() {
+fn soft_springs_cause_advice_and_no_mesh_refinement() {
     let computed = simulation(SOFT_SPRINGS).run_within_tolerance(&mut ());
     assert_eq!(computed.simulation.levels(), []);
     let before = computed.simulation.warnings_before();

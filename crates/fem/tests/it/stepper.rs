@@ -2,10 +2,10 @@
 
 use fem::{Approach, Collision, Ending, METHODS, OutputRequest, RestartState, Simulation, Stop};
 
-use crate::coarse::simulation;
+use crate::coarse_mesh::simulation;
 
 #[test]
-fn pieces_make_the_whole() {
+fn stepped_collision_equals_the_whole_run() {
     for method in METHODS {
         let simulation = simulation(method.name(), &[]);
         let whole = simulation.run(&mut ());

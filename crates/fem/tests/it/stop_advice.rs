@@ -1,6 +1,6 @@
 //! Advice after a stop or a rejection: it names keys of cases, and with the advised change the scene ends well.
 //!
-//! Advice on growing energy, on limits and on warnings is tested in `guards.rs` and `warning_advice.rs`. Growing energy,
+//! Advice on growing energy, on limits and on warnings is tested in `failure_messages.rs` and `warning_advice.rs`. Growing energy,
 //! motion that is not a number, a time step that becomes too short, unbalanced energy of condensed bodies and a missing
 //! contact state occur only in runs that are disturbed from inside: none of 900 random scenes at the ends of all axes has
 //! one of them.
@@ -182,13 +182,13 @@ fn follow_advice<'a>(rows: impl Iterator<Item = &'a Row>) {
 }
 
 #[test]
-fn advice_helps() {
+fn advice_of_a_sample_of_stops_lets_the_run_complete() {
     follow_advice(ROWS.iter().step_by(4));
 }
 
 #[test]
 #[ignore = "takes many seconds; .ci/run runs it"]
-fn every_advice_helps() {
+fn advice_of_every_stop_lets_the_run_complete() {
     follow_advice(ROWS.iter());
 }
 

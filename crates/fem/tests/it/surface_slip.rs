@@ -3,7 +3,7 @@
 use fem::effects::{Effect, EffectDecision, EffectStatus, SurfaceSlip};
 use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
-use crate::coarse;
+use crate::coarse_mesh;
 use crate::scene::simulation_of;
 
 /// A steel ball on a soft sphere ten times as large; the contact radius becomes 0.073 of the ball's radius.
@@ -120,13 +120,14 @@ fn unlike_bodies_need_slip_and_a_switch_is_obeyed() {
 #[test]
 fn like_bodies_do_not_slip() {
     for model in ["fem", "condensed", "ting"] {
-        let [plain, off] = ["effects={}", OFF].map(|switch| coarse::simulation(model, &[switch]));
+        let [plain, off] =
+            ["effects={}", OFF].map(|switch| coarse_mesh::simulation(model, &[switch]));
         let own = verdict(&plain);
         assert!(!own.active && own.reason.contains("do not slip"), "{}", own.reason);
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
         let wall = "body.0={ name = 'block', wall = {} }";
         let [plain, off] = [ON, OFF].map(|switch| {
-            coarse::simulation(model, &[switch, wall, "body.1.approach_speed='0.5 m/s'"])
+            coarse_mesh::simulation(model, &[switch, wall, "body.1.approach_speed='0.5 m/s'"])
         });
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
     }
@@ -137,7 +138,7 @@ fn like_bodies_do_not_slip() {
 #[test]
 fn forced_slip_between_like_bodies_changes_nothing() {
     for (model, allowed) in [("fem", 1e-3), ("condensed", 1e-7), ("ting", 1e-7)] {
-        let [on, off] = [ON, OFF].map(|switch| coarse::simulation(model, &[switch, PENALTY]));
+        let [on, off] = [ON, OFF].map(|switch| coarse_mesh::simulation(model, &[switch, PENALTY]));
         assert!(verdict(&on).active, "{model}");
         let change = change(&on.run(&mut ()), &off.run(&mut ()));
         assert!(change[2].abs() < 1e-2 * allowed, "{model}: {change:?}");

@@ -58,7 +58,7 @@ fn summaries_are_in_order_and_equal_those_of_single_runs() {
 }
 
 #[test]
-fn an_invalid_value_gives_one_error() {
+fn invalid_sweep_value_gives_one_error() {
     let summaries = sweep(&pair(ModelTable::ting()), [0.1, -1.0, 0.2], set_speed);
     let errors: Vec<Option<&str>> =
         summaries.iter().map(|summary| summary.as_ref().err().and_then(CaseError::key)).collect();

@@ -43,7 +43,7 @@ fn model(summary: &Summary) -> [f64; 6] {
 /// compliance, and waves with either.
 #[test]
 #[ignore = "15 s; .ci/run runs it"]
-fn model_form_errors_are_right() {
+fn model_form_errors_agree_with_actual_errors() {
     let mut n_compared = 0;
     for scene in [
         &[NAMED, ELASTIC][..],

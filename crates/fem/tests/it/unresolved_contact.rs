@@ -77,7 +77,7 @@ fn coarse_imported_meshes_get_advice() {
 
 /// The coarser body counts, also with an imported mesh.
 #[test]
-fn the_coarser_body_counts() {
+fn resolution_warning_counts_the_coarser_body() {
     let folder = tempfile::tempdir().unwrap();
     let disc = HalfDisc {
         radius: RADII[1],

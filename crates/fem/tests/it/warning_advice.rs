@@ -1,7 +1,7 @@
 //! Advice of warnings: each advised change is parsed from the warning and made in the case. The warning then disappears or
 //! its number becomes smaller, and no warning of the same cause replaces it.
 //!
-//! Advice after stops and rejections is tested in `stop_advice.rs`, on an energy residual and on limits in `guards.rs`.
+//! Advice after stops and rejections is tested in `stop_advice.rs`, on an energy residual and on limits in `failure_messages.rs`.
 
 use std::path::Path;
 
@@ -195,13 +195,13 @@ fn number(warning: &str) -> f64 {
 }
 
 #[test]
-fn advice_helps() {
+fn advice_of_a_sample_of_warnings_silences_them() {
     follow_advice(ROWS.iter().step_by(10));
 }
 
 #[test]
 #[ignore = "takes many seconds; .ci/run runs it"]
-fn every_advice_helps() {
+fn advice_of_every_warning_silences_it() {
     follow_advice(ROWS.iter());
 }
 

@@ -271,7 +271,7 @@ mod tests {
     /// The half of the suite that takes seconds; `fem-run validate hard` runs all of it.
     #[test]
     #[ignore = "15 s; .ci/run runs it"]
-    fn the_quick_half_holds() {
+    fn quick_half_of_the_hard_suite_passes() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mut claims = load_claims(folder, &["hard".to_string()]).unwrap();
         let claim = &mut claims[0];

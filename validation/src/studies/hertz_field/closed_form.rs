@@ -98,7 +98,7 @@ mod tests {
     /// Surface and axis meet in one point, the rim has Hertz' largest tension, and far away the field is that of
     /// Boussinesq's point force, σ_rr = (1−2ν)F/2πr².
     #[test]
-    fn the_surface_fits_what_is_around_it() {
+    fn surface_stress_agrees_with_axis_rim_and_far_field() {
         for nu in [0.0, 0.244, 0.3, 0.5] {
             let surface = |r: f64| closed_form(Profile::Surface, r, nu);
             let axis = closed_form(Profile::Radial, 0.0, nu);

@@ -180,7 +180,7 @@ mod tests {
     /// The shape solves G∇²u + (λ+G)∇∇·u = −ω²u: its part of the boundary's tractions is zero, by
     /// finite differences of the displacement.
     #[test]
-    fn the_surface_is_free() {
+    fn spheroidal_modes_have_no_surface_traction() {
         let nu = 0.244;
         let lambda = 2.0 * nu / (1.0 - 2.0 * nu);
         for degree in 0..5 {

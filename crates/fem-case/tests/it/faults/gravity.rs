@@ -1,6 +1,6 @@
 //! Faults of gravity, its support, and bounces.
 
-use super::marked::{error_at_mark, parse};
+use super::message_table::{error_at_mark, parse};
 
 const BALL: &str = "[material.glass]\ndensity = 2390\nyoungs_modulus = 63e9\npoissons_ratio = 0.2\n\
                     [[body]]\nname = \"floor\"\nwall = {}\n\
@@ -65,7 +65,7 @@ fn held_and_bounces_need_gravity() {
 }
 
 #[test]
-fn numbers() {
+fn gravity_and_bounces_reject_values_out_of_range() {
     for wrong in ["«0»", "«-9.81»", "«\"9.81 m/s\"»", "«nan»"] {
         fault(&[("\"9.81 m/s^2\"", wrong)], "", "");
     }

@@ -1,6 +1,6 @@
 //! Faults of a case file: position, message and help.
 
 mod gravity;
-pub mod marked;
-mod places;
+pub mod message_table;
+mod positions;
 mod scene;

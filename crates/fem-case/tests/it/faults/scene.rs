@@ -2,10 +2,10 @@
 
 use fem_case::Probe;
 
-use super::marked::{VALID, error_at_mark, parse};
+use super::message_table::{VALID, error_at_mark, parse};
 
 #[test]
-fn materials() {
+fn an_unused_material_is_checked_too() {
     let unused =
         "[material.\"ice (unused)\"]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n";
     parse(&format!("{VALID}{unused}")).unwrap();
@@ -20,7 +20,7 @@ const TARGET: &str = "[[body]]\nname = \"target\"\nwall = {}\n";
 
 /// Every fault of the bodies: a part of the case, its replacement, and the message.
 #[test]
-fn bodies() {
+fn faults_of_bodies_have_their_message_and_position() {
     let case = format!("{GLASS}{STRIKER}{TARGET}");
     parse(&case).unwrap();
     for (part, replacement, message) in [
@@ -88,7 +88,7 @@ fn bodies() {
 }
 
 #[test]
-fn probes() {
+fn faults_of_probes_have_their_message_and_help() {
     let with = |probe: &str| format!("{VALID}[[output.probe]]\n{probe}");
     let is = |probe: &str, message: &str, help: &str| {
         let error = error_at_mark(&with(probe));

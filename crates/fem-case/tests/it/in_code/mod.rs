@@ -2,8 +2,8 @@
 //! case file.
 
 mod any_case_file;
+mod built_case;
 mod edited;
 mod faults;
-mod made;
 mod pair;
 mod shipped;

@@ -5,7 +5,7 @@ use std::path::Path;
 use fem_case::schema::*;
 use fem_case::{Case, CaseFile, Quantity};
 
-use crate::faults::marked::VALID;
+use crate::faults::message_table::VALID;
 
 /// Returns the case as text.
 fn text() -> String {

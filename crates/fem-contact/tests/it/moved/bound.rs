@@ -49,7 +49,7 @@ fn largest_quotient(scene: &Scene, u: &[Field; 2], is_wall: [bool; 2]) -> f64 {
 /// by up to a half, pressed into each other and on a wall. The pressure's own terms add to it as overlap
 /// over segment length does: a tenth at 1, half as much again at a half of a segment on a wall.
 #[test]
-fn bound_is_never_below_the_springs() {
+fn stiffness_bound_covers_the_moved_springs() {
     for (depth, limit) in [(1e-4, 0.251), (2e-3, 0.251), (5e-3, 0.27), (1e-2, 0.35), (2e-2, 0.6)] {
         for (bend, stretch) in [(0.0, 1.0), (0.8, 1.3), (2.0, 1.0), (2.0, 0.7), (-1.0, 1.5)] {
             let meshes =
@@ -82,7 +82,7 @@ fn bound_is_never_below_the_springs() {
 /// A flat body below a barrel: flat out to 0.05, then with a flank of slope 8 that opens at once. The flank's slope
 /// counts where it is closed or within reach, and nowhere else.
 #[test]
-fn slopes_count_where_surfaces_can_touch() {
+fn stiffness_bound_counts_slopes_within_reach_only() {
     let meshes = [Side::Below, Side::Above].map(|side| flat(0.005, side));
     let scene = Scene::pair(&meshes, 0.0999);
     let barrel = |r: f64| {

@@ -33,7 +33,7 @@ fn power(f: &[Field; 2], v: &[Field; 2]) -> f64 {
 /// A stretched disc comes down on a wall at v: cv on its moved area, whatever its depth. Sliding along the
 /// wall it is not damped. Moving off faster than kδ/c it takes all of the springs' force and never pulls.
 #[test]
-fn a_disc_on_a_wall_feels_its_impedance() {
+fn dashpot_force_of_a_disc_is_impedance_times_velocity() {
     let (stretch, depth, speed) = (1.3, 2e-4, 0.1);
     let mesh = flat(0.01, Side::Above);
     let scene = damped(Scene::above(Surface::wall(), &mesh, 0.0999));
@@ -125,7 +125,7 @@ fn bound_is_never_below_the_dashpots() {
 
 /// The safety factor for opening and closing is 2 with dashpots and 4 without.
 #[test]
-fn damped_springs_need_less_room() {
+fn dashpots_halve_the_stiffness_bound() {
     let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
     let bound = |interface: &MovedInterface| {
         let mut bound = vec![0.0; mesh.nodes().len()];
@@ -141,7 +141,7 @@ fn damped_springs_need_less_room() {
 /// The bounds of the moved surfaces are those of the undeformed ones plus their growth, for a stretched disc that of
 /// its area.
 #[test]
-fn bounds_grow_with_the_area() {
+fn stiffness_and_damping_bounds_grow_with_the_stretched_area() {
     let (stretch, depth) = (1.3, 2e-4);
     let mesh = flat(0.01, Side::Above);
     let scene = damped(Scene::above(Surface::wall(), &mesh, 0.0999));

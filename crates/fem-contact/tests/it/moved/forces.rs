@@ -23,7 +23,7 @@ fn scenes() -> Vec<(Scene, f64)> {
 /// Forces balance and are −∂Π/∂u along r and y on both sides, with points that are open and others that slide
 /// over nodes of the other body.
 #[test]
-fn forces_balance_and_derive_from_the_energy() {
+fn moved_contact_forces_balance_and_derive_from_the_energy() {
     for (scene, along_r) in scenes() {
         let u = scene.ragged(along_r, 20e-6);
         let (total, f) = scene.forces(&u);
@@ -58,7 +58,7 @@ fn forces_balance_and_derive_from_the_energy() {
 /// two Gauss points per interval, as in the other contact, are exact for forces along y, and three for
 /// the energy; where the edge of the contact lies within an interval both are approximate.
 #[test]
-fn bodies_that_move_along_y_are_the_limit() {
+fn axial_motion_gives_the_forces_of_undeformed_surfaces() {
     let check = |scene: &Scene, other: &ContactInterface, [low, up]: [f64; 2], tolerance: f64| {
         let u = [low, up].map(|rise| [0.0, rise]);
         let u = [0, 1].map(|side: usize| vec![u[side]; scene.n_nodes[side]]);

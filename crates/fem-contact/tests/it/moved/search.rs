@@ -8,7 +8,7 @@ use super::geometry::displace;
 use crate::common::{Field, STIFFNESS, flat, glass_pair, rigid, sphere};
 
 #[test]
-fn closed_is_what_has_a_force() {
+fn is_closed_agrees_with_the_moved_contact_forces() {
     let scene = Scene::pair(&glass_pair([30e-6, 37e-6]), 0.4e-3);
     for (depth, closed) in [(-1e-12, false), (1.1e-9, false), (1.4e-9, true), (5e-6, true)] {
         let u: [Field; 2] = [vec![[0.0, depth]; scene.n_nodes[0]], scene.at_rest()[1].clone()];
@@ -70,7 +70,7 @@ fn folded(y: impl Fn(f64) -> f64) -> fem_contact::ContactForces {
 /// A fold outside of the contact does not matter. A fold that the contact reaches, or behind which the surface
 /// touches again, is reported.
 #[test]
-fn a_fold_is_reported_if_it_touches() {
+fn surface_fold_is_reported_only_within_the_contact() {
     let depth = 1e-3;
     let bowl = |r: f64| 1.0 * r * r - depth;
     let beside = folded(bowl);
@@ -93,7 +93,7 @@ fn a_fold_is_reported_if_it_touches() {
 /// back above and below. Nodes behind the fold are compared with the other surface at their radius, not with the
 /// inward extension of a flank.
 #[test]
-fn a_flank_that_comes_back_touches_nothing() {
+fn flanks_behind_a_fold_make_no_contact() {
     let meshes = [Side::Below, Side::Above].map(|side| flat(0.005, side));
     let scene = Scene::pair(&meshes, 0.0999);
     let barrel = |sign: f64, bulge: f64| {

@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn the_factor_solves() {
+    fn skyline_factor_solves_the_system() {
         let x: Vec<_> = (0..7).map(|k| noise(k + 50)).collect();
         let mut b = product(&mut matrix(), &x);
         let mut factor = matrix();
@@ -147,7 +147,7 @@ mod tests {
 
     /// Rows before the first that changes are as they were, to the bit.
     #[test]
-    fn a_factor_goes_on_from_any_row() {
+    fn refactoring_from_a_changed_row_equals_a_full_factor() {
         let (mut whole, mut part) = (matrix(), matrix());
         part.factor(0).unwrap();
         *whole.entry(5, 4) += 0.3;

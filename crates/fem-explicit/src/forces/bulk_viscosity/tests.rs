@@ -160,7 +160,7 @@ fn a_front_keeps_its_speed_and_its_pressure_and_does_not_ring() {
 
 /// The change by viscosity vanishes in proportion to its coefficient.
 #[test]
-fn no_coefficient_is_no_viscosity() {
+fn viscosity_vanishes_linearly_with_its_coefficient() {
     let bare = after(NONE, 20.0);
     let distance = |share: f64| {
         let scaled = ViscosityCoefficients { linear: share * 0.06, quadratic: share.sqrt() * 1.2 };
@@ -219,7 +219,7 @@ fn a_smooth_motion_loses_the_third_order() {
 
 /// It takes energy of every motion.
 #[test]
-fn no_motion_gains_from_the_linear_term() {
+fn linear_viscosity_is_symmetric_and_dissipates_energy() {
     let mesh = unit_sphere(6.0, Side::Above);
     let matrix = damping(&mesh, 0.06);
     let asymmetry = (&matrix - matrix.transpose()).amax() / matrix.amax();
@@ -296,7 +296,7 @@ fn the_work_of_viscosity_is_what_the_motion_loses() {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused() {
+fn bulk_viscosity_rejects_invalid_coefficients() {
     let mesh = unit_sphere(4.0, Side::Above);
     let of = |linear, quadratic, drop| {
         let coefficients = ViscosityCoefficients { linear, quadratic };

@@ -52,7 +52,7 @@ fn record(
 }
 
 #[test]
-fn ladder_finds_half_of_any_maximum() {
+fn recorder_finds_half_the_maximum_approach_for_any_estimate() {
     let model = model();
     let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     for estimate in [0.1, 0.9, 1.0, 1.3, 10.0] {
@@ -89,7 +89,7 @@ fn approaching(approach: f64, approach_rate: f64) -> Instant {
 /// While the bodies are as fast as at first touch, no candidate is taken below a quarter of the expected approach;
 /// once they have slowed down, all are. Either way the ladder has the same rungs.
 #[test]
-fn no_state_is_taken_of_bodies_that_nothing_has_slowed() {
+fn recorder_takes_no_early_states_of_unslowed_bodies() {
     let model = model();
     let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     let state = State::at_first_touch(&model);
@@ -113,7 +113,7 @@ fn no_state_is_taken_of_bodies_that_nothing_has_slowed() {
 }
 
 #[test]
-fn labels_that_do_not_occur_are_named() {
+fn missing_snapshot_labels_are_reported() {
     let model = model();
     let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     let expected = expectation(1.0, CONTACT_TIME);
@@ -159,7 +159,7 @@ fn bodies_that_stay_together_have_no_last_contact() {
 
 /// Unusual requests that pass all checks: every state is kept, and every time that is a number has its snapshot.
 #[test]
-fn no_request_is_too_much() {
+fn recorder_handles_extreme_counts_and_nan_times() {
     let model = model();
     for n in [OutputRequest::MOST_SNAPSHOTS, usize::MAX] {
         let (recorder, _) = record(&SnapshotRequest::Count(n), &model, 1.0, 1.0, 200);
@@ -176,7 +176,7 @@ fn no_request_is_too_much() {
 
 /// So coarse that no state lies near half of the maximum: left out, not passed off.
 #[test]
-fn a_rung_too_far_from_half_is_left_out() {
+fn state_too_far_from_half_maximum_is_left_out() {
     let model = model();
     let request = SnapshotRequest::Labels(vec![SnapshotInstant::MidCompression]);
     let (recorder, _) = record(&request, &model, 1.0, 1.0, 8);

@@ -65,7 +65,7 @@ fn finite(stress: &dyn Stress) -> &dyn FiniteStrainStress {
 
 /// As far as the body goes, and not at all: the bits of one kind alone.
 #[test]
-fn a_radius_beyond_the_body_is_none() {
+fn finite_strain_radius_of_zero_or_beyond_the_body_gives_one_kind() {
     let mesh = mesh();
     let (geometries, u) = (geometries(&mesh), deformed(&mesh, 0.02));
     for material in materials() {
@@ -80,7 +80,7 @@ fn a_radius_beyond_the_body_is_none() {
 /// Where all is small both kinds are the same, whichever element has which: forces, energies, stresses at
 /// the places of the elements; and where nothing is small they are not.
 #[test]
-fn at_small_strain_kinds_are_the_same() {
+fn finite_and_small_strain_elements_agree_at_small_strain_only() {
     let mesh = mesh();
     let geometries = geometries(&mesh);
     for material in materials() {

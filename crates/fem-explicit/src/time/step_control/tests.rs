@@ -94,7 +94,7 @@ fn the_step_follows_the_critical_one_down_at_once_and_up_where_there_is_room() {
 
 /// Time is the step number times the step, counted from where the step last changed.
 #[test]
-fn time_goes_on_where_the_step_changes() {
+fn time_is_continuous_where_the_step_changes() {
     let model = model(Some(HyperelasticLaw::NeoHooke));
     let start = first(&model);
     let touch = model.approach().first_touch();
@@ -108,7 +108,7 @@ fn time_goes_on_where_the_step_changes() {
 
 /// The next bound is the sooner, the faster the critical step changes.
 #[test]
-fn fast_changes_are_bounded_sooner() {
+fn next_bound_is_sooner_for_faster_changes() {
     let model = model(Some(HyperelasticLaw::NeoHooke));
     let start = first(&model);
     let pause = |critical: f64, rate: f64| {

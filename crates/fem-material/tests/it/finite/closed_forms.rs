@@ -37,7 +37,7 @@ fn assert_free_and(found: [f64; 2], free: usize, expected: f64, what: &str) {
 
 /// P_yy and the lateral stretch in uniaxial stress along y.
 #[test]
-fn uniaxial_stress() {
+fn uniaxial_stress_equals_the_closed_forms() {
     let e = 2.0;
     for nu in RATIOS {
         let (k, g) = (moduli(nu).bulk_modulus(), moduli(nu).shear_modulus());
@@ -73,7 +73,7 @@ fn uniaxial_stress() {
 
 /// Equal stress along r and θ, none along y.
 #[test]
-fn equibiaxial_stress() {
+fn equibiaxial_stress_equals_the_closed_forms() {
     let e = 2.0;
     for nu in RATIOS {
         let (k, g) = (moduli(nu).bulk_modulus(), moduli(nu).shear_modulus());
@@ -106,7 +106,7 @@ fn equibiaxial_stress() {
 /// u_r = γ Y, which keeps the volume. Cauchy stresses rr, yy, tt, ry; those of neo-Hooke are in
 /// Ogden (1984), section 4.4, Poynting's effect included.
 #[test]
-fn simple_shear() {
+fn simple_shear_stress_equals_the_closed_forms() {
     for nu in RATIOS {
         let (g, lambda) = (moduli(nu).shear_modulus(), moduli(nu).lame_lambda());
         for gamma in [0.01, 0.3, 1.0, 2.5f64] {

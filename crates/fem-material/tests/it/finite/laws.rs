@@ -11,7 +11,7 @@ const RATIOS: [f64; 5] = [-0.3, 0.0, 0.244, 0.45, 0.495];
 /// Central differences over 2δ err by δ²/6 W''' and by rounding of W over δ; both are 1e-10 of the
 /// stiffness at δ = 1e-5, and the stiffness is up to 3K = 200 E/2 times a few.
 #[test]
-fn stress_is_the_derivative_of_the_energy() {
+fn piola_stress_is_the_derivative_of_the_energy() {
     let delta = 1e-5;
     let mut random = Random(1);
     for (law, nu) in all() {
@@ -93,7 +93,7 @@ fn distance(a: [f64; 5], b: [f64; 5]) -> f64 {
 /// The difference to Hooke's law is the second order of strain: it is four times less at half of
 /// the strain. At 1e-3 the third order changes the exponent by some thousandths.
 #[test]
-fn at_small_strain_every_law_is_hookes_to_first_order_and_no_further() {
+fn laws_differ_from_hookes_at_second_order_in_strain() {
     let mut random = Random(4);
     for (law, nu) in all() {
         let solid = solid(law, nu);
@@ -110,7 +110,7 @@ fn at_small_strain_every_law_is_hookes_to_first_order_and_no_further() {
 /// At a strain of 1e-9 stress keeps seven digits from the second order alone, and the energy what
 /// rounding of 1e-16 over the strain leaves. A body at rest has none of either.
 #[test]
-fn small_strain_loses_no_digits() {
+fn stress_at_tiny_strain_keeps_its_digits() {
     let mut random = Random(5);
     for (law, nu) in all() {
         let solid = solid(law, nu);
@@ -128,7 +128,7 @@ fn small_strain_loses_no_digits() {
 
 /// J at and below zero, both factors of J below zero, and what is no number.
 #[test]
-fn what_is_turned_inside_out_is_an_error() {
+fn inverted_material_is_an_error() {
     for law in HyperelasticLaw::ALL {
         let solid = solid(law, 0.3);
         for f in [

@@ -162,7 +162,7 @@ fn imbalance(solid: &Viscoelastic, direction: &AxisymmetricTensor, n: usize) -> 
 
 /// It closes at second order for every law, so that D is what the flow takes, and P the slope of W.
 #[test]
-fn what_is_stored_and_dissipated_is_the_work() {
+fn work_equals_stored_plus_dissipated_energy() {
     let mut random = Random(11);
     for law in HyperelasticLaw::ALL {
         for nu in [0.244, 0.45] {
@@ -206,7 +206,7 @@ fn a_rotation_leaves_the_history_and_turns_the_stress() {
 
 /// The first Piola-Kirchhoff stress of neo-Hooke, all branches at once, is the sum that Cauchy's is.
 #[test]
-fn all_branches_at_once_are_their_sum() {
+fn stress_of_all_branches_is_their_sum() {
     let mut random = Random(13);
     for law in HyperelasticLaw::ALL {
         for acts_on in MODES {

@@ -23,7 +23,7 @@ fn hold(solid: &Viscoelastic, h: &AxisymmetricTensor, time: f64) -> Vec<ViscousS
 /// `RelaxationStep`. The steps are the same, up to ten relaxation times, so that the second order
 /// of strain is all that differs.
 #[test]
-fn at_small_strain_it_is_the_prony_series_to_first_order_and_no_further() {
+fn relaxing_law_differs_from_the_prony_series_at_second_order() {
     let mut random = Random(21);
     let corners: [AxisymmetricTensor; 4] = std::array::from_fn(|_| random.gradient(1.0));
     let steps = [0.01, 0.3, 2.0, 0.1];
@@ -72,7 +72,7 @@ fn prony_stress(nu: f64, acts_on: ActsOn, strain: [f64; 4], effective: [[f64; 4]
 
 /// In no time the whole law answers; 1e-12 of a relaxation time changes as much.
 #[test]
-fn in_no_time_it_is_the_instantaneous_law() {
+fn relaxing_law_at_time_zero_is_the_instantaneous_law() {
     let mut random = Random(22);
     for law in HyperelasticLaw::ALL {
         for acts_on in MODES {
@@ -98,7 +98,7 @@ fn in_no_time_it_is_the_instantaneous_law() {
 /// Held for a million relaxation times in one step it is the law with what is left of the moduli.
 /// The branches of neo-Hooke with ln J keep the pressure that goes with G where J is elastic.
 #[test]
-fn held_long_it_is_the_equilibrium_law() {
+fn relaxing_law_held_long_is_the_equilibrium_law() {
     let mut random = Random(23);
     for law in HyperelasticLaw::ALL {
         for acts_on in MODES {
@@ -136,7 +136,7 @@ fn held_long_it_is_the_equilibrium_law() {
 
 /// A fluid, weights that sum to 1: no stress is left but the pressure of an elastic volume.
 #[test]
-fn a_fluid_keeps_its_pressure_alone() {
+fn relaxed_fluid_keeps_only_elastic_pressure() {
     let h = gradient_of([1.3, 0.4, -0.2, 0.6, 1.1]);
     let j = 1.0 + h.volume_change();
     for acts_on in MODES {

@@ -99,7 +99,7 @@ fn step_of(stopped: &str) -> u64 {
 }
 
 #[test]
-fn a_motion_that_is_not_its_own_stops_a_run_at_once() {
+fn restart_with_altered_velocities_stops_with_energy_error() {
     for (name, set) in SCENES {
         let place = Place::new();
         let (memory, identity) = left_in(&place, set);

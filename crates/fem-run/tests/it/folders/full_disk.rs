@@ -19,7 +19,7 @@ fn run_within(place: &Place, kilobytes: usize, arguments: &[&str]) -> Ran {
 const FINE: [&str; 3] = ["case.toml", "--set", "mesh.contact_element_size='30 um'"];
 
 #[test]
-fn the_snapshots_go_first_then_the_history() {
+fn full_disk_drops_snapshots_first_then_the_history() {
     for (kilobytes, kept, lost) in [
         (325, &["contact.csv", "history.csv", "summary.json"][..], "the snapshots"),
         (60, &["summary.json"], "history.csv and the snapshots"),
@@ -44,7 +44,7 @@ fn the_snapshots_go_first_then_the_history() {
 
 /// The report is still printed, and an older result is unchanged.
 #[test]
-fn a_table_needs_no_disk() {
+fn full_disk_still_prints_the_report_and_keeps_an_older_result() {
     let place = Place::new();
     place.succeed("case.toml");
     let before = place.result("runs/case");
@@ -57,7 +57,7 @@ fn a_table_needs_no_disk() {
 
 /// An incomplete result does not replace a complete one.
 #[test]
-fn what_lacks_files_goes_beside_an_older_result() {
+fn incomplete_result_is_written_beside_an_older_result() {
     let place = Place::new();
     place.succeed(FINE);
     let before = place.result("runs/case");
@@ -71,7 +71,7 @@ fn what_lacks_files_goes_beside_an_older_result() {
 /// A reader that has gone away is no error; a stdout that cannot be written is one, and the result is kept.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_standard_output_is_a_fault() {
+fn full_standard_output_is_an_error_and_keeps_the_result() {
     let place = Place::new();
     let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let ran: Ran = place.command("case.toml").stdout(full).output().unwrap().into();

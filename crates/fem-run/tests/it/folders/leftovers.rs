@@ -29,7 +29,7 @@ fn hidden(place: &Place) -> Vec<String> {
 }
 
 #[test]
-fn folders_of_the_killed_go_and_those_of_the_living_stay() {
+fn recovery_deletes_folders_of_killed_runs_and_keeps_running_ones() {
     let place = Place::new();
     let mut living = endless(&place, "living");
     let of_living = hidden(&place);
@@ -74,7 +74,7 @@ fn sweep(place: &Place) {
 
 /// The process was killed before anything was finished.
 #[test]
-fn what_is_not_finished_goes() {
+fn recovery_deletes_an_unfinished_result() {
     let place = Place::new();
     let folder = abandon(&place, "a");
     place.write(&format!("{folder}/history.csv"), "time_s");
@@ -84,7 +84,7 @@ fn what_is_not_finished_goes() {
 
 /// The process was killed just after it had moved the old result aside.
 #[test]
-fn an_older_result_comes_back() {
+fn recovery_restores_an_older_result_moved_aside() {
     let place = two_results();
     let aside = abandon(&place, "b");
     rename(&place, "older", &format!("{aside}/old"));
@@ -95,7 +95,7 @@ fn an_older_result_comes_back() {
 
 /// The process was killed after moving the user's files, before moving the new result.
 #[test]
-fn a_finished_result_takes_its_place() {
+fn recovery_completes_an_interrupted_replacement() {
     let place = two_results();
     let staging = abandon(&place, "a");
     let aside = abandon(&place, "b");
@@ -115,7 +115,7 @@ fn a_finished_result_takes_its_place() {
 
 /// The process was killed after moving the new result, while it deleted the old one.
 #[test]
-fn what_is_replaced_goes() {
+fn recovery_deletes_the_old_result_after_its_replacement() {
     let place = two_results();
     let aside = abandon(&place, "b");
     rename(&place, "older", &format!("{aside}/old"));
@@ -129,7 +129,7 @@ fn what_is_replaced_goes() {
 
 /// The process was killed before it had a lock.
 #[test]
-fn an_empty_folder_goes() {
+fn recovery_deletes_an_empty_hidden_folder() {
     let place = Place::new();
     fs::create_dir(place.path(".fem-run-a")).unwrap();
     sweep(&place);
@@ -137,7 +137,7 @@ fn an_empty_folder_goes() {
 
 /// Without a lock file, a folder may belong to someone else.
 #[test]
-fn hidden_folders_of_others_stay() {
+fn recovery_keeps_hidden_folders_without_a_lock_file() {
     let place = Place::new();
     fs::create_dir(place.path(".fem-run-mine")).unwrap();
     place.write(".fem-run-mine/notes.txt", "mine");
@@ -149,7 +149,7 @@ fn hidden_folders_of_others_stay() {
 
 /// Members of a sweep that was killed.
 #[test]
-fn a_sweep_sweeps_its_members() {
+fn sweep_deletes_folders_of_killed_members() {
     let place = Place::new();
     let text = "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = [0.1, 0.2]\n";
     place.write("sweep.toml", text);

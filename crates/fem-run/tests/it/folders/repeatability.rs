@@ -31,7 +31,7 @@ fn two_runs_give_the_same_bytes() {
 }
 
 #[test]
-fn what_check_prints_runs_to_the_same_bits() {
+fn printed_check_runs_to_the_same_bits() {
     let place = Place::new();
     let set = ["--set", "mesh.contact_element_size='80 um'", "--set", "start.gap=1e-6"];
     let checked = place.succeed(("check case.toml", set)).stdout;
@@ -62,7 +62,7 @@ fn check_and_a_quiet_check_write_nothing() {
 }
 
 #[test]
-fn a_mesh_that_was_written_gives_the_bits_of_the_built_in_one() {
+fn exported_mesh_gives_the_bits_of_the_built_in_mesh() {
     let place = Place::new();
     place.succeed("mesh case.toml --out meshes").prints("scaled Jacobian");
     assert_eq!(place.list("meshes"), ["striker.vtu", "target.vtu"]);

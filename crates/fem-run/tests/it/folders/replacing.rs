@@ -7,7 +7,7 @@ const SLOWER: &str = "case.toml --set model.ting={} --set body.0.approach_speed=
 
 /// Without --out nothing is lost, and each case finds its own folder again.
 #[test]
-fn another_case_takes_a_folder_of_its_own() {
+fn another_case_gets_its_own_result_folder() {
     let place = Place::new();
     place.succeed(TING);
     let first = place.read("runs/case/summary.json");
@@ -46,7 +46,7 @@ fn a_named_folder_of_another_case_is_refused() {
 /// Units, title, comments, file name and figures do not make another case; any key does, even if it changes
 /// no number.
 #[test]
-fn a_case_is_what_it_asks_to_be_computed() {
+fn case_identity_ignores_units_title_and_comments() {
     let place = Place::new();
     let out = "--out out --quiet";
     place.succeed((TING, out));

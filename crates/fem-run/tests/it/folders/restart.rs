@@ -149,7 +149,7 @@ fn kill_at_random(n_gone_on: usize, seed: u64) -> usize {
 
 #[cfg(unix)]
 #[test]
-fn a_run_killed_at_any_instant_goes_on_to_the_same_bits() {
+fn run_killed_at_random_instants_restarts_to_the_same_bits() {
     assert!(kill_at_random(1, 1) >= 4);
 }
 
@@ -234,7 +234,7 @@ fn another_case_leaves_the_restart_file_alone() {
 }
 
 #[test]
-fn without_a_file_a_run_starts_anew_and_says_so() {
+fn restart_without_a_file_starts_anew_with_a_message() {
     let place = Place::new();
     place.succeed("case.toml --restart").tells("starting anew");
     place.succeed("case.toml --out other");
@@ -251,7 +251,7 @@ fn without_a_file_a_run_starts_anew_and_says_so() {
 /// Ctrl-C leaves the results so far and a restart file.
 #[cfg(unix)]
 #[test]
-fn an_interrupted_run_goes_on_too() {
+fn interrupted_run_restarts_to_the_same_result() {
     use nix::sys::signal::{Signal, kill};
     use nix::unistd::Pid;
 

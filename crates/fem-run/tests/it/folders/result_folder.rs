@@ -16,7 +16,7 @@ fn keys(value: &serde_json::Value) -> String {
 }
 
 #[test]
-fn the_summary_has_the_keys_of_the_contract() {
+fn summary_has_the_documented_keys() {
     let place = Place::new();
     place.succeed("case.toml --out out");
     let summary = place.json("out/summary.json");
@@ -63,7 +63,7 @@ fn the_summary_has_the_keys_of_the_contract() {
 }
 
 #[test]
-fn the_folder_holds_what_the_contract_says() {
+fn result_folder_has_the_documented_files() {
     let place = Place::new();
     place.succeed("case.toml");
     assert_eq!(place.list("."), ["case.toml", "runs"]);
@@ -127,7 +127,7 @@ fn a_wall_has_neither_elements_nor_mass() {
 }
 
 #[test]
-fn a_gap_parts_the_bodies_in_the_drawing() {
+fn initial_gap_separates_the_bodies_in_the_snapshot() {
     let place = Place::new();
     place.succeed("case.toml --set start.gap=2e-6 --out out");
     let mesh = VtuFile::open(place.path("out/case_1_maximum.vtu")).unwrap().quad_mesh().unwrap();
@@ -202,7 +202,7 @@ fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
 }
 
 #[test]
-fn folders_of_others_are_refused() {
+fn foreign_folders_are_rejected_as_result_folder() {
     let place = Place::new();
     for (name, text) in [("notes.txt", "mine"), ("summary.json", "{\"program\": \"other\"}")] {
         let folder = format!("folder of {name}");
@@ -222,7 +222,7 @@ fn folders_of_others_are_refused() {
 }
 
 #[test]
-fn the_folder_one_is_in_is_refused() {
+fn current_folder_is_rejected_as_result_folder() {
     let place = Place::new();
     place.succeed("case.toml --set model=ting --out out");
     let mut command = place.command("../case.toml --set model=ting --out .");
@@ -249,7 +249,7 @@ fn a_symbolic_link_stays_and_what_it_points_at_is_replaced() {
 }
 
 #[test]
-fn a_failed_run_keeps_what_it_has_marked_incomplete() {
+fn failed_run_writes_a_result_marked_incomplete() {
     let place = Place::new();
     place.succeed("case.toml --set model=ting --out out");
     for out in ["out/", "fresh"] {
@@ -274,7 +274,7 @@ fn a_refused_run_leaves_an_older_result_alone() {
 }
 
 #[test]
-fn runs_at_once_do_not_mix_their_files() {
+fn concurrent_runs_do_not_mix_their_files() {
     let place = Place::new();
     let labels = ["mid-compression", "maximum", "mid-separation"];
     for _ in 0..3 {

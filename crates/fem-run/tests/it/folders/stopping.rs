@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::common::{FAILS, Place};
 
 #[test]
-fn a_run_that_fails_says_why_and_keeps_what_it_has() {
+fn failed_run_states_cause_and_fix_and_keeps_its_results() {
     let place = Place::new();
     let ran = place.fails(1, ("case.toml", FAILS));
     ran.tells("error: |step|likely cause: |remedy: |runs/case");
@@ -85,7 +85,7 @@ mod signals {
     }
 
     #[test]
-    fn an_interrupted_run_keeps_what_it_has() {
+    fn interrupted_run_writes_its_results_so_far() {
         for signal in [Signal::SIGINT, Signal::SIGTERM] {
             let place = Place::new();
             let summary = interrupted(&place, start(&place, &[]), signal);
@@ -108,7 +108,7 @@ mod signals {
 
     /// `timeout` and some shells send one signal to the process and one to its group.
     #[test]
-    fn two_signals_at_once_are_one() {
+    fn two_simultaneous_signals_count_as_one() {
         for _ in 0..3 {
             let place = Place::new();
             let (mut child, _stderr) = start(&place, &[]);
@@ -121,7 +121,7 @@ mod signals {
     }
 
     #[test]
-    fn what_an_interrupted_run_has_takes_the_place_of_an_older_result() {
+    fn interrupted_run_with_force_replaces_an_older_result() {
         let place = Place::new();
         place.succeed("case.toml --set model=ting");
         let (mut child, _stderr) = start(&place, &["--force"]);

@@ -17,7 +17,7 @@ fn number(value: &serde_json::Value) -> f64 {
 }
 
 #[test]
-fn the_papers_point_determines_one_combination_of_four() {
+fn calibrate_one_point_determines_one_of_four_combinations() {
     let place = Place::with(GLASS);
     place.write("glass.csv", GLASS_POINT);
     place
@@ -50,7 +50,7 @@ fn the_papers_point_determines_one_combination_of_four() {
 
 /// Restitutions of a known series, from a sweep, are reproduced to 1e-4 with other relaxation times.
 #[test]
-fn a_known_series_is_reproduced() {
+fn calibrate_reproduces_a_known_series() {
     let place = Place::with(CASE);
     place.write(
         "sweep.toml",
@@ -80,7 +80,7 @@ fn a_known_series_is_reproduced() {
 }
 
 #[test]
-fn restitutions_that_fall_get_the_sentence() {
+fn calibrate_explains_data_that_no_maxwell_series_reproduces() {
     let place = Place::with(ICE);
     place.write("ice.csv", BRIDGES);
     let ting = "--model ting --terms 3";
@@ -123,7 +123,7 @@ fn nine_pairings_share_a_series() {
 }
 
 #[test]
-fn faults_are_pointed_at_and_nothing_is_written() {
+fn calibrate_reports_faults_with_position_and_writes_nothing() {
     let place = Place::new();
     let refused = |csv: &str, more: &str, expected: &str| {
         place.write("bad.csv", csv);
@@ -185,7 +185,7 @@ fn calibrated(csv: &str, more: &[&str]) -> (String, serde_json::Value) {
 }
 
 #[test]
-fn a_wall_has_no_diameter_to_give() {
+fn calibrate_rejects_a_diameter_column_for_a_wall() {
     let place = Place::with(include_str!("../../../../../cases/glass_on_wall.toml"));
     place.write("nine.csv", PAIRINGS);
     let ran = place.fails(2, "calibrate case.toml --data nine.csv");
@@ -194,7 +194,7 @@ fn a_wall_has_no_diameter_to_give() {
 }
 
 #[test]
-fn columns_that_are_not_read_are_named_and_those_of_the_program_are_not() {
+fn calibrate_warns_about_unread_columns_except_its_own() {
     let header = "speed_m_s,e,humidity,contact_radius_um,speed_uncertainty_m_s,member";
     let (text, _) = calibrated(&format!("{header}\n0.2,0.9,0.4,3,0.01,a\n"), &[]);
     let warning = "warning: columns that are not read: humidity, contact_radius_um\n";
@@ -226,7 +226,7 @@ fn given_uncertainties_and_repeats_are_the_scatter() {
 }
 
 #[test]
-fn the_end_of_the_maxwell_search_is_no_result() {
+fn calibrate_reports_a_maxwell_time_at_the_search_limit() {
     let finite = ["--model", "condensed"];
     let (text, numbers) = calibrated("speed_m_s,e\n0.2,0\n", &finite);
     assert!(text.contains("or faster, at the end of the search range"), "{text}");
@@ -255,7 +255,7 @@ fn ignored_keys_of_the_case_are_named() {
 }
 
 #[test]
-fn speeds_in_millimetres_are_doubted_first() {
+fn calibrate_questions_the_unit_of_very_high_speeds_first() {
     let fast = "speed_m_s,e\n200,0.9\n300,0.9\n";
     let (text, numbers) = calibrated(fast, &["--model", "condensed"]);
     let first = numbers["warnings"][0].as_str().unwrap_or_default();
@@ -270,7 +270,7 @@ fn speeds_in_millimetres_are_doubted_first() {
 }
 
 #[test]
-fn speeds_too_far_apart_for_one_mesh_are_told_what_to_do() {
+fn calibrate_suggests_splitting_speeds_too_far_apart_for_one_mesh() {
     let place = Place::with(GLASS);
     place.write("e.csv", "speed_m_s,e\n1e-6,0.9\n1e3,0.9\n");
     let ran = place.fails(2, "calibrate case.toml --data e.csv");
@@ -282,7 +282,7 @@ fn speeds_too_far_apart_for_one_mesh_are_told_what_to_do() {
 }
 
 #[test]
-fn a_mesh_that_the_case_spoils_is_the_cases_fault() {
+fn calibrate_mesh_error_points_at_the_override() {
     let place = Place::with(GLASS);
     place.write("e.csv", "diameter_1_mm,speed_m_s,e\n10,0.2,0.9\n");
     for (set, at) in [

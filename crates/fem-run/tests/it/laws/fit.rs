@@ -144,7 +144,7 @@ fn units_and_sweep_columns_are_read() {
 
 /// β for 0.92 at 0.5 m/s: 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus.
 #[test]
-fn inverse_of_the_glass() {
+fn invert_gives_the_published_relaxation_rates_of_glass() {
     let place = Place::new();
     place.succeed("invert case.toml --law ting --restitution 0.92").prints("2982");
     let bulk = ["--set", "material.glass.relaxation.acts_on=\"shear\""];
@@ -164,7 +164,7 @@ fn inverse_of_the_glass() {
 
 /// The law of `[model]` with its parameters and end of contact is the default; options override it.
 #[test]
-fn a_case_gives_its_law() {
+fn fit_uses_the_law_of_the_case_by_default() {
     let place = ice();
     let n = "model.law={bordbar_hyppanen={a=1e-4,n=0.65,end='zero_overlap'}}";
     let fit = |more: &[&str]| {
@@ -351,7 +351,7 @@ fn cradle_of_one_trial_and_of_a_file() {
 
 /// Common slips: a law with two letters swapped, thousands separators.
 #[test]
-fn slips_of_the_hand_are_answered() {
+fn fit_and_invert_suggest_fixes_for_typing_mistakes() {
     let place = Place::new();
     place.write("parted.csv", "speed_m_s;restitution\n1.000,5;0,95\n3,0;0,93\n");
     for (law, told) in [
@@ -372,7 +372,7 @@ fn slips_of_the_hand_are_answered() {
 
 /// A spreadsheet's file: Latin-1, semicolons, decimal commas, its own column names, an empty row.
 #[test]
-fn columns_of_other_names_are_told() {
+fn fit_maps_columns_of_other_names() {
     let place = Place::new();
     let data = "../validation/data/spreadsheet.csv";
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(data);
@@ -432,7 +432,7 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
 
 /// Tables as people have them, and messages for those that cannot be read.
 #[test]
-fn tables_are_read_or_refused_with_what_to_do() {
+fn fit_reads_common_tables_or_suggests_a_fix() {
     let place = Place::new();
     let fit = "fit case.toml --law tsuji --data e.dat --out out --force";
     let rows = "v_m_s  COR\n0,1  0,92\n  1   0,90\n";

@@ -61,7 +61,7 @@ fn the_script_computes_the_sweep() {
 }
 
 #[test]
-fn it_submits_itself_twice_and_a_task_that_was_killed_queues_again() {
+fn slurm_submits_array_and_merge_and_requeues_killed_tasks() {
     let place = place();
     stand_in(&place, "sbatch", "echo '42;cluster'");
     let slurm = "sweep sweep.toml --out out --slurm=--time=10 --submit";
@@ -94,7 +94,7 @@ fn it_submits_itself_twice_and_a_task_that_was_killed_queues_again() {
 }
 
 #[test]
-fn a_slurm_that_is_not_there_or_refuses_is_told() {
+fn missing_or_failing_sbatch_is_reported() {
     let place = place();
     let submit = ["sweep", "sweep.toml", "--slurm", "--time=10", "--submit"];
     stand_in(&place, "sbatch", "echo no partition >&2; exit 1");
@@ -116,7 +116,7 @@ fn a_slurm_that_is_not_there_or_refuses_is_told() {
 }
 
 #[test]
-fn a_sweep_says_how_far_it_is() {
+fn sweep_status_counts_done_and_failed_members() {
     let place = place();
     place.succeed("sweep sweep.toml --out out --shard 1/3 --quiet");
     let words = |text: &str| {

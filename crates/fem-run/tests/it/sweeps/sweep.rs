@@ -253,7 +253,7 @@ fn n_done(place: &Place, out: &str) -> usize {
 }
 
 #[test]
-fn a_killed_sweep_goes_on_where_it_was() {
+fn killed_sweep_resumes_with_the_members_left() {
     let place = place(LONG);
     let mut child = start_long(&place, "killed");
     child.kill().unwrap();
@@ -277,7 +277,7 @@ fn a_killed_sweep_goes_on_where_it_was() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_sweep_keeps_its_members_and_says_how_to_go_on() {
+fn interrupted_sweep_keeps_its_members_and_explains_how_to_resume() {
     use nix::sys::signal::{Signal, kill};
     use nix::unistd::Pid;
     let place = place(LONG);
@@ -293,7 +293,7 @@ fn an_interrupted_sweep_keeps_its_members_and_says_how_to_go_on() {
 }
 
 #[test]
-fn a_failing_member_is_named_and_the_others_go_on() {
+fn failing_sweep_member_is_named_and_the_others_are_run() {
     // Soft and fast: the sphere folds where it is pressed flat.
     let place = place(
         "case = 'case.toml'\ncombine = 'paired'\n[vary]\n'material.glass' = [\n\
@@ -338,7 +338,7 @@ fn only_a_new_folder_or_a_sweep_is_written_into() {
 }
 
 #[test]
-fn the_shipped_sweep_is_sound() {
+fn shipped_sweep_case_runs() {
     let place = Place::new();
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sweep_speed.toml");
     // Only the first member: the slowest speed, on a coarse mesh.
@@ -347,7 +347,7 @@ fn the_shipped_sweep_is_sound() {
 }
 
 #[test]
-fn the_page_on_sweeps_is_true() {
+fn sweeps_page_examples_run_and_columns_are_documented() {
     let page = include_str!("../../../../../docs/sweeps.md");
     let place = Place::new();
     // An empty shard checks all members and computes none.
@@ -369,7 +369,7 @@ fn the_page_on_sweeps_is_true() {
 
 /// Condensed members share a factor if the case gives the mesh; otherwise a hint says so.
 #[test]
-fn condensed_members_are_told_how_to_share_a_factor() {
+fn condensed_sweep_hints_at_sharing_a_factor() {
     let vary = "[vary]\nbody.0.approach_speed = [0.2, 3]\n\
                 material.glass.relaxation.terms.0.decay_rate = [1000, 2000]\n";
     let place = place(&format!("case = 'case.toml'\n{vary}"));

@@ -80,7 +80,7 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
 }
 
 #[test]
-fn the_value_that_makes_no_case_is_pointed_at() {
+fn sweep_value_that_makes_an_invalid_case_is_marked() {
     let speed = "'body.0.approach_speed' = ['1 m/s', 0.5, '2 m']";
     refused(&vary(speed), "3:42", "length|\"0.5 m/s\"");
     refused(&vary("body.0.sphere.diameter = [0.01,\n  nan]"), "4:3", "diameter");
@@ -115,7 +115,7 @@ fn lists_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn plots_of_what_is_not_there_are_refused() {
+fn sweep_plots_of_unknown_columns_are_rejected() {
     let lists = "'body.0.approach_speed' = [1, 2]\n'body.0.name' = ['a', 'b']\n[plot]\n";
     let plot = |line: &str| vary(&format!("{lists}{line}"));
     refused(&plot("x = 'body.1.approach_speed'"), "6:5", "not varied|body.0.approach_speed");
@@ -127,7 +127,7 @@ fn plots_of_what_is_not_there_are_refused() {
 }
 
 #[test]
-fn faults_of_the_base_case_and_of_overrides_are_told_as_such() {
+fn faults_of_base_case_and_overrides_are_attributed_to_their_source() {
     let place = Place::with(&crate::common::CASE.replace("63 GPa", "63 Gpa"));
     place.write("sweep.toml", &vary("body.0.approach_speed = [1]"));
     let ran = place.run("sweep sweep.toml");
@@ -156,7 +156,7 @@ fn faults_of_the_base_case_and_of_overrides_are_told_as_such() {
 
 /// All errors are reported at once, in the order of the file, each once.
 #[test]
-fn all_faults_of_a_sweep_file_are_told_at_once() {
+fn all_faults_of_a_sweep_file_are_reported_at_once() {
     let places = |sweep: &str| {
         let place = Place::new();
         place.write("sweep.toml", sweep);
@@ -188,7 +188,7 @@ fn all_faults_of_a_sweep_file_are_told_at_once() {
 /// Warnings of members are printed once, with the number of members and the first one, where nothing else
 /// says so.
 #[test]
-fn warnings_of_members_are_told_once() {
+fn warnings_of_sweep_members_are_printed_once() {
     let place = Place::new();
     place.write("sweep.toml", &vary("'body.0.approach_speed' = [0.5, 0.6, 0.7]"));
     let set = "model={ ting = {} }";

@@ -85,7 +85,7 @@ fn shards_have_a_file_each() {
 
 /// More members than file systems can hold as folders are packed by default.
 #[test]
-fn large_sweeps_are_packed_by_themselves() {
+fn sweeps_above_10000_members_are_packed_by_default() {
     let place = place();
     for (n, packs) in [(10_000, false), (10_001, true)] {
         let lines =

@@ -28,7 +28,7 @@ fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
 }
 
 #[test]
-fn a_material_that_is_not_there_is_bad_input() {
+fn unknown_material_is_rejected_with_a_suggestion() {
     let ran = Place::new().fails(2, "materials rubber");
     ran.tells("did you mean natural-rubber?");
     assert!(ran.stdout.is_empty());
@@ -36,7 +36,7 @@ fn a_material_that_is_not_there_is_bad_input() {
 
 /// A new case runs, also with each of its commented keys enabled.
 #[test]
-fn a_new_case_is_sound_with_all_that_its_comments_offer() {
+fn new_case_is_valid_with_all_commented_keys_enabled() {
     let place = Place::new();
     for (partner, material) in
         [("sphere", "soda-lime-glass"), ("wall", "pmma"), ("half-space", "lib:pvb")]
@@ -77,7 +77,7 @@ fn a_new_case_is_sound_with_all_that_its_comments_offer() {
 }
 
 #[test]
-fn a_new_case_overwrites_nothing() {
+fn new_case_overwrites_no_file() {
     let place = Place::new();
     place.fails(2, "new case").tells("case.toml exists");
     assert_eq!(place.list("."), ["case.toml"]);
@@ -91,7 +91,7 @@ fn a_new_case_overwrites_nothing() {
 
 /// The schema has the keys that the reader lists for an unknown key.
 #[test]
-fn a_schema_has_the_keys_of_the_reader() {
+fn schema_has_the_keys_of_the_reader() {
     let place = Place::new();
     let read = |of: &str| -> serde_json::Value {
         serde_json::from_str(&place.succeed(["schema", of]).stdout).unwrap()
@@ -117,7 +117,7 @@ fn a_schema_has_the_keys_of_the_reader() {
 }
 
 #[test]
-fn a_word_that_is_nearly_a_command_is_asked_about() {
+fn misspelled_command_gets_a_suggestion() {
     let place = Place::new();
     for (arguments, meant) in [
         (&["chek"][..], "did you mean fem-run check?"),

@@ -20,7 +20,7 @@ fn odd_number(text: &str) -> Option<&str> {
 }
 
 #[test]
-fn what_is_odd_is_seen() {
+fn odd_number_detector_finds_long_digits_and_needless_exponents() {
     for odd in ["5.49602204001348 cm/s", "lost 0.0e0", "x = 1\n1000000000000000.0"] {
         assert!(odd_number(odd).is_some(), "{odd}");
     }

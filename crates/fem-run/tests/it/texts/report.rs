@@ -31,7 +31,7 @@ fn a_kink_of_the_contact_radius_is_explained() {
 
 /// Numbers with errors, curves beside Hertz, fields, effects, the case, how to cite.
 #[test]
-fn a_run_with_fields_has_all_of_it_on_a_page() {
+fn report_of_a_run_with_fields_has_all_sections() {
     let place = Place::new();
     place.succeed(["case.toml", "--set", "model.condensed={}", "--quiet"]);
     let page = place.text("runs/case/report.html");
@@ -78,7 +78,7 @@ fn a_result_without_fields_has_a_page_and_no_picture_of_them() {
 }
 
 #[test]
-fn a_case_can_do_without_a_page() {
+fn report_false_writes_no_page() {
     let place = Place::new();
     let spared = "--set output.report=false";
     place.succeed((TING, spared));
@@ -87,7 +87,7 @@ fn a_case_can_do_without_a_page() {
 
 /// Titles are escaped.
 #[test]
-fn a_title_is_text() {
+fn report_escapes_the_title() {
     let place = Place::new();
     let title = ["--set", "title='<script>alert(1)</script>'"];
     place.succeed((TING, title));
@@ -117,7 +117,7 @@ fn several_results_are_compared() {
 /// A comparison has names as they are, numbers with error bars, and the differing key before what follows
 /// from it; each result once.
 #[test]
-fn a_comparison_tells_what_differs_first() {
+fn comparison_shows_the_differing_keys_first() {
     let place = Place::new();
     let condensed = ["case.toml", "--set", "model.condensed={}", "--quiet"];
     place.succeed((condensed, "--out glass_on_glass"));
@@ -164,7 +164,7 @@ fn snapshots_have_the_fields_that_are_asked_for() {
 
 /// A ball on a wall fills its picture: the wall is a strip, with the body above it.
 #[test]
-fn the_frame_follows_what_is_there() {
+fn picture_of_a_ball_on_a_wall_fills_its_frame() {
     let place = Place::new();
     let wall = ["--set", "body.0={ name = 'floor', wall = {} }", "--set", "model.condensed={}"];
     let moves = ["--set", "body.1.approach_speed='0.5 m/s'", "--quiet"];
@@ -180,7 +180,7 @@ fn the_frame_follows_what_is_there() {
 }
 
 #[test]
-fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
+fn report_rejects_folders_without_a_result_and_foreign_files() {
     let place = Place::new();
     place.succeed(TING);
     for folder in [".", "nowhere"] {
@@ -194,7 +194,7 @@ fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
 
 /// Commands that write a single file overwrite no file of others.
 #[test]
-fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
+fn single_file_commands_overwrite_no_foreign_file() {
     let place = Place::new();
     place.succeed(TING);
     place.succeed((TING, "--out runs/other"));
@@ -251,7 +251,7 @@ fn share(page: &str) -> [f64; 2] {
 
 /// Hertz' curve does not set the scale of a much stiffer or softer law.
 #[test]
-fn hertz_far_away_does_not_flatten_the_curves() {
+fn hertz_curve_does_not_set_the_scale_of_the_axes() {
     for stiffness in ["1e3 N/m", "1e10 N/m"] {
         let place = Place::new();
         let law = format!("model.law={{linear={{k=\"{stiffness}\"}}}}");
@@ -265,7 +265,7 @@ fn hertz_far_away_does_not_flatten_the_curves() {
 
 /// Balls that stay together have no last contact; the curves of others are not squeezed.
 #[test]
-fn a_contact_without_an_end_does_not_squeeze_the_others() {
+fn contact_without_an_end_does_not_set_the_time_axis() {
     let place = Place::new();
     place.succeed((TING, "--out leaves"));
     let stays =
@@ -284,7 +284,7 @@ fn a_contact_without_an_end_does_not_squeeze_the_others() {
 
 /// There are seven colours, so the eighth curve has other dashes. The numbers of many results are in rows.
 #[test]
-fn ten_results_are_told_apart() {
+fn ten_compared_results_have_distinct_curves() {
     let place = Place::new();
     let names: Vec<String> = (0..10).map(|k| format!("run{k}")).collect();
     for (k, name) in names.iter().enumerate() {
@@ -305,7 +305,7 @@ fn ten_results_are_told_apart() {
 /// Folder names are not set as symbols; an error that is partly unknown is no ±; the frames of the film are
 /// chosen by events.
 #[test]
-fn names_errors_and_instants_are_what_they_are() {
+fn report_keeps_folder_names_partial_errors_and_event_frames() {
     let place = Place::new();
     place.succeed((TING, "--out b_fem"));
     let film =

@@ -15,7 +15,7 @@ fn fed(place: &Place, arguments: &[&str], text: &[u8]) -> Ran {
 }
 
 #[test]
-fn a_case_from_the_standard_input_is_the_case() {
+fn case_from_standard_input_gives_the_result_of_the_file() {
     let place = Place::new();
     let ting = ["--set", "model.ting={}"];
     place.succeed(("case.toml --out file", ting));
@@ -29,7 +29,7 @@ fn a_case_from_the_standard_input_is_the_case() {
 }
 
 #[test]
-fn faults_of_the_standard_input_have_a_place() {
+fn faults_in_standard_input_have_line_and_column() {
     let place = Place::new();
     let text = CASE.replace("density", "densitty");
     let ran = fed(&place, &["-", "--json"], text.as_bytes());
@@ -49,7 +49,7 @@ fn faults_of_the_standard_input_have_a_place() {
 
 /// The summary is alone on stdout, as in the file, for any end of the run, and with --quiet too.
 #[test]
-fn json_is_the_summary_alone() {
+fn json_option_prints_only_the_summary() {
     let place = Place::new();
     for quiet in [&[][..], &["--quiet"]] {
         let ran = place.succeed(("case.toml --json --out out", quiet));

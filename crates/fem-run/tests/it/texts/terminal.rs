@@ -5,7 +5,7 @@ use std::process::Stdio;
 use crate::common::Place;
 
 #[test]
-fn stdout_carries_the_result_and_stderr_the_rest() {
+fn stdout_has_the_report_and_stderr_the_messages() {
     let place = Place::new();
     let ran = place.succeed("case.toml");
     let expected = "A pair|restitution|contact time|µs|Hertz|ratio|momentum|viscoelasticity|off  gravity|warning:|\
@@ -28,7 +28,7 @@ fn a_coarse_mesh_is_warned_of() {
 }
 
 #[test]
-fn quiet_means_silent_but_for_errors_and_warnings() {
+fn quiet_prints_only_errors_and_warnings() {
     let place = Place::new();
     let ran = place.succeed("case.toml --quiet");
     assert_eq!(ran.stdout, "");
@@ -52,7 +52,7 @@ fn quiet_means_silent_but_for_errors_and_warnings() {
 }
 
 #[test]
-fn a_title_cannot_command_the_terminal() {
+fn control_characters_in_a_title_do_not_reach_the_terminal() {
     let place = Place::with(&crate::common::CASE.replace("A pair", "\\u001b[2J\\n# x = 1"));
     let ran = place.succeed("case.toml");
     assert!(!ran.stdout.contains('\u{1b}'), "{:?}", ran.stdout);
@@ -61,7 +61,7 @@ fn a_title_cannot_command_the_terminal() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_fault() {
+fn closed_output_pipe_is_not_an_error() {
     let place = Place::new();
     for arguments in [&["check", "case.toml"][..], &["case.toml"], &["completions", "bash"]] {
         let mut command = place.command(arguments);
@@ -104,7 +104,7 @@ fn a_case_named_like_a_command_runs_with_its_folder() {
 
 /// Misspelled names of models are corrected in the message; a file name with a blank is quoted for a shell.
 #[test]
-fn words_are_asked_about_and_names_are_quoted() {
+fn misspelled_models_get_a_suggestion_and_file_names_are_quoted() {
     let place = Place::new();
     place.fails(2, "check case.toml --set model=tingg").tells("did you mean `ting`?");
     place.run("check case.toml --set model.law=tsujii").tells("did you mean `tsuji`?");

@@ -32,7 +32,7 @@ mod tests {
     /// A ball of 1 kg and a mode of mass 1 kg and frequency ω under the same half-sine force: the amplitudes add, and the
     /// change of restitution reaches the bound but does not exceed it.
     #[test]
-    fn the_bound_holds_for_every_phase() {
+    fn restitution_change_is_within_the_bound_for_every_phase() {
         let (omega, speed, n) = (2.0_f64, 1.0, 4000);
         // The impulse 2 v of a force that acts for a time π.
         let force = |time: f64| speed * time.sin();

@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_combination_is_held() {
+    fn bounded_solution_keeps_a_fixed_combination() {
         let found = linear().solve(0.0, Some((&[2.0, 1.0], 0.8)));
         assert!((2.0 * found[0] + found[1] - 0.8).abs() < 1e-6, "{found:?}");
     }

@@ -38,7 +38,7 @@ fn pull(x: &[f64]) -> Vec<f64> {
 /// The conditions of the minimum, with springs' compliance: p ≥ 0, overlap p/k + gap ≥ 0, one of them 0,
 /// and K x = R + Σ p b.
 #[test]
-fn the_balance_is_found() {
+fn active_set_solution_satisfies_balance_and_complementarity() {
     for stiffness in [1e-3, 1.0, 1e3, 1e6] {
         let problem = chain(40, stiffness);
         for seed in 0..50 {
@@ -62,7 +62,7 @@ fn the_balance_is_found() {
 
 /// The search along lines ends at the same springs and so at the same bits.
 #[test]
-fn a_search_along_lines_finds_the_same() {
+fn line_search_finds_the_same_active_set() {
     for stiffness in [1.0, 1e3] {
         let problem = chain(40, stiffness);
         for seed in 0..50 {

@@ -115,7 +115,7 @@ fn forces_are_the_derivative_of_the_stored_energy() {
 
 /// Work of the forces is stored or dissipated, up to the second order of the step.
 #[test]
-fn energy_balances() {
+fn work_of_relaxing_elements_is_stored_or_dissipated() {
     let mesh = mesh();
     let shape = deformed(&mesh);
     for acts_on in MODES {
@@ -217,7 +217,7 @@ fn a_held_amplitude_relaxes_exactly() {
 
 /// Each element has a place of its own, also where lanes are empty.
 #[test]
-fn slots_hold_each_element_once() {
+fn history_slots_store_each_element_once() {
     let mesh = mesh();
     let geometries = geometries(&mesh);
     for n_elements in [96, 95, 91, 89, 57, 12, 9, 7, 1] {

@@ -164,7 +164,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_in_a_grid() {
+    fn grid_position_is_interpolated_and_clamped() {
         let grid = [1.0, 2.0, 4.0];
         let places =
             [(0.5, (0, 0.0)), (1.0, (0, 0.0)), (3.0, (1, 0.5)), (4.0, (1, 1.0)), (9.0, (1, 1.0))];
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_law_differs_from_itself_by_nothing() {
+    fn departure_of_a_law_from_itself_is_zero() {
         for law in HyperelasticLaw::ALL {
             assert_eq!(Departure::up_to([Some(law); 2], 0.3, like(0.4)), Departure::default());
         }
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn grows_with_the_strain_from_nothing() {
+    fn departure_vanishes_at_zero_strain() {
         for law in HyperelasticLaw::ALL {
             let [none, small] = [0.0, 1e-6].map(|strain| Departure::of(law, 0.3, like(strain)));
             assert_eq!(none.contact_time, 0.0);

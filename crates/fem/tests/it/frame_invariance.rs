@@ -2,7 +2,7 @@
 
 use fem::{Approach, Collision, METHODS, OutputRequest, QuantityOfInterest};
 
-use crate::coarse::simulation;
+use crate::coarse_mesh::simulation;
 
 fn quantities(collision: &Collision) -> [Option<f64>; 6] {
     QuantityOfInterest::ALL.map(|quantity| quantity.of(collision))
@@ -10,7 +10,7 @@ fn quantities(collision: &Collision) -> [Option<f64>; 6] {
 
 /// Every approach has the relative speed 0.5 m/s to the last bit.
 #[test]
-fn a_gap_and_a_common_speed_change_nothing() {
+fn results_are_independent_of_gap_and_common_speed() {
     let twins = &["body.1.sphere.diameter='22.2 mm'"][..];
     let wall = &["body.1={name='wall', wall={}}", "body.0.approach_speed=0.5"][..];
     let ways = [

@@ -33,7 +33,7 @@ fn collide(
 
 /// Against Ting's, which knows from its own equations which bodies stay together.
 #[test]
-fn bodies_that_relax_to_nothing_stay_and_others_part() {
+fn relaxing_bodies_separate_or_stay_as_in_ting() {
     for acts_on in [All, Shear] {
         for weight in [1.0, 0.999] {
             for relaxation_time in [1e-7, 1e-6, 1e-5, 1e-4] {
@@ -63,7 +63,7 @@ fn bodies_that_relax_to_nothing_stay_and_others_part() {
 
 /// Nearly nothing is left of the modulus, and what is left parts them, slowly.
 #[test]
-fn a_weak_spring_parts_the_bodies_in_its_own_time() {
+fn small_equilibrium_modulus_separates_bodies_with_tings_restitution() {
     for (weight, relaxation_time) in [(0.9999, 1e-6), (0.9999, 3e-6)] {
         let (scene, run) = collide(All, weight, relaxation_time, OutputRequest::GIVE_UP_AFTER);
         let ting = scene.ting(false);

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use fem_case::Case;
 
-use super::marked::{VALID, parse};
+use super::message_table::{VALID, parse};
 
 #[test]
-fn files() {
+fn unreadable_case_files_are_rejected_and_a_bom_is_accepted() {
     let folder = tempfile::tempdir().unwrap();
     let load = |name: &str| Case::load(&folder.path().join(name), &[]).unwrap_err();
     let error = load("none.toml");

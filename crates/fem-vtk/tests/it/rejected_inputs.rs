@@ -29,7 +29,7 @@ fn square() -> VtuWriter<'static> {
 }
 
 #[test]
-fn empty_meshes_and_arrays() {
+fn writer_rejects_empty_meshes_and_arrays() {
     refused!(VtuWriter::new(&[], &QUADS), Error::Empty { .. });
     refused!(VtuWriter::new(&POINTS, &[]), Error::Empty { .. });
     refused!(square().field_data("none", 1, &[0.0; 0]), Error::Empty { .. });
@@ -37,7 +37,7 @@ fn empty_meshes_and_arrays() {
 }
 
 #[test]
-fn wrong_lengths() {
+fn writer_rejects_arrays_of_wrong_length() {
     let message = refusal(square().point_data("v", 3, &[0.0; 11])).to_string();
     assert_eq!(
         message,
@@ -53,14 +53,14 @@ fn wrong_lengths() {
 }
 
 #[test]
-fn numbers_of_components() {
+fn writer_rejects_wrong_numbers_of_components() {
     refused!(square().point_data("v", 2, &[0.0; 8]), Error::Components { components: 2, .. });
     refused!(square().cell_data("v", 0, &[0.0; 1]), Error::Components { components: 0, .. });
     refused!(square().field_data("v", 0, &[0.0; 1]), Error::Components { components: 0, .. });
 }
 
 #[test]
-fn values_that_are_not_finite() {
+fn writer_rejects_values_that_are_not_finite() {
     let mut values = [0.0; 12];
     values[7] = f64::NAN;
     let message = refusal(square().point_data("velocity", 3, &values)).to_string();
@@ -75,7 +75,7 @@ fn values_that_are_not_finite() {
 }
 
 #[test]
-fn names() {
+fn writer_rejects_invalid_and_duplicate_names() {
     for name in ["", "a\nb", "a\u{1}"] {
         refused!(square().cell_data(name, 1, &[0.0]), Error::Name { .. });
     }
@@ -118,7 +118,7 @@ fn files_have_the_permissions_of_any_new_file() {
 }
 
 #[test]
-fn collections() {
+fn write_collection_rejects_invalid_times_and_file_names() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.pvd");
     let refuse = |snapshots: &[(f64, &str)]| write_collection(&path, snapshots).unwrap_err();

@@ -10,7 +10,7 @@ use fem_material::ActsOn::{All, Shear};
 /// Converged quasi-static finite elements (another code, h = 3.75 µm), met at the default element
 /// size, an eighth of the contact radius.
 #[test]
-fn the_glass_pair_is_the_converged_one() {
+fn glass_pair_equals_converged_finite_elements() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(8.0);
     let run = scene.collide(&pair);
@@ -53,7 +53,7 @@ fn small_contact(acts_on: fem_material::ActsOn, decay: f64) -> Scene {
 /// Wherever the edge of the contact is between two nodes, the peak force is that of the continuum: Hertz' of elastic
 /// bodies, Ting's of relaxing ones. It is −0.03 to +0.12 % off; that of a single step swings from −0.46 to +0.38 %.
 #[test]
-fn the_peak_force_does_not_swing_with_the_edge() {
+fn peak_force_is_independent_of_the_contact_edge_between_nodes() {
     for decay in [0.0, 2708.0] {
         let scene = small_contact(All, decay);
         let pair = scene.condensed(7.0);
@@ -88,7 +88,7 @@ fn the_correction_of_the_force_relaxes_with_it() {
 
 /// a/R → 0: a half-space. Contact time to 1e-4, pressure to 1 %.
 #[test]
-fn a_small_contact_is_hertz() {
+fn small_elastic_contact_equals_hertz() {
     let scene = small_contact(All, 0.0);
     let hertz = scene.hertz();
     assert!(hertz.max_contact_radius() / 7.95e-3 < 1e-4);
@@ -116,7 +116,7 @@ fn a_small_contact_is_hertz() {
 
 /// a/R → 0 with relaxation: Ting's exact solution, e to 1e-4.
 #[test]
-fn a_small_contact_is_ting() {
+fn small_relaxing_contact_equals_ting() {
     for (acts_on, restitution) in [(All, 0.92705), (Shear, 0.94713)] {
         let scene = small_contact(acts_on, 2708.0);
         let run = scene.collide(&scene.condensed(16.0));
@@ -173,7 +173,7 @@ fn scenes() -> [(&'static str, Scene); 6] {
 
 /// A wall is the mirror of a twin, to rounding.
 #[test]
-fn a_wall_is_the_mirror_of_a_twin() {
+fn wall_contact_equals_the_mirrored_twin_pair() {
     let body = || Some((15.9e-3, material(GLASS, Shear, &[(1.0, 2708.0)])));
     let twins = Scene { bodies: [body(), body()], speed: 0.5 };
     // The same elements: as many across the twins' contact, which is the wall's at half the speed.
@@ -190,7 +190,7 @@ fn a_wall_is_the_mirror_of_a_twin() {
 
 /// Hertz under a static force: a³ = 3FR*/4E*, δ = a²/R*, p₀ = 3F/2πa².
 #[test]
-fn a_force_presses_as_hertz_says() {
+fn static_force_gives_the_hertz_approach_radius_and_pressure() {
     for bodies in [
         [Some((22.2e-3, glass())), Some((15.9e-3, material(STEEL, All, &[])))],
         [None, Some((15.9e-3, glass()))],
@@ -217,7 +217,7 @@ fn a_force_presses_as_hertz_says() {
 
 /// Stiff penalty springs approach exact contact.
 #[test]
-fn stiff_springs_are_exact_contact() {
+fn stiff_penalty_springs_approach_exact_contact() {
     let scene = Scene::paper(glass(), glass());
     let exact = scene.collide(&scene.condensed(8.0));
     let time = |factor: f64| {

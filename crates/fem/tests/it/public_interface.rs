@@ -138,7 +138,7 @@ fn members_of_a_sweep_are_run() -> Result<(), CaseError> {
 /// This file uses no other crate of the workspace.
 #[test]
 fn no_other_crate_of_the_workspace_is_used() {
-    let own = include_str!("front_door.rs");
+    let own = include_str!("public_interface.rs");
     let other = ["fem", "_"].concat();
     assert!(own.lines().all(|line| !line.contains(&other)), "a name of a crate below");
 }

@@ -91,7 +91,7 @@ fn compiled(workspace: &BTreeMap<String, Crate>, name: &str) -> BTreeSet<String>
 /// docs/architecture.md has one row per crate: its name, the `description` of its manifest and the crates that it depends
 /// on, each of which has its row before.
 #[test]
-fn crates_stand_on_each_other_as_the_page_on_architecture_says() {
+fn architecture_page_lists_the_dependencies_of_every_crate() {
     let workspace = workspace();
     let page = fs::read_to_string(root().join("docs/architecture.md")).expect("a page");
     let rows = page.lines().skip_while(|line| !line.starts_with("| crate |")).skip(2);
@@ -113,7 +113,7 @@ fn crates_stand_on_each_other_as_the_page_on_architecture_says() {
 }
 
 #[test]
-fn the_language_of_cases_compiles_no_solver() {
+fn fem_case_depends_on_no_solver() {
     let compiled = compiled(&workspace(), "fem-case");
     let solvers: Vec<_> = SOLVERS.iter().filter(|solver| compiled.contains(**solver)).collect();
     assert!(solvers.is_empty(), "fem-case compiles {solvers:?}");
@@ -121,7 +121,7 @@ fn the_language_of_cases_compiles_no_solver() {
 }
 
 #[test]
-fn only_the_command_knows_a_terminal() {
+fn only_fem_run_depends_on_terminal_crates() {
     let workspace = workspace();
     for name in workspace.keys().filter(|name| ![COMMAND, PYTHON].contains(&name.as_str())) {
         let compiled = compiled(&workspace, name);
@@ -134,7 +134,7 @@ fn only_the_command_knows_a_terminal() {
 
 /// `cargo test` and `cargo build` take every crate but two.
 #[test]
-fn every_crate_but_two_is_a_default_member() {
+fn all_crates_but_two_are_default_members() {
     let manifest: toml::Table =
         fs::read_to_string(root().join("Cargo.toml")).expect("a manifest").parse().expect("TOML");
     let patterns = manifest["workspace"]["default-members"].as_array().expect("default members");

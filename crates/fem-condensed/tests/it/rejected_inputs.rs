@@ -8,7 +8,7 @@ use fem_condensed::{CondensedError, CondensedPair, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 
 #[test]
-fn a_contact_beyond_the_candidates_is_told_and_enlarged() {
+fn contact_beyond_the_candidate_region_is_reported_and_enlarged() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(8.0);
     let fast = pair.impact(5.0, [None; 2], CondensedPair::N_STEPS);
@@ -29,7 +29,7 @@ fn a_contact_beyond_the_candidates_is_told_and_enlarged() {
 }
 
 #[test]
-fn impossible_inputs_are_refused() {
+fn condensed_pair_rejects_impossible_inputs() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(4.0);
     let with = |speed: f64, n_steps: usize| pair.impact(speed, [None; 2], n_steps);
@@ -49,7 +49,7 @@ fn impossible_inputs_are_refused() {
 
 /// Bodies that relax completely within the contact stay together: the restitution is 0, or nearly.
 #[test]
-fn bodies_that_stay_together() {
+fn fully_relaxing_bodies_stay_together() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(4.0).enlarge(4e-3).unwrap();
     let n_steps = CondensedPair::N_STEPS;
@@ -73,7 +73,7 @@ fn bodies_that_stay_together() {
 
 /// A run that does not end keeps what it has.
 #[test]
-fn a_stopped_run_keeps_what_it_has() {
+fn stopped_run_keeps_its_results_so_far() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(4.0);
     struct StopAtSecond(usize);
@@ -101,7 +101,7 @@ fn a_stopped_run_keeps_what_it_has() {
 
 /// Modes that the mesh cannot carry are left out; with those that it can, energy adds up.
 #[test]
-fn only_modes_that_the_mesh_resolves() {
+fn unresolved_vibration_modes_are_left_out() {
     let scene = Scene::paper(glass(), glass());
     for (elements, most) in [(0.25, 12), (4.0, 30)] {
         let settings = PairSettings { vibration_modes: 100, ..scene.settings() };
@@ -118,7 +118,7 @@ fn only_modes_that_the_mesh_resolves() {
 /// the same. Lanczos vectors beyond the modes that the mesh resolves are rounding; with them twins had 18
 /// and 8 modes of 40, and one pair in three no contact state.
 #[test]
-fn more_modes_than_there_are_spoil_none() {
+fn excess_requested_modes_leave_the_resolved_modes_unchanged() {
     for speed in [20.0] {
         for diameter in [15.9e-3, 22.2e-3, 60e-3] {
             let bodies = [22.2e-3, diameter].map(|diameter| Some((diameter, glass())));
@@ -144,7 +144,7 @@ fn more_modes_than_there_are_spoil_none() {
 
 /// One pair serves any number of threads.
 #[test]
-fn a_pair_is_shared() {
+fn condensed_pair_is_shared_between_threads() {
     fn is_shared<T: Send + Sync>(_: &T) {}
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(4.0);

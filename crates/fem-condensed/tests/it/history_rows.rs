@@ -14,7 +14,7 @@ fn collide(n_steps: usize) -> Collision {
 
 /// About a thousand over the contact, however few steps there are, begin and end of the contact among them.
 #[test]
-fn few_steps_have_as_many_rows() {
+fn history_has_about_1000_rows_for_any_number_of_steps() {
     for n_steps in [125, 250, 333, 1000, 3000] {
         let run = collide(n_steps);
         let last = run.last_contact.unwrap();

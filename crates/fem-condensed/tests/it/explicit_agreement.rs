@@ -47,7 +47,7 @@ fn width(rows: impl Iterator<Item = (f64, f64)>, restitution: f64, speed: f64) -
 
 /// Six scenes, of every kind of body.
 #[test]
-fn six_scenes_are_the_explicit_ones() {
+fn six_scenes_equal_the_explicit_results() {
     let sphere = |diameter, material| Some((diameter, material));
     let two = |lower, upper, speed| Scene { bodies: [lower, upper], speed };
     let scenes = [

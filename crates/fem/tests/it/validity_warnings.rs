@@ -2,7 +2,7 @@
 
 use fem::{Collision, QuantityOfInterest, Simulation, diagnose};
 
-use crate::coarse::{refused, simulation};
+use crate::coarse_mesh::{refused, simulation};
 use crate::scene::simulation_of;
 
 fn warnings(simulation: &Simulation) -> Vec<String> {

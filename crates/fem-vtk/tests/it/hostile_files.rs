@@ -38,7 +38,7 @@ fn refuse(text: &str, words: &str) {
 }
 
 #[test]
-fn the_square_itself_is_read() {
+fn unmodified_square_is_read() {
     let bytes = ascii(POINTS, "0 1 2 3", "4", "9").into_bytes();
     assert_eq!(
         VtuFile::from_bytes("square.vtu", bytes).unwrap().quad_mesh().unwrap().quads,
@@ -47,7 +47,7 @@ fn the_square_itself_is_read() {
 }
 
 #[test]
-fn wrong_numbers_in_the_mesh() {
+fn reader_rejects_wrong_numbers_in_the_mesh() {
     refuse(
         &ascii("0 0 0 1 0 0 1 1 0 0 1", "0 1 2 3", "4", "9"),
         "found 11 values; allowed: 4 tuples x 3",
@@ -77,7 +77,7 @@ fn offsets_that_leave_gaps_and_data_in_pieces() {
 }
 
 #[test]
-fn wrong_counts() {
+fn reader_rejects_wrong_point_and_cell_counts() {
     let count = |piece: &str| square(piece, POINTS, "0 1 2 3", "4", "9");
     refuse(&count("NumberOfPoints=\"0\" NumberOfCells=\"0\""), "found 0 points, 0 cells");
     refuse(&count("NumberOfPoints=\"-4\" NumberOfCells=\"1\""), "NumberOfPoints \"-4\"");
@@ -88,7 +88,7 @@ fn wrong_counts() {
 }
 
 #[test]
-fn other_files() {
+fn reader_rejects_other_file_types() {
     let square = ascii(POINTS, "0 1 2 3", "4", "9");
     refuse("", "no VTKFile element");
     refuse("# vtk DataFile Version 5.1\nASCII\n", "no VTKFile element");
@@ -133,7 +133,7 @@ fn header(numbers: &[u64]) -> Vec<u8> {
 }
 
 #[test]
-fn headers_that_promise_too_much() {
+fn reader_rejects_headers_that_claim_too_many_bytes() {
     let wide = "header_type=\"UInt64\"";
     for n_bytes in [1, 96, 1 << 40, u64::MAX] {
         refuse(&binary(wide, &header(&[n_bytes])), "truncated");

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fem::{Approach, Case, Collision, METHODS, OutputRequest, Simulation, SnapshotRequest, Stop};
 
-use crate::coarse::simulation;
+use crate::coarse_mesh::simulation;
 
 /// Returns an approach so fast that the contact outgrows its first candidate region.
 fn fast() -> Approach {
@@ -17,7 +17,7 @@ fn plain(collision: &Collision) -> Collision {
 }
 
 #[test]
-fn collisions_are_independent() {
+fn collisions_of_one_model_are_independent_of_order() {
     for method in METHODS {
         let simulation = simulation(method.name(), &[]);
         let model = simulation.model();
