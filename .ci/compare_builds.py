@@ -139,7 +139,7 @@ def json_difference(old, new):
     different = [pair for pair in pairs if pair[0] != pair[1]]
     if not different:
         spaces = [re.sub(r"\S+", "", text) for text in (old, new)]
-        return "white space" if spaces[0] != spaces[1] else None
+        return "white space" if spaces[0] != spaces[1] and not left_out["words"] else None
     before, after = (": ".join(map(str, entry)) if entry else "nothing" for entry in different[0])
     more = f", and {len(different) - 1} more" if len(different) > 1 else ""
     return f"{before} -> {after}{more}"

@@ -92,7 +92,7 @@ fn deformed(mesh: &SphereMesh) -> Vec<[f64; 2]> {
 
 /// Forces of every law are the slope of its energy, in a patch where no element is like another.
 #[test]
-fn forces_are_the_derivative_of_the_energy() {
+fn finite_strain_forces_are_the_derivative_of_the_energy() {
     let mesh = mesh();
     let u = deformed(&mesh);
     for law in HyperelasticLaw::ALL {
@@ -261,7 +261,7 @@ fn small_strain_is_the_limit() {
 }
 
 #[test]
-fn a_rigid_translation_gives_exactly_no_force() {
+fn finite_strain_rigid_translation_gives_exactly_no_force() {
     let mesh = mesh();
     for law in HyperelasticLaw::ALL {
         let stress = stress(&mesh, &unit_glass(), law);
@@ -273,7 +273,7 @@ fn a_rigid_translation_gives_exactly_no_force() {
 
 /// Axial momentum: the forces of any deformation sum to zero.
 #[test]
-fn internal_forces_balance() {
+fn finite_strain_internal_forces_balance() {
     let mesh = mesh();
     let f = forces(&*stress(&mesh, &unit_glass(), HyperelasticLaw::NeoHooke), &deformed(&mesh));
     let (sum, size) = f.iter().fold((0.0, 0.0), |(sum, size), f| (sum + f[1], size + f[1].abs()));

@@ -52,7 +52,7 @@ fn energy_is_half_of_displacement_times_force() {
 }
 
 #[test]
-fn a_rigid_translation_gives_exactly_no_force() {
+fn small_strain_rigid_translation_gives_exactly_no_force() {
     let moduli = moduli(&unit_glass());
     for mesh in meshes() {
         let blocks = pack(&mesh);
@@ -66,7 +66,7 @@ fn a_rigid_translation_gives_exactly_no_force() {
 
 /// Axial momentum: the forces of any displacement sum to zero.
 #[test]
-fn internal_forces_balance() {
+fn small_strain_internal_forces_balance() {
     let moduli = moduli(&unit_glass());
     for mesh in meshes() {
         let blocks = pack(&mesh);

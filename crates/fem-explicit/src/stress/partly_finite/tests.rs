@@ -119,7 +119,7 @@ fn finite_and_small_strain_elements_agree_at_small_strain_only() {
 
 /// Forces are the derivative of the energy of both kinds together.
 #[test]
-fn forces_are_the_derivative_of_the_energy() {
+fn partly_finite_forces_are_the_derivative_of_the_energy() {
     let mesh = mesh();
     let (geometries, u) = (geometries(&mesh), deformed(&mesh, 0.02));
     let stress = finite_strain_within(0.7, &mesh, &geometries, &unit_glass(), LAW);

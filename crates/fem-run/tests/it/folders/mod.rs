@@ -1,10 +1,10 @@
 //! Result folders: their files, what they replace, and what interrupted or killed runs leave.
 
-mod disturbed;
+mod corrupted_restart;
 mod full_disk;
-mod leftovers;
+mod killed_run_recovery;
 mod repeatability;
-mod replacing;
 mod restart;
 mod result_folder;
+mod result_replacement;
 mod stopping;

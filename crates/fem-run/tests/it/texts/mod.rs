@@ -1,8 +1,8 @@
 //! Texts for people: terminal, standard streams, report pages, a first case.
 
-mod first_minutes;
-mod numbers;
+mod new_and_materials;
+mod printed_numbers;
 mod report;
 mod source_texts;
-mod streams;
+mod stdin_stdout;
 mod terminal;
