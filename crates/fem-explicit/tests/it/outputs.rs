@@ -215,7 +215,7 @@ fn contact_beyond_the_candidate_region_stops_the_run() {
         assert!(reached > 0.0 && reached <= radius);
         assert_eq!(run.restitution, None);
         // Labels that had not come yet are missed.
-        assert!(run.stop().unwrap().to_string().contains("the end of the candidate region"));
+        assert!(run.stop().unwrap().to_string().contains("the edge of the region"));
     }
 }
 
