@@ -82,7 +82,7 @@ impl Profile {
         self
     }
 
-    /// Returns the radii (m) of the nodes after the last one, at most [`N_BEYOND`], for surfaces that can touch out
+    /// Returns the radii (m) of the nodes after the last one, at most `N_BEYOND`, for surfaces that can touch out
     /// to a radius, m.
     pub fn nodes_beyond(
         &self,

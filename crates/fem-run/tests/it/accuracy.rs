@@ -43,7 +43,7 @@ fn accuracy_suggests_variants_for_the_given_tolerance() {
     ] {
         let ran = place.fails(
             0,
-            &["accuracy", "case.toml", "--tolerance", tolerance, "--out", "out", "--force"],
+            ["accuracy", "case.toml", "--tolerance", tolerance, "--out", "out", "--force"],
         );
         assert!(ran.stdout.lines().any(|line| line.starts_with(begins)), "{}", ran.stdout);
     }

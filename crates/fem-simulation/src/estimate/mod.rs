@@ -37,7 +37,7 @@ pub struct Estimate {
     pub strain: f64,
     /// Approach speed over the slowest shear wave speed.
     pub mach: f64,
-    /// Equivalent speed ratio of bulk waves that are slower than shear waves ([`ringing`]); 0 unless Poisson's ratio is
+    /// Equivalent speed ratio of bulk waves that are slower than shear waves (`ringing`); 0 unless Poisson's ratio is
     /// negative.
     pub ringing: f64,
     /// Share of its modulus that the more relaxing body loses during the contact, Σ g (1 − exp(−T/τ)).

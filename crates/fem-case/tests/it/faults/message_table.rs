@@ -88,7 +88,6 @@ pub fn error_at_mark(marked: &str) -> CaseError {
 fn every_fault_of_the_table_has_its_position_message_and_help() {
     let lines = include_str!("table.txt").lines();
     for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        println!("{line}");
         let line = line.replace('⏎', "\n");
         let (part, rest) = line.split_once(" => ").unwrap();
         let cells: Vec<&str> = rest.split(" | ").collect();

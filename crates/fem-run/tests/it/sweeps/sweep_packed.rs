@@ -55,7 +55,7 @@ fn a_packed_sweep_has_one_file_the_same_table_and_survives_a_kill() {
     // Results in folders are used too, and the other way round.
     for file in ["packed.toml", "folders.toml"] {
         for out in ["packed", "folders"] {
-            let said = sweep(&place, &[file, "--out", out]);
+            let said = sweep(&place, [file, "--out", out]);
             assert!(said.contains("30 done before, 0 to run"), "{said}");
         }
     }
@@ -67,7 +67,7 @@ fn shards_have_a_file_each() {
     let place = place();
     sweep(&place, "folders.toml --out folders");
     for shard in ["2/3", "3/3"] {
-        sweep(&place, &["packed.toml", "--out", "packed", "--no-merge", "--shard", shard]);
+        sweep(&place, ["packed.toml", "--out", "packed", "--no-merge", "--shard", shard]);
     }
     let packs = place.list("packed/members");
     assert!(packs.len() == 2 && packs[1].starts_with("3-of-3."), "{packs:?}");
@@ -94,7 +94,7 @@ fn sweeps_above_10000_members_are_packed_by_default() {
         let out = n.to_string();
         let shard = format!("{n}/{n}");
         let words = ["many.toml", "--out", &out, "--no-merge", "--shard", &shard];
-        sweep(&place, &words);
+        sweep(&place, words);
         let list = place.list(&format!("{out}/members"));
         assert!(list.len() == 1 && list[0].ends_with(".jsonl") == packs, "{list:?}");
     }
