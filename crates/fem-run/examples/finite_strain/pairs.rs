@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use fem::effects::{EFFECTS, Effect, NeglectError};
+use fem::effects::{Effect, FiniteStrain, NeglectError};
 
 use crate::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
 
@@ -133,9 +133,7 @@ fn in_series(a: f64, b: Option<f64>) -> f64 {
 
 /// Returns the plan's estimate of the changes without finite strain.
 fn foretold(simulation: &fem::Simulation) -> Result<NeglectError, Fault> {
-    let effect = EFFECTS.iter().find(|effect| effect.name() == "finite strain");
     let estimate = &simulation.setup().estimate;
-    let neglect_error =
-        |effect: &&dyn Effect| effect.neglect_error(simulation.case().scene(), estimate);
-    Ok(effect.and_then(neglect_error).ok_or("nothing is foretold")?)
+    let neglect_error = FiniteStrain.neglect_error(simulation.case().scene(), estimate);
+    Ok(neglect_error.ok_or("nothing is foretold")?)
 }

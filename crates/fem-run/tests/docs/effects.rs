@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use fem::effects::{EFFECTS, Support};
+use fem::effects::{EFFECTS, Effect, Support};
 
 use crate::pages::Page;
 
@@ -43,12 +43,11 @@ fn every_effect_that_is_computed_has_a_row() {
     for row in ROWS {
         let simulation = row.on.simulation();
         let estimate = &simulation.setup().estimate;
-        let has = |name: &str| {
-            let effect = EFFECTS.into_iter().find(|effect| effect.name() == name)?;
-            simulation.model().support(effect, estimate).filter(|answer| *answer != Support::Lacks)
+        let is_computed = |effect: &&dyn Effect| {
+            let support = simulation.model().support(*effect, estimate);
+            support.is_some_and(|support| support != Support::Lacks)
         };
-        computed
-            .extend(EFFECTS.iter().map(|effect| effect.name()).filter(|name| has(name).is_some()));
+        computed.extend(EFFECTS.into_iter().filter(is_computed).map(|effect| effect.name()));
     }
     let rows: BTreeSet<&str> = ROWS.iter().map(|row| row.name).collect();
     let kept = BTreeSet::from(KEPT);

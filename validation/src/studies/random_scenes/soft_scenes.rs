@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 use fem::Simulation;
 use fem::accuracy::Setting;
-use fem::effects::{EFFECTS, FiniteStrain};
+use fem::effects::{Effect, FiniteStrain};
 use fem_case::{Accuracy, Case, CaseError};
 use fem_collision::{Collision, QuantityOfInterest};
 use serde::Deserialize;
@@ -185,9 +185,8 @@ fn compute(
 /// Whether contact time and peak force without finite strain differ from those with it by as much as the plan
 /// estimates; `None` if that run has none.
 fn is_estimated(simulation: &Simulation, with: &Collision, without: &Collision) -> Option<bool> {
-    let effect = EFFECTS.iter().find(|effect| effect.name() == FiniteStrain::NAME)?;
     let estimate = &simulation.setup().estimate;
-    let estimated = effect.neglect_error(simulation.case().scene(), estimate)?;
+    let estimated = FiniteStrain.neglect_error(simulation.case().scene(), estimate)?;
     let hertz = &estimate.hertz;
     let is_within = |of: fn(&Collision) -> Option<f64>, estimated: Option<f64>, whole: f64| {
         let change = (of(without)? / of(with)? - 1.0).abs();

@@ -1,5 +1,6 @@
 //! `fem-run calibrate` on the command line.
 
+use super::rejects_data;
 use crate::common::{CASE, Place};
 
 const ICE: &str = include_str!("../../../../../cases/ice_2cm.toml");
@@ -125,10 +126,8 @@ fn nine_pairings_share_a_series() {
 #[test]
 fn calibrate_reports_faults_with_position_and_writes_nothing() {
     let place = Place::new();
-    let refused = |csv: &str, more: &str, expected: &str| {
-        place.write("bad.csv", csv);
-        place.fails(2, ("calibrate case.toml --data bad.csv", more)).tells(expected);
-        assert!(!place.path("runs").exists());
+    let refused = |csv, more, expected| {
+        rejects_data(&place, "calibrate case.toml --data bad.csv", [csv, more, expected]);
     };
     let good = "speed_m_s,e\n0.2,0.9\n0.5,0.91\n";
     refused(

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::rejects_data;
 use crate::common::{CASE, Place};
 
 const ICE: &str = include_str!("../../../../../cases/ice_2cm.toml");
@@ -76,11 +77,9 @@ fn one_point_fits_one_parameter_and_not_two() {
 #[test]
 fn faults_of_data_and_options_are_pointed_at() {
     let place = ice();
-    let refused = |csv: &str, more: &str, expected: &str| {
-        place.write("bad.csv", csv);
+    let refused = |csv, more, expected| {
         let law = "fit case.toml --data bad.csv --law bordbar_hyppanen";
-        place.fails(2, (law, more)).tells(expected);
-        assert!(!place.path("runs").exists());
+        rejects_data(&place, law, [csv, more, expected]);
     };
     refused("speed_m_s,e\n1,0.9\n2,much\n", "", "bad.csv:3: e is \"much\", which is not a number");
     refused("speed_m_s,e\n1,0.9\n-2,0.8\n", "", "bad.csv:3: the approach speed is -2.0 m/s");
