@@ -196,7 +196,7 @@ impl CondensedPair {
                 elements: Some(mesh.map_or(0, |mesh| mesh.quads().len())),
                 nodes: Some(mesh.map_or(0, |mesh| mesh.nodes().len())),
                 mass: frame.masses[side],
-                added_mass: frame.masses[side].map(|_| 0.0),
+                moved_mass: frame.masses[side].map(|_| 0.0),
                 ..BodyResult::default()
             }
         })

@@ -70,27 +70,27 @@ struct EnergyCurve {
 }
 
 fn energy(run: &[HistoryRow], common: Option<f64>) -> Option<String> {
-    let courses = courses(run, common);
-    let all = || courses.iter().flat_map(|course| course.energies.iter().flatten().copied());
+    let curves = energy_curves(run, common);
+    let all = || curves.iter().flat_map(|curve| curve.energies.iter().flatten().copied());
     let largest = all().fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
     let (time, own) = (time_unit(run), unit(all(), "J"));
     let mut chart = Chart::new(axis("time", &time), axis("energy", &own));
-    let is_seen = |course: &&EnergyCurve| {
-        course.energies.iter().flatten().any(|energy| energy.abs() > LEAST * largest)
+    let is_seen = |curve: &&EnergyCurve| {
+        curve.energies.iter().flatten().any(|energy| energy.abs() > LEAST * largest)
     };
-    for course in courses.iter().filter(is_seen) {
+    for curve in curves.iter().filter(is_seen) {
         let point = |(row, energy): (&HistoryRow, &Option<f64>)| {
             Some((time.scaled(row.time), own.scaled((*energy)?)))
         };
-        let points = run.iter().zip(&course.energies).filter_map(point).collect();
-        chart = chart.with(Curve::line(course.name.clone(), points).like_curve(course.colour));
+        let points = run.iter().zip(&curve.energies).filter_map(point).collect();
+        chart = chart.with(Curve::line(curve.name.clone(), points).like_curve(curve.colour));
     }
     fem_figure::panel(&chart)
 }
 
 /// Returns the relative motion and the other accounts; deformation and heat are one curve if the model does
 /// not distinguish them during the contact.
-fn courses(run: &[HistoryRow], common: Option<f64>) -> Vec<EnergyCurve> {
+fn energy_curves(run: &[HistoryRow], common: Option<f64>) -> Vec<EnergyCurve> {
     let motion =
         |row: &HistoryRow| Some(row.energy(Account::Kinetic)? - common.unwrap_or_default());
     let named = |name: &str, colour: usize, get: &dyn Fn(&HistoryRow) -> Option<f64>| EnergyCurve {
@@ -99,7 +99,7 @@ fn courses(run: &[HistoryRow], common: Option<f64>) -> Vec<EnergyCurve> {
         energies: run.iter().map(get).collect(),
     };
     let name = if common.is_some() { "relative motion" } else { "motion" };
-    let mut courses = vec![named(name, colour(Account::Kinetic), &motion)];
+    let mut curves = vec![named(name, colour(Account::Kinetic), &motion)];
     let is_split = run.iter().all(|row| row.energy(Account::Strain).is_some());
     let is_apart = |account: Account| {
         !is_split && matches!(account, Account::Strain | Account::ViscousDissipation)
@@ -107,7 +107,7 @@ fn courses(run: &[HistoryRow], common: Option<f64>) -> Vec<EnergyCurve> {
     for account in Account::all().filter(|account| *account != Account::Kinetic) {
         if !is_apart(account) {
             let name = account.name().replace('_', " ");
-            courses.push(named(&name, colour(account), &|row| row.energy(account)));
+            curves.push(named(&name, colour(account), &|row| row.energy(account)));
         }
     }
     if let (false, Some(whole)) = (is_split, run.first().and_then(motion)) {
@@ -116,9 +116,9 @@ fn courses(run: &[HistoryRow], common: Option<f64>) -> Vec<EnergyCurve> {
             let known = known.filter(|(account, _)| *account != Account::Kinetic);
             Some(whole - motion(row)? - known.map(|(_, energy)| energy).sum::<f64>())
         };
-        courses.push(named("deformation and heat", colour(Account::Strain), &rest));
+        curves.push(named("deformation and heat", colour(Account::Strain), &rest));
     }
-    courses
+    curves
 }
 
 /// Returns the index of an account's colour, which is also that of the page's bar of energies.

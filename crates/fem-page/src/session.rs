@@ -39,7 +39,7 @@ pub struct Session {
     shared: SharedModels,
     simulation: Option<Simulation>,
     ask: Option<RecordedAmount>,
-    course: Option<Box<dyn Stepper>>,
+    stepper: Option<Box<dyn Stepper>>,
     collision: Option<Collision>,
 }
 
@@ -48,7 +48,7 @@ impl Default for Session {
         let pairs = || Arc::new(PairCache::with_max_bytes(MOST_KEPT));
         let shared =
             SharedModels { pairs: pairs(), reference_pairs: pairs(), ..SharedModels::default() };
-        Self { shared, simulation: None, ask: None, course: None, collision: None }
+        Self { shared, simulation: None, ask: None, stepper: None, collision: None }
     }
 }
 
@@ -68,7 +68,7 @@ impl Session {
     /// # Errors
     /// The case is invalid, its model rejects it, or it would record too much.
     pub fn begin(&mut self, text: &str, ask: RecordedAmount) -> Result<RunStart, CaseError> {
-        (self.simulation, self.course, self.collision) = (None, None, None);
+        (self.simulation, self.stepper, self.collision) = (None, None, None);
         let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;
         let mut simulation = Simulation::sharing(case, &self.shared)?;
         let snapshots = SnapshotRequest::Count(ask.frames);
@@ -83,27 +83,27 @@ impl Session {
             price: setup.cost.into(),
             warnings: simulation.warnings_before(),
         };
-        (self.course, self.ask) = (Some(simulation.start()), Some(ask));
+        (self.stepper, self.ask) = (Some(simulation.start()), Some(ask));
         self.simulation = Some(simulation);
         Ok(begun)
     }
 
     /// Computes the next pieces of the run and returns the completed share, 1 when it is over.
     pub fn advance(&mut self, pieces: u32) -> f64 {
-        let Some(course) = &mut self.course else { return 1.0 };
+        let Some(stepper) = &mut self.stepper else { return 1.0 };
         for _ in 0..pieces {
-            if !course.advance(&mut ()) {
+            if !stepper.advance(&mut ()) {
                 return 1.0;
             }
         }
-        course.progress().fraction.min(MOST_UNDER_WAY)
+        stepper.progress().fraction.min(MOST_UNDER_WAY)
     }
 
     /// Returns the outcome after this time in seconds; an unfinished run is interrupted. `None` if nothing
     /// runs.
     pub fn finish(&mut self, seconds: f64) -> Option<RunOutcome> {
         let simulation = self.simulation.as_ref()?;
-        let collision = self.course.take()?.finish();
+        let collision = self.stepper.take()?.finish();
         let spent =
             CostSummary { wall_s: seconds, solve_s: seconds, threads: 1, ..CostSummary::default() };
         let errors = simulation.estimate_errors(&collision);

@@ -97,15 +97,15 @@ fn line(row: &Row) -> String {
 fn cost(side: &Side, simulation: &fem::Simulation) -> Cost {
     let contact = side.contact();
     let begin = Instant::now();
-    let mut course = side.start(contact.as_ref(), simulation);
+    let mut stepper = side.start(contact.as_ref(), simulation);
     let mut spent = begin.elapsed();
     // The instants of the force pulse are recorded with any effects; they do not count.
-    let bytes = n_bytes(course.as_ref());
+    let bytes = n_bytes(stepper.as_ref());
     let begin = Instant::now();
-    while course.advance(&mut ()) {}
+    while stepper.advance(&mut ()) {}
     spent += begin.elapsed();
     let begin = Instant::now();
-    let collision = course.finish();
+    let collision = stepper.finish();
     if side.kept == Kept::Stress {
         for snapshot in &collision.snapshots {
             for side in 0..2 {

@@ -136,15 +136,15 @@ fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
 /// Returns the shortest time of a step among some reports, so that other work of the machine does not
 /// count.
 fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
-    let mut course = simulation.start();
+    let mut stepper = simulation.start();
     let begin = Instant::now();
     let (mut fewest, mut before) = (None, (Duration::ZERO, 0));
     let mut n_reports = 0;
     let goes_on = |spent: Duration, n_reports: u32| {
         spent < PATIENCE || (n_reports < REPORTS && spent < PATIENCE_WITH_REPORTS)
     };
-    while goes_on(begin.elapsed(), n_reports) && course.advance(&mut ()) {
-        let now = (begin.elapsed(), course.progress().step);
+    while goes_on(begin.elapsed(), n_reports) && stepper.advance(&mut ()) {
+        let now = (begin.elapsed(), stepper.progress().step);
         let seconds = (now.0 - before.0).as_secs_f64() / (now.1 - before.1).max(1) as f64;
         fewest = Some(fewest.map_or(seconds, |fewest: f64| fewest.min(seconds)));
         (before, n_reports) = (now, n_reports + 1);

@@ -101,7 +101,7 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     for warning in simulation.warnings(&collision) {
         rejected(&warning)?;
     }
-    let numbers = QuantityOfInterest::ALL.map(|headline| headline.of(&collision));
+    let numbers = QuantityOfInterest::ALL.map(|quantity| quantity.of(&collision));
     match collision.stop() {
         Some(stop) => rejected(&stop.to_string()),
         None if numbers.into_iter().flatten().any(|number| !number.is_finite()) => {
@@ -117,11 +117,11 @@ fn look_at(simulation: &Simulation) -> Result<(), String> {
     for warning in simulation.warnings_before() {
         rejected(&warning)?;
     }
-    for verdict in &setup.decisions.verdicts {
-        if EFFECTS.iter().all(|effect| effect.name() != verdict.name) {
-            return Err(format!("an effect of no name, {}", verdict.name));
+    for decision in &setup.decisions.all {
+        if EFFECTS.iter().all(|effect| effect.name() != decision.name) {
+            return Err(format!("an effect of no name, {}", decision.name));
         }
-        simulation.neglect_error(verdict, &setup.estimate);
+        simulation.neglect_error(decision, &setup.estimate);
     }
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| format!("no resolved case: {error}"))?;

@@ -21,7 +21,7 @@ pub struct Checkpoint {
 struct Run {
     simulation: Simulation,
     identity: Identity,
-    memories: Vec<RestartState>,
+    states: Vec<RestartState>,
 }
 
 impl Checkpoint {
@@ -58,14 +58,14 @@ impl Run {
     fn of(text: &str, overrides: &[String]) -> Self {
         let case = Case::parse("case.toml", text, Path::new("."), overrides).expect("a case");
         let simulation = Simulation::new(case).expect("a simulation");
-        let mut course = simulation.start();
-        let mut memories: Vec<RestartState> = course.restart_state().into_iter().collect();
+        let mut stepper = simulation.start();
+        let mut states: Vec<RestartState> = stepper.restart_state().into_iter().collect();
         for share in [0.1, 0.5, 0.9] {
-            while course.progress().fraction < share && course.advance(&mut ()) {}
-            memories.extend(course.restart_state());
+            while stepper.progress().fraction < share && stepper.advance(&mut ()) {}
+            states.extend(stepper.restart_state());
         }
         let identity = Identity::of(simulation.case()).expect("an identity");
-        Self { simulation, identity, memories }
+        Self { simulation, identity, states }
     }
 }
 
@@ -74,15 +74,15 @@ impl Target for Checkpoint {
     fn make(&self, random: &mut Random) -> Vec<u8> {
         let k = random.below(self.runs.len());
         let run = &self.runs[k];
-        let memory = &run.memories[random.below(run.memories.len())];
+        let state = &run.states[random.below(run.states.len())];
         let mut bytes = match random.below(4) {
             0 => {
-                let mut bytes = checkpoint(&run.identity, memory);
+                let mut bytes = checkpoint(&run.identity, state);
                 change_bytes(&mut bytes, random);
                 bytes
             }
             1 | 2 => {
-                let mut bytes = checkpoint(&run.identity, memory);
+                let mut bytes = checkpoint(&run.identity, state);
                 let body = bytes.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1);
                 let mut changed = bytes.split_off(body);
                 for _ in 0..=random.below(3) {
@@ -91,11 +91,11 @@ impl Target for Checkpoint {
                 whole(&bytes, &changed)
             }
             _ => {
-                let mut value = serde_json::to_value(memory).unwrap_or_default();
+                let mut value = serde_json::to_value(state).unwrap_or_default();
                 for _ in 0..=random.below(3) {
                     change_value(&mut value, random);
                 }
-                let changed = serde_json::from_value(value).unwrap_or_else(|_| memory.clone());
+                let changed = serde_json::from_value(value).unwrap_or_else(|_| state.clone());
                 checkpoint(&run.identity, &changed)
             }
         };
@@ -106,20 +106,20 @@ impl Target for Checkpoint {
     fn take(&self, input: &[u8]) -> Result<Taken, String> {
         let Some((k, bytes)) = input.split_first() else { return Ok(Taken::Rejected) };
         let run = &self.runs[usize::from(*k) % self.runs.len()];
-        let memory = match restart_state_of(bytes, &run.identity) {
+        let state = match restart_state_of(bytes, &run.identity) {
             Err(error) => return rejected(&error.to_string().replace(char::is_control, " ")),
-            Ok(memory) => memory,
+            Ok(state) => state,
         };
-        match run.simulation.resume(memory) {
+        match run.simulation.resume(state) {
             Err(error) => rejected(&error.to_string()),
-            Ok(mut course) => {
+            Ok(mut stepper) => {
                 let mut patience = Patience(4);
                 for _ in 0..4 {
-                    if !course.advance(&mut patience) {
+                    if !stepper.advance(&mut patience) {
                         break;
                     }
                 }
-                course.finish();
+                stepper.finish();
                 Ok(Taken::Accepted)
             }
         }

@@ -150,7 +150,7 @@ pub struct BodyResult {
     /// Mass, kg; a wall or a half-space has none.
     pub mass: Option<f64>,
     /// Mass that mass scaling moved to light nodes of the body, kg.
-    pub added_mass: Option<f64>,
+    pub moved_mass: Option<f64>,
     /// Velocity of the mass centre along +y, m/s; for a half-space that of its far boundary.
     pub velocity_after: Option<f64>,
     /// Energy of the vibrations that are left, J; for a half-space that of the outgoing waves.
@@ -160,9 +160,9 @@ pub struct BodyResult {
 impl Collision {
     /// Returns the mass that mass scaling moves to light nodes of each body, over the mass of the
     /// lighter body.
-    pub fn added_shares(&self) -> [Option<f64>; 2] {
+    pub fn moved_shares(&self) -> [Option<f64>; 2] {
         let lightest = self.bodies.iter().filter_map(|body| body.mass).reduce(f64::min);
-        self.bodies.each_ref().map(|body| Some(body.added_mass? / lightest?))
+        self.bodies.each_ref().map(|body| Some(body.moved_mass? / lightest?))
     }
 
     /// Creates an empty result of a collision that was not computed, with the reason.

@@ -47,7 +47,7 @@ pub struct Body {
     mesh: Option<SphereMesh>,
     material: Option<Material>,
     mass: f64,
-    added_mass: f64,
+    moved_mass: f64,
     /// Whether its mass centre is held in place.
     pub(crate) held: bool,
     /// Acceleration along +y by uniform forces on its nodes, m/s².
@@ -66,11 +66,11 @@ impl Body {
     ) -> Self {
         match unscaled {
             UnscaledBody::Meshed(meshed) => {
-                let (nodal_mass, added_mass) = meshed.bound.scale_mass(critical);
+                let (nodal_mass, moved_mass) = meshed.bound.scale_mass(critical);
                 let stress = meshed.stress.strain_measure().finite();
                 let of = || Arc::new(ChangingBound::new(meshed.bound.clone(), stress));
                 let bound = changes_stiffness.then(of);
-                let body = Self::of_mesh(*meshed, velocity, nodal_mass, added_mass, time_step);
+                let body = Self::of_mesh(*meshed, velocity, nodal_mass, moved_mass, time_step);
                 Self { bound, ..body }
             }
             UnscaledBody::Rigid(sphere) => {
@@ -95,7 +95,7 @@ impl Body {
             mesh: None,
             material: None,
             mass: f64::INFINITY,
-            added_mass: 0.0,
+            moved_mass: 0.0,
             held: false,
             acceleration: 0.0,
         }
@@ -118,13 +118,13 @@ impl Body {
         }
     }
 
-    /// Makes a sphere or a half-space with masses of its nodes (kg), of which mass scaling has moved `added_mass` (kg),
+    /// Makes a sphere or a half-space with masses of its nodes (kg), of which mass scaling has moved `moved_mass` (kg),
     /// for a time step (s).
     pub(crate) fn of_mesh(
         unscaled: UnscaledMesh,
         velocity: f64,
         nodal_mass: Vec<f64>,
-        added_mass: f64,
+        moved_mass: f64,
         time_step: f64,
     ) -> Self {
         let UnscaledMesh { mesh, material, mut stress, node_forces, bound } = unscaled;
@@ -162,7 +162,7 @@ impl Body {
             mesh: Some(mesh),
             material: Some(material),
             mass,
-            added_mass,
+            moved_mass,
             held: false,
             acceleration,
         }
@@ -222,8 +222,8 @@ impl Body {
     }
 
     /// Returns the mass that mass scaling has moved from heavy to light nodes, kg.
-    pub fn added_mass(&self) -> f64 {
-        self.added_mass
+    pub fn moved_mass(&self) -> f64 {
+        self.moved_mass
     }
 
     /// Returns the number of elements.

@@ -48,7 +48,7 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
             elements: Some(body.n_elements()),
             nodes: Some(body.n_nodes()),
             mass: body.is_free().then(|| body.mass()),
-            added_mass: is_moved.then(|| body.added_mass()),
+            moved_mass: is_moved.then(|| body.moved_mass()),
             velocity_after: velocity_after.map(|both| both[side]),
             vibration_energy: vibration_energy.filter(|_| is_moved).map(|both| both[side]),
         }

@@ -119,7 +119,7 @@ fn mass_scaling_leaves_weight_and_potential_unchanged() {
             ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings, parts)
                 .unwrap();
         let body = &model.bodies()[1];
-        assert_eq!(body.added_mass() > 1e-9 * body.mass(), mass_scaling > 0.0);
+        assert_eq!(body.moved_mass() > 1e-9 * body.mass(), mass_scaling > 0.0);
         let expected = gravity * 4.0 / 3.0 * std::f64::consts::PI;
         let mut state = State::at_first_touch(&model);
         for place in &mut state.bodies[1].displacement {

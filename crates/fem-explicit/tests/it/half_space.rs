@@ -315,11 +315,11 @@ fn half_space_mass_scaling_is_limited_by_the_mass_of_the_ball() {
     let model = Ball::default().model();
     let [block, ball] = model.bodies();
     for body in [block, ball] {
-        assert!(body.added_mass() <= 2e-4 * ball.mass() && body.added_mass() > 0.0);
+        assert!(body.moved_mass() <= 2e-4 * ball.mass() && body.moved_mass() > 0.0);
     }
     assert!(model.time_step() > 1.5 * model.plain_time_step());
     let unscaled = Ball { mass_scaling: 0.0, ..Ball::default() }.model();
-    assert_eq!(unscaled.bodies()[0].added_mass(), 0.0);
+    assert_eq!(unscaled.bodies()[0].moved_mass(), 0.0);
     assert!(block.mass().is_infinite());
 }
 

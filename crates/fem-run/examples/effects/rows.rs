@@ -174,8 +174,8 @@ impl Side {
     pub fn start(&self, contact: Option<&Explicit>, simulation: &Simulation) -> Box<dyn Stepper> {
         match contact {
             Some(model) => {
-                let course = model.start(&model.setup().approach, &self.request());
-                course.expect("explicit elements go in steps")
+                let stepper = model.start(&model.setup().approach, &self.request());
+                stepper.expect("explicit elements go in steps")
             }
             None => simulation.start(),
         }
@@ -194,7 +194,7 @@ impl Side {
 }
 
 /// Returns the bytes of the restart state.
-pub fn n_bytes(course: &dyn Stepper) -> usize {
-    let memory = course.restart_state().expect("explicit elements have a memory");
-    postcard::to_stdvec(memory.contact()).expect("a memory is bytes").len()
+pub fn n_bytes(stepper: &dyn Stepper) -> usize {
+    let state = stepper.restart_state().expect("explicit elements have a restart state");
+    postcard::to_stdvec(state.contact()).expect("a restart state can be serialised").len()
 }

@@ -127,11 +127,11 @@ fn models(simulation: &Simulation) -> String {
 /// Returns which effects are on, why, and the changes of the results without them.
 fn effects(simulation: &Simulation) -> String {
     let setup = simulation.setup();
-    let rows = setup.decisions.verdicts.iter().map(|verdict| {
-        let neglect_error = simulation.neglect_error(verdict, &setup.estimate).unwrap_or_default();
+    let rows = setup.decisions.all.iter().map(|decision| {
+        let neglect_error = simulation.neglect_error(decision, &setup.estimate).unwrap_or_default();
         let [restitution, time, force] = run_report::changes(&neglect_error);
-        let switch = run_report::on_or_off(verdict).to_string();
-        [switch, verdict.name.to_string(), restitution, time, force, verdict.reason.clone()]
+        let switch = run_report::on_or_off(decision).to_string();
+        [switch, decision.name.to_string(), restitution, time, force, decision.reason.clone()]
     });
     headed("||>restitution|>contact time|>peak force|", rows)
 }
@@ -173,12 +173,12 @@ fn by_tolerance(simulation: &Simulation) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let (headline, tolerance) = plan.limiting_quantity;
-    let tolerance = match headline {
+    let (quantity, tolerance) = plan.limiting_quantity;
+    let tolerance = match quantity {
         QuantityOfInterest::Restitution => number(tolerance, 3),
         _ => format!("{} %", number(100.0 * tolerance, 3)),
     };
-    let (table, name) = (table(&[Left, Left], rows), headline.name());
+    let (table, name) = (table(&[Left, Left], rows), quantity.name());
     format!("\nChosen for accuracy.tolerance, {tolerance} of the {name}\n{table}")
 }
 

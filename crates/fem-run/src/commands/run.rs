@@ -69,15 +69,15 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let stem = input.stem();
     let replaces = Replaces::only(&identity.case, options.force);
     let place = ResultPath::choose(options.out.as_deref(), &stem, &identity.case, &replaces);
-    let memory = match options.restart.restart {
-        true => memory(&place, &identity)?,
+    let restart_state = match options.restart.restart {
+        true => find_restart_state(&place, &identity)?,
         false => None,
     };
     let folder = ResultFolder::claim(&place.out, &longest_name(&stem), replaces)?;
     let mut estimator = ErrorEstimator::default();
-    let RefinedBeforeRun { simulation, is_open } = match &memory {
-        Some(memory) => {
-            RefinedBeforeRun { simulation: simulation.on_mesh_of(memory)?, is_open: false }
+    let RefinedBeforeRun { simulation, is_open } = match &restart_state {
+        Some(state) => {
+            RefinedBeforeRun { simulation: simulation.on_mesh_of(state)?, is_open: false }
         }
         None => estimator.refine_before_run(simulation, || true),
     };
@@ -85,20 +85,20 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
         announce(&simulation, &estimator, &forecast, &input.name(), &place);
         if options.restart.restart {
-            announce_restart(memory.as_ref());
+            announce_restart(restart_state.as_ref());
         }
     }
 
     let mut watch = Timed::since(started, RunProgress::new(interrupt, options.quiet));
     let mut writer = RestartWriter::new(&folder, &identity, options.restart);
-    let mut memory = memory;
+    let mut restart_state = restart_state;
     let mut left: &[&str] = &[];
     let mut known = Instant::now();
     let computed = estimator.within_tolerance(simulation, |estimator, simulation| {
-        if memory.is_none() && !options.quiet {
+        if restart_state.is_none() && !options.quiet {
             tell_finer(simulation, estimator, known.elapsed().as_secs_f64());
         }
-        let (collision, kept) = compute(simulation, memory.take(), &mut writer, &mut watch)?;
+        let (collision, kept) = compute(simulation, restart_state.take(), &mut writer, &mut watch)?;
         (left, known) = (kept, Instant::now());
         Ok::<_, Failure>(collision)
     })?;
@@ -135,7 +135,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
 
 /// Returns the restart state in the result folder. If the default folder belongs to another case, the state
 /// is looked for in this case's own folder; if there is none either, the other case's file is rejected.
-fn memory(place: &ResultPath, identity: &Identity) -> Result<Option<RestartState>, Failure> {
+fn find_restart_state(place: &ResultPath, identity: &Identity) -> Result<Option<RestartState>, Failure> {
     let own = read_restart(&place.out, identity)?;
     match (&own, &place.taken) {
         (None, Some(taken)) => read_restart(taken, identity),
@@ -146,27 +146,27 @@ fn memory(place: &ResultPath, identity: &Identity) -> Result<Option<RestartState
 /// Returns the collision, and the names of files that the run has left in the folder.
 fn compute(
     simulation: &Simulation,
-    memory: Option<RestartState>,
+    restart_state: Option<RestartState>,
     writer: &mut RestartWriter<'_>,
     monitor: &mut dyn Monitor,
 ) -> Result<(Collision, &'static [&'static str]), Failure> {
-    let mut course = match memory {
-        Some(memory) => simulation.resume(memory)?,
+    let mut stepper = match restart_state {
+        Some(state) => simulation.resume(state)?,
         None if !writer.is_on() => return Ok((simulation.run(monitor), &[])),
         None => simulation.start(),
     };
-    writer.begin(course.as_ref());
+    writer.begin(stepper.as_ref());
     monitor.enter(Phase::Collision);
     loop {
-        if !monitor.report(course.progress()) {
+        if !monitor.report(stepper.progress()) {
             let left: &[&str] =
-                if writer.leave(simulation, course.as_ref()) { &[RESTART_FILE] } else { &[] };
-            return Ok((course.finish(), left));
+                if writer.leave(simulation, stepper.as_ref()) { &[RESTART_FILE] } else { &[] };
+            return Ok((stepper.finish(), left));
         }
-        if !course.advance(monitor) {
-            return Ok((course.finish(), &[]));
+        if !stepper.advance(monitor) {
+            return Ok((stepper.finish(), &[]));
         }
-        writer.update(simulation, course.as_ref());
+        writer.update(simulation, stepper.as_ref());
     }
 }
 

@@ -90,21 +90,21 @@ impl<'a> RestartWriter<'a> {
     }
 
     /// Warns if the model has no restart state.
-    pub fn begin(&self, course: &dyn Stepper) {
-        if self.arguments.checkpoint_every.is_some() && course.restart_state().is_none() {
+    pub fn begin(&self, stepper: &dyn Stepper) {
+        if self.arguments.checkpoint_every.is_some() && stepper.restart_state().is_none() {
             let text = "this model computes its result at once: it leaves no restart file";
             let _ = writeln!(stderr(), "warning: {text}");
         }
     }
 
     /// Updates the file if it is time.
-    pub fn update(&mut self, simulation: &Simulation, course: &dyn Stepper) {
+    pub fn update(&mut self, simulation: &Simulation, stepper: &dyn Stepper) {
         let every = self.arguments.checkpoint_every;
         if every.is_none_or(|every| self.last.elapsed() < every) {
             return;
         }
-        let Some(memory) = simulation.restart_state_of(course) else { return };
-        let written = self.folder.write_ahead(RESTART_FILE, &checkpoint(self.identity, &memory));
+        let Some(state) = simulation.restart_state_of(stepper) else { return };
+        let written = self.folder.write_ahead(RESTART_FILE, &checkpoint(self.identity, &state));
         self.last = Instant::now();
         if let Err(error) = written
             && !self.has_failed
@@ -116,9 +116,9 @@ impl<'a> RestartWriter<'a> {
     }
 
     /// Writes the file of an interrupted run into its result; returns whether there is one.
-    pub fn leave(&self, simulation: &Simulation, course: &dyn Stepper) -> bool {
-        let Some(memory) = simulation.restart_state_of(course) else { return false };
+    pub fn leave(&self, simulation: &Simulation, stepper: &dyn Stepper) -> bool {
+        let Some(state) = simulation.restart_state_of(stepper) else { return false };
         let path = self.folder.path().join(RESTART_FILE);
-        fs::write(path, checkpoint(self.identity, &memory)).is_ok()
+        fs::write(path, checkpoint(self.identity, &state)).is_ok()
     }
 }

@@ -60,7 +60,7 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     let _ = writeln!(
         text,
         "\nEffects\n{}",
-        effects(summary.effects.iter().map(|effect| &effect.verdict))
+        effects(summary.effects.iter().map(|effect| &effect.decision))
     );
     text += &warnings(&summary.warnings);
     let place = place.map_or("not written".into(), shown);
@@ -73,21 +73,21 @@ fn quantities(summary: &Summary) -> String {
     let (ours, hertz) = (&summary.collision, &summary.hertz);
     let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
     let own = if has_elements { "± mesh" } else { "± numerics" };
-    let row = |headline: QuantityOfInterest| {
-        let (value, theirs) = (ours.number(headline), hertz.number(headline));
-        let has_unit = headline != QuantityOfInterest::Restitution;
+    let row = |quantity: QuantityOfInterest| {
+        let (value, theirs) = (ours.number(quantity), hertz.number(quantity));
+        let has_unit = quantity != QuantityOfInterest::Restitution;
         let unit =
-            has_unit.then(|| Unit::fitting(theirs.or(value).unwrap_or_default(), headline.unit()));
+            has_unit.then(|| Unit::fitting(theirs.or(value).unwrap_or_default(), quantity.unit()));
         let shown = |value: Option<f64>| match (value, &unit) {
             (None, _) => NONE.into(),
             (Some(value), Some(unit)) => unit.show(value),
             (Some(value), None) => format!("{value:.4}"),
         };
-        let parts = summary.uncertainty.parts(headline);
+        let parts = summary.uncertainty.parts(quantity);
         let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
         let [mesh, neglected] = errors.unwrap_or([NONE, NONE].map(String::from));
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
-        [headline.name().into(), shown(value), mesh, neglected, shown(theirs), ratio]
+        [quantity.name().into(), shown(value), mesh, neglected, shown(theirs), ratio]
     };
     let header = format!("|>this run|>{own}|>± neglected|>Hertz|>ratio");
     let table = headed(&header, QuantityOfInterest::ALL.map(row));

@@ -60,8 +60,8 @@ fn effects_benchmark_compares_each_effect_off_and_on() {
     for row in ROWS.iter().filter(|row| !KEPT.contains(&row.name)) {
         let is_on = |side: &rows::Side| {
             let simulation = side.simulation();
-            let verdicts = &simulation.setup().decisions.verdicts;
-            verdicts.iter().find(|verdict| verdict.name == row.name).unwrap().active
+            let decisions = &simulation.setup().decisions.all;
+            decisions.iter().find(|decision| decision.name == row.name).unwrap().active
         };
         if let Some(off) = &row.off {
             assert!(!is_on(off) && is_on(&row.on), "{}: {}", row.name, row.kind);

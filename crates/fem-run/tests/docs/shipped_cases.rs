@@ -13,8 +13,8 @@ const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"
 /// Returns name, effects and model of a case as in the table.
 fn cells(case: &Case, name: &str) -> [String; 3] {
     let simulation = Simulation::new(case.clone()).unwrap();
-    let verdicts = simulation.setup().decisions.verdicts.iter();
-    let active = verdicts.filter(|verdict| verdict.active).map(|verdict| verdict.name);
+    let decisions = simulation.setup().decisions.all.iter();
+    let active = decisions.filter(|decision| decision.active).map(|decision| decision.name);
     let active: Vec<&str> = active.filter(|effect| !MESHED.contains(effect)).collect();
     let effects = if active.is_empty() { "none".to_string() } else { active.join(", ") };
     let model = toml::Table::try_from(simulation.resolved().model.as_ref().unwrap()).unwrap();

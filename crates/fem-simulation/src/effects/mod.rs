@@ -56,7 +56,7 @@ pub struct EffectDecision {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EffectDecisions {
     /// Decisions on the effects that the model supports or lacks, in the order of [`EFFECTS`].
-    pub verdicts: Vec<EffectDecision>,
+    pub all: Vec<EffectDecision>,
     /// Warnings, in the same order.
     pub warnings: Vec<String>,
 }
@@ -64,16 +64,16 @@ pub struct EffectDecisions {
 impl EffectDecisions {
     /// Returns whether the effect of this name is on.
     pub(crate) fn is_active(&self, name: &str) -> bool {
-        self.verdicts.iter().any(|verdict| verdict.name == name && verdict.active)
+        self.all.iter().any(|decision| decision.name == name && decision.active)
     }
 
     /// Replaces decisions by those that the finished collision shows.
     pub(crate) fn update_from_result(&mut self, scene: &Scene, collision: &Collision) {
-        for verdict in &mut self.verdicts {
-            let found = effect_named(verdict.name)
+        for decision in &mut self.all {
+            let found = effect_named(decision.name)
                 .and_then(|effect| effect.support_in_result(scene, collision));
             if let Some(Support::Is { active, reason, .. }) = found {
-                (verdict.active, verdict.reason) = (active, reason);
+                (decision.active, decision.reason) = (active, reason);
             }
         }
     }
@@ -106,7 +106,7 @@ pub fn decide(
             return Err(inherent(scene, effect, &reason));
         }
         let is_lacking = !active && !is_inherent;
-        decisions.verdicts.push(EffectDecision { name: effect.name(), active, reason, is_lacking });
+        decisions.all.push(EffectDecision { name: effect.name(), active, reason, is_lacking });
         decisions.warnings.extend(warnings);
         if switch == Some(Switch::On) && obeys && !is_called_for {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();

@@ -39,7 +39,7 @@ pub(super) const CONDENSED: Calibration = Calibration {
 pub(super) const SCATTER: [f64; 6] = [2e-5, 1e-4, 2e-4, 1e-4, 1e-3, 5e-4];
 
 /// Error per share of mass that is added for a longer time step.
-pub(super) const ADDED_MASS: [f64; 6] = [0.05, 0.25, 0.4, 0.45, 0.1, 0.2];
+pub(super) const MOVED_MASS: [f64; 6] = [0.05, 0.25, 0.4, 0.45, 0.1, 0.2];
 
 /// Order of convergence with the element size that the extrapolation assumes.
 pub(super) const ORDER: f64 = 1.9;

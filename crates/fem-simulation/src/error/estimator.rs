@@ -7,7 +7,7 @@ use super::calibration::{
 };
 use super::elastic_null::{ElasticNull, elastic_null};
 use super::noise_floor::{
-    added_share, contact_element_size, floor_of_mesh, floor_of_run, is_unresolved,
+    moved_share, contact_element_size, floor_of_mesh, floor_of_run, is_unresolved,
 };
 use super::reference_runs::{ReferenceRuns, Subject, Values};
 use super::refinement::NotRefined;
@@ -141,8 +141,8 @@ impl ErrorEstimator {
         let at_pressure = collision.peak_pressure_radius.map_or(widest, |radius| radius / size);
         let estimated = self.reference_error(simulation, collision, size, values, widest);
         let Some((errors, calibration)) = estimated else { return [None; 6] };
-        let added_share = added_share(simulation, collision);
-        bar_parts(errors, &calibration, [widest, at_pressure], added_share)
+        let moved_share = moved_share(simulation, collision);
+        bar_parts(errors, &calibration, [widest, at_pressure], moved_share)
     }
 
     /// Returns the distances from the Richardson limits of the reference runs, the restitution's absolute, all others
@@ -194,7 +194,7 @@ impl ErrorEstimator {
         let subject = Subject::planned(simulation)?;
         let (errors, values) = self.runs.condensed(&subject)?;
         let across = values[QuantityOfInterest::MaxContactRadius as usize]? / subject.size;
-        let parts = bar_parts(errors, &EXPLICIT, [across; 2], elements.added_share);
+        let parts = bar_parts(errors, &EXPLICIT, [across; 2], elements.moved_share);
         Some(parts.map(|parts| Some(parts?.sum())))
     }
 
@@ -230,12 +230,12 @@ fn bar_parts(
     errors: Values,
     calibration: &Calibration,
     [widest, at_pressure]: [f64; 2],
-    added_share: f64,
+    moved_share: f64,
 ) -> [Option<BarParts>; 6] {
     QuantityOfInterest::ALL.map(|quantity| {
         let is_pressure = quantity == QuantityOfInterest::PeakPressure;
         let across = if is_pressure { at_pressure } else { widest };
-        let [edge, floor] = floor_of_mesh(quantity, calibration, across, added_share);
+        let [edge, floor] = floor_of_mesh(quantity, calibration, across, moved_share);
         Some(BarParts {
             constants: calibration.name,
             reference_error: errors[quantity as usize]?,
@@ -278,7 +278,7 @@ fn of_tolerance(collision: &Collision, tolerance: f64) -> ModelFormError {
 
 #[cfg(test)]
 mod tests {
-    use super::super::calibration::{ADDED_MASS, SCATTER};
+    use super::super::calibration::{MOVED_MASS, SCATTER};
     use super::*;
 
     /// The bar is F_s |Δ| + c (h/a)² + scatter + added mass, and the pressure's floor depends on its own radius.
@@ -288,7 +288,7 @@ mod tests {
         let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
         for (k, parts) in parts.into_iter().enumerate() {
             let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.04 } else { 0.01 };
-            let expected = 2e-3 + edge + SCATTER[k] + 0.01 * ADDED_MASS[k];
+            let expected = 2e-3 + edge + SCATTER[k] + 0.01 * MOVED_MASS[k];
             assert!((parts.unwrap().sum() - expected).abs() < 1e-12, "{k}");
         }
         let mut errors = [Some(0.0); 6];

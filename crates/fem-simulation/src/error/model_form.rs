@@ -46,10 +46,10 @@ fn model_form_errors(
     };
     let estimate = estimate.with_computed(collision);
     let scene = simulation.scene_of_model();
-    let error = |EffectSummary { verdict, error_if_left_out }: &EffectSummary| {
+    let error = |EffectSummary { decision, error_if_left_out }: &EffectSummary| {
         let status =
-            EffectStatus { is_lacking: verdict.is_lacking, neglect_error: *error_if_left_out };
-        Some(effect_named(verdict.name)?.model_form_error(&scene, &estimate, &status))
+            EffectStatus { is_lacking: decision.is_lacking, neglect_error: *error_if_left_out };
+        Some(effect_named(decision.name)?.model_form_error(&scene, &estimate, &status))
     };
     let loss = simulation.case().scene().unpublished_loss().map(|_| ModelFormError::of_loss());
     effects.iter().filter_map(error).chain(loss).collect()

@@ -8,7 +8,7 @@
 use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
 use super::calibration::{
-    ADDED_MASS, CLOSED_FORM_PRESSURE, Calibration, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER,
+    MOVED_MASS, CLOSED_FORM_PRESSURE, Calibration, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER,
     RESTITUTION_PER_ROOT_SCATTER, SCATTER, TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
 };
 use crate::effects::MassScaling;
@@ -26,11 +26,11 @@ pub(super) fn floor_of_mesh(
     quantity: QuantityOfInterest,
     calibration: &Calibration,
     across: f64,
-    added_share: f64,
+    moved_share: f64,
 ) -> [f64; 2] {
     let k = quantity as usize;
     let edge = calibration.edge[k] / across.max(1.0).powi(2);
-    [edge, SCATTER[k] + ADDED_MASS[k] * added_share]
+    [edge, SCATTER[k] + MOVED_MASS[k] * moved_share]
 }
 
 /// Returns the floor that the finished run shows, for each quantity.
@@ -96,9 +96,9 @@ pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
 
 /// Returns the largest share of mass that is added to a body, over the mass of the lighter body; for a stiffer body over
 /// its larger allowance.
-pub(super) fn added_share(simulation: &Simulation, collision: &Collision) -> f64 {
+pub(super) fn moved_share(simulation: &Simulation, collision: &Collision) -> f64 {
     let allowed = MassScaling::times(simulation.case().scene());
-    let shares = collision.added_shares().into_iter().zip(allowed);
+    let shares = collision.moved_shares().into_iter().zip(allowed);
     shares.filter_map(|(share, times)| Some(share? / times)).fold(0.0, f64::max)
 }
 

@@ -18,7 +18,7 @@ use fem_case::{Body, CaseError, Shape};
 use fem_collision::{Collision, QuantityOfInterest, Stop};
 use fem_material::engineering::Unit;
 
-use super::calibration::ADDED_MASS;
+use super::calibration::MOVED_MASS;
 use super::estimator::{ErrorEstimate, ErrorEstimator};
 use super::noise_floor::of_chatter;
 use super::reference_runs::Subject;
@@ -72,7 +72,7 @@ pub(super) enum NotRefined {
 /// A setting of the case whose error a finer mesh does not reduce.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum FaultySetting {
-    AddedMass,
+    MovedMass,
     SoftSprings,
     ChatteringSprings,
     /// The key that gives the mesh away from the contact.
@@ -82,7 +82,7 @@ pub(super) enum FaultySetting {
 impl FaultySetting {
     pub fn described(self) -> &'static str {
         match self {
-            Self::AddedMass => "added mass",
+            Self::MovedMass => "added mass",
             Self::SoftSprings => "soft penalty springs",
             Self::ChatteringSprings => "contact chatter",
             Self::FarMesh(_) => "the mesh away from the contact",
@@ -92,7 +92,7 @@ impl FaultySetting {
     /// Returns the key to leave out.
     pub fn key(self) -> &'static str {
         match self {
-            Self::AddedMass => "time.mass_scaling",
+            Self::MovedMass => "time.mass_scaling",
             Self::SoftSprings | Self::ChatteringSprings => "contact.penalty_factor",
             Self::FarMesh(key) => key,
         }
@@ -247,9 +247,9 @@ impl ErrorEstimator {
         if miss.is_of_springs(elements) {
             return Some(FaultySetting::SoftSprings);
         }
-        let of_mass = elements.added_share * ADDED_MASS[miss.quantity as usize];
+        let of_mass = elements.moved_share * MOVED_MASS[miss.quantity as usize];
         if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
-            return Some(FaultySetting::AddedMass);
+            return Some(FaultySetting::MovedMass);
         }
         let subject = Subject::planned(simulation)?;
         if let Some(key) = subject.far_mesh_key() {

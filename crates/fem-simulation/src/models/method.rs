@@ -170,7 +170,7 @@ pub struct ElementSetup {
     /// Whether the contact has penalty springs.
     pub has_springs: bool,
     /// Larger moved mass of both bodies over the lighter body's mass.
-    pub added_share: f64,
+    pub moved_share: f64,
     /// Advice against contact noise.
     pub noise_advice: ContactNoiseAdvice,
 }

@@ -94,10 +94,10 @@ impl<M: Model> Model for Mirrored<M> {
         }
     }
 
-    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        let whole = memory.met;
+    fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
+        let whole = state.met;
         let met = half_of(&whole).map_err(|stop| Rejection::new("body", stop.to_string()))?;
-        let half = self.half.resume(RestartState { met, ..memory })?;
+        let half = self.half.resume(RestartState { met, ..state })?;
         Ok(Box::new(MirroredStepper { half, whole: Whole::of(&whole) }))
     }
 

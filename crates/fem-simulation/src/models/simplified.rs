@@ -71,8 +71,8 @@ impl Model for Simplified {
         self.model.start(approach, request)
     }
 
-    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        self.model.resume(memory)
+    fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
+        self.model.resume(state)
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

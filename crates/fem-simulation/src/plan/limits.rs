@@ -229,9 +229,9 @@ mod tests {
         let simulation = Simulation::new(case).unwrap();
         let n = simulation.model().meshes()[1].unwrap().quads().len() as u64;
         let counted = explicit_memory(simulation.case().scene(), &plan, n, n * terms as u64);
-        let mut course = simulation.start();
-        while course.progress().fraction < 0.1 && course.advance(&mut ()) {}
-        let kept = postcard::to_stdvec(&course.restart_state().unwrap().contact).unwrap().len();
+        let mut stepper = simulation.start();
+        while stepper.progress().fraction < 0.1 && stepper.advance(&mut ()) {}
+        let kept = postcard::to_stdvec(&stepper.restart_state().unwrap().contact).unwrap().len();
         [counted as f64, kept as f64]
     }
 

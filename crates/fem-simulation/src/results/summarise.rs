@@ -82,18 +82,18 @@ fn all_element_updates(
 
 fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary> {
     let estimate = simulation.estimate(collision);
-    let summary = |verdict: EffectDecision| {
+    let summary = |decision: EffectDecision| {
         let neglect_error =
-            estimate.as_ref().and_then(|estimate| simulation.neglect_error(&verdict, estimate));
-        EffectSummary { verdict, error_if_left_out: neglect_error }
+            estimate.as_ref().and_then(|estimate| simulation.neglect_error(&decision, estimate));
+        EffectSummary { decision, error_if_left_out: neglect_error }
     };
-    simulation.decisions(collision).verdicts.into_iter().map(summary).collect()
+    simulation.decisions(collision).all.into_iter().map(summary).collect()
 }
 
 /// Returns whether radius and pressure are those of the deformed bodies.
 fn radius_and_pressure(effects: &[EffectSummary]) -> &'static str {
     let is_finite =
-        |effect: &EffectSummary| effect.verdict.name == FiniteStrain::NAME && effect.verdict.active;
+        |effect: &EffectSummary| effect.decision.name == FiniteStrain::NAME && effect.decision.active;
     if effects.iter().any(is_finite) { "true" } else { "nominal" }
 }
 
@@ -211,7 +211,7 @@ fn body(
         elements: body.elements,
         nodes: body.nodes,
         mass_kg: number("mass_kg", body.mass),
-        added_mass_kg: number("added_mass_kg", body.added_mass),
+        added_mass_kg: number("added_mass_kg", body.moved_mass),
         velocity_before_m_s: number(
             "velocity_before_m_s",
             Some(collision.approach.velocities()[side]),

@@ -82,7 +82,7 @@ pub struct Summary {
 pub struct EffectSummary {
     /// Decision on the effect, with the reason.
     #[serde(flatten)]
-    pub verdict: EffectDecision,
+    pub decision: EffectDecision,
     /// Error of neglecting the effect, if closed forms estimate it.
     pub error_if_left_out: Option<NeglectError>,
 }

@@ -369,10 +369,10 @@ impl Simulation {
     /// Returns the change of a collision's quantities without an effect.
     pub fn neglect_error(
         &self,
-        verdict: &EffectDecision,
+        decision: &EffectDecision,
         estimate: &Estimate,
     ) -> Option<NeglectError> {
-        effect_named(verdict.name)?.neglect_error(&self.scene_of_model(), estimate)
+        effect_named(decision.name)?.neglect_error(&self.scene_of_model(), estimate)
     }
 
     /// Returns the scene with the selected model, if the case leaves the choice open.

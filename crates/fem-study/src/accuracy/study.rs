@@ -76,7 +76,7 @@ pub enum ErrorSource {
     /// The compliance of the penalty springs, extrapolated from a run with four times their stiffness.
     ContactSprings,
     /// The mass that is added for longer steps, against a run without it.
-    AddedMass,
+    MovedMass,
     /// The finite time step, of second order, from half the step.
     TimeStep,
     /// Waves and large strains, which condensed bodies lack.
@@ -92,7 +92,7 @@ impl ErrorSource {
         match self {
             Self::Mesh => "mesh",
             Self::ContactSprings => "contact springs",
-            Self::AddedMass => "added mass",
+            Self::MovedMass => "added mass",
             Self::TimeStep => "time step",
             Self::LeftOutByCondensed => "left out by condensed",
             Self::SmallStrain => "small strain",
@@ -321,7 +321,7 @@ fn parts(runs: &[VariantRun<'_>], limits: &[Option<Limit>; 6]) -> Vec<ErrorPart>
     let all = [
         part(ErrorSource::Mesh, values(Series::Condensed, None), condensed, 1.0),
         part(ErrorSource::ContactSprings, base, stiffer, QUARTERED),
-        part(ErrorSource::AddedMass, base, unscaled, 1.0),
+        part(ErrorSource::MovedMass, base, unscaled, 1.0),
         part(ErrorSource::TimeStep, base, values(Series::StepFactor, Some(0.45)), QUARTERED),
         part(ErrorSource::LeftOutByCondensed, condensed, explicit, 1.0),
         part(ErrorSource::SmallStrain, small_strain, strained, 1.0),

@@ -23,9 +23,9 @@ fn fem(overrides: &[&str]) -> Simulation {
 }
 
 /// Returns whether bulk viscosity is on, and the reason.
-fn verdict(simulation: &Simulation) -> (bool, String) {
-    let verdicts = &simulation.setup().decisions.verdicts;
-    let own = verdicts.iter().find(|verdict| verdict.name == "bulk viscosity").unwrap();
+fn decision(simulation: &Simulation) -> (bool, String) {
+    let decisions = &simulation.setup().decisions.all;
+    let own = decisions.iter().find(|decision| decision.name == "bulk viscosity").unwrap();
     (own.active, own.reason.clone())
 }
 
@@ -44,7 +44,7 @@ fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
     ] {
         for bodies in ["start={}", TWINS] {
             let simulation = fem(&[speed, switch, bodies]);
-            let (active, said) = verdict(&simulation);
+            let (active, said) = decision(&simulation);
             assert_eq!(active, expected, "{speed} {switch} {bodies}: {said}");
             assert!(said.contains(reason), "{said}");
             let warnings = simulation.setup().warnings();
@@ -71,7 +71,7 @@ fn another_approach_has_its_own_decision() {
             let collision = simulation.model().collide(&approach, &request, &mut ());
             assert_eq!(collision.energies.has(Account::BulkViscosity), expected, "{speed}");
             let decisions = simulation.decisions(&collision);
-            let own = decisions.verdicts.iter().find(|verdict| verdict.name == "bulk viscosity");
+            let own = decisions.all.iter().find(|decision| decision.name == "bulk viscosity");
             assert_eq!(own.unwrap().active, expected);
         }
     }

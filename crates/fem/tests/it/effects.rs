@@ -126,8 +126,8 @@ fn every_model_supports_or_excludes_every_effect() {
         let set = [format!("model.{model}")];
         let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
         let simulation = Simulation::new(case).unwrap();
-        let verdicts = simulation.setup().decisions.verdicts.iter();
-        let found: Vec<&str> = verdicts.map(|verdict| verdict.name).collect();
+        let decisions = simulation.setup().decisions.all.iter();
+        let found: Vec<&str> = decisions.map(|decision| decision.name).collect();
         assert_eq!(found, answered, "{model}");
         for effect in EFFECTS {
             let name = effect.name();

@@ -51,9 +51,9 @@ fn simulation(set: &[&str]) -> Result<Simulation, fem::CaseError> {
     Simulation::new(Case::parse("rubber.toml", RUBBER, Path::new("."), &set).unwrap())
 }
 
-fn verdict(simulation: &Simulation) -> EffectDecision {
-    let verdicts = &simulation.setup().decisions.verdicts;
-    verdicts.iter().find(|verdict| verdict.name == "finite strain").unwrap().clone()
+fn decision(simulation: &Simulation) -> EffectDecision {
+    let decisions = &simulation.setup().decisions.all;
+    decisions.iter().find(|decision| decision.name == "finite strain").unwrap().clone()
 }
 
 #[test]
@@ -71,10 +71,10 @@ fn finite_strain_is_on_if_its_change_exceeds_the_tolerance() {
         (&[STEEL_BALL], true),
         (&[STIFF], false),
     ] {
-        let verdict = verdict(&simulation(set).unwrap());
-        assert_eq!(verdict.active, active, "{set:?}: {verdict:?}");
+        let decision = decision(&simulation(set).unwrap());
+        assert_eq!(decision.active, active, "{set:?}: {decision:?}");
         let law = if set.contains(&NEO_HOOKE) { "neo-hooke" } else { "hencky" };
-        assert!(verdict.reason.contains(law) || set.contains(&STIFF), "{verdict:?}");
+        assert!(decision.reason.contains(law) || set.contains(&STIFF), "{decision:?}");
     }
 }
 
@@ -86,11 +86,11 @@ fn the_spread_of_unnamed_laws_switches_nothing_on() {
     for (tolerance, active) in [("1 %", false), ("0.2 %", false), ("0.1 %", true)] {
         let set = [format!("accuracy.tolerance='{tolerance}'")];
         let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
-        let verdict = verdict(&Simulation::new(case).unwrap());
-        assert_eq!(verdict.active, active, "{tolerance}: {verdict:?}");
+        let decision = decision(&Simulation::new(case).unwrap());
+        assert_eq!(decision.active, active, "{tolerance}: {decision:?}");
         assert!(
-            verdict.reason.contains("laws change the contact time by up to 0.58 %"),
-            "{verdict:?}"
+            decision.reason.contains("laws change the contact time by up to 0.58 %"),
+            "{decision:?}"
         );
     }
 }
@@ -117,7 +117,7 @@ fn a_case_without_a_law_is_warned_of_the_spread_of_laws() {
     let set = ["mesh.contact_element_size='2 mm'".to_string()];
     let case = Case::parse("rubber.toml", &unnamed, Path::new("."), &set).unwrap();
     let simulation = Simulation::new(case).unwrap();
-    let reason = verdict(&simulation).reason;
+    let reason = decision(&simulation).reason;
     assert!(reason.contains("neo-hooke") && reason.contains("other laws"), "{reason}");
     let warnings = simulation.warnings(&simulation.run(&mut ())).join("\n");
     assert!(warnings.contains("material.NAME.hyperelastic"), "{warnings}");
@@ -133,7 +133,7 @@ fn models_without_finite_strain_report_their_error() {
         assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
     }
     let auto = simulation(&["model.auto={}"]).unwrap();
-    assert!(verdict(&auto).active, "elements are chosen");
+    assert!(decision(&auto).active, "elements are chosen");
 }
 
 #[test]
@@ -154,7 +154,7 @@ fn too_many_relaxation_terms_are_computed_at_small_strain() {
     let many =
         format!("material.rubber.relaxation={{acts_on='shear', terms=[{}]}}", terms.join(", "));
     let simulation = simulation(&[&many]).unwrap();
-    assert!(!verdict(&simulation).active);
+    assert!(!decision(&simulation).active);
     let warnings = simulation.setup().warnings().join("\n");
     assert!(warnings.contains("ball relaxes with 40 terms"), "{warnings}");
     let error = self::simulation(&[&many, ON]).unwrap_err();
@@ -238,8 +238,8 @@ fn natural_rubber_is_computed_at_finite_strain() {
                     hyperelastic='neo-hooke' }";
         let set = ["mesh.contact_element_size='2 mm'", &body, like];
         let simulation = simulation(&set[..if material == "like" { 3 } else { 2 }]).unwrap();
-        let verdict = verdict(&simulation);
-        assert!(verdict.active && verdict.reason.ends_with("law neo-hooke"), "{verdict:?}");
+        let decision = decision(&simulation);
+        assert!(decision.active && decision.reason.ends_with("law neo-hooke"), "{decision:?}");
         simulation.run(&mut ())
     };
     let (rubber, like) = (ball("lib:natural-rubber"), ball("like"));
@@ -265,7 +265,7 @@ fn errors_beyond_the_flattest_computed_collision_are_unknown() {
     let all_is_known = |set: &[&str]| {
         let simulation = simulation(set).unwrap();
         let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
-        let is_lacking = !verdict(&simulation).active;
+        let is_lacking = !decision(&simulation).active;
         let neglect_error = FiniteStrain.neglect_error(scene, estimate);
         let error = FiniteStrain.model_form_error(
             scene,
@@ -274,7 +274,7 @@ fn errors_beyond_the_flattest_computed_collision_are_unknown() {
         );
         let is_known =
             neglect_error.is_some_and(|neglect_error| neglect_error != NeglectError::default());
-        [is_known, QuantityOfInterest::ALL.iter().all(|headline| error.size(*headline).is_some())]
+        [is_known, QuantityOfInterest::ALL.iter().all(|quantity| error.size(*quantity).is_some())]
     };
     // a/R of 0.81 and 0.87.
     let [flat, flatter] = ["body.1.approach_speed='10 m/s'", "body.1.approach_speed='12 m/s'"];
@@ -286,11 +286,11 @@ fn errors_beyond_the_flattest_computed_collision_are_unknown() {
     let unnamed = ["body.1.material='unnamed'", UNNAMED, flatter];
     assert_eq!(all_is_known(&unnamed), [false; 2]);
     let coarse = "accuracy.tolerance='50 %'";
-    assert!(!verdict(&simulation(&[SLOW, coarse]).unwrap()).active);
-    let verdict = verdict(&simulation(&[flatter, coarse]).unwrap());
+    assert!(!decision(&simulation(&[SLOW, coarse]).unwrap()).active);
+    let decision = decision(&simulation(&[flatter, coarse]).unwrap());
     assert!(
-        verdict.active && verdict.reason.contains("too wide for an estimate"),
+        decision.active && decision.reason.contains("too wide for an estimate"),
         "{}",
-        verdict.reason
+        decision.reason
     );
 }

@@ -41,9 +41,9 @@ approach_speed = "0.5 m/s"
 snapshots = []
 "#;
 
-fn verdict(simulation: &Simulation) -> &EffectDecision {
-    let verdicts = &simulation.setup().decisions.verdicts;
-    verdicts.iter().find(|verdict| verdict.name == "viscoelasticity").unwrap()
+fn decision(simulation: &Simulation) -> &EffectDecision {
+    let decisions = &simulation.setup().decisions.all;
+    decisions.iter().find(|decision| decision.name == "viscoelasticity").unwrap()
 }
 
 fn changes(a: &Collision, b: &Collision) -> [f64; 3] {
@@ -61,14 +61,14 @@ fn folded_terms_change_less_than_their_stated_error() {
     let mesh = "mesh.contact_element_size='10 um'";
     for model in ["model.ting={}", "model.condensed={}"] {
         let folded = simulation(POLYMER, &[model, mesh]);
-        let decision = verdict(&folded);
+        let decision = decision(&folded);
         assert!(
             decision.active && decision.reason.contains("of 10 terms are integrated"),
             "{}",
             decision.reason
         );
         let all = simulation(POLYMER, &[model, mesh, "effects.viscoelasticity='on'"]);
-        assert!(!verdict(&all).reason.contains("integrated"), "{}", verdict(&all).reason);
+        assert!(!decision(&all).reason.contains("integrated"), "{}", decision(&all).reason);
         for change in changes(&folded.run(&mut ()), &all.run(&mut ())) {
             assert!(change.abs() < 1.5e-4, "{model}: {change:e}");
         }

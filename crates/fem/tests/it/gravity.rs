@@ -52,8 +52,8 @@ fn heights(collision: &Collision) -> Vec<f64> {
 fn the_neglect_error_of_gravity_is_that_of_runs() {
     let let_down = ["model.ting={}", ELASTIC, "start.gap=0", "body.1.approach_speed='3 cm/s'"];
     let with = simulation(&let_down);
-    let verdicts = &with.setup().decisions.verdicts;
-    let gravity = verdicts.iter().find(|verdict| verdict.name == "gravity").unwrap();
+    let decisions = &with.setup().decisions.all;
+    let gravity = decisions.iter().find(|decision| decision.name == "gravity").unwrap();
     let estimated = with.neglect_error(gravity, &with.setup().estimate).unwrap();
     let none = "gravity.acceleration=1e-9";
     let (with, without) = (with.run(&mut ()), run(&[&let_down[..], &[none]].concat()));
@@ -320,20 +320,20 @@ fn a_held_sphere_bears_a_ball() {
 /// The decision on gravity gives its numbers, and says if it acts in flight alone.
 #[test]
 fn the_decision_on_gravity_has_its_numbers() {
-    let verdict = |overrides: &[&str]| {
+    let decision = |overrides: &[&str]| {
         let simulation = simulation(overrides);
         let collision = simulation.run(&mut ());
         let decisions = simulation.decisions(&collision);
-        let found = decisions.verdicts.into_iter().find(|verdict| verdict.name == "gravity");
-        found.map(|verdict| (verdict.active, verdict.reason)).unwrap()
+        let found = decisions.all.into_iter().find(|decision| decision.name == "gravity");
+        found.map(|decision| (decision.active, decision.reason)).unwrap()
     };
     for model in ["model.ting={}", "model.condensed={}", "model.fem={}", "model.hertz={}"] {
-        let (active, reason) = verdict(&[model, COARSE, "stop.bounces=1"]);
+        let (active, reason) = decision(&[model, COARSE, "stop.bounces=1"]);
         assert!(active && reason.contains("weight / peak force = 0.0025"), "{model}: {reason}");
         assert!(!reason.contains("does not change"), "{reason}");
     }
     let hard = "material.rubber={density=1100, youngs_modulus=20e12, poissons_ratio=0.4}";
-    let (active, reason) = verdict(&["model.hertz={}", hard, "start.gap='10 m'"]);
+    let (active, reason) = decision(&["model.hertz={}", hard, "start.gap='10 m'"]);
     assert!(active && reason.contains("does not change the contact"), "{reason}");
 }
 

@@ -47,8 +47,8 @@ fn run(overrides: &[&str]) -> (Simulation, Collision) {
 }
 
 fn is_on(simulation: &Simulation) -> bool {
-    let effects = &simulation.setup().decisions.verdicts;
-    effects.iter().find(|verdict| verdict.name == "mirror symmetry").unwrap().active
+    let effects = &simulation.setup().decisions.all;
+    effects.iter().find(|decision| decision.name == "mirror symmetry").unwrap().active
 }
 
 #[track_caller]
@@ -87,7 +87,7 @@ fn mirrored_scene_gives_the_results_of_the_full_scene() {
             for (a, b) in mirrored.bodies.iter().zip(&whole.bodies) {
                 close(a.velocity_after, b.velocity_after);
                 assert_eq!(a.mass, b.mass);
-                close(a.added_mass, b.added_mass);
+                close(a.moved_mass, b.moved_mass);
                 assert_eq!(a.elements, b.elements);
             }
             rows_are_those_of_the_whole(&mirrored, &whole, relative);

@@ -306,7 +306,7 @@ fn swapped_bodies_give_the_same_results_in_reduced_models() {
 fn neglected_effects_are_reported() {
     let reported = |overrides: &[&str]| {
         let simulation = Simulation::new(parse(GLASS, overrides).unwrap()).unwrap();
-        (simulation.setup().decisions.verdicts.clone(), simulation.setup().warnings().join("\n"))
+        (simulation.setup().decisions.all.clone(), simulation.setup().warnings().join("\n"))
     };
     for model in ["model.hertz={}", "model.law.falcon.c=300"] {
         let (effects, warnings) = reported(&[model]);

@@ -19,9 +19,9 @@ fn run(text: &str, set: &[&str]) -> Collision {
 fn foretold(text: &str, set: &[&str], effect: &str) -> NeglectError {
     let simulation = simulation(text, set);
     let setup = simulation.setup();
-    let verdict = setup.decisions.verdicts.iter().find(|verdict| verdict.name == effect).unwrap();
-    assert!(verdict.active, "{}", verdict.reason);
-    simulation.neglect_error(verdict, &setup.estimate).unwrap()
+    let decision = setup.decisions.all.iter().find(|decision| decision.name == effect).unwrap();
+    assert!(decision.active, "{}", decision.reason);
+    simulation.neglect_error(decision, &setup.estimate).unwrap()
 }
 
 /// Within a factor of three, where it is more than another error of the same number, and where closed
@@ -203,16 +203,16 @@ fn neglect_errors_of_extreme_scenes_are_finite_or_none() {
                     let set = set.each_ref().map(String::as_str);
                     let simulation = simulation(BALL, &set);
                     let setup = simulation.setup();
-                    for verdict in &setup.decisions.verdicts {
-                        let neglect_error = simulation.neglect_error(verdict, &setup.estimate);
+                    for decision in &setup.decisions.all {
+                        let neglect_error = simulation.neglect_error(decision, &setup.estimate);
                         let NeglectError { restitution, contact_time_s, peak_force_n } =
                             neglect_error.unwrap_or_default();
                         let told = [restitution, contact_time_s, peak_force_n];
                         let is_number = |change: &f64| change.is_finite() && *change >= 0.0;
-                        assert!(told.iter().flatten().all(is_number), "{set:?} {verdict:?}");
+                        assert!(told.iter().flatten().all(is_number), "{set:?} {decision:?}");
                         assert!(
                             restitution.is_none_or(|change| change <= 1.0),
-                            "{set:?} {verdict:?}"
+                            "{set:?} {decision:?}"
                         );
                     }
                 }

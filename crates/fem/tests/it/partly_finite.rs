@@ -19,9 +19,9 @@ fn simulation(case: &str, set: &[&str]) -> Simulation {
 
 /// Returns the differences of two collisions: the restitution's absolute, others relative.
 fn differences(one: &Collision, other: &Collision) -> [f64; 6] {
-    QuantityOfInterest::ALL.map(|headline| {
-        let [one, other] = [one, other].map(|collision| headline.of(collision).unwrap());
-        (one - other).abs() / headline.scale(other)
+    QuantityOfInterest::ALL.map(|quantity| {
+        let [one, other] = [one, other].map(|collision| quantity.of(collision).unwrap());
+        (one - other).abs() / quantity.scale(other)
     })
 }
 
@@ -34,15 +34,15 @@ fn small_strain_away_from_the_contact_is_negligible() {
         let [near, everywhere, nowhere] = [run(&[]), run(&[EVERYWHERE]), run(&[NOWHERE])];
         assert_ne!(near, everywhere);
         let [left, whole] = [differences(&near, &everywhere), differences(&nowhere, &everywhere)];
-        for headline in [
+        for quantity in [
             QuantityOfInterest::Restitution,
             QuantityOfInterest::ContactTime,
             QuantityOfInterest::PeakForce,
             QuantityOfInterest::MaxApproach,
             QuantityOfInterest::PeakPressure,
         ] {
-            let k = headline as usize;
-            assert!(left[k] < 3e-5, "{}: {left:?} of {whole:?}", headline.name());
+            let k = quantity as usize;
+            assert!(left[k] < 3e-5, "{}: {left:?} of {whole:?}", quantity.name());
         }
         let force = QuantityOfInterest::PeakForce as usize;
         assert!(whole[force] > 1e-3, "{whole:?}");
@@ -73,8 +73,8 @@ fn a_third_of_the_elements_is_at_finite_strain() {
 fn the_reason_reports_the_distance() {
     let reason = |set: &[&str]| {
         let simulation = simulation(ELASTIC, set);
-        let verdicts = &simulation.setup().decisions.verdicts;
-        verdicts.iter().find(|verdict| verdict.name == "finite strain").unwrap().reason.clone()
+        let decisions = &simulation.setup().decisions.all;
+        decisions.iter().find(|decision| decision.name == "finite strain").unwrap().reason.clone()
     };
     let near = reason(&[]);
     assert!(

@@ -60,9 +60,9 @@ fn models_without_waves_report_the_loss() {
     }
     let fem = simulation(&[]);
     assert!(fem.setup().warnings().is_empty(), "{:?}", fem.setup().warnings());
-    let verdict =
-        fem.setup().decisions.verdicts.iter().find(|v| v.name == "partner waves").unwrap();
-    assert!(verdict.active && verdict.reason.contains("block"), "{}", verdict.reason);
+    let decision =
+        fem.setup().decisions.all.iter().find(|v| v.name == "partner waves").unwrap();
+    assert!(decision.active && decision.reason.contains("block"), "{}", decision.reason);
 }
 
 /// Ting's model and condensed bodies have a term for the loss, down to the size of the partner at which waves begin to

@@ -56,8 +56,8 @@ fn relaxation_widens_the_expected_contact() {
     assert!(relaxing.estimate.contact_radius > elastic.estimate.contact_radius);
     // 1 − exp(−2708/s · 64 µs) = 16 %.
     assert!((relaxing.estimate.relaxed - 0.16).abs() < 0.005);
-    assert!(relaxing.decisions.verdicts.iter().any(|e| e.name == "viscoelasticity" && e.active));
-    assert!(elastic.decisions.verdicts.iter().any(|e| e.name == "viscoelasticity" && !e.active));
+    assert!(relaxing.decisions.all.iter().any(|e| e.name == "viscoelasticity" && e.active));
+    assert!(elastic.decisions.all.iter().any(|e| e.name == "viscoelasticity" && !e.active));
 }
 
 #[test]

@@ -34,31 +34,31 @@ const MODELS: [&str; 5] = [
 fn decision(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
     let simulation = simulation_of(text, overrides);
     let setup = simulation.setup();
-    let verdict =
-        setup.decisions.verdicts.iter().find(|verdict| verdict.name == "plastic yield").unwrap();
-    (verdict.clone(), setup.warnings().join("\n"))
+    let decision =
+        setup.decisions.all.iter().find(|decision| decision.name == "plastic yield").unwrap();
+    (decision.clone(), setup.warnings().join("\n"))
 }
 
 #[test]
 fn an_impossible_pressure_is_reported() {
     for model in MODELS {
-        let (verdict, warnings) = decision(STEEL, &[model]);
+        let (decision, warnings) = decision(STEEL, &[model]);
         // The pressure is 9 GPa, a thirteenth of E*; the stress is 0.62 of it.
         assert!(warnings.contains("1/13 of the contact modulus"), "{model}: {warnings}");
         assert!(warnings.contains("yield_strength"), "{warnings}");
-        assert!(!verdict.active && verdict.reason.contains("Pa"), "{}", verdict.reason);
+        assert!(!decision.active && decision.reason.contains("Pa"), "{}", decision.reason);
     }
 }
 
 #[test]
 fn a_yield_strength_gives_the_speed_and_the_range() {
     for model in MODELS {
-        let (verdict, warnings) =
+        let (decision, warnings) =
             decision(STEEL, &[model, "material.steel.yield_strength='1 GPa'"]);
         // Johnson's ½mv² = 53 R³Y⁵/E*⁴ is 0.067 m/s; then Thornton and Johnson at 72 times that.
         assert!(warnings.contains("yields from 69.1"), "{model}: {warnings}");
         assert!(warnings.contains("from 0.41 to 0.78"), "{warnings}");
-        assert!(verdict.reason.contains("lacks it"), "{}", verdict.reason);
+        assert!(decision.reason.contains("lacks it"), "{}", decision.reason);
     }
 }
 
@@ -66,14 +66,14 @@ fn a_yield_strength_gives_the_speed_and_the_range() {
 fn no_warning_without_yield() {
     let glass = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
     for overrides in [&[][..], &["material.glass.yield_strength='3 GPa'"]] {
-        let (verdict, warnings) = decision(glass, overrides);
+        let (decision, warnings) = decision(glass, overrides);
         assert_eq!(warnings, "");
-        assert!(!verdict.active);
+        assert!(!decision.active);
     }
     let slow = ["material.steel.yield_strength='1 GPa'", "body.0.approach_speed='1 cm/s'"];
-    let (verdict, warnings) = decision(STEEL, &slow);
+    let (decision, warnings) = decision(STEEL, &slow);
     assert_eq!(warnings, "");
-    assert!(verdict.reason.contains("it yields from"), "{}", verdict.reason);
+    assert!(decision.reason.contains("it yields from"), "{}", decision.reason);
 }
 
 #[test]
@@ -95,9 +95,9 @@ fn rubber_does_not_yield() {
     let beside = "material.hard={density=1100, youngs_modulus='200 MPa', poissons_ratio=0.4}";
     let stiff = "material.hard={density=8000, youngs_modulus='200 GPa', poissons_ratio=0.3}";
     for model in MODELS {
-        let (verdict, warnings) = decision(STEEL, &[model, soft, slow]);
+        let (decision, warnings) = decision(STEEL, &[model, soft, slow]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
-        assert!(verdict.reason.contains("do not yield"), "{}", verdict.reason);
+        assert!(decision.reason.contains("do not yield"), "{}", decision.reason);
         let (_, warnings) = decision(STEEL, &[model, "material.steel.hyperelastic='hencky'"]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         // The stiffer body yields.

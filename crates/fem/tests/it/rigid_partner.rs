@@ -44,9 +44,9 @@ fn run(set: &[&str]) -> Collision {
     simulation(set).unwrap().run(&mut ())
 }
 
-fn verdict(simulation: &Simulation) -> &EffectDecision {
-    let verdicts = &simulation.setup().decisions.verdicts;
-    verdicts.iter().find(|verdict| verdict.name == "rigid partner").unwrap()
+fn decision(simulation: &Simulation) -> &EffectDecision {
+    let decisions = &simulation.setup().decisions.all;
+    decisions.iter().find(|decision| decision.name == "rigid partner").unwrap()
 }
 
 /// The compliance of the partner is 2.4e-5 of the whole, which changes the contact time by 1e-5: the results stay.
@@ -55,7 +55,7 @@ fn a_very_stiff_partner_is_rigid_with_the_same_results() {
     for model in MODELS {
         let set = [model, "mesh.contact_element_size='0.3 mm'"];
         let plain = simulation(&set).unwrap();
-        let is_rigid = verdict(&plain);
+        let is_rigid = decision(&plain);
         assert!(is_rigid.active && is_rigid.reason.contains("anvil"), "{}", is_rigid.reason);
         let warnings = plain.setup().warnings().join("\n");
         assert!(!warnings.contains("rigid"), "{warnings}");
@@ -94,13 +94,13 @@ fn a_forced_rigid_partner_changes_the_results_as_estimated() {
             _ => "effects.bulk_viscosity='auto'",
         };
         let set = [model, stiff, "mesh.contact_element_size='0.3 mm'", smooth];
-        assert!(!verdict(&simulation(&set).unwrap()).active);
+        assert!(!decision(&simulation(&set).unwrap()).active);
         let on = "effects.rigid_partner='on'";
         let forced = simulation(&[set[0], set[1], set[2], set[3], on]).unwrap();
         let warnings = forced.setup().warnings().join("\n");
         assert!(warnings.contains("forced to be rigid"), "{model}: {warnings}");
         let setup = forced.setup();
-        let estimated = forced.neglect_error(verdict(&forced), &setup.estimate).unwrap();
+        let estimated = forced.neglect_error(decision(&forced), &setup.estimate).unwrap();
         let (rigid, whole) = (forced.run(&mut ()), run(&set));
         let found = (rigid.contact_time.unwrap() - whole.contact_time.unwrap()).abs();
         let ratio = found / estimated.contact_time_s.unwrap();
@@ -133,7 +133,7 @@ fn rigid_balls_on_a_half_space_and_held_ones() {
         let [fem, condensed] = ["model.fem={}", "model.condensed={}"].map(|model| {
             let set: Vec<&str> = scene.into_iter().chain([model]).collect();
             let simulation = simulation(&set).unwrap();
-            assert!(verdict(&simulation).active, "{scene:?}");
+            assert!(decision(&simulation).active, "{scene:?}");
             simulation.run(&mut ())
         });
         assert!(fem.is_complete(), "{scene:?}: {:?}", fem.ending);
@@ -146,7 +146,7 @@ fn rigid_balls_on_a_half_space_and_held_ones() {
 /// Added mass is a share of the lighter body. For a ball of 2 mm on a sphere of 60 mm, a share of the sphere would be sixteen
 /// times the ball.
 #[test]
-fn added_mass_is_a_share_of_a_small_rigid_ball() {
+fn moved_mass_is_a_share_of_a_small_rigid_ball() {
     let set = |model| {
         let body = |name, diameter, material, speed| {
             format!(
@@ -160,7 +160,7 @@ fn added_mass_is_a_share_of_a_small_rigid_ball() {
         run(&[model, rubber, &format!("body=[{bodies}]")])
     };
     let [explicit, condensed] = [set("model.fem={}"), set("model.condensed={}")];
-    let added = explicit.bodies[0].added_mass.unwrap();
+    let added = explicit.bodies[0].moved_mass.unwrap();
     assert!(added < 0.0051 * explicit.bodies[1].mass.unwrap(), "{added:e}");
     // The values are 0.9928 and 0.9925. With a share of the sphere's mass it was 0.7601, and the contact 14 % longer.
     let difference = explicit.restitution.unwrap() - condensed.restitution.unwrap();

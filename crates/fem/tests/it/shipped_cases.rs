@@ -120,13 +120,13 @@ fn every_case_has_the_plan_of_its_row() {
         let model = serde_json::to_value(&simulation.resolved().model).unwrap();
         let models: Vec<&String> = model.as_object().unwrap().keys().collect();
         assert_eq!(models, [row.model], "{name}");
-        let verdicts = &simulation.setup().decisions.verdicts;
-        let active = verdicts.iter().filter(|verdict| verdict.active).map(|verdict| verdict.name);
+        let decisions = &simulation.setup().decisions.all;
+        let active = decisions.iter().filter(|decision| decision.active).map(|decision| decision.name);
         let active: Vec<&str> = active.filter(|effect| !MESHED.contains(effect)).collect();
         assert_eq!(active, row.active, "{name}");
         for (effect, why) in row.why {
-            let verdict = verdicts.iter().find(|verdict| verdict.name == *effect).unwrap();
-            assert!(verdict.reason.contains(why), "{name}: {effect}: {}", verdict.reason);
+            let decision = decisions.iter().find(|decision| decision.name == *effect).unwrap();
+            assert!(decision.reason.contains(why), "{name}: {effect}: {}", decision.reason);
         }
         let warnings = simulation.warnings_before();
         assert_eq!(warnings.len(), row.warnings.len(), "{name}: {warnings:?}");

@@ -113,8 +113,8 @@ fn models_agree_within_their_bars() {
 fn yield_is_judged_with_effective_moduli() {
     let reason = |set: &[&str]| {
         let effects = run(&[set, &["model.ting={}"]].concat()).effects;
-        let plastic = effects.into_iter().find(|it| it.verdict.name == "plastic yield").unwrap();
-        plastic.verdict.reason
+        let plastic = effects.into_iter().find(|it| it.decision.name == "plastic yield").unwrap();
+        plastic.decision.reason
     };
     assert!(reason(&[]).contains("contact modulus = 0.003"), "{}", reason(&[]));
     assert!(reason(&[ELASTIC]).contains("contact modulus = 0.080"), "{}", reason(&[ELASTIC]));

@@ -41,10 +41,10 @@ fn excesses(summary: &Summary) -> [f64; 4] {
         (QuantityOfInterest::PeakForce, 0.01),
         (QuantityOfInterest::PeakPressure, 0.03),
     ];
-    allowed.map(|(headline, tolerance)| {
-        let value = summary.collision.number(headline).unwrap();
-        let bar = summary.uncertainty.parts(headline).discretisation.unwrap();
-        bar / headline.scale(value) / tolerance
+    allowed.map(|(quantity, tolerance)| {
+        let value = summary.collision.number(quantity).unwrap();
+        let bar = summary.uncertainty.parts(quantity).discretisation.unwrap();
+        bar / quantity.scale(value) / tolerance
     })
 }
 
@@ -85,14 +85,14 @@ fn an_insufficient_mesh_is_refined() {
     assert_eq!(resumed.finish(), collision);
     // The result on a fine mesh differs by less than the tolerance.
     let fine = self::simulation(RUBBER, &[FEM, FAST, FINE]).run(&mut ());
-    for (headline, tolerance) in [
+    for (quantity, tolerance) in [
         (QuantityOfInterest::Restitution, 0.01),
         (QuantityOfInterest::ContactTime, 0.01),
         (QuantityOfInterest::PeakForce, 0.01),
     ] {
-        let (ours, exact) = (headline.of(&collision).unwrap(), headline.of(&fine).unwrap());
-        let error = (ours - exact).abs() / headline.scale(exact);
-        assert!(error < tolerance, "{headline:?} {error}");
+        let (ours, exact) = (quantity.of(&collision).unwrap(), quantity.of(&fine).unwrap());
+        let error = (ours - exact).abs() / quantity.scale(exact);
+        assert!(error < tolerance, "{quantity:?} {error}");
     }
 }
 
@@ -110,9 +110,9 @@ fn soft_spheres_are_within_the_tolerance_of_recorded_ones() {
     ] {
         let (simulation, collision) = computed(text, set);
         assert_eq!(warning(&simulation, &collision), None);
-        let [e, time, force, _, _, pressure] = QuantityOfInterest::ALL.map(|headline| {
-            let value = headline.of(&collision).unwrap();
-            (value, headline.scale(value))
+        let [e, time, force, _, _, pressure] = QuantityOfInterest::ALL.map(|quantity| {
+            let value = quantity.of(&collision).unwrap();
+            (value, quantity.scale(value))
         });
         let tolerances = [0.01, 0.01, 0.01, 0.03];
         for (((value, scale), recorded), tolerance) in
@@ -164,7 +164,7 @@ fn a_coarse_mesh_of_the_case_has_a_warning() {
     ];
     let missed = excesses(&summary).map(|excess| excess > 1.0);
     assert!(missed.iter().filter(|is| **is).count() > 1, "{missed:?}");
-    let is_named = names.map(|headline| found.as_ref().unwrap().contains(headline.name()));
+    let is_named = names.map(|quantity| found.as_ref().unwrap().contains(quantity.name()));
     assert_eq!(is_named, missed, "{found:?}");
     // A larger tolerance has no warning.
     let wide = ["mesh.contact_element_size='2 mm'", "accuracy.tolerance='30 %'"];

@@ -27,11 +27,11 @@ fn summary(text: &str, set: &[&str]) -> Summary {
 }
 
 fn numbers(quantities: &Quantities) -> [Option<f64>; 6] {
-    QuantityOfInterest::ALL.map(|headline| quantities.number(headline))
+    QuantityOfInterest::ALL.map(|quantity| quantities.number(quantity))
 }
 
 fn parts(uncertainty: &UncertaintySummary) -> [Parts; 6] {
-    QuantityOfInterest::ALL.map(|headline| uncertainty.parts(headline))
+    QuantityOfInterest::ALL.map(|quantity| uncertainty.parts(quantity))
 }
 
 fn model(summary: &Summary) -> [f64; 6] {
@@ -124,7 +124,7 @@ fn neglect_errors_are_added() {
     let set = [NAMED, NO_SNAPSHOTS];
     let [hertz, sized] = [HERTZ, "model.hertz.finite_size=true"]
         .map(|chosen| summary(GLASS, &[&set[..], &[chosen]].concat()));
-    let size = hertz.effects.iter().find(|effect| effect.verdict.name == "finite size").unwrap();
+    let size = hertz.effects.iter().find(|effect| effect.decision.name == "finite size").unwrap();
     let neglect_error = size.error_if_left_out.unwrap().contact_time_s.unwrap();
     let step = model(&hertz)[1] - model(&sized)[1];
     // The difference is the second order of the term.
@@ -153,7 +153,7 @@ fn known_parts_of_an_error_are_a_lower_bound() {
                  [[body]]\nname = 'nylon'\nsphere = { diameter = '8 mm' }\nmaterial = 'lib:nylon'\n\
                  approach_speed = '3 m/s'\n";
     let found = summary(nylon, &[TING]);
-    let of = |headline: QuantityOfInterest| found.uncertainty.parts(headline);
+    let of = |quantity: QuantityOfInterest| found.uncertainty.parts(quantity);
     let time = of(QuantityOfInterest::ContactTime);
     assert_eq!((time.model, time.sum()), (None, None));
     // The spread of the laws alone is 3.88 %.

@@ -56,7 +56,7 @@ fn run(set: &[&[&str]]) -> (Simulation, Collision) {
 /// The added mass is the allowed share of the lighter body, larger for a less compliant body, and at most that share of the
 /// body's own mass.
 #[test]
-fn added_mass_is_the_allowed_share() {
+fn moved_mass_is_the_allowed_share() {
     for scene in SCENES {
         let (simulation, collision) = run(&[scene]);
         let allowed = simulation.setup().elements.as_ref().unwrap().plan.mass_scaling;
@@ -65,7 +65,7 @@ fn added_mass_is_the_allowed_share() {
         let shares = collision.bodies.iter().zip(compliance).filter_map(|(body, compliance)| {
             let times = (0.125 / compliance).max(1.0);
             let whole = body.mass?.min(times * lightest?);
-            Some(body.added_mass? / (allowed * whole))
+            Some(body.moved_mass? / (allowed * whole))
         });
         let share = shares.fold(0.0, f64::max);
         assert!((0.99..1.000_001).contains(&share), "{scene:?}: {share} of {allowed}");
@@ -75,19 +75,19 @@ fn added_mass_is_the_allowed_share() {
 /// Added mass changes no quantity by more than its error bar. With a share of the large body's mass the restitution of the
 /// first two scenes would be 0.76 and 0.54 in place of 0.993.
 #[test]
-fn added_mass_is_within_the_bars() {
+fn moved_mass_is_within_the_bars() {
     for scene in &SCENES[1..3] {
         let (simulation, collision) = run(&[scene]);
         let (_, without) = run(&[scene, &["time.mass_scaling=0"]]);
         assert!(without.steps > collision.steps, "{scene:?}");
         let bars = simulation.summary(&collision).uncertainty;
-        for headline in QuantityOfInterest::ALL {
-            let [value, truth] = [&collision, &without].map(|it| headline.of(it).unwrap());
-            let bar = bars.parts(headline).discretisation.unwrap();
+        for quantity in QuantityOfInterest::ALL {
+            let [value, truth] = [&collision, &without].map(|it| quantity.of(it).unwrap());
+            let bar = bars.parts(quantity).discretisation.unwrap();
             assert!(
                 (value - truth).abs() <= bar,
                 "{scene:?} {}: {value} {truth} {bar}",
-                headline.name()
+                quantity.name()
             );
         }
     }
@@ -97,7 +97,7 @@ fn added_mass_is_within_the_bars() {
 /// share of the ball's mass alone the step would be 1.6 times the unscaled one. The allowed change of the contact time is a
 /// sixth of its bar, that of the force a fifth.
 #[test]
-fn a_stiff_half_space_gets_more_added_mass() {
+fn a_stiff_half_space_gets_more_moved_mass() {
     let scene = [
         "body.0={ name='large', half_space={}, material='steel' }",
         "body.1={ name='small', sphere.diameter='30 mm', material='rubber', approach_speed='0.3 m/s' }",
@@ -107,13 +107,13 @@ fn a_stiff_half_space_gets_more_added_mass() {
     let (_, without) = run(&[&scene, &["time.mass_scaling=0"]]);
     let [steps, plain] = [&collision, &without].map(|it| it.steps.unwrap());
     assert!(5 * steps < plain, "{steps} {plain}");
-    assert!(collision.bodies[0].added_mass > Some(0.01));
-    for (headline, allowed) in [
+    assert!(collision.bodies[0].moved_mass > Some(0.01));
+    for (quantity, allowed) in [
         (QuantityOfInterest::Restitution, 2e-4),
         (QuantityOfInterest::ContactTime, 5e-4),
         (QuantityOfInterest::PeakForce, 1e-3),
     ] {
-        let [value, truth] = [&collision, &without].map(|it| headline.of(it).unwrap());
-        assert!((value / truth - 1.0).abs() < allowed, "{}: {value} {truth}", headline.name());
+        let [value, truth] = [&collision, &without].map(|it| quantity.of(it).unwrap());
+        assert!((value / truth - 1.0).abs() < allowed, "{}: {value} {truth}", quantity.name());
     }
 }

@@ -243,8 +243,8 @@ fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
 
 /// Returns the uncertainty of the terms for waves, contact time and peak force over Hertz' values.
 fn waves(theirs: &Ran) -> [f64; 3] {
-    let verdicts = theirs.verdicts();
-    let waves = verdicts.iter().find(|one| one.name == PartnerWaves::NAME && one.active);
+    let decisions = theirs.decisions();
+    let waves = decisions.iter().find(|one| one.name == PartnerWaves::NAME && one.active);
     let Some(estimate) = theirs.simulation.estimate(&theirs.collision) else { return [0.0; 3] };
     let effect = waves.and_then(|waves| theirs.simulation.neglect_error(waves, &estimate));
     let effect =
@@ -267,10 +267,10 @@ fn explained(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (has, lacks) in [(ours, theirs), (theirs, ours)] {
         let Some(estimate) = has.simulation.estimate(&has.collision) else { continue };
-        let lacking = lacks.verdicts();
+        let lacking = lacks.decisions();
         let is_lacking = |name: &str| !lacking.iter().any(|one| one.name == name && one.active);
-        for verdict in has.verdicts().iter().filter(|one| one.active && is_lacking(one.name)) {
-            let Some(neglect_error) = has.simulation.neglect_error(verdict, &estimate) else {
+        for decision in has.decisions().iter().filter(|one| one.active && is_lacking(one.name)) {
+            let Some(neglect_error) = has.simulation.neglect_error(decision, &estimate) else {
                 continue;
             };
             for (sum, share) in sum.iter_mut().zip(shares(&neglect_error, &estimate)) {
@@ -286,7 +286,7 @@ impl Ran {
         !self.simulation.warnings(&self.collision).is_empty()
     }
 
-    fn verdicts(&self) -> Vec<EffectDecision> {
-        self.simulation.decisions(&self.collision).verdicts
+    fn decisions(&self) -> Vec<EffectDecision> {
+        self.simulation.decisions(&self.collision).all
     }
 }

@@ -52,9 +52,9 @@ fn left_in(place: &Place, set: &[&str]) -> (RestartState, Identity) {
 }
 
 /// Returns the velocities of the lower body in a restart state, in the order of its bytes.
-fn velocities(memory: &RestartState) -> Vec<f64> {
-    let memory = serde_json::to_value(memory).unwrap();
-    let list = memory["contact"]["state"]["bodies"][0]["velocity"].as_array().unwrap();
+fn velocities(state: &RestartState) -> Vec<f64> {
+    let state = serde_json::to_value(state).unwrap();
+    let list = state["contact"]["state"]["bodies"][0]["velocity"].as_array().unwrap();
     list.iter().flat_map(|v| v.as_array().unwrap()).map(|v| v.as_f64().unwrap()).collect()
 }
 
@@ -62,9 +62,9 @@ fn velocities(memory: &RestartState) -> Vec<f64> {
 type Change = fn(usize, f64) -> f64;
 
 /// Returns a restart state with other velocities of the lower body; NaN can only be set in its bytes.
-fn with(memory: &RestartState, change: Change) -> RestartState {
-    let mut bytes = postcard::to_stdvec(memory).unwrap();
-    let old = velocities(memory);
+fn with(state: &RestartState, change: Change) -> RestartState {
+    let mut bytes = postcard::to_stdvec(state).unwrap();
+    let old = velocities(state);
     let as_bytes = |values: &[f64]| -> Vec<u8> {
         values.iter().flat_map(|value| value.to_le_bytes()).collect()
     };
@@ -79,12 +79,12 @@ fn with(memory: &RestartState, change: Change) -> RestartState {
 fn gone_on(
     place: &Place,
     set: &[&str],
-    memory: &RestartState,
+    state: &RestartState,
     identity: &Identity,
 ) -> (String, Value) {
     let _ = std::fs::remove_dir_all(place.path("out"));
     std::fs::create_dir(place.path("out")).unwrap();
-    std::fs::write(place.path("out").join(RESTART_FILE), checkpoint(identity, memory)).unwrap();
+    std::fs::write(place.path("out").join(RESTART_FILE), checkpoint(identity, state)).unwrap();
     let ran = place.run(("case.toml --out out --restart", set));
     ran.tells("continuing from step");
     let summary = place.json("out/summary.json");
@@ -102,9 +102,9 @@ fn step_of(stopped: &str) -> u64 {
 fn restart_with_altered_velocities_stops_with_energy_error() {
     for (name, set) in SCENES {
         let place = Place::new();
-        let (memory, identity) = left_in(&place, set);
+        let (state, identity) = left_in(&place, set);
         // Without a change the run completes, so the others stop because of theirs.
-        let (stderr, summary) = gone_on(&place, set, &with(&memory, |_, v| v), &identity);
+        let (stderr, summary) = gone_on(&place, set, &with(&state, |_, v| v), &identity);
         assert_eq!(summary["complete"], true, "{name}: {stderr}");
         let whole = summary["steps"].as_u64().unwrap();
         let faults: [(&str, Change); 3] = [
@@ -113,7 +113,7 @@ fn restart_with_altered_velocities_stops_with_energy_error() {
             ("is not a number", |k, v| if k == 40 { f64::INFINITY } else { v }),
         ];
         for (cause, change) in faults {
-            let (stderr, summary) = gone_on(&place, set, &with(&memory, change), &identity);
+            let (stderr, summary) = gone_on(&place, set, &with(&state, change), &identity);
             let stopped = summary["stopped_because"].as_str().unwrap_or_else(|| panic!("{name}"));
             for word in [cause, "at ", "node ", "of the lower body", " position is r = "] {
                 assert!(stopped.contains(word), "{name}: no “{word}” in {stopped}");
@@ -121,7 +121,7 @@ fn restart_with_altered_velocities_stops_with_energy_error() {
             assert!(stderr.contains("at ") && stderr.contains("lower body"), "{name}: {stderr}");
             assert!(stderr.contains("help: "), "{name}, no remedy: {stderr}");
             // Within a few hundredths of the collision, since energies are checked at intervals.
-            let after = step_of(stopped) - memory.step();
+            let after = step_of(stopped) - state.step();
             assert!(after <= 16 + whole / 30, "{name}: {after} steps later of {whole}: {stopped}");
             // The results so far are kept, with the last valid state.
             for key in ["restitution", "contact_time_s"] {

@@ -16,7 +16,7 @@ use crate::effects::effect::{Effect, MassScaling};
 use crate::estimate::Estimate;
 
 /// Largest moved mass over the lighter body's mass; at 1 % the error of the peak force is up to half of that.
-const LARGEST_ADDED_MASS: f64 = 1e-2;
+const LARGEST_MOVED_MASS: f64 = 1e-2;
 /// Moved mass over that mass below which it is rounding of the node that determines the time step.
 const ROUNDING: f64 = 1e-12;
 const NOTHING: &str = "no mass is moved";
@@ -96,7 +96,7 @@ impl Effect for MassScaling {
     fn support_in_result(&self, scene: &Scene, collision: &Collision) -> Option<Support> {
         let longer = collision.time_step? / collision.plain_time_step?;
         let masses = collision.bodies.each_ref().map(|body| body.mass);
-        let added = collision.bodies.each_ref().map(|body| body.added_mass);
+        let added = collision.bodies.each_ref().map(|body| body.moved_mass);
         Some(Self::of(scene, masses, added, longer))
     }
 
@@ -107,15 +107,15 @@ impl Effect for MassScaling {
         collision: &Collision,
     ) -> Vec<String> {
         let shares =
-            collision.added_shares().into_iter().zip(scene.bodies()).zip(Self::times(scene));
+            collision.moved_shares().into_iter().zip(scene.bodies()).zip(Self::times(scene));
         let warnings = shares.filter_map(|((share, named), times)| {
-            let share = share.filter(|share| *share > LARGEST_ADDED_MASS * times)?;
+            let share = share.filter(|share| *share > LARGEST_MOVED_MASS * times)?;
             Some(format!(
                 "mass scaling moves {:.2} % of the lighter body's mass to light nodes of {}; above {} %, use a \
                  smaller time.mass_scaling",
                 100.0 * share,
                 named.name(),
-                100.0 * LARGEST_ADDED_MASS * times
+                100.0 * LARGEST_MOVED_MASS * times
             ))
         });
         warnings.collect()

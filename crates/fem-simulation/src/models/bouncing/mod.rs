@@ -182,8 +182,8 @@ impl Model for Bouncing {
         })
     }
 
-    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        Ok(Box::new(BouncingStepper::resume(&self.ball, memory)?))
+    fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
+        Ok(Box::new(BouncingStepper::resume(&self.ball, state)?))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

@@ -65,26 +65,26 @@ impl BouncingStepper {
         let known =
             Bounces { approach: *approach, request: request.clone(), so_far, made_at: None };
         let present = ball.first.clone();
-        let mut course = Self { ball: ball.clone(), known, present, contact: None };
-        course.touch(speed);
-        course
+        let mut stepper = Self { ball: ball.clone(), known, present, contact: None };
+        stepper.touch(speed);
+        stepper
     }
 
     /// Continues from a restart state.
     ///
     /// # Errors
     /// A restart state of another ball, or one whose parts contradict each other.
-    pub fn resume(ball: &Arc<Ball>, memory: RestartState) -> Result<Self, Rejection> {
+    pub fn resume(ball: &Arc<Ball>, state: RestartState) -> Result<Self, Rejection> {
         let another = || Rejection::new("gravity", ModelError::ForeignRestartState.to_string());
-        let known = memory.bounces.clone().ok_or_else(another)?;
-        if !known.fits(ball, &memory.contact, &memory.met) {
+        let known = state.bounces.clone().ok_or_else(another)?;
+        if !known.fits(ball, &state.contact, &state.met) {
             return Err(another());
         }
         let present: Arc<dyn Model> = match known.made_at {
             Some(speed) => Arc::from(ball.made_at(speed).map_err(|_| another())?),
             None => ball.first.clone(),
         };
-        let contact = Some(present.resume(RestartState { bounces: None, ..memory })?);
+        let contact = Some(present.resume(RestartState { bounces: None, ..state })?);
         Ok(Self { ball: ball.clone(), known: *known, present, contact })
     }
 

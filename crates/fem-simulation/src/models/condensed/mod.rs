@@ -153,7 +153,7 @@ impl Condensed {
             cost: cost_of(scene, &pair, n_steps as u64),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
-                added_share: 0.0,
+                moved_share: 0.0,
                 noise_advice: ContactNoiseAdvice::MoreSteps,
                 plan,
             }),

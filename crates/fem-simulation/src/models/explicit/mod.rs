@@ -147,7 +147,7 @@ impl Explicit {
                 noise_advice: ContactNoiseAdvice::of_elements(scene, &plan),
                 plan,
                 has_springs: true,
-                added_share: added_share(scene, &bodies),
+                moved_share: moved_share(scene, &bodies),
             }),
         };
         Ok(Self { setup, made: Arc::new(made), frame, bodies: Arc::new(bodies) })
@@ -266,17 +266,17 @@ impl Model for Explicit {
         Some(self.stepper(approach, request))
     }
 
-    fn resume(&self, memory: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
+    fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         let refused = |error: ModelError| Rejection::new("model.fem", error.to_string());
-        let RestartState { contact: memory, bounces, met, .. } = memory;
+        let RestartState { contact: run, bounces, met, .. } = state;
         let frame = self.made.own_frame(&met).map_err(refused)?;
-        let (approach, expected) = (*memory.approach(), memory.expected());
+        let (approach, expected) = (*run.approach(), run.expected());
         if bounces.is_some() || approach != *frame.own() {
             return Err(refused(ModelError::ForeignRestartState));
         }
-        let request = memory.request().clone();
-        let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
-        let run = Run::resume(bodies, memory).map_err(refused)?;
+        let request = run.request().clone();
+        let bodies = self.bodies_at(&approach, run.candidate_radius()).map_err(refused)?;
+        let run = Run::resume(bodies, run).map_err(refused)?;
         let scene = &self.made.scene;
         let estimate = Estimate::at(scene, approach.speed())
             .map_err(|error| Rejection::new("body", error.to_string()))?;
@@ -437,13 +437,13 @@ fn support(
 /// Returns the decision on mass scaling with the moved masses.
 fn mass_scaling(scene: &Scene, model: &ExplicitBodies) -> Support {
     let masses = model.bodies().each_ref().map(|body| Some(body.mass()).filter(|m| m.is_finite()));
-    let added = model.bodies().each_ref().map(|body| Some(body.added_mass()));
+    let added = model.bodies().each_ref().map(|body| Some(body.moved_mass()));
     MassScaling::of(scene, masses, added, model.time_step() / model.plain_time_step())
 }
 
 /// Returns the larger moved mass over the lighter body's mass, corrected for the factor on stiffer bodies.
-fn added_share(scene: &Scene, model: &ExplicitBodies) -> f64 {
+fn moved_share(scene: &Scene, model: &ExplicitBodies) -> f64 {
     let lightest = model.bodies().iter().map(|body| body.mass()).fold(f64::INFINITY, f64::min);
-    let shares = model.bodies().iter().map(|body| body.added_mass() / lightest);
+    let shares = model.bodies().iter().map(|body| body.moved_mass() / lightest);
     shares.zip(MassScaling::times(scene)).map(|(share, times)| share / times).fold(0.0, f64::max)
 }
