@@ -14,11 +14,14 @@ pub mod error;
 mod estimate;
 mod models;
 mod plan;
+mod quantity_errors;
 mod rejection;
 pub mod results;
 mod simulation;
 
-pub use error::{ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound};
+pub use error::{
+    ComputedCollision, ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound, collide,
+};
 pub use estimate::Estimate;
 pub use estimate::approach::approach_of;
 pub use estimate::quasi_static::ting_impact;
@@ -33,14 +36,15 @@ pub use plan::contact_method::{ContactNoiseAdvice, contact_method, unread};
 pub use plan::element_size::MeshRule;
 pub use plan::pair_cache::PairCache;
 pub use plan::{Plan, divided_radius};
+pub use quantity_errors::QuantityErrors;
 pub use rejection::Rejection;
 pub use results::Summary;
 pub use results::diagnostics::diagnose;
 pub use results::stop_advice::{StopAdvice, stop_advice};
 pub use results::stress::BodyStress;
-pub use results::warning_kinds::{WarningKind, WarningKinds};
+pub use results::grouped_warnings::{WarningKind, WarningKinds};
 pub use simulation::checkpoint::{
     CheckpointError, CheckpointHead, checkpoint, checkpoint_head, restart_state_of,
 };
 pub use simulation::identity::{Identity, NUMERICS, case_identity, digest_of, identified, name_of};
-pub use simulation::{ComputedCollision, Simulation, collide};
+pub use simulation::Simulation;

@@ -191,8 +191,7 @@ fn announce(
         line += &format!(", since {} holds that of another case", taken.display());
     }
     let _ = writeln!(stderr(), "{}", one_line(&line));
-    let odd = simulation.case().scene().implausible_numbers();
-    standard_output::warn(odd.into_iter().chain(simulation.mesh_warning()));
+    standard_output::warn(simulation.case().scene().implausible_numbers());
     if let Some(hint) = simulation.cheaper() {
         let _ = writeln!(stderr(), "hint: {}", one_line(&hint));
     }

@@ -26,8 +26,7 @@ use crate::rejection::Rejection;
 
 pub(crate) use effect::computed_scene::ComputedScene;
 pub use effect::computed_scene::TransformedScene;
-pub use effect::model_form_error::{EffectStatus, ModelFormError};
-pub use effect::neglect_error::NeglectError;
+pub use effect::neglect_error::{EffectStatus, NeglectError};
 pub use effect::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
 pub use effect::support::Support;
 pub use effect::{

@@ -13,7 +13,7 @@ pub(super) struct Calibration {
     pub name: &'static str,
     /// Safety factor on the estimated error.
     pub safety_factor: f64,
-    /// Error that the place of the contact's edge between two nodes may add, times (a/h)².
+    /// Constant c of the error c (h/a)² that the place of the contact's edge between two nodes causes.
     pub edge: [f64; 6],
 }
 
@@ -38,7 +38,7 @@ pub(super) const CONDENSED: Calibration = Calibration {
 /// Scatter of the quantities on any mesh, however fine.
 pub(super) const SCATTER: [f64; 6] = [2e-5, 1e-4, 2e-4, 1e-4, 1e-3, 5e-4];
 
-/// Error per share of mass that is added for a longer time step.
+/// Errors per share of the mass that is moved for a longer time step.
 pub(super) const MOVED_MASS: [f64; 6] = [0.05, 0.25, 0.4, 0.45, 0.1, 0.2];
 
 /// Order of convergence with the element size that the extrapolation assumes.

@@ -5,15 +5,15 @@ use fem_collision::{Collision, QuantityOfInterest};
 use super::calibration::{
     CLOSED_FORM, CONDENSED, Calibration, EXPLICIT, SAMPLED_PER_TOLERANCE, STRAINED,
 };
-use super::elastic_null::{ElasticNull, elastic_null};
+use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{
     moved_share, contact_element_size, floor_of_mesh, floor_of_run, is_unresolved,
 };
 use super::reference_runs::{ReferenceRuns, Subject, Values};
-use super::refinement::NotRefined;
-use crate::effects::{FiniteStrain, ModelFormError};
+use crate::effects::FiniteStrain;
 use crate::models::explicit::cost::needs_own_reference;
 use crate::models::method::Cost;
+use crate::quantity_errors::QuantityErrors;
 use crate::simulation::Simulation;
 
 /// Estimates the errors of the collisions of a case on the planned mesh and on refined ones, and keeps the reference runs
@@ -41,76 +41,7 @@ pub struct ErrorEstimator {
     pub(super) runs: ReferenceRuns,
 }
 
-/// The estimated errors of a collision.
-#[derive(Debug, Default)]
-pub struct ErrorEstimate {
-    pub(crate) bars: ModelFormError,
-    parts: [Option<BarParts>; 6],
-    /// Loss of a relaxing run without relaxation.
-    pub elastic_null: Option<ElasticNull>,
-    /// Element updates of all reference runs so far, those of coarser meshes included.
-    pub element_updates: u64,
-    /// The reason why the mesh stays, if the tolerance is missed.
-    pub(super) not_refined: Option<NotRefined>,
-}
-
-/// The parts of an error bar before the noise of the run: the restitution's absolute, others relative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BarParts {
-    /// Name of the row of calibrated constants.
-    pub constants: &'static str,
-    /// Distance from the Richardson limit of the reference runs.
-    pub reference_error: f64,
-    /// Safety factor on this distance.
-    pub safety_factor: f64,
-    /// Elements across the contact.
-    pub across: f64,
-    /// Floor by the place of the contact's edge.
-    pub edge: f64,
-    /// Floor by scatter and added mass.
-    pub floor: f64,
-}
-
-impl BarParts {
-    /// Returns safety factor × reference error + edge + floor.
-    pub fn sum(&self) -> f64 {
-        self.safety_factor * self.reference_error + self.edge + self.floor
-    }
-}
-
-impl ErrorEstimate {
-    /// Returns the discretisation error of a quantity, SI; `None` if it is not estimated.
-    pub fn discretisation(&self, quantity: QuantityOfInterest) -> Option<f64> {
-        self.bars.size(quantity)
-    }
-
-    /// Returns the parts of the error bar of a model with elements, without the noise of the run.
-    pub fn parts(&self, quantity: QuantityOfInterest) -> Option<BarParts> {
-        self.parts[quantity as usize]
-    }
-}
-
 impl ErrorEstimator {
-    /// Estimates the errors of a collision.
-    pub fn estimate(&mut self, simulation: &Simulation, collision: &Collision) -> ErrorEstimate {
-        let mut estimate = self.bars(simulation, collision);
-        if let Err(reason) = self.refined(simulation, collision, &estimate) {
-            estimate.not_refined = Some(reason);
-        }
-        self.complete(simulation, collision, estimate)
-    }
-
-    /// Adds what only the last mesh needs.
-    pub(super) fn complete(
-        &mut self,
-        simulation: &Simulation,
-        collision: &Collision,
-        estimate: ErrorEstimate,
-    ) -> ErrorEstimate {
-        let elastic_null = elastic_null(simulation, collision, &mut self.runs);
-        ErrorEstimate { elastic_null, element_updates: self.runs.element_updates(), ..estimate }
-    }
-
     /// Estimates the discretisation error.
     pub(super) fn bars(&mut self, simulation: &Simulation, collision: &Collision) -> ErrorEstimate {
         use fem_case::ModelChoice::{Auto, Condensed, Fem, Hertz, Law, Ting};
@@ -123,7 +54,7 @@ impl ErrorEstimator {
             Hertz { .. } => of_tolerance(collision, CLOSED_FORM),
             Ting { tolerance, .. } | Law { tolerance, .. } => of_tolerance(collision, tolerance),
             // Its choice is one of the others.
-            Auto => ModelFormError::default(),
+            Auto => QuantityErrors::default(),
         };
         let element_updates = self.runs.element_updates();
         ErrorEstimate { bars, parts, element_updates, ..ErrorEstimate::default() }
@@ -252,11 +183,11 @@ fn summed(
     simulation: &Simulation,
     collision: &Collision,
     parts: &[Option<BarParts>; 6],
-) -> ModelFormError {
+) -> QuantityErrors {
     // Coarser runs of unresolved contacts may not come to an end.
     let is_unresolved = is_unresolved(simulation, collision);
     let floor = floor_of_run(simulation, collision);
-    ModelFormError::from_fn(|quantity| {
+    QuantityErrors::from_fn(|quantity| {
         let estimated = parts[quantity as usize].map(|parts| parts.sum());
         let bar = estimated.or(is_unresolved.then_some(0.0))?.max(floor(quantity));
         quantity.of(collision).map(|value| bar * quantity.scale(value))
@@ -264,8 +195,8 @@ fn summed(
 }
 
 /// Returns the errors of a model without elements, from its tolerance.
-fn of_tolerance(collision: &Collision, tolerance: f64) -> ModelFormError {
-    ModelFormError::from_fn(|quantity| {
+fn of_tolerance(collision: &Collision, tolerance: f64) -> QuantityErrors {
+    QuantityErrors::from_fn(|quantity| {
         let share = match quantity {
             QuantityOfInterest::Restitution
             | QuantityOfInterest::ContactTime
@@ -281,7 +212,7 @@ mod tests {
     use super::super::calibration::{MOVED_MASS, SCATTER};
     use super::*;
 
-    /// The bar is F_s |Δ| + c (h/a)² + scatter + added mass, and the pressure's floor depends on its own radius.
+    /// The bar is F_s |Δ| + c (h/a)² + scatter + moved mass, and the pressure's floor depends on its own radius.
     #[test]
     fn error_bar_is_the_sum_of_its_documented_parts() {
         let calibration = Calibration { name: "", safety_factor: 2.0, edge: [0.16; 6] };

@@ -13,7 +13,7 @@
 //! |---|---|---|
 //! | q₀ | Richardson limit of two reference runs whose element sizes have the ratio r, with the order p = 1.9 | `reference_runs` |
 //! | F_s, c | safety factor and floor, calibrated on random scenes by the claim `error_bars` | `calibration` |
-//! | c (h/a)² + noise | errors that no pair of meshes shows: the place of the contact's edge between two nodes, added mass, contact chatter, rounding | `noise_floor` |
+//! | c (h/a)² + noise | errors that no pair of meshes shows: the place of the contact's edge between two nodes, moved mass, contact chatter, rounding | `noise_floor` |
 //! | U | the sum | `estimator` |
 //!
 //! The reference runs take a small share of the run's time:
@@ -27,30 +27,29 @@
 //! - Closed forms and contact laws have the error of their tolerance.
 //!
 //! The estimate decides on the mesh (`tolerance_check`, `refinement`, `refinement_cost_bound`) and on the warnings
-//! (`advice`). The model-form error (`model_form`) is the change by neglected effects.
+//! (`tolerance_warnings`). The model-form error is the change by neglected effects (`results/uncertainty.rs`).
 
-mod advice;
 mod calibration;
 mod elastic_null;
+mod estimate;
 mod estimator;
-mod model_form;
 mod noise_floor;
 mod reference_runs;
 mod refinement;
 mod refinement_cost_bound;
 mod setting;
 mod tolerance_check;
+mod tolerance_warnings;
 
-pub(crate) use advice::{early_pressure_warning, tolerance_warning, unresolved_warning};
 pub use elastic_null::ElasticNull;
-pub use estimator::{BarParts, ErrorEstimate, ErrorEstimator};
-pub(crate) use model_form::uncertainty;
+pub use estimate::{BarParts, ErrorEstimate};
+pub use estimator::ErrorEstimator;
 pub(crate) use noise_floor::{
-    LARGEST_NOISE, excess_of_restitution, is_unresolved, noise, unbalanced_energy, widest_contact,
+    LARGEST_NOISE, LARGEST_PENETRATION, Overlap, excess_of_restitution, is_unresolved, noise, overlap,
+    unbalanced_energy, widest_contact,
 };
 pub use reference_runs::{CONDENSED_REFERENCE_TIME, first_contact};
-pub use refinement::RefinedBeforeRun;
-pub(crate) use refinement::refined_because;
+pub use refinement::{ComputedCollision, RefinedBeforeRun, collide};
 pub use refinement_cost_bound::RefinementBound;
-pub(crate) use refinement_cost_bound::refinement_bound;
 pub use setting::Setting;
+pub(crate) use tolerance_warnings::{early_pressure_warning, tolerance_warning, unresolved_warning};

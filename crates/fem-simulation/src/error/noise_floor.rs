@@ -1,9 +1,11 @@
 //! The noise floor of the error bars: errors that no pair of reference runs shows.
 //!
 //! It has two parts. The part of the mesh is known from the settings: the place of the contact's edge between two nodes,
-//! the scatter on any mesh, and added mass. The other part shows in the finished run: contact chatter, energy that is not
+//! the scatter on any mesh, and moved mass. The other part shows in the finished run: contact chatter, energy that is not
 //! conserved, overlapping surfaces, a contact narrower than an element, and an early pressure peak. No error bar is
 //! smaller than what the run's warnings report.
+
+use std::f64::consts::PI;
 
 use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
@@ -13,15 +15,16 @@ use super::calibration::{
 };
 use crate::effects::MassScaling;
 use crate::plan::mesh_source::longest_contact_edge;
-use crate::results::overlap_of_approach;
 use crate::simulation::Simulation;
 
 /// Scatter of the force over its peak above which a warning is given.
 pub(crate) const LARGEST_NOISE: f64 = 0.005;
+/// Largest overlap of the surfaces over the approach without a warning.
+pub(crate) const LARGEST_PENETRATION: f64 = 0.01;
 /// Excess of the restitution over 1 that is more than rounding.
 const LARGEST_EXCESS: f64 = 1e-5;
 
-/// Returns the floor by the place of the contact's edge, and the floor by scatter and added mass.
+/// Returns the floor by the place of the contact's edge, and the floor by scatter and moved mass.
 pub(super) fn floor_of_mesh(
     quantity: QuantityOfInterest,
     calibration: &Calibration,
@@ -39,7 +42,8 @@ pub(super) fn floor_of_run(
     collision: &Collision,
 ) -> impl Fn(QuantityOfInterest) -> f64 {
     let is_unresolved = is_unresolved(simulation, collision);
-    let overlap = overlap_of_approach(simulation, collision).unwrap_or(0.0);
+    let overlap = overlap(simulation, collision).map_or(0.0, |overlap| overlap.of_approach);
+    let overlap = if overlap > LARGEST_PENETRATION { overlap } else { 0.0 };
     let is_early = early_pressure_radius(simulation, collision).is_some();
     let pressure = match is_early || noise(collision).is_some() {
         true => distance_from_closed_form(simulation, collision),
@@ -80,6 +84,28 @@ pub(crate) fn noise(collision: &Collision) -> Option<f64> {
     (scatter > LARGEST_NOISE).then_some(scatter)
 }
 
+/// Overlap of the surfaces that penalty springs allow.
+pub(crate) struct Overlap {
+    /// Overlap over the element length.
+    pub of_element: f64,
+    /// Overlap over the largest approach.
+    pub of_approach: f64,
+}
+
+/// Returns the overlap by the mean pressure F/πa² over the penalty stiffness per area; `None` without springs or if the
+/// run did not end by itself.
+pub(crate) fn overlap(simulation: &Simulation, collision: &Collision) -> Option<Overlap> {
+    let elements = simulation.setup().elements.as_ref()?;
+    let is_known = elements.has_springs && collision.is_complete();
+    // A contact of the poles alone has no pressure, and a warning about the mesh.
+    let radius = collision.max_contact_radius.filter(|radius| is_known && *radius > 0.0)?;
+    let mean_pressure = collision.peak_force? / (PI * radius * radius);
+    let of_element = mean_pressure / elements.plan.contact_stiffness;
+    let longest = longest_contact_edge(simulation.model().meshes(), radius)?;
+    let of_approach = of_element * longest / collision.max_approach?;
+    Some(Overlap { of_element, of_approach })
+}
+
 /// Returns the unbalanced energy over the initial one, if it is too large or not a number.
 pub(crate) fn unbalanced_energy(collision: &Collision) -> Option<f64> {
     let residual = collision.residual_relative?;
@@ -94,8 +120,8 @@ pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
     (!is_possible).then_some(restitution - 1.0)
 }
 
-/// Returns the largest share of mass that is added to a body, over the mass of the lighter body; for a stiffer body over
-/// its larger allowance.
+/// Returns the larger moved mass of both bodies over the lighter body's mass. The share of a stiffer body is divided by its
+/// larger allowance.
 pub(super) fn moved_share(simulation: &Simulation, collision: &Collision) -> f64 {
     let allowed = MassScaling::times(simulation.case().scene());
     let shares = collision.moved_shares().into_iter().zip(allowed);

@@ -10,36 +10,68 @@
 //! between the first order of bulk viscosity and the second order of elements, and the collision is computed again. The
 //! ratio is 2 at once if condensed reference runs, which show the error before the collision, find a smaller one
 //! insufficient. There are at most [`MOST_LEVELS`] finer meshes, each of at most [`MOST_UPDATES`] element updates or `limits.element_updates`. No
-//! mesh is refined for errors of other settings of the case (added mass, soft springs, a coarse mesh away from the
+//! mesh is refined for errors of other settings of the case (moved mass, soft springs, a coarse mesh away from the
 //! contact). A warning gives the reason why a mesh stays. Every decision follows from numbers of the case and of its
 //! runs, so it is the same on all machines.
 
-use fem_case::{Body, CaseError, Shape};
-use fem_collision::{Collision, QuantityOfInterest, Stop};
+use std::convert::Infallible;
+
+use fem_case::{Body, Case, CaseError, Shape};
+use fem_collision::{Collision, Monitor, QuantityOfInterest, Stop};
 use fem_material::engineering::Unit;
 
 use super::calibration::MOVED_MASS;
-use super::estimator::{ErrorEstimate, ErrorEstimator};
+use super::elastic_null::elastic_null;
+use super::estimate::{ErrorEstimate, FaultySetting, NotRefined};
+use super::estimator::ErrorEstimator;
 use super::noise_floor::of_chatter;
 use super::reference_runs::Subject;
 use super::tolerance_check::{ToleranceMiss, missed, misses};
 use crate::models::method::Cost;
 use crate::models::stepper::RefinementLevel;
 use crate::plan::DEFAULT_PENALTY_FACTOR;
-use crate::simulation::{ComputedCollision, Simulation};
+use crate::simulation::Simulation;
 
 /// Safety factor on the estimated error.
 const ROOM: f64 = 1.1;
 /// Power of the element size with which errors are expected to fall.
 const FALL: f64 = 1.5;
 /// Least and largest ratio of element sizes of one refinement.
-pub(super) const STEPS: [f64; 2] = [1.25, 2.0];
+pub(super) const REFINEMENT_RATIOS: [f64; 2] = [1.25, 2.0];
 /// Largest number of finer meshes.
 pub(super) const MOST_LEVELS: usize = 4;
 /// Most element updates of a finer mesh if the case gives no limit, which take some seconds.
 pub(super) const MOST_UPDATES: u64 = 150_000_000;
 /// Most elements of a finer mesh of condensed bodies, which take a second.
 pub(super) const MOST_ELEMENTS: u64 = 60_000;
+
+/// Computes the collision of a case with its model, within its tolerance.
+///
+/// # Errors
+/// A case that the model rejects, with the place in the case.
+///
+/// ```
+/// use fem_case::schema::{BodyTable, MaterialTable, ModelTable};
+/// use fem_case::{Case, CaseFile};
+///
+/// let steel = MaterialTable::from_youngs_modulus_poissons_ratio("7850 kg/m^3", "210 GPa", 0.3);
+/// let ball = BodyTable::sphere("ball", "1 cm", "steel").approaching("1 m/s");
+/// let case = Case::of(
+///     CaseFile::of_bodies(ball, BodyTable::wall("floor"))
+///         .with_material("steel", steel)
+///         .with_model(ModelTable::hertz()),
+/// )?;
+/// let collision = fem_simulation::collide(&case)?;
+/// assert_eq!(collision.restitution, Some(1.0));
+/// // T = 2.943 δ / v with the largest approach δ = (15 m v² / (16 E* √R))^(2/5), at 1 m/s.
+/// let (mass, modulus, radius) = (4.110e-3, 230.8e9, 5e-3_f64);
+/// let hertz = 2.943 * (15.0 * mass / (16.0 * modulus * radius.sqrt())).powf(0.4);
+/// assert!((collision.contact_time.unwrap() / hertz - 1.0).abs() < 1e-3);
+/// # Ok::<(), fem_case::CaseError>(())
+/// ```
+pub fn collide(case: &Case) -> Result<Collision, CaseError> {
+    Ok(Simulation::new(case.clone())?.run_within_tolerance(&mut ()).collision)
+}
 
 /// A simulation on the mesh that its tolerance needs, as far as that is known before the run.
 #[derive(Debug)]
@@ -50,56 +82,75 @@ pub struct RefinedBeforeRun {
     pub is_open: bool,
 }
 
-/// The reason why a mesh stays although the tolerance is missed.
+/// A collision within the tolerance of its case, as far as a mesh can meet it.
 #[derive(Debug)]
-pub(super) enum NotRefined {
-    /// The case gives the element size.
-    Given,
-    FromFile,
-    Gravity,
-    /// Another setting of the case is the cause.
-    Setting(FaultySetting),
-    /// The scatter of any mesh exceeds the tolerance.
-    Scatter(f64),
-    TooExpensive {
-        updates: Option<u64>,
-    },
-    Rejected(CaseError),
-    /// The collision failed on a finer mesh.
-    Stopped(String),
+pub struct ComputedCollision {
+    /// The simulation with the last mesh.
+    pub simulation: Simulation,
+    /// Result of the simulation.
+    pub collision: Collision,
+    /// Estimated errors of the result.
+    pub errors: ErrorEstimate,
 }
 
-/// A setting of the case whose error a finer mesh does not reduce.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum FaultySetting {
-    MovedMass,
-    SoftSprings,
-    ChatteringSprings,
-    /// The key that gives the mesh away from the contact.
-    FarMesh(&'static str),
-}
-
-impl FaultySetting {
-    pub fn described(self) -> &'static str {
-        match self {
-            Self::MovedMass => "added mass",
-            Self::SoftSprings => "soft penalty springs",
-            Self::ChatteringSprings => "contact chatter",
-            Self::FarMesh(_) => "the mesh away from the contact",
+impl Simulation {
+    /// Computes the collision, on finer meshes until its tolerance is met, and estimates its errors.
+    pub fn run_within_tolerance(self, monitor: &mut dyn Monitor) -> ComputedCollision {
+        let mut estimator = ErrorEstimator::default();
+        let simulation = estimator.refine_before_run(self, || true).simulation;
+        let compute = |_: &mut ErrorEstimator, simulation: &Self| {
+            Ok::<_, Infallible>(simulation.run(monitor))
+        };
+        match estimator.within_tolerance(simulation, compute) {
+            Ok(computed) => computed,
+            Err(never) => match never {},
         }
     }
 
-    /// Returns the key to leave out.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::MovedMass => "time.mass_scaling",
-            Self::SoftSprings | Self::ChatteringSprings => "contact.penalty_factor",
-            Self::FarMesh(key) => key,
-        }
+    /// Estimates the errors of a collision by reference runs.
+    pub fn estimate_errors(&self, collision: &Collision) -> ErrorEstimate {
+        ErrorEstimator::default().estimate(self, collision)
+    }
+
+    /// Returns why the mesh was refined last, for the terminal.
+    pub fn refined_because(&self) -> Option<String> {
+        let level = self.levels().last()?;
+        let quantity = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == level.quantity)?;
+        let (error, tolerance) = (level.error, level.tolerance);
+        let miss = ToleranceMiss { quantity, error, tolerance };
+        let size = self.setup().elements.as_ref()?.plan.contact_element_size;
+        // The collision was not computed on the coarser mesh.
+        let is_before_run =
+            level.element_updates.is_none() && matches!(self.setup().cost, Cost::Steps { .. });
+        Some(format!(
+            "{}: {}elements of {} in place of {}",
+            miss.described(),
+            if is_before_run { "" } else { "again with " },
+            length(size),
+            length(level.contact_element_size_m)
+        ))
     }
 }
 
 impl ErrorEstimator {
+    /// Estimates the errors of a collision.
+    pub fn estimate(&mut self, simulation: &Simulation, collision: &Collision) -> ErrorEstimate {
+        let mut estimate = self.bars(simulation, collision);
+        estimate.not_refined = self.refined(simulation, collision, &estimate).err();
+        self.with_final_costs(simulation, collision, estimate)
+    }
+
+    /// Adds the elastic null and the cost of all reference runs, which belong to the final mesh.
+    fn with_final_costs(
+        &mut self,
+        simulation: &Simulation,
+        collision: &Collision,
+        estimate: ErrorEstimate,
+    ) -> ErrorEstimate {
+        let elastic_null = elastic_null(simulation, collision, &mut self.runs);
+        ErrorEstimate { elastic_null, element_updates: self.runs.element_updates(), ..estimate }
+    }
+
     /// Refines the mesh before the run as far as condensed reference runs show its error, while `goes_on` returns true.
     pub fn refine_before_run(
         &mut self,
@@ -152,7 +203,7 @@ impl ErrorEstimator {
                 }
             }
         };
-        let errors = self.complete(&simulation, &collision, errors);
+        let errors = self.with_final_costs(&simulation, &collision, errors);
         Ok(ComputedCollision { simulation, collision, errors })
     }
 
@@ -202,7 +253,7 @@ impl ErrorEstimator {
         if simulation.levels().len() >= MOST_LEVELS {
             return Err(NotRefined::TooExpensive { updates: None });
         }
-        let by = refinement_ratio(miss.excess_of_mesh()).clamp(STEPS[0], STEPS[1]);
+        let by = refinement_ratio(miss.excess_of_mesh()).clamp(REFINEMENT_RATIOS[0], REFINEMENT_RATIOS[1]);
         let level = RefinementLevel {
             contact_element_size_m: elements.plan.contact_element_size,
             element_updates: met.and_then(|collision| collision.element_updates),
@@ -216,8 +267,8 @@ impl ErrorEstimator {
             let refinement = by * simulation.refinement;
             simulation.refined(refinement, levels.clone()).map_err(NotRefined::Rejected)
         };
-        let finer = match (on(by)?, by < STEPS[1]) {
-            (short, true) if self.expected_miss(&short).flatten().is_some() => on(STEPS[1])?,
+        let finer = match (on(by)?, by < REFINEMENT_RATIOS[1]) {
+            (short, true) if self.expected_miss(&short).flatten().is_some() => on(REFINEMENT_RATIOS[1])?,
             (enough, _) => enough,
         };
         match finer.setup().cost {
@@ -291,25 +342,6 @@ pub(super) fn may_be_refined(simulation: &Simulation) -> bool {
 fn has_mesh_file(simulation: &Simulation) -> bool {
     let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
     simulation.case().scene().bodies().iter().any(is_file)
-}
-
-/// Returns the reason of the last refinement, for the terminal.
-pub(crate) fn refined_because(simulation: &Simulation) -> Option<String> {
-    let level = simulation.levels().last()?;
-    let quantity = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == level.quantity)?;
-    let (error, tolerance) = (level.error, level.tolerance);
-    let miss = ToleranceMiss { quantity, error, tolerance };
-    let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
-    // The collision was not computed on the coarser mesh.
-    let is_before_run =
-        level.element_updates.is_none() && matches!(simulation.setup().cost, Cost::Steps { .. });
-    Some(format!(
-        "{}: {}elements of {} in place of {}",
-        miss.described(),
-        if is_before_run { "" } else { "again with " },
-        length(size),
-        length(level.contact_element_size_m)
-    ))
 }
 
 fn is_interrupt(stop: &Stop) -> bool {

@@ -24,21 +24,23 @@ pub struct RefinementBound {
     pub over_first: f64,
 }
 
-/// Returns the bound; `None` if the mesh stays.
-pub(crate) fn refinement_bound(simulation: &Simulation) -> Option<RefinementBound> {
-    let (one, most, growth, power) = match simulation.setup().cost {
-        Cost::Steps { element_updates, .. } => {
-            let limit = simulation.case().scene().limits().element_updates;
-            (element_updates, limit.unwrap_or(MOST_UPDATES), UPDATES, 1.0)
-        }
-        Cost::Factors { elements, .. } => (elements, MOST_ELEMENTS, ELEMENTS, OF_ELEMENTS),
-        Cost::Little { .. } => return None,
-    };
-    let left = MOST_LEVELS.saturating_sub(simulation.levels().len());
-    let of_levels = |n| of_levels(n, most as f64 / one as f64, growth, power);
-    let meshes = (1..=left).rev().find(|n| of_levels(*n) > 0.0)?;
-    let over_first = (1..=meshes).map(of_levels).fold(0.0, f64::max);
-    may_be_refined(simulation).then_some(RefinementBound { meshes, over_first })
+impl Simulation {
+    /// Returns an upper bound of the finer meshes that may follow the run; `None` if the mesh stays.
+    pub fn refinement_bound(&self) -> Option<RefinementBound> {
+        let (one, most, growth, power) = match self.setup().cost {
+            Cost::Steps { element_updates, .. } => {
+                let limit = self.case().scene().limits().element_updates;
+                (element_updates, limit.unwrap_or(MOST_UPDATES), UPDATES, 1.0)
+            }
+            Cost::Factors { elements, .. } => (elements, MOST_ELEMENTS, ELEMENTS, OF_ELEMENTS),
+            Cost::Little { .. } => return None,
+        };
+        let left = MOST_LEVELS.saturating_sub(self.levels().len());
+        let of_levels = |n| of_levels(n, most as f64 / one as f64, growth, power);
+        let meshes = (1..=left).rev().find(|n| of_levels(*n) > 0.0)?;
+        let over_first = (1..=meshes).map(of_levels).fold(0.0, f64::max);
+        may_be_refined(self).then_some(RefinementBound { meshes, over_first })
+    }
 }
 
 /// Returns the cost of `n` finer meshes over that of the first mesh. The last one takes at most `most`, and the cost grows
@@ -61,7 +63,7 @@ mod tests {
 
     use fem_case::Case;
 
-    use super::super::refinement::STEPS;
+    use super::super::refinement::REFINEMENT_RATIOS;
     use super::*;
 
     /// Each mesh takes eight times the one before, until the last ones approach the limit.
@@ -102,7 +104,7 @@ mod tests {
                     }
                 };
                 for first in [1.0, 1.25, 1.6] {
-                    for by in STEPS {
+                    for by in REFINEMENT_RATIOS {
                         let grew = takes(first * by) / takes(first);
                         let within = least..most;
                         assert!(

@@ -3,7 +3,7 @@
 use fem_collision::{Collision, QuantityOfInterest};
 
 use super::calibration::SCATTER;
-use super::estimator::ErrorEstimate;
+use super::estimate::ErrorEstimate;
 use super::noise_floor::early_pressure_radius;
 use crate::effects::percent;
 use crate::models::method::ElementSetup;

@@ -11,12 +11,13 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, ModelFormError, PartnerWaves,
-    Support, Vibration, Viscoelasticity, is_called_for,
+    EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, PartnerWaves, Support,
+    Vibration, Viscoelasticity, is_called_for,
 };
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::models::method::{Method, Model, SharedModels};
+use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
 /// The automatic choice of the model.
@@ -69,8 +70,8 @@ pub struct ExpectedError {
     pub peak_pressure_pa: Option<f64>,
 }
 
-impl From<&ModelFormError> for ExpectedError {
-    fn from(error: &ModelFormError) -> Self {
+impl From<&QuantityErrors> for ExpectedError {
+    fn from(error: &QuantityErrors) -> Self {
         let [restitution, contact_time_s, peak_force_n, peak_pressure_pa] =
             JUDGED.map(|quantity| error.size(quantity));
         Self { restitution, contact_time_s, peak_force_n, peak_pressure_pa }
@@ -228,7 +229,7 @@ impl Candidate {
         let mut error = self.own_error(scene, estimate, has_fields);
         if is_first_order {
             let status = EffectStatus::default();
-            error = error.and(FiniteSizeEffect.model_form_error(scene, estimate, &status));
+            error = error.plus(FiniteSizeEffect.model_form_error(scene, estimate, &status));
         }
         let mut worst: Option<(&str, f64)> = None;
         let mut unknown: Option<&str> = None;
@@ -247,7 +248,7 @@ impl Candidate {
             };
             let share = if is_term { PartnerWaves::error_of_term(scene, estimate) } else { 1.0 };
             let change = change.times(share);
-            error = error.and(change);
+            error = error.plus(change);
             let part = excess(&change, scene, estimate);
             if worst.is_none_or(|(_, most)| part > most) {
                 worst = Some((effect.name(), part));
@@ -285,19 +286,19 @@ impl Candidate {
         };
         let unfit = unfit.or_else(|| advised.map(str::to_string));
         let (error, excess) = match unknown {
-            Some(_) => (ModelFormError::default(), f64::INFINITY),
+            Some(_) => (QuantityErrors::default(), f64::INFINITY),
             None => (error, total),
         };
         Judged { error: (&error).into(), excess, is_possible, unfit }
     }
 
     /// Returns the errors of the model's approximations, which fall with the tolerance where it chooses the mesh.
-    fn own_error(&self, scene: &Scene, estimate: &Estimate, has_fields: bool) -> ModelFormError {
+    fn own_error(&self, scene: &Scene, estimate: &Estimate, has_fields: bool) -> QuantityErrors {
         let usual = tolerances(&Accuracy::within(Accuracy::DEFAULT_TOLERANCE));
         let asked = tolerances(&scene.accuracy());
         let scales = scales(estimate);
         let is_made_finer = has_fields && scene.mesh().contact_element_size.is_none();
-        ModelFormError::from_fn(|quantity| {
+        QuantityErrors::from_fn(|quantity| {
             let Some(k) = JUDGED.iter().position(|judged| *judged == quantity) else {
                 return Some(0.0);
             };
@@ -319,14 +320,14 @@ fn error_without(
     effect: &dyn Effect,
     scene: &Scene,
     estimate: &Estimate,
-) -> Option<ModelFormError> {
+) -> Option<QuantityErrors> {
     let neglect_error = effect.neglect_error(scene, estimate);
     let error = match &neglect_error {
         None if is_called_for(effect, scene, estimate) => return None,
-        None => return Some(ModelFormError::NOTHING),
+        None => return Some(QuantityErrors::ZERO),
         // The spread over possible laws is the same in all models.
         Some(neglect_error) if effect.name() == FiniteStrain::NAME => {
-            ModelFormError::of(neglect_error, estimate)
+            neglect_error.of_all_quantities(estimate)
         }
         Some(_) => {
             let status = EffectStatus { is_lacking: true, neglect_error };
@@ -384,7 +385,7 @@ fn scales(estimate: &Estimate) -> [f64; 4] {
 }
 
 /// Returns the largest error over its tolerance.
-fn excess(error: &ModelFormError, scene: &Scene, estimate: &Estimate) -> f64 {
+fn excess(error: &QuantityErrors, scene: &Scene, estimate: &Estimate) -> f64 {
     let allowed = tolerances(&scene.accuracy()).into_iter().zip(scales(estimate));
     let errors = JUDGED.into_iter().map(|quantity| error.size(quantity).unwrap_or(0.0));
     errors.zip(allowed).map(|(error, (share, scale))| error / (share * scale)).fold(0.0, f64::max)

@@ -1,6 +1,6 @@
 //! The a-priori mesh rule: element size and mass scaling for the tolerance of a case.
 //!
-//! With k elements across the contact radius and the share μ of added mass, the peak force has an error of at most
+//! With k elements across the contact radius and the share μ of moved mass, the peak force has an error of at most
 //!
 //! ```math
 //! \Bigl|\frac{\Delta F}{F}\Bigr| \le \frac{C}{k^2} + \tfrac12 \mu .
@@ -34,12 +34,12 @@ const SMOOTH: f64 = 0.05;
 const OSCILLATION: f64 = 0.10;
 /// Error of the peak force times k² for nodes that touch exactly.
 const AT_NODES: f64 = 0.05;
-/// Share of the tolerance for the mesh. The rest is for added mass, and without it for relaxation, which moves the
+/// Share of the tolerance for the mesh. The rest is for moved mass, and without it for relaxation, which moves the
 /// contact's edge.
 const OF_MESH: f64 = 0.75;
-/// Added mass over the tolerance: the force changes by half of its share.
+/// Moved mass over the tolerance: the force changes by half of its share.
 const MASS_OVER_TOLERANCE: f64 = 0.5;
-/// Most mass that is added by default: bodies with relaxation times near the time step are more sensitive.
+/// Most mass that is moved by default: bodies with relaxation times near the time step are more sensitive.
 const MOST_MASS: f64 = 1e-2;
 /// Most elements across the contact radius: 0.01 % of the force with springs and the whole oscillation.
 const MOST: f64 = 45.0;
@@ -68,7 +68,7 @@ const BOUNDS_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 pub struct MeshRule {
     /// Elements across the contact radius.
     pub across: f64,
-    /// Largest added mass over the lighter body's mass.
+    /// Largest moved mass over the lighter body's mass.
     pub mass_scaling: f64,
     /// The error of the force on the finest mesh, if the tolerance of the case cannot be met.
     pub reached: Option<f64>,
@@ -114,7 +114,7 @@ impl MeshRule {
         }
     }
 
-    /// Returns the share of added mass that suits `across` elements across the contact on one mesh.
+    /// Returns the share of moved mass that suits `across` elements across the contact on one mesh.
     pub fn mass_scaling_beside(across: f64) -> f64 {
         let tolerance = (SMOOTH + OSCILLATION) / (OF_MESH * across * across);
         (MASS_OVER_TOLERANCE * tolerance).min(MOST_MASS)

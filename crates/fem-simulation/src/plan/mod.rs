@@ -62,7 +62,7 @@ pub struct Plan {
     pub contact_element_size: f64,
     /// The body with the smaller elements, if the meshes are staggered.
     pub finer_body: Option<usize>,
-    /// The quantity that needs the smallest elements and the least added mass, and its tolerance.
+    /// The quantity that needs the smallest elements and the least moved mass, and its tolerance.
     pub limiting_quantity: (QuantityOfInterest, f64),
     /// Half-width of the block of equal elements, m.
     pub refined_radius: f64,
@@ -84,7 +84,7 @@ pub struct Plan {
     pub contact_stiffness: f64,
     /// Time step over critical time step.
     pub step_factor: f64,
-    /// Largest added mass as a fraction of the lighter body's mass.
+    /// Largest moved mass as a fraction of the lighter body's mass.
     pub mass_scaling: f64,
     /// The requested snapshots.
     pub snapshots: SnapshotRequest,

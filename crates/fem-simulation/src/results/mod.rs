@@ -1,9 +1,10 @@
 //! The stored results of a collision: the summary, the CSV files, the snapshots, and the warnings.
 
 pub(crate) mod diagnostics;
+pub(crate) mod grouped_warnings;
 pub(crate) mod stop_advice;
 pub(crate) mod stress;
-pub(crate) mod warning_kinds;
+mod uncertainty;
 
 #[cfg(feature = "files")]
 mod csv_files;
@@ -14,15 +15,15 @@ mod summarise;
 mod summary;
 
 pub use crate::error::ElasticNull;
+pub use crate::simulation::identity::PROGRAM;
 #[cfg(feature = "files")]
 pub use csv_files::{
     CONTACT_FILE, HISTORY_FILE, PROBES_FILE, contact_csv, has_contact, history_csv, probes_csv,
 };
-pub(crate) use diagnostics::overlap_of_approach;
 pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summary::{
-    BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Parts, Quantities,
+    BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, Quantities,
     RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
 };

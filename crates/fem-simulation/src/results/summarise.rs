@@ -5,14 +5,38 @@ use fem_laws::HertzImpact;
 
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
-    BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
+    BodySummary, BounceSummary, CostSummary, EffectSummary, Quantities, RestSummary,
     Summary,
 };
+use super::uncertainty::uncertainty;
 use crate::effects::{EffectDecision, FiniteStrain};
-use crate::error::{ErrorEstimate, uncertainty};
+use crate::error::{ComputedCollision, ErrorEstimate};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
-use crate::simulation::identity::NUMERICS;
+use crate::simulation::identity::{NUMERICS, PROGRAM};
+
+impl ComputedCollision {
+    /// Returns all warnings about the collision.
+    pub fn warnings(&self) -> Vec<String> {
+        self.simulation.warnings_with(&self.collision, &self.errors)
+    }
+
+    /// Returns the summary with all warnings, without cost and files.
+    pub fn summary(&self) -> Summary {
+        let Self { simulation, collision, errors } = self;
+        let cost = CostSummary::default();
+        Summary::of(simulation, collision, errors, cost, self.warnings(), Vec::new())
+    }
+}
+
+impl Simulation {
+    /// Returns the summary of a collision, with its errors and all warnings, without its cost and files.
+    pub fn summary(&self, collision: &Collision) -> Summary {
+        let errors = self.estimate_errors(collision);
+        let warnings = self.warnings_with(collision, &errors);
+        Summary::of(self, collision, &errors, CostSummary::default(), warnings, Vec::new())
+    }
+}
 
 impl Summary {
     /// Returns the summary of a collision with its estimated errors. `cost` has the times that the caller measured, `warnings`

@@ -12,8 +12,6 @@ use crate::models::stepper::RefinementLevel;
 
 /// The file name of the summary.
 pub const SUMMARY_FILE: &str = "summary.json";
-/// The value of the key `program`, which identifies a result folder.
-pub const PROGRAM: &str = "fem-run";
 
 /// The summary of a run.
 #[derive(Clone, Debug, Serialize)]

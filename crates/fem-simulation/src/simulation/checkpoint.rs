@@ -8,9 +8,7 @@ use sha2::{Digest, Sha256};
 use thiserror::Error;
 
 use crate::models::stepper::RestartState;
-use crate::results::PROGRAM;
-use crate::simulation::identity::Identity;
-use crate::simulation::identity::NUMERICS;
+use crate::simulation::identity::{Identity, NUMERICS, PROGRAM};
 
 /// Version of the format; others are not read.
 const FORMAT: u32 = 1;

@@ -4,7 +4,6 @@ pub(crate) mod checkpoint;
 pub(crate) mod identity;
 
 use std::borrow::Cow;
-use std::convert::Infallible;
 use std::sync::Arc;
 
 use fem_case::schema::StartTable;
@@ -16,9 +15,6 @@ use fem_collision::{
 use crate::effects::{
     Effect, EffectDecision, EffectDecisions, FiniteStrain, NeglectError, decide, effect_named,
 };
-use crate::error::{
-    ErrorEstimate, ErrorEstimator, RefinementBound, refined_because, refinement_bound,
-};
 use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, start_stepper};
@@ -26,61 +22,7 @@ use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
 use crate::models::{ModelCandidate, SelectedModel, chosen, model_of, price_of, resolved};
 use crate::plan::body_source::probes_of;
 use crate::rejection::Rejection;
-use crate::results::{CostSummary, Summary};
 use crate::simulation::identity::identity_of;
-
-/// Computes the collision of a case with its model, within its tolerance.
-///
-/// # Errors
-/// A case that the model rejects, with the place in the case.
-///
-/// ```
-/// use fem_case::schema::{BodyTable, MaterialTable, ModelTable};
-/// use fem_case::{Case, CaseFile};
-///
-/// let steel = MaterialTable::from_youngs_modulus_poissons_ratio("7850 kg/m^3", "210 GPa", 0.3);
-/// let ball = BodyTable::sphere("ball", "1 cm", "steel").approaching("1 m/s");
-/// let case = Case::of(
-///     CaseFile::of_bodies(ball, BodyTable::wall("floor"))
-///         .with_material("steel", steel)
-///         .with_model(ModelTable::hertz()),
-/// )?;
-/// let collision = fem_simulation::collide(&case)?;
-/// assert_eq!(collision.restitution, Some(1.0));
-/// // T = 2.943 δ / v with the largest approach δ = (15 m v² / (16 E* √R))^(2/5), at 1 m/s.
-/// let (mass, modulus, radius) = (4.110e-3, 230.8e9, 5e-3_f64);
-/// let hertz = 2.943 * (15.0 * mass / (16.0 * modulus * radius.sqrt())).powf(0.4);
-/// assert!((collision.contact_time.unwrap() / hertz - 1.0).abs() < 1e-3);
-/// # Ok::<(), fem_case::CaseError>(())
-/// ```
-pub fn collide(case: &Case) -> Result<Collision, CaseError> {
-    Ok(Simulation::new(case.clone())?.run_within_tolerance(&mut ()).collision)
-}
-
-/// A collision within the tolerance of its case, as far as a mesh can meet it.
-#[derive(Debug)]
-pub struct ComputedCollision {
-    /// The simulation with the last mesh.
-    pub simulation: Simulation,
-    /// Result of the simulation.
-    pub collision: Collision,
-    /// Estimated errors of the result.
-    pub errors: ErrorEstimate,
-}
-
-impl ComputedCollision {
-    /// Returns all warnings about the collision.
-    pub fn warnings(&self) -> Vec<String> {
-        self.simulation.warnings_with(&self.collision, &self.errors)
-    }
-
-    /// Returns the summary with all warnings, without cost and files.
-    pub fn summary(&self) -> Summary {
-        let Self { simulation, collision, errors } = self;
-        let cost = CostSummary::default();
-        Summary::of(simulation, collision, errors, cost, self.warnings(), Vec::new())
-    }
-}
 
 /// A case that is ready to run.
 #[derive(Debug)]
@@ -203,18 +145,6 @@ impl Simulation {
         self.chosen.as_ref().map_or(&[], |chosen| &chosen.considered)
     }
 
-    /// Estimates the errors of a collision by reference runs.
-    pub fn estimate_errors(&self, collision: &Collision) -> ErrorEstimate {
-        ErrorEstimator::default().estimate(self, collision)
-    }
-
-    /// Returns the summary of a collision, with its errors and all warnings, without its cost and files.
-    pub fn summary(&self, collision: &Collision) -> Summary {
-        let errors = self.estimate_errors(collision);
-        let warnings = self.warnings_with(collision, &errors);
-        Summary::of(self, collision, &errors, CostSummary::default(), warnings, Vec::new())
-    }
-
     /// Returns the warning that no model is known to meet the tolerance, if the case leaves the choice open.
     pub(crate) fn choice_warning(&self) -> Option<String> {
         self.chosen.as_ref()?.warning.clone()
@@ -279,32 +209,9 @@ impl Simulation {
         self.request.probes.clear();
     }
 
-    /// Computes the collision, on finer meshes until its tolerance is met, and estimates its errors.
-    pub fn run_within_tolerance(self, monitor: &mut dyn Monitor) -> ComputedCollision {
-        let mut estimator = ErrorEstimator::default();
-        let simulation = estimator.refine_before_run(self, || true).simulation;
-        let compute = |_: &mut ErrorEstimator, simulation: &Self| {
-            Ok::<_, Infallible>(simulation.run(monitor))
-        };
-        match estimator.within_tolerance(simulation, compute) {
-            Ok(computed) => computed,
-            Err(never) => match never {},
-        }
-    }
-
     /// Returns the coarser meshes before this one, the first one first.
     pub fn levels(&self) -> &[RefinementLevel] {
         &self.levels
-    }
-
-    /// Returns why the mesh was made finer.
-    pub fn refined_because(&self) -> Option<String> {
-        refined_because(self)
-    }
-
-    /// Returns an upper bound of the finer meshes that may follow the run; `None` if the mesh stays.
-    pub fn refinement_bound(&self) -> Option<RefinementBound> {
-        refinement_bound(self)
     }
 
     /// Returns the element updates of the coarser reference run of explicit elements over those of the run; `None` if

@@ -22,7 +22,7 @@ pub enum Series {
     CondensedVibrating,
     /// Explicit elements with the settings of the plan.
     Explicit,
-    /// Explicit elements with much added mass.
+    /// Explicit elements with much moved mass.
     ExplicitScaled,
     /// Explicit elements with fewer rings around the contact.
     ExplicitGrown,
@@ -34,7 +34,7 @@ pub enum Series {
     FiniteStrain,
     /// Explicit elements with other stiffnesses of the penalty springs.
     PenaltyFactor,
-    /// Explicit elements with other amounts of added mass.
+    /// Explicit elements with other amounts of moved mass.
     MassScaling,
     /// Explicit elements with other time steps.
     StepFactor,

@@ -75,7 +75,7 @@ pub enum ErrorSource {
     Mesh,
     /// The compliance of the penalty springs, extrapolated from a run with four times their stiffness.
     ContactSprings,
-    /// The mass that is added for longer steps, against a run without it.
+    /// The mass that is moved for longer steps, against a run without it. Its key in files is "added mass".
     MovedMass,
     /// The finite time step, of second order, from half the step.
     TimeStep,

@@ -37,7 +37,7 @@ const OFF: &str = "effects.surface_slip='off'";
 const ON: &str = "effects.surface_slip='on'";
 /// Springs that are possible with and without slip.
 const PENALTY: &str = "contact.method='penalty'";
-/// Mesh with eight elements across the contact, and little added mass.
+/// Mesh with eight elements across the contact, and little moved mass.
 const FINE: &str = "mesh.contact_element_size='18.2 um'";
 const LITTLE_MASS: &str = "time.mass_scaling=2e-4";
 const LAW: &str = "model.law.hertz={}";

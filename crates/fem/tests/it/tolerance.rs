@@ -187,12 +187,12 @@ fn no_mesh_is_advised_for_an_impossible_tolerance() {
     assert!(!told.contains("0.00 %"), "{told}");
 }
 
-/// Errors by added mass or springs of the case do not refine the mesh; a warning names the key, and without it the tolerance
+/// Errors by moved mass or springs of the case do not refine the mesh; a warning names the key, and without it the tolerance
 /// is met.
 #[test]
 fn settings_that_refinement_does_not_improve_are_named() {
     for (key, value, words) in [
-        ("time.mass_scaling", "0.1", "because of added mass: leave time.mass_scaling out"),
+        ("time.mass_scaling", "0.1", "because of mass scaling: leave time.mass_scaling out"),
         (
             "contact.penalty_factor",
             "0.02",

@@ -1,4 +1,4 @@
-//! Small bodies on large ones, stiff on soft: added mass is a share of the lighter body.
+//! Small bodies on large ones, stiff on soft: moved mass is a share of the lighter body.
 
 use fem::{Collision, QuantityOfInterest, Simulation};
 
@@ -53,7 +53,7 @@ fn run(set: &[&[&str]]) -> (Simulation, Collision) {
     (simulation, collision)
 }
 
-/// The added mass is the allowed share of the lighter body, larger for a less compliant body, and at most that share of the
+/// The moved mass is the allowed share of the lighter body, larger for a less compliant body, and at most that share of the
 /// body's own mass.
 #[test]
 fn moved_mass_is_the_allowed_share() {
@@ -72,7 +72,7 @@ fn moved_mass_is_the_allowed_share() {
     }
 }
 
-/// Added mass changes no quantity by more than its error bar. With a share of the large body's mass the restitution of the
+/// Moved mass changes no quantity by more than its error bar. With a share of the large body's mass the restitution of the
 /// first two scenes would be 0.76 and 0.54 in place of 0.993.
 #[test]
 fn moved_mass_is_within_the_bars() {
@@ -93,7 +93,7 @@ fn moved_mass_is_within_the_bars() {
     }
 }
 
-/// A stiff half-space gets as much added mass as the ball, which saves four fifths of the steps with the same results. With a
+/// A stiff half-space gets as much moved mass as the ball, which saves four fifths of the steps with the same results. With a
 /// share of the ball's mass alone the step would be 1.6 times the unscaled one. The allowed change of the contact time is a
 /// sixth of its bar, that of the force a fifth.
 #[test]

@@ -68,7 +68,7 @@ const ROWS: [Row; 30] = [
     row(GLASS, &["mesh.contact_element_size='1 mm'", CONDENSED], "is resolved by only", 2),
     row(GLASS, &["mesh.contact_element_size='55 um'"], "because of the mesh", 2),
     row(GLASS, &["time.mass_scaling=0.1"], "mass scaling moves", 1),
-    row(GLASS, &["time.mass_scaling=0.1"], "because of added mass", 2),
+    row(GLASS, &["time.mass_scaling=0.1"], "because of mass scaling", 2),
     row(GLASS, &["accuracy.tolerance=1e-5", CONDENSED], "cannot be met", 1),
     row(
         GLASS,

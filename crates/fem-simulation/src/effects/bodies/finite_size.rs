@@ -4,7 +4,8 @@ use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
 
 use crate::effects::effect::computed_scene::ComputedScene;
-use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::EffectStatus;
+use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::percent;
 use crate::effects::effect::support::Support;
@@ -96,15 +97,13 @@ impl Effect for FiniteSizeEffect {
         scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
-    ) -> ModelFormError {
+    ) -> QuantityErrors {
         let second_order = SECOND_ORDER * estimate.strain.powi(2);
         let of_size = match status.is_lacking {
-            true => ModelFormError::of(&status.neglect_error.unwrap_or_default(), estimate),
-            false => ModelFormError::of(
-                &NeglectError::shares(estimate, second_order, second_order),
-                estimate,
-            ),
+            true => status.neglect_error.unwrap_or_default(),
+            false => NeglectError::shares(estimate, second_order, second_order),
         };
+        let of_size = of_size.of_all_quantities(estimate);
         let pressure = Self::of_pressure(scene, estimate) * estimate.effective.sizes.peak_pressure;
         match of_size.size(QuantityOfInterest::PeakPressure) {
             Some(size) => of_size.with(QuantityOfInterest::PeakPressure, size + pressure),

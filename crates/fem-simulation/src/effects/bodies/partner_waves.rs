@@ -11,7 +11,8 @@ use fem_material::Material;
 
 use crate::effects::bodies::vibration::ENOUGH_MODES;
 use crate::effects::effect::computed_scene::ComputedScene;
-use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::EffectStatus;
+use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
@@ -205,11 +206,11 @@ impl Effect for PartnerWaves {
         scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
-    ) -> ModelFormError {
+    ) -> QuantityErrors {
         let &EffectStatus { is_lacking, neglect_error } = status;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
         let Some(neglect_error) = neglect_error.filter(|_| !is_of_mesh) else {
-            return ModelFormError::NOTHING;
+            return QuantityErrors::ZERO;
         };
         let part = if is_lacking { 1.0 } else { Self::error_of_term(scene, estimate) };
         // Closed forms may give the loss alone.
@@ -220,7 +221,7 @@ impl Effect for PartnerWaves {
             peak_force_n: neglect_error.peak_force_n.or(shares.peak_force_n),
             ..neglect_error
         };
-        ModelFormError::of(&complete, estimate).times(part)
+        complete.of_all_quantities(estimate).times(part)
     }
 }
 

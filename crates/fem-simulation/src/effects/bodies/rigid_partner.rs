@@ -9,7 +9,8 @@ use fem_case::engineering;
 use fem_case::{Body, Scene, Switch};
 
 use crate::effects::effect::computed_scene::TransformedScene;
-use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::EffectStatus;
+use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::support::Support;
@@ -67,8 +68,8 @@ impl Effect for RigidPartner {
         _: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
-    ) -> ModelFormError {
-        ModelFormError::of(&status.neglect_error.unwrap_or_default(), estimate)
+    ) -> QuantityErrors {
+        status.neglect_error.unwrap_or_default().of_all_quantities(estimate)
     }
 
     /// Returns the error of a body that is taken as rigid: its compliance, relaxation and radiation are missing.

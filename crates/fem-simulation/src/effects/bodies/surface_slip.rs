@@ -12,7 +12,8 @@ use fem_case::engineering::number;
 use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{RelativeError, SlipSurface, SurfaceSlip as Slip};
 
-use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::EffectStatus;
+use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::{Effect, NamedEffect, SurfaceSlip};
@@ -65,16 +66,16 @@ impl Effect for SurfaceSlip {
         scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
-    ) -> ModelFormError {
+    ) -> QuantityErrors {
         let share = match (status.is_lacking, scene.model()) {
             (true, _) => 1.0,
             (false, ModelChoice::Fem) => 0.0,
             (false, _) => NEXT_ORDER * estimate.strain,
         };
         match &status.neglect_error {
-            _ if share == 0.0 || !materials_mismatch(scene) => ModelFormError::NOTHING,
-            Some(neglect_error) => ModelFormError::of(neglect_error, estimate).times(share),
-            None => ModelFormError::default(),
+            _ if share == 0.0 || !materials_mismatch(scene) => QuantityErrors::ZERO,
+            Some(neglect_error) => neglect_error.of_all_quantities(estimate).times(share),
+            None => QuantityErrors::default(),
         }
     }
 }

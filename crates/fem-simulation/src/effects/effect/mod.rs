@@ -2,7 +2,6 @@
 //! and the error of neglecting it.
 
 pub(super) mod computed_scene;
-pub(super) mod model_form_error;
 pub(super) mod neglect_error;
 pub(super) mod relevance;
 pub(super) mod support;
@@ -11,11 +10,11 @@ use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
 use self::computed_scene::TransformedScene;
-use self::model_form_error::{EffectStatus, ModelFormError};
-use self::neglect_error::NeglectError;
+use self::neglect_error::{EffectStatus, NeglectError};
 use self::relevance::Relevance;
 use self::support::Support;
 use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
 /// The name of an effect and its switch in a case.
@@ -139,14 +138,14 @@ pub trait Effect: NamedEffect {
         scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
-    ) -> ModelFormError {
+    ) -> QuantityErrors {
         if !status.is_lacking {
-            return ModelFormError::NOTHING;
+            return QuantityErrors::ZERO;
         }
         match &status.neglect_error {
-            Some(neglect_error) => ModelFormError::of(neglect_error, estimate),
-            None if is_called_for(self, scene, estimate) => ModelFormError::default(),
-            None => ModelFormError::NOTHING,
+            Some(neglect_error) => neglect_error.of_all_quantities(estimate),
+            None if is_called_for(self, scene, estimate) => QuantityErrors::default(),
+            None => QuantityErrors::ZERO,
         }
     }
 

@@ -1,11 +1,34 @@
-//! Error of neglecting an effect.
+//! Error of neglecting an effect, and the model-form errors that follow from it.
+//!
+//! If an effect changes contact time and peak force by the shares t and f, the other quantities follow from
+//! Hertz' powers of a softer contact's E* (T, δ ∝ E*^(−2/5), a ∝ E*^(−1/5), F ∝ E*^(2/5), p₀ ∝ F/a²):
+//!
+//! ```math
+//! \frac{\Delta\delta}\delta = t, \qquad \frac{\Delta a}a = \tfrac12 t, \qquad
+//! \frac{\Delta p_0}{p_0} = f + t .
+//! ```
+//!
+//! The errors of several effects are combined as **the sum of their magnitudes**. Closed forms give no
+//! signs, and the causes are not independent, as a root of squares would require: all grow with contact
+//! radius and speed, and most make the contact softer.
 
 use std::fmt;
 
 use fem_case::engineering::{Unit, number};
+use fem_collision::QuantityOfInterest;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
+
+/// The status of an effect in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EffectStatus {
+    /// Whether the run lacks the effect.
+    pub is_lacking: bool,
+    /// Error of neglecting the effect ([`Effect::neglect_error`](super::Effect::neglect_error)).
+    pub neglect_error: Option<NeglectError>,
+}
 
 /// Change of a collision's results if an effect is neglected, estimated by closed forms. All are
 /// magnitudes; `None` if there is no estimate.
@@ -40,6 +63,30 @@ impl NeglectError {
         let sizes = &estimate.effective.sizes;
         let [time, force] = [contact_time * sizes.contact_time, peak_force * sizes.peak_force];
         Self::of([Some(0.0), Some(time), Some(force)])
+    }
+
+    /// Returns the model-form errors that follow from neglecting the effect.
+    pub(crate) fn of_all_quantities(&self, estimate: &Estimate) -> QuantityErrors {
+        let Self { restitution, contact_time_s, peak_force_n } = *self;
+        let sizes = &estimate.effective.sizes;
+        let time = contact_time_s.map(|change| change / sizes.contact_time);
+        let force = peak_force_n.map(|change| change / sizes.peak_force);
+        let both = time.zip(force);
+        // Bodies that stay together have no contact time, and come as much closer as they press less.
+        let softer = time.or(force);
+        let errors = QuantityErrors::from_fn(|quantity| match quantity {
+            QuantityOfInterest::Restitution => restitution,
+            QuantityOfInterest::ContactTime => contact_time_s,
+            QuantityOfInterest::PeakForce => peak_force_n,
+            QuantityOfInterest::MaxApproach => softer.map(|share| share * sizes.max_approach),
+            QuantityOfInterest::MaxContactRadius => {
+                softer.map(|share| 0.5 * share * sizes.max_contact_radius)
+            }
+            QuantityOfInterest::PeakPressure => {
+                both.or(force.zip(force)).map(|(time, force)| (time + force) * sizes.peak_pressure)
+            }
+        });
+        errors.checked()
     }
 
     /// Returns the warning for an effect that is called for but switched off.

@@ -20,7 +20,8 @@
 use fem_case::{Body, ContactMethod, Scene, Switch};
 use fem_material::Material;
 
-use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::EffectStatus;
+use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
@@ -80,8 +81,8 @@ impl Effect for BulkViscosity {
     }
 
     /// It belongs to the mesh, not to the physical system.
-    fn model_form_error(&self, _: &Scene, _: &Estimate, _: &EffectStatus) -> ModelFormError {
-        ModelFormError::NOTHING
+    fn model_form_error(&self, _: &Scene, _: &Estimate, _: &EffectStatus) -> QuantityErrors {
+        QuantityErrors::ZERO
     }
 
     /// The change of the contact time is not known, since ringing ends the contact. At finite strain the contact damps the

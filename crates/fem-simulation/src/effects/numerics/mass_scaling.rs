@@ -49,7 +49,7 @@ impl MassScaling {
     pub(crate) fn of(
         scene: &Scene,
         masses: [Option<f64>; 2],
-        added: [Option<f64>; 2],
+        moved: [Option<f64>; 2],
         longer: f64,
     ) -> Support {
         let names = scene.bodies().each_ref().map(Body::name);
@@ -58,9 +58,9 @@ impl MassScaling {
         let Some((lightest, its)) = free.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return Support::decided(false, NOTHING);
         };
-        let each = added.into_iter().zip(masses).zip(names).zip(Self::times(scene));
-        let moved = each.filter_map(|(((added, mass), name), times)| {
-            let share = added.map(|added| added / lightest).filter(|share| *share > ROUNDING)?;
+        let each = moved.into_iter().zip(masses).zip(names).zip(Self::times(scene));
+        let moved = each.filter_map(|(((moved, mass), name), times)| {
+            let share = moved.map(|moved| moved / lightest).filter(|share| *share > ROUNDING)?;
             let of = match share < 1.0 {
                 true => format!("{} of", percent(share)),
                 false => format!("{} times", number(share, 2)),
@@ -96,8 +96,8 @@ impl Effect for MassScaling {
     fn support_in_result(&self, scene: &Scene, collision: &Collision) -> Option<Support> {
         let longer = collision.time_step? / collision.plain_time_step?;
         let masses = collision.bodies.each_ref().map(|body| body.mass);
-        let added = collision.bodies.each_ref().map(|body| body.moved_mass);
-        Some(Self::of(scene, masses, added, longer))
+        let moved = collision.bodies.each_ref().map(|body| body.moved_mass);
+        Some(Self::of(scene, masses, moved, longer))
     }
 
     fn warnings_of_result(

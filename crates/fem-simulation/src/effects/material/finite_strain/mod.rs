@@ -30,7 +30,8 @@ use fem_material::finite::HyperelasticLaw;
 
 use self::departure::Departure;
 use self::strained::Strained;
-use crate::effects::effect::model_form_error::{EffectStatus, ModelFormError};
+use crate::effects::effect::neglect_error::EffectStatus;
+use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
@@ -278,14 +279,14 @@ impl Effect for FiniteStrain {
         scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
-    ) -> ModelFormError {
+    ) -> QuantityErrors {
         let computed = if status.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = Strained::of_both(scene, estimate);
         let both =
             || both.iter().zip(computed).filter_map(|(body, law)| Some((body.as_ref()?, law)));
         // A law that is named and computed has no error.
         if both().any(|(body, law)| body.is_beyond() && body.may_differ_from(law)) {
-            return ModelFormError::default();
+            return QuantityErrors::default();
         }
         let change = both().map(|(body, law)| body.law_error(law)).sum();
         let change = with_waves(scene, estimate, change);
@@ -299,7 +300,7 @@ impl Effect for FiniteStrain {
         let sizes = &estimate.effective.sizes;
         // F = πa² times the mean pressure.
         let radius = 0.5 * (peak_force + peak_pressure) * sizes.max_contact_radius;
-        ModelFormError::of(&shares, estimate)
+        shares.of_all_quantities(estimate)
             .with(QuantityOfInterest::Restitution, restitution.abs() + lost)
             .with(QuantityOfInterest::MaxContactRadius, radius)
             .with(QuantityOfInterest::PeakPressure, peak_pressure * sizes.peak_pressure)

@@ -1,20 +1,21 @@
-//! Model-form error: the change of each result by neglected effects.
+//! Error bars of the summary: the discretisation error, and the model-form error by neglected effects.
 //!
 //! The discretisation error bounds the distance from the solution of the model's continuum problem; the model-form error
 //! bounds the distance of that problem from the physical one. It is the change by effects that the model lacks
-//! ([`crate::effects::ModelFormError`]), and the spread of the hyperelastic laws if the case names none. Closed forms
+//! ([`Effect::model_form_error`](crate::effects::Effect::model_form_error)), and the spread of the hyperelastic laws if the case names none. Closed forms
 //! estimate it within a factor of three. The restitution of a library material whose loss in an impact is not published
 //! is unknown. The parameters of contact laws are the user's.
 
-use fem_collision::Collision;
+use fem_collision::{Collision, QuantityOfInterest};
 
-use super::estimator::ErrorEstimate;
-use crate::effects::{EffectStatus, ModelFormError, effect_named};
-use crate::results::{EffectSummary, Parts, Quantities, UncertaintySummary};
+use super::summary::{EffectSummary, Parts, Quantities, UncertaintySummary};
+use crate::effects::{EffectStatus, effect_named};
+use crate::error::ErrorEstimate;
+use crate::quantity_errors::QuantityErrors;
 use crate::simulation::Simulation;
 
 /// Returns discretisation and model-form errors of the quantities that have a number, SI.
-pub(crate) fn uncertainty(
+pub(super) fn uncertainty(
     simulation: &Simulation,
     collision: &Collision,
     errors: &ErrorEstimate,
@@ -22,13 +23,13 @@ pub(crate) fn uncertainty(
     effects: &[EffectSummary],
 ) -> UncertaintySummary {
     let all = model_form_errors(simulation, collision, effects);
-    let sum = |errors: &mut dyn Iterator<Item = ModelFormError>| {
-        errors.fold(ModelFormError::NOTHING, ModelFormError::and)
+    let sum = |errors: &mut dyn Iterator<Item = QuantityErrors>| {
+        errors.fold(QuantityErrors::ZERO, QuantityErrors::plus)
     };
     let model = sum(&mut all.iter().copied());
-    let known = sum(&mut all.iter().copied().map(ModelFormError::unknown_as_zero));
+    let known = sum(&mut all.iter().copied().map(QuantityErrors::unknown_as_zero));
     UncertaintySummary::by(|quantity| {
-        let of = |error: &ModelFormError| numbers.number(quantity).and(error.size(quantity));
+        let of = |error: &QuantityErrors| numbers.number(quantity).and(error.size(quantity));
         let model = of(&model);
         let known = of(&known).filter(|known| model.is_none() && *known > 0.0);
         Parts { discretisation: of(&errors.bars), model, model_at_least: known }
@@ -40,9 +41,9 @@ fn model_form_errors(
     simulation: &Simulation,
     collision: &Collision,
     effects: &[EffectSummary],
-) -> Vec<ModelFormError> {
+) -> Vec<QuantityErrors> {
     let Some(estimate) = simulation.estimate(collision) else {
-        return vec![ModelFormError::default()];
+        return vec![QuantityErrors::default()];
     };
     let estimate = estimate.with_computed(collision);
     let scene = simulation.scene_of_model();
@@ -51,6 +52,11 @@ fn model_form_errors(
             EffectStatus { is_lacking: decision.is_lacking, neglect_error: *error_if_left_out };
         Some(effect_named(decision.name)?.model_form_error(&scene, &estimate, &status))
     };
-    let loss = simulation.case().scene().unpublished_loss().map(|_| ModelFormError::of_loss());
+    let loss = simulation.case().scene().unpublished_loss().map(|_| {
+        // The other quantities depend on the moduli, whose scatter is not included.
+        QuantityErrors::from_fn(|quantity| {
+            (quantity != QuantityOfInterest::Restitution).then_some(0.0)
+        })
+    });
     effects.iter().filter_map(error).chain(loss).collect()
 }

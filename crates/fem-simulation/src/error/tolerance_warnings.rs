@@ -4,9 +4,9 @@ use fem_case::engineering::show;
 use fem_collision::{Collision, QuantityOfInterest};
 use fem_material::engineering::Unit;
 
-use super::estimator::ErrorEstimate;
+use super::estimate::{ErrorEstimate, NotRefined};
 use super::noise_floor::early_pressure_radius;
-use super::refinement::{NotRefined, STEPS, is_of_chatter, length, refinement_ratio};
+use super::refinement::{REFINEMENT_RATIOS, is_of_chatter, length, refinement_ratio};
 use super::tolerance_check::{ToleranceMiss, missed};
 use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
@@ -141,7 +141,7 @@ fn advised_ratio(missed: &[ToleranceMiss], collision: &Collision, size: f64) -> 
     // With few elements the errors oscillate with the place of the contact's edge between two nodes.
     let radius = collision.max_contact_radius.filter(|radius| *radius > 0.0);
     let of_few = radius.map_or(1.0, |radius| ADVISED * size / radius);
-    refinement_ratio(excess).max(STEPS[0]).max(of_few)
+    refinement_ratio(excess).max(REFINEMENT_RATIOS[0]).max(of_few)
 }
 
 /// Returns a warning that the discretisation error is not estimated, if it should be.
