@@ -34,8 +34,8 @@ pub use fields::{
     fewer_than_asked, invariants,
 };
 pub use request::{
-    Approach, ApproachError, BodyInput, Expectation, FLIGHT_AFTER, Frame, OutputRequest,
-    OutputRequestError, far_radius_at_rest, far_radius_of_waves,
+    Approach, ApproachError, BodyInput, Expectation, Frame, OutputRequest, OutputRequestError,
+    POST_CONTACT_FRACTION, far_radius_at_rest, far_radius_of_waves,
 };
 pub use result::{
     BodyResult, Bounce, CandidateRegion, Collision, Ending, LARGEST_RESIDUAL, QuantityOfInterest,

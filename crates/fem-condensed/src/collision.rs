@@ -13,7 +13,7 @@ use crate::settings::Damping;
 
 /// Radius of the points that are included at first, over the elastic contact radius. A collision that needs
 /// more points is run again with all of them.
-const REACH: f64 = 1.3;
+const INCLUDED_OVER_CONTACT_RADIUS: f64 = 1.3;
 /// Largest ω Δt of a mode of vibration; the error of its period is (ω Δt)⁴/480 = 1e-4.
 const LARGEST_PHASE: f64 = 0.5;
 /// Smallest number of steps per elastic contact time.
@@ -143,7 +143,7 @@ impl CondensedPair {
     /// Returns the number of points to include at first, for a collision that closes all up to this one without
     /// relaxation.
     fn n_near(&self, last_closed: usize) -> usize {
-        let mut reach = REACH * self.points[last_closed].radius;
+        let mut reach = INCLUDED_OVER_CONTACT_RADIUS * self.points[last_closed].radius;
         if self.nodal_side.is_none() {
             // The element that has to stay open.
             reach += self.longest_element(last_closed);

@@ -105,7 +105,7 @@ impl ContactInterface {
 }
 
 /// Number of nodal pressures that are stored; those of larger contacts are evaluated again for each use.
-const ROOM: usize = 64;
+const STORED_PRESSURES: usize = 64;
 
 /// Returns contact radius (m) and pressure on the axis (Pa) for pressures at the nodes of either side from the
 /// axis outward (r in m, p in Pa). Nodal pressures are evaluated once, because they cost more than their use.
@@ -113,7 +113,7 @@ pub(crate) fn radius_and_pressure<I: Iterator<Item = (f64, f64)> + Clone>(
     recovery: RecoverySurfaces,
     at_nodes: impl Fn(usize) -> I,
 ) -> (f64, f64) {
-    let mut room = [[(0.0, 0.0); ROOM]; 2];
+    let mut room = [[(0.0, 0.0); STORED_PRESSURES]; 2];
     let kept = [0, 1].map(|side: usize| {
         if !recovery.includes(side) {
             return None;
@@ -173,7 +173,7 @@ mod tests {
                 (r, (1.0 - x * x).max(0.0).sqrt())
             })
         };
-        for n in [8, ROOM, ROOM + 1, 200] {
+        for n in [8, STORED_PRESSURES, STORED_PRESSURES + 1, 200] {
             let lengths = [1.0, 1.04];
             let at = |side: usize| hertz(n, lengths[side]);
             for recovery in [
@@ -201,7 +201,7 @@ mod tests {
                 assert_eq!(both, (radius, pressure), "{n} {recovery:?}");
                 // Pressures are made once at each surface where there is room for them.
                 let n_read = [0, 1].into_iter().filter(|&side| recovery.includes(side)).count();
-                let most = if n <= ROOM { n_read } else { 3 * n_read };
+                let most = if n <= STORED_PRESSURES { n_read } else { 3 * n_read };
                 assert_eq!(n_made.get(), most, "{n} {recovery:?}");
             }
         }

@@ -21,7 +21,7 @@ pub struct ProbeRequest {
 
 /// A point this far beyond an element's edge, in its local coordinates from −1 to 1, still belongs to the element, since
 /// the arc of a surface is beyond its chord.
-const BEYOND: f64 = 0.05;
+const LOCAL_COORDINATE_TOLERANCE: f64 = 0.05;
 /// The largest number of Newton steps to the local coordinates of a point; a convex quad needs a few.
 const NEWTON_STEPS: usize = 20;
 
@@ -52,7 +52,7 @@ impl Probe {
         let within = |number: usize| {
             let [xi, eta] = local_coordinates(&mesh.corners(number), place)?;
             let beyond = xi.abs().max(eta.abs()) - 1.0;
-            (beyond <= BEYOND).then_some((number, [xi, eta], beyond))
+            (beyond <= LOCAL_COORDINATE_TOLERANCE).then_some((number, [xi, eta], beyond))
         };
         let found = (0..mesh.quads().len()).filter_map(within);
         let (number, own, _) = found.min_by(|one, other| one.2.total_cmp(&other.2))?;
@@ -187,7 +187,7 @@ fn local_coordinates(corners: &[[f64; 2]; 4], place: [f64; 2]) -> Option<[f64; 2
             corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| {
                 (low.min(c[axis]), high.max(c[axis]))
             });
-        let margin = BEYOND * (high - low);
+        let margin = LOCAL_COORDINATE_TOLERANCE * (high - low);
         (low - margin..=high + margin).contains(&place[axis])
     });
     if !within {

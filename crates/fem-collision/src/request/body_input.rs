@@ -4,7 +4,7 @@ use fem_material::Material;
 use fem_mesh::SphereMesh;
 use std::f64::consts::PI;
 
-use crate::request::FLIGHT_AFTER;
+use crate::request::POST_CONTACT_FRACTION;
 
 /// One of the two bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ const COMPLIANCE_LEFT_OUT: f64 = 1e-6;
 /// this radius (m). Even if relaxation doubles the duration, no reflected wave returns to the
 /// contact.
 pub fn far_radius_of_waves(material: &Material, contact_time: f64, candidate_radius: f64) -> f64 {
-    let time = (1.0 + FLIGHT_AFTER) * contact_time;
+    let time = (1.0 + POST_CONTACT_FRACTION) * contact_time;
     // Even for a contact of zero duration the mesh needs its rings.
     (candidate_radius + material.dilatational_wave_speed() * time).max(4.0 * candidate_radius)
 }

@@ -8,4 +8,4 @@ mod output_request;
 pub use approach::{Approach, ApproachError};
 pub use body_input::{BodyInput, far_radius_at_rest, far_radius_of_waves};
 pub use frame::Frame;
-pub use output_request::{Expectation, FLIGHT_AFTER, OutputRequest, OutputRequestError};
+pub use output_request::{Expectation, OutputRequest, OutputRequestError, POST_CONTACT_FRACTION};

@@ -7,7 +7,7 @@ use crate::fields::{ProbeRequest, SnapshotRequest};
 
 /// Duration of the run after the last contact, as a fraction of the contact time. Velocities and
 /// vibrations are measured in this free flight.
-pub const FLIGHT_AFTER: f64 = 0.2;
+pub const POST_CONTACT_FRACTION: f64 = 0.2;
 
 /// The output that a run must produce, and its limits.
 ///

@@ -24,17 +24,17 @@ use crate::run::nan_aware_max_abs;
 /// Width of the window over the duration of the pulse.
 pub const PEAK_WINDOW: f64 = 1.0 / 64.0;
 /// Duration of a Hertz pulse times its largest force over its impulse.
-const FULLNESS: f64 = 1.75;
+const HERTZ_FULLNESS: f64 = 1.75;
 /// Fraction of the largest contact radius from which the pressure counts.
-const RESOLVED: f64 = 0.25;
+const RESOLVED_RADIUS_SHARE: f64 = 0.25;
 /// Number of elements in the contact radius that resolve a pressure.
 pub const RESOLVING_ELEMENTS: f64 = 2.0;
 /// Largest window of an early pressure over the time since first touch.
-const YOUNG: f64 = 1.0 / 8.0;
+const WINDOW_OVER_TIME_SINCE_TOUCH: f64 = 1.0 / 8.0;
 /// Largest number of samples; beyond it every second one is dropped.
-const MOST: usize = 4096;
+const MOST_SAMPLES: usize = 4096;
 /// Largest distance of two samples in windows; beyond it a mean is worse than the largest value of a step.
-const WIDEST: f64 = 2.0;
+const WIDEST_GAP_IN_WINDOWS: f64 = 2.0;
 
 /// A sample: time (s), impulse so far (N s), contact radius (m) and pressure (Pa).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,7 +69,7 @@ pub struct PulsePeaks {
 
 impl Default for ForcePulse {
     fn default() -> Self {
-        Self { samples: Vec::with_capacity(MOST), n_observed: 0, stride: 1 }
+        Self { samples: Vec::with_capacity(MOST_SAMPLES), n_observed: 0, stride: 1 }
     }
 }
 
@@ -81,7 +81,7 @@ impl ForcePulse {
         if !is_due {
             return;
         }
-        if self.samples.len() >= MOST {
+        if self.samples.len() >= MOST_SAMPLES {
             let mut k = 0;
             self.samples.retain(|_| {
                 k += 1;
@@ -104,8 +104,8 @@ impl ForcePulse {
         };
         let largest_radius = highest(|sample| sample.radius);
         let impulse = self.samples.last().map_or(0.0, |sample| sample.impulse);
-        let window = PEAK_WINDOW * FULLNESS * impulse / largest_force;
-        let resolved = (RESOLVED * largest_radius).min(RESOLVING_ELEMENTS * element);
+        let window = PEAK_WINDOW * HERTZ_FULLNESS * impulse / largest_force;
+        let resolved = (RESOLVED_RADIUS_SHARE * largest_radius).min(RESOLVING_ELEMENTS * element);
         let mut peaks = PulsePeaks { force: 0.0, radius: 0.0, pressure: 0.0, pressure_radius: 0.0 };
         let mut sums = Sums::default();
         let mut end = 0;
@@ -118,7 +118,7 @@ impl ForcePulse {
             }
             let Some(last) = self.samples.get(end) else { break };
             let lasts = last.time - sample.time;
-            if lasts > WIDEST * window {
+            if lasts > WIDEST_GAP_IN_WINDOWS * window {
                 sums.remove(sample);
                 continue;
             }
@@ -126,7 +126,7 @@ impl ForcePulse {
             let n = (end - k) as f64;
             peaks.radius = nan_aware_max_abs(peaks.radius, sums.radius / n);
             if sample.radius.min(last.radius) >= resolved {
-                let is_early = sample.radius < RESOLVED * largest_radius;
+                let is_early = sample.radius < RESOLVED_RADIUS_SHARE * largest_radius;
                 let young = is_early.then(|| self.young(k, window)).flatten();
                 let pressure = young.unwrap_or(sums.pressure / n);
                 if pressure > peaks.pressure {
@@ -153,7 +153,8 @@ impl ForcePulse {
     fn young(&self, k: usize, window: f64) -> Option<f64> {
         let later = &self.samples[k..];
         let now = later.first()?.time;
-        let window = Some(YOUNG * (now - self.samples[0].time)).filter(|young| *young < window)?;
+        let window = Some(WINDOW_OVER_TIME_SINCE_TOUCH * (now - self.samples[0].time))
+            .filter(|young| *young < window)?;
         let n = later.partition_point(|sample| sample.time - now < window).max(1);
         Some(later[..n].iter().map(|sample| sample.pressure).sum::<f64>() / n as f64)
     }
@@ -161,7 +162,7 @@ impl ForcePulse {
     /// Returns whether a restart state is consistent.
     pub fn is_consistent(&self) -> bool {
         self.stride > 0
-            && self.samples.len() <= MOST
+            && self.samples.len() <= MOST_SAMPLES
             && self.samples.is_sorted_by(|one, next| one.time <= next.time)
     }
 
@@ -312,7 +313,7 @@ mod tests {
             impulse += force / n as f64;
         }
         assert!(
-            long.is_consistent() && long.samples.len() > MOST / 2 - 1,
+            long.is_consistent() && long.samples.len() > MOST_SAMPLES / 2 - 1,
             "{}",
             long.samples.len()
         );

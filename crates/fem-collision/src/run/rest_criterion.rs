@@ -46,13 +46,13 @@ const NOTHING_LEFT: f64 = 1e-4;
 /// 1e-4.
 const AT_REST: f64 = 1e-3;
 /// Largest bound by energy for bodies that are at rest by their momentum.
-const CERTAIN: f64 = 0.03;
+const LARGEST_BOUND_BY_ENERGY: f64 = 0.03;
 /// A ball is at its static approach if its rate is below this fraction of the largest one.
-const CREEPING: f64 = 0.01;
+const CREEPING_RATE: f64 = 0.01;
 /// A ball flows under its weight if it still sinks after this many times the time at which its energy bounded e.
-const SINKING: f64 = 20.0;
+const SINKING_TIME_FACTOR: f64 = 20.0;
 /// Duration of rest, as a fraction of the time since first touch.
-const LASTING: f64 = 0.05;
+const REST_DURATION_SHARE: f64 = 0.05;
 
 /// The relative motion of two bodies at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,16 +128,17 @@ impl RestCriterion {
         let force = if self.weight > 0.0 { (now.force - self.weight).abs() } else { now.force };
         let by_energy = |restitution: f64| left < restitution * restitution * initial;
         let by_momentum = || now.rate.abs() + force * now.time / self.reduced_mass;
-        let is_at_rest = by_energy(CERTAIN) && by_momentum() < AT_REST * self.speed;
+        let is_at_rest = by_energy(LARGEST_BOUND_BY_ENERGY) && by_momentum() < AT_REST * self.speed;
         self.since = is_at_rest.then(|| self.since.unwrap_or(now.time));
-        let lasts = self.since.is_some_and(|since| now.time - since >= LASTING * now.time);
+        let lasts =
+            self.since.is_some_and(|since| now.time - since >= REST_DURATION_SHARE * now.time);
         let is_proved = by_energy(NOTHING_LEFT);
         self.proved = is_proved.then(|| self.proved.unwrap_or(now.time));
         self.fastest = self.fastest.max(now.rate);
         // The energy of a falling ball is lost early, but the ball still has to sink to its static approach.
         let has_sunk_in = self.weight == 0.0
-            || now.rate < CREEPING * self.fastest
-            || self.proved.is_some_and(|proved| now.time > SINKING * proved);
+            || now.rate < CREEPING_RATE * self.fastest
+            || self.proved.is_some_and(|proved| now.time > SINKING_TIME_FACTOR * proved);
         now.is_closed && (lasts || is_proved && has_sunk_in)
     }
 }

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 /// Ratio of samples to the expected number above which every second sample is dropped.
-const EXCESS: usize = 4;
+const SAMPLES_OVER_EXPECTED: usize = 4;
 /// Smallest number of samples.
-const FEWEST: usize = 16;
+const FEWEST_SAMPLES: usize = 16;
 
 /// An even stride over the steps of a run that doubles whenever there are too many samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,7 +21,11 @@ impl SamplingInterval {
     /// most four times as many.
     pub fn new(n_instants: usize, expected_steps: f64) -> Self {
         let stride = (expected_steps / n_instants.max(1) as f64).floor().max(1.0) as u64;
-        Self { stride, n: 0, most: EXCESS.saturating_mul(n_instants.max(FEWEST)) }
+        Self {
+            stride,
+            n: 0,
+            most: SAMPLES_OVER_EXPECTED.saturating_mul(n_instants.max(FEWEST_SAMPLES)),
+        }
     }
 
     /// Creates the nearest stride: two thirds to three halves of the requested samples, if there

@@ -7,7 +7,7 @@ use crate::condensation::condensed_body::CondensedBody;
 use crate::condensation::numbering::ElementEquations;
 
 /// Number of columns that are multiplied at a time.
-const CHUNK: usize = 8;
+const COLUMNS_AT_A_TIME: usize = 8;
 
 impl CondensedBody {
     /// Multiplies fields by the deviatoric stiffness, including the row of the fixed degree of freedom, N.
@@ -19,9 +19,10 @@ impl CondensedBody {
             .collect();
         let mut forces = Mat::zeros(n + 1, fields.ncols());
         // Equations of an element are scattered over the rows: the columns of a chunk lie together there.
-        let (mut input, mut output) = (vec![[0.0; CHUNK]; n], vec![[0.0; CHUNK]; n]);
-        for start in (0..fields.ncols()).step_by(CHUNK) {
-            let columns = start..(start + CHUNK).min(fields.ncols());
+        let (mut input, mut output) =
+            (vec![[0.0; COLUMNS_AT_A_TIME]; n], vec![[0.0; COLUMNS_AT_A_TIME]; n]);
+        for start in (0..fields.ncols()).step_by(COLUMNS_AT_A_TIME) {
+            let columns = start..(start + COLUMNS_AT_A_TIME).min(fields.ncols());
             for (k, j) in columns.clone().enumerate() {
                 // A translation causes no force, so fields are taken relative to the fixed degree of freedom.
                 let ground = fields[(n, j)];
@@ -29,7 +30,7 @@ impl CondensedBody {
                     row[k] = fields[(i, j)] - if self.is_axial[i] { ground } else { 0.0 };
                 }
             }
-            output.fill([0.0; CHUNK]);
+            output.fill([0.0; COLUMNS_AT_A_TIME]);
             for (element, matrix) in elements.iter().zip(&matrices) {
                 let solved = || element.equations.into_iter().enumerate();
                 for (j, from) in solved() {

@@ -11,7 +11,7 @@
 use fem_mesh::SphereMesh;
 
 /// Number of nodes up to which a set is not divided. Dense products are efficient from about this size on.
-const SMALLEST: usize = 14;
+const UNDIVIDED_NODES: usize = 14;
 /// Distance of a node that is not reached yet.
 const UNREACHED: u32 = u32::MAX;
 
@@ -55,7 +55,7 @@ impl Dissection {
 
     /// Adds a set of nodes, divided recursively as long as that reduces the work.
     fn part(&mut self, places: &mut [Place], scratch: &mut Vec<Place>, counts: &mut Vec<u32>) {
-        if places.len() > SMALLEST {
+        if places.len() > UNDIVIDED_NODES {
             let mut directions = Direction::both(places);
             // The longer extent is divided first.
             directions.sort_by_key(|direction| -direction.extent());
@@ -89,7 +89,7 @@ impl Dissection {
 }
 
 /// Largest change of the ring and of the position in it within an element.
-const WIDTHS: [i32; 2] = [1, 2];
+const WIDTHS_OF_ELEMENT: [i32; 2] = [1, 2];
 
 /// A coordinate by which a set may be divided, with its range.
 #[derive(Debug, Clone, Copy)]
@@ -115,7 +115,7 @@ impl Direction {
     }
 
     fn extent(&self) -> i32 {
-        (self.greatest - self.least) / WIDTHS[self.which]
+        (self.greatest - self.least) / WIDTHS_OF_ELEMENT[self.which]
     }
 
     /// Returns the separator at the median; `None` if one side would be empty. `counts` becomes the number of nodes
@@ -131,7 +131,12 @@ impl Direction {
             2 * below > places.len()
         })?;
         let from = self.least + median as i32;
-        let cut = Cut { which: self.which, least: self.least, from, to: from + WIDTHS[self.which] };
+        let cut = Cut {
+            which: self.which,
+            least: self.least,
+            from,
+            to: from + WIDTHS_OF_ELEMENT[self.which],
+        };
         (self.least < cut.from && cut.to <= self.greatest).then_some(cut)
     }
 }

@@ -14,7 +14,7 @@ use crate::condensation::dense::cholesky;
 pub(crate) const ROUNDING: f64 = 1e-11;
 
 /// Number of rounds without progress before points are moved one at a time.
-const PATIENCE: usize = 8;
+const ROUNDS_WITHOUT_PROGRESS: usize = 8;
 /// Largest number of points that are closed one at a time, over that of all points; more are a cycle by rounding.
 const MOST_ROUNDS: usize = 10;
 
@@ -35,7 +35,7 @@ pub(crate) fn solve(
     let n = overlap.len();
     let scale = ROUNDING * overlap.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let mut closed: Vec<bool> = forces.iter().map(|&force| force > 0.0).collect();
-    let (mut fewest, mut rounds_left) = (n + 1, PATIENCE);
+    let (mut fewest, mut rounds_left) = (n + 1, ROUNDS_WITHOUT_PROGRESS);
     while rounds_left > 0 {
         solve_closed(compliance, overlap, &closed, forces).ok_or(NoContactState)?;
         let largest = forces.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -50,7 +50,7 @@ pub(crate) fn solve(
             return Ok(());
         }
         if violated.len() < fewest {
-            (fewest, rounds_left) = (violated.len(), PATIENCE);
+            (fewest, rounds_left) = (violated.len(), ROUNDS_WITHOUT_PROGRESS);
         } else {
             rounds_left -= 1;
         }

@@ -17,7 +17,7 @@
 //! ```
 //!
 //! The instantaneous compliance is positive as long as γ/τ is less than 1/k, that under a rigid punch over all
-//! points. So τ = [`LAG`] γ k, a few times the time of a wave across the contact. The energy supplied is
+//! points. So τ = [`LAG_OVER_SHORTEST`] γ k, a few times the time of a wave across the contact. The energy supplied is
 //!
 //! ```math
 //! \int F\dot u\,dt = -\gamma\dot y\left(y + \tfrac12\tau\dot y\right) + \int\gamma\dot y^2\,dt,
@@ -31,7 +31,7 @@
 //! stiffness, so that the loss is underestimated the more, the more the body relaxes.
 
 /// τ/(γ k), the lag over the shortest one with a positive compliance.
-const LAG: f64 = 2.0;
+const LAG_OVER_SHORTEST: f64 = 2.0;
 
 /// State of the radiated waves of both bodies.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ impl WaveRadiation {
         if total <= 0.0 {
             return None;
         }
-        let lag = LAG * total * punch_stiffness;
+        let lag = LAG_OVER_SHORTEST * total * punch_stiffness;
         // Exact for a force that changes at a constant rate.
         let gone = -(-time_step / lag).exp_m1();
         let mean = gone * lag / time_step;

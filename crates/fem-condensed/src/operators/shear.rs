@@ -26,7 +26,7 @@ use crate::condensation::dense::symmetric_eigen;
 use crate::error::CondensedError;
 
 /// Share of a block's energy below which a direction is left out.
-const NEGLIGIBLE: f64 = 1e-10;
+const NEGLIGIBLE_ENERGY_SHARE: f64 = 1e-10;
 
 /// Modes of a body with a relaxing shear modulus.
 #[derive(Debug, Clone)]
@@ -126,7 +126,7 @@ fn next_block(
     }
     let scale = (0..gram.nrows()).map(|i| gram[(i, i)]).fold(0.0, f64::max);
     let (values, vectors) = symmetric_eigen(&gram).ok_or(CondensedError::NotPositiveDefinite)?;
-    let first = values.partition_point(|&value| value <= NEGLIGIBLE * scale);
+    let first = values.partition_point(|&value| value <= NEGLIGIBLE_ENERGY_SHARE * scale);
     if first == values.len() {
         return Ok(None);
     }

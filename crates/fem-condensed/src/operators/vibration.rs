@@ -18,7 +18,7 @@ const VECTORS_MORE: usize = 20;
 /// Number of modes that are computed at first, if more are requested.
 const FIRST_MODES: usize = 12;
 /// Relative residual of a mode's flexibility below which the mode has converged.
-const CONVERGED: f64 = 1e-3;
+const CONVERGED_RESIDUAL: f64 = 1e-3;
 /// Smallest length of a shear wave of a mode's frequency, over the longest element edge. The mesh does not resolve
 /// shorter waves: with them a glass pair loses ten times too much energy at 50 m/s.
 const ELEMENTS_PER_WAVE: f64 = 2.5;
@@ -161,7 +161,7 @@ impl<'a> Lanczos<'a> {
         // The largest flexibilities are the lowest frequencies. The component of the next vector in a mode is the
         // residual of its flexibility.
         let has_converged =
-            |j: usize| self.last_norm * vectors[(m - 1, j)].abs() <= CONVERGED * values[j];
+            |j: usize| self.last_norm * vectors[(m - 1, j)].abs() <= CONVERGED_RESIDUAL * values[j];
         let converged = (0..m).rev().take(n_modes).take_while(|&j| has_converged(j));
         let chosen: Vec<usize> = converged.take_while(|&j| values[j] >= least).collect();
         let next = m.checked_sub(chosen.len() + 1);

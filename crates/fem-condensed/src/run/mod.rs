@@ -5,10 +5,10 @@ pub(crate) mod instants;
 pub(crate) mod sample;
 
 use fem_collision::{
-    Collision, DeepestOverlap, Ending, EnergyLedger, FLIGHT_AFTER, ForceNoise, ForcePulse, Frame,
-    History, LARGEST_RESIDUAL, Monitor, OutputRequest, PostContactVibration, Progress,
-    RelativeMotion, RestCriterion, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, StepInstant, Stop,
-    longest_at_pole, nan_aware_max, nan_aware_max_abs,
+    Collision, DeepestOverlap, Ending, EnergyLedger, ForceNoise, ForcePulse, Frame, History,
+    LARGEST_RESIDUAL, Monitor, OutputRequest, POST_CONTACT_FRACTION, PostContactVibration,
+    Progress, RelativeMotion, RestCriterion, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, StepInstant,
+    Stop, longest_at_pole, nan_aware_max, nan_aware_max_abs,
 };
 
 use crate::contact::pressure::Pressures;
@@ -21,13 +21,13 @@ use crate::run::sample::MotionSample;
 /// Relative energy residual above which a run is stopped.
 const LARGEST_IMBALANCE: f64 = 0.1;
 /// Rate of approach over the initial one below which bodies creep. Creeping bodies get more time to separate.
-const CREEPING: f64 = 0.1;
+const CREEPING_RATE: f64 = 0.1;
 /// Largest time that creeping bodies may take to separate, over the time of compression.
 const SLOWEST_PARTING: f64 = 2.0;
 
 /// Smallest number of samples of force, radius and pressure in a contact; the window of their peaks
 /// is a 64th of it.
-const INSTANTS: usize = 1000;
+const FEWEST_SAMPLES: usize = 1000;
 /// Largest number of samples per step.
 const MOST_WITHIN_STEP: f64 = 8.0;
 
@@ -100,11 +100,11 @@ impl<'a> ImpactRun<'a> {
         elastic_contact_time: f64,
     ) -> Self {
         let steps = elastic_contact_time / motion.time_step;
-        let instants = request.history_rows.max(INSTANTS) as f64;
+        let instants = request.history_rows.max(FEWEST_SAMPLES) as f64;
         let per_step = (instants / steps).round().clamp(1.0, MOST_WITHIN_STEP) as u64;
         Self {
             give_up: request.give_up_after * elastic_contact_time,
-            expected_end: (1.0 + FLIGHT_AFTER) * elastic_contact_time,
+            expected_end: (1.0 + POST_CONTACT_FRACTION) * elastic_contact_time,
             initial_energy: frame.initial(),
             pair,
             frame,
@@ -185,7 +185,10 @@ impl<'a> ImpactRun<'a> {
             self.opening = Some([before, self.with_residual(end), after]);
         }
         let flight = time - self.last_contact;
-        if !is_closed && self.motion.rate < 0.0 && flight >= FLIGHT_AFTER * self.last_contact {
+        if !is_closed
+            && self.motion.rate < 0.0
+            && flight >= POST_CONTACT_FRACTION * self.last_contact
+        {
             return Ok(Some(Ending::Parted));
         }
         // Under gravity bodies do not necessarily separate farther than this.
@@ -204,7 +207,7 @@ impl<'a> ImpactRun<'a> {
             let relative = self.worst_residual;
             return Err(Stop::EnergyImbalance { time: time_of_case, relative });
         }
-        let creeps = self.motion.rate.abs() < CREEPING * self.frame.speed()
+        let creeps = self.motion.rate.abs() < CREEPING_RATE * self.frame.speed()
             && time <= (1.0 + SLOWEST_PARTING) * self.turned;
         if time > self.give_up && !creeps {
             let (time, approach) = (time_of_case, self.motion.approach);

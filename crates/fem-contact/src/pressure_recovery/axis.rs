@@ -12,24 +12,24 @@
 use super::{ContactEnforcement, HatMoments, NodalMean, nodal_means};
 
 /// Largest number of fitted nodes, from the axis outward.
-const MOST: usize = 64;
+const MOST_FITTED_NODES: usize = 64;
 /// Fits in the order of preference: number of terms, reach over the contact radius, least number of nodes. The
 /// weights fall to zero at the reach, so that a node that enters or leaves causes no jump.
 const FITS: [(usize, f64, usize); 2] = [(3, 0.6, 4), (2, 0.8, 2)];
 /// Number of passes; the second changes the result by 0.1 %, the third by less than 1e-5.
-const PASSES: usize = 3;
+const FIT_PASSES: usize = 3;
 /// Valid range of the fitted pressure over that of the axis node. For two elements per contact radius Hertz'
 /// profile gives 1.2.
-const VALID: std::ops::Range<f64> = 0.8..1.4;
+const VALID_PRESSURE_RATIO: std::ops::Range<f64> = 0.8..1.4;
 /// Relative deficit of the pressure at the first nodes, times a/h, caused by the elements at the axis. This and
 /// the next two constants were measured on elastic spheres with 8 to 32 elements per radius.
-const LAYER: [f64; 5] = [0.27, 0.085, 0.030, 0.012, 0.005];
+const DEFICIT_OF_FIRST_NODES: [f64; 5] = [0.27, 0.085, 0.030, 0.012, 0.005];
 /// Relative decrease of the pressure by springs of the penalty factor 1, times a/h: they spread the load.
-const SPRINGS: f64 = 0.022;
+const DECREASE_BY_SPRINGS: f64 = 0.022;
 /// Remaining relative excess of the fit, times a²/h², for 4 to 8 elements per radius.
-const BEND: f64 = 0.15;
+const EXCESS_OF_FIT: f64 = 0.15;
 /// Largest h/a for which these constants are valid.
-const COARSEST: f64 = 0.5;
+const LARGEST_SIZE_OVER_RADIUS: f64 = 0.5;
 
 /// Coefficients of a fit of p² over x/a².
 #[derive(Debug, Clone, Copy)]
@@ -55,20 +55,22 @@ pub fn centre_pressure(
     let means = nodal_means(nodes);
     let Some(axis) = means.clone().next().filter(|axis| axis.pressure != 0.0) else { return 0.0 };
     let size = axis.neighbours[1].unwrap_or(0.0);
-    let coarseness = (size / contact_radius).min(COARSEST);
+    let coarseness = (size / contact_radius).min(LARGEST_SIZE_OVER_RADIUS);
     if !(axis.pressure.is_finite() && coarseness > 0.0) {
         return axis.pressure;
     }
-    let scale = 1.0 - BEND * coarseness * coarseness
+    let scale = 1.0 - EXCESS_OF_FIT * coarseness * coarseness
         + match enforcement {
-            ContactEnforcement::Springs => SPRINGS * coarseness,
+            ContactEnforcement::Springs => DECREASE_BY_SPRINGS * coarseness,
             ContactEnforcement::Rigid => 0.0,
         };
     // The moments are evaluated once for all fits and passes.
-    let mut room = [FittedNode::default(); MOST];
+    let mut room = [FittedNode::default(); MOST_FITTED_NODES];
     let widest = (FITS[1].1 * contact_radius).powi(2);
     let mut n_inside = 0;
-    for (k, cell) in means.take_while(|cell| cell.pressure > 0.0).take(MOST).enumerate() {
+    for (k, cell) in
+        means.take_while(|cell| cell.pressure > 0.0).take(MOST_FITTED_NODES).enumerate()
+    {
         let weight = cell.hat_moments();
         if weight.square >= widest {
             break;
@@ -85,7 +87,7 @@ pub fn centre_pressure(
     for (terms, reach, fewest) in FITS {
         if inside(reach).len() >= fewest
             && let Some(pressure) = fitted(inside(reach), reach, contact_radius, terms)
-            && VALID.contains(&(pressure / axis.pressure))
+            && VALID_PRESSURE_RATIO.contains(&(pressure / axis.pressure))
         {
             return scale * pressure;
         }
@@ -102,7 +104,7 @@ pub fn pressure_profile(
 ) -> impl Iterator<Item = f64> + Clone {
     let on_axis = centre_pressure(nodes.clone(), contact_radius, enforcement);
     let size = nodes.clone().nth(1).map_or(0.0, |(radius, _)| radius);
-    let coarseness = (size / contact_radius).min(COARSEST);
+    let coarseness = (size / contact_radius).min(LARGEST_SIZE_OVER_RADIUS);
     nodal_means(nodes).enumerate().map(move |(k, cell)| match k {
         0 => on_axis,
         _ if coarseness > 0.0 => without_layer(k, cell, coarseness).pressure,
@@ -112,7 +114,7 @@ pub fn pressure_profile(
 
 /// Corrects the pressure of a node for the deficit near the axis.
 fn without_layer(k: usize, cell: NodalMean, coarseness: f64) -> NodalMean {
-    let taken = LAYER.get(k).map_or(0.0, |layer| layer * coarseness);
+    let taken = DEFICIT_OF_FIRST_NODES.get(k).map_or(0.0, |layer| layer * coarseness);
     NodalMean { pressure: cell.pressure / (1.0 - taken), ..cell }
 }
 
@@ -127,7 +129,7 @@ struct FittedNode {
 /// Returns √c₀ of a fit with this number of terms; `None` if c₀ is not positive.
 fn fitted(nodes: &[FittedNode], reach: f64, radius: f64, terms: usize) -> Option<f64> {
     let mut fit: Option<PressureFit> = None;
-    for _ in 0..PASSES {
+    for _ in 0..FIT_PASSES {
         let (mut moments, mut sums) = ([0.0; 5], [0.0; 3]);
         for FittedNode { pressure, weight } in nodes {
             let (x, spread) = (weight.square / radius.powi(2), weight.variance / radius.powi(4));

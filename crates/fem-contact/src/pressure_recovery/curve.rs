@@ -25,7 +25,7 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 
 /// Number of parts of each interval between neighbours for integrals.
-const PARTS: usize = 4;
+const PARTS_PER_INTERVAL: usize = 4;
 
 /// The contact pressure as a function of the distance from the axis.
 #[derive(Debug, Clone)]
@@ -127,9 +127,9 @@ impl PressureCurve {
     /// Returns ∫ f(r, x) 2πr dr up to the edge, integrated over θ in r = a sin θ, in which an ellipse is smooth.
     fn integral(&self, from: f64, to: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let angle = |r: f64| (r / self.edge).clamp(0.0, 1.0).asin();
-        let (from, step) = (angle(from), (angle(to) - angle(from)) / PARTS as f64);
+        let (from, step) = (angle(from), (angle(to) - angle(from)) / PARTS_PER_INTERVAL as f64);
         let mut sum = 0.0;
-        for part in 0..PARTS {
+        for part in 0..PARTS_PER_INTERVAL {
             for [place, weight] in GAUSS {
                 let (sin, cos) = (from + step * (part as f64 + 0.5 * (1.0 + place))).sin_cos();
                 let r = self.edge * sin;

@@ -4,7 +4,7 @@ use super::{ContactEnforcement, nodal_means};
 
 /// A node with less than this share of the pressure at the node before has just entered the contact, and is not
 /// used for the edge.
-const FAINT: f64 = LAYER[0][0];
+const FAINT_PRESSURE_RATIO: f64 = EDGE_BY_PRESSURE_RATIO[0][0];
 
 /// The edge of the contact on the scale of an element. Columns: ratio of the pressures at the outermost two
 /// nodes; distance of the edge from the outermost node in elements, with springs and without overlap; excess of
@@ -12,7 +12,7 @@ const FAINT: f64 = LAYER[0][0];
 ///
 /// Measured on elastic spheres and a wall for all places of the edge between nodes, with 7 to 16 elements per
 /// radius, against the radius with 64 at the same instant; single values scatter by 0.01.
-const LAYER: [[f64; 4]; 14] = [
+const EDGE_BY_PRESSURE_RATIO: [[f64; 4]; 14] = [
     [0.08, -0.274, -0.230, -0.018],
     [0.12, -0.221, -0.185, -0.020],
     [0.16, -0.175, -0.138, -0.022],
@@ -32,11 +32,11 @@ const LAYER: [[f64; 4]; 14] = [
 /// Correction of the edge for profiles that are not ellipses, in elements per unit of the excess ratio, times the
 /// ratio at the edge. Measured where moduli relax by e⁻² within the contact: 3.3 with 8 elements per radius, 2.5
 /// with 16, 4.4 without overlap.
-const STEEPNESS: f64 = 2.3;
+const EDGE_PER_STEEPNESS: f64 = 2.3;
 /// Upper limit on that correction, in elements.
 const LARGEST_CORRECTION: f64 = 0.5;
 /// Share of the first element that is in contact as long as only the axis node has a force.
-const FIRST: f64 = 0.5;
+const FIRST_ELEMENT_SHARE: f64 = 0.5;
 
 /// Returns the radius (m) at which the pressure falls to zero, for mean pressures at nodes from the axis outward
 /// (r in m, p in Pa); 0 without contact.
@@ -48,14 +48,14 @@ pub fn contact_radius(
     let mut window = [None; 3];
     for cell in nodal_means(nodes) {
         let before = window[2].map_or(0.0, |cell: super::NodalMean| cell.pressure);
-        if cell.pressure > 0.0 && cell.pressure >= FAINT * before {
+        if cell.pressure > 0.0 && cell.pressure >= FAINT_PRESSURE_RATIO * before {
             last = Some((cell, window));
         }
         window = [window[1], window[2], Some(cell)];
     }
     let Some((outermost, [third, second, first])) = last else { return 0.0 };
     let Some(first) = first else {
-        return FIRST * outermost.neighbours[1].unwrap_or(0.0);
+        return FIRST_ELEMENT_SHARE * outermost.neighbours[1].unwrap_or(0.0);
     };
     let width = outermost.radius - first.radius;
     let ratio = outermost.pressure / first.pressure;
@@ -69,7 +69,7 @@ pub fn contact_radius(
             let [inner, outer] =
                 [second, first].map(|cell| ellipse.powi(2) - cell.hat_moments().square);
             let fall = first.pressure / second.pressure / (outer / inner).sqrt() - 1.0;
-            STEEPNESS * ratio.min(1.0) * (fall - steeper)
+            EDGE_PER_STEEPNESS * ratio.min(1.0) * (fall - steeper)
         }
         _ => 0.0,
     };
@@ -78,8 +78,10 @@ pub fn contact_radius(
 
 /// Interpolates the table: distance of the edge from the outermost node, and excess of the ratio inside of it.
 fn layer(ratio: f64, enforcement: ContactEnforcement) -> [f64; 2] {
-    let outer = LAYER.partition_point(|row| row[0] < ratio).clamp(1, LAYER.len() - 1);
-    let [from, to] = [&LAYER[outer - 1], &LAYER[outer]];
+    let outer = EDGE_BY_PRESSURE_RATIO
+        .partition_point(|row| row[0] < ratio)
+        .clamp(1, EDGE_BY_PRESSURE_RATIO.len() - 1);
+    let [from, to] = [&EDGE_BY_PRESSURE_RATIO[outer - 1], &EDGE_BY_PRESSURE_RATIO[outer]];
     let share = ((ratio - from[0]) / (to[0] - from[0])).clamp(0.0, 1.0);
     let column = match enforcement {
         ContactEnforcement::Springs => 1,

@@ -5,10 +5,10 @@
 
 /// Ratios of the element sizes of two staggered meshes, which differ by half an element with 3 to 50 elements per
 /// contact radius.
-const RATIOS: std::ops::Range<f64> = 1.005..1.2;
+const STAGGERED_SIZE_RATIOS: std::ops::Range<f64> = 1.005..1.2;
 /// Deficit of the mean radius in elements. Measured on elastic spheres at every quarter of an element, with 3.5 to
 /// 8 elements per radius; single values scatter by 0.016.
-const EDGE: f64 = 0.025;
+const DEFICIT_OF_MEAN_RADIUS: f64 = 0.025;
 
 /// The surfaces at whose nodes radius and pressure are recovered.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,13 +57,13 @@ impl RecoverySurfaces {
 /// Returns whether segments of these lengths (m) belong to staggered meshes; a rigid surface has none.
 fn are_staggered(lengths: [Option<f64>; 2]) -> bool {
     let [Some(a), Some(b)] = lengths else { return false };
-    RATIOS.contains(&(a.max(b) / a.min(b)))
+    STAGGERED_SIZE_RATIOS.contains(&(a.max(b) / a.min(b)))
 }
 
 /// Returns the radius (m) from those recovered at both surfaces, whose segments have these lengths, m.
 fn staggered_radius(readings: [f64; 2], lengths: [f64; 2]) -> f64 {
     let [radius, length] = [readings, lengths].map(|[a, b]| 0.5 * (a + b));
-    if radius > 0.0 { radius + EDGE * length } else { radius }
+    if radius > 0.0 { radius + DEFICIT_OF_MEAN_RADIUS * length } else { radius }
 }
 
 #[cfg(test)]

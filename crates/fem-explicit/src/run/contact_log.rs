@@ -1,6 +1,6 @@
 //! The log of the contact: first and last contact, and extremes.
 
-use fem_collision::{DeepestOverlap, FLIGHT_AFTER, StepInstant, nan_aware_max_abs};
+use fem_collision::{DeepestOverlap, POST_CONTACT_FRACTION, StepInstant, nan_aware_max_abs};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
@@ -119,6 +119,8 @@ impl ContactLog {
         if is_at_top && !self.was_closed {
             return true;
         }
-        !self.was_closed && self.approach_rate < 0.0 && time - last >= FLIGHT_AFTER * (last - first)
+        !self.was_closed
+            && self.approach_rate < 0.0
+            && time - last >= POST_CONTACT_FRACTION * (last - first)
     }
 }

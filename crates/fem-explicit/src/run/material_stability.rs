@@ -13,9 +13,9 @@ use crate::state::State;
 use crate::stress::UnstableElement;
 
 /// Sampled instants from one search to the next: about fifty searches per contact, each as expensive as a few steps.
-const STRIDE: u64 = 32;
+const INSTANTS_BETWEEN_SEARCHES: u64 = 32;
 /// Share of the initial time step below which a run only follows localising elements.
-const STALLED: f64 = 0.1;
+const STALLED_STEP_SHARE: f64 = 0.1;
 
 /// The first unstable element of a run that was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,11 +50,13 @@ impl MaterialStability {
         if !can_be_lost(model) {
             return Ok(());
         }
-        if self.lost.is_none() && (!adds_up || self.n_seen.is_multiple_of(STRIDE)) {
+        if self.lost.is_none()
+            && (!adds_up || self.n_seen.is_multiple_of(INSTANTS_BETWEEN_SEARCHES))
+        {
             self.lost = find(model, state);
         }
         self.n_seen = self.n_seen.saturating_add(1);
-        let is_stalled = || state.time_step(model) < STALLED * model.time_step();
+        let is_stalled = || state.time_step(model) < STALLED_STEP_SHARE * model.time_step();
         match &self.lost {
             Some(lost) if !adds_up || is_stalled() => Err(lost.stop()),
             _ => Ok(()),

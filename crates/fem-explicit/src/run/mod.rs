@@ -25,7 +25,7 @@ mod stops;
 use std::ops::Deref;
 
 use fem_collision::{
-    Collision, Ending, Expectation, FLIGHT_AFTER, Monitor, OutputRequest, Phase, Progress,
+    Collision, Ending, Expectation, Monitor, OutputRequest, POST_CONTACT_FRACTION, Phase, Progress,
     STEPS_BETWEEN_REPORTS, StepInstant, Stop,
 };
 
@@ -142,7 +142,7 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
     /// Returns the progress of the run.
     pub fn progress(&self) -> Progress {
         let RestartState { state, log, expected, .. } = &self.restart_state;
-        let length = (1.0 + FLIGHT_AFTER) * expected.contact_time;
+        let length = (1.0 + POST_CONTACT_FRACTION) * expected.contact_time;
         let elapsed = state.time - self.model.approach().first_touch();
         Progress {
             time: state.time,

@@ -126,14 +126,15 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
 
 /// Ratio of approach speed to shear wave speed from which first touch makes a steep front, whose peak pressure depends
 /// on the mesh.
-const FRONTS: f64 = 0.02;
+const MACH_OF_STEEP_FRONTS: f64 = 0.02;
 
 /// Returns the element size (m), two of which resolve the pressure of early contact; infinite where first touch makes a
 /// steep front.
 fn resolving(model: &ExplicitBodies) -> f64 {
     let mut materials = model.bodies().iter().filter_map(Body::material);
-    let is_slow =
-        |material: &Material| model.approach().speed() < FRONTS * material.shear_wave_speed();
+    let is_slow = |material: &Material| {
+        model.approach().speed() < MACH_OF_STEEP_FRONTS * material.shear_wave_speed()
+    };
     match materials.all(is_slow) {
         true => longest_at_pole(model.bodies().each_ref().map(Body::mesh)),
         false => f64::INFINITY,

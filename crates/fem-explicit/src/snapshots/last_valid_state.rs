@@ -8,7 +8,7 @@ use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 
 /// Valid instants from one that is kept to the next: about thirty are kept in turn during a contact.
-const STRIDE: u64 = 32;
+const INSTANTS_BETWEEN_COPIES: u64 = 32;
 
 /// The last state that was kept while the energy of the run added up. It is part of the restart state, so that a resumed run
 /// has the same one.
@@ -33,7 +33,7 @@ impl LastValidState {
         scratch: &Scratch,
         approach: f64,
     ) {
-        if self.n_seen.is_multiple_of(STRIDE) {
+        if self.n_seen.is_multiple_of(INSTANTS_BETWEEN_COPIES) {
             self.keep(model, state, scratch, approach);
         }
         self.n_seen = self.n_seen.saturating_add(1);

@@ -46,7 +46,7 @@ const MOST_STRAIN_BETWEEN_BOUNDS: f64 = 0.15;
 /// Margin by which a longer step has to be below the allowed one.
 const MARGIN_TO_LENGTHEN: f64 = 1.01;
 /// The step of the undeformed bodies is allowed despite rounding.
-const ROUNDING: f64 = 1.0 + 1e-9;
+const ROUNDING_OF_STEP: f64 = 1.0 + 1e-9;
 
 /// The demand of the deformed bodies on the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,7 +140,7 @@ impl StepControl {
         [model_step, step_factor]: [f64; 2],
     ) -> Option<Self> {
         let StepDemand { critical_time_step: critical, strain_rate, allowance_rate } = demand;
-        let allowed = step_factor * critical * ROUNDING;
+        let allowed = step_factor * critical * ROUNDING_OF_STEP;
         let lowest_level = |margin: f64| {
             let of_strain = level_for_strain_rate(model_step, strain_rate, margin);
             Some(level_within(model_step, allowed, margin)?.max(of_strain))

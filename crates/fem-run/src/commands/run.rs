@@ -135,7 +135,10 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
 
 /// Returns the restart state in the result folder. If the default folder belongs to another case, the state
 /// is looked for in this case's own folder; if there is none either, the other case's file is rejected.
-fn find_restart_state(place: &ResultPath, identity: &Identity) -> Result<Option<RestartState>, Failure> {
+fn find_restart_state(
+    place: &ResultPath,
+    identity: &Identity,
+) -> Result<Option<RestartState>, Failure> {
     let own = read_restart(&place.out, identity)?;
     match (&own, &place.taken) {
         (None, Some(taken)) => read_restart(taken, identity),

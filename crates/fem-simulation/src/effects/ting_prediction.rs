@@ -11,7 +11,7 @@ use crate::estimate::quasi_static::{known_impact, surfaces_slip, ting_of};
 use crate::estimate::semi_infinite_partner::radiating_impact;
 
 /// Relative accuracy of the predictions.
-const TOLERANCE: f64 = 1e-4;
+const PREDICTION_TOLERANCE: f64 = 1e-4;
 
 /// The results that effects change.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl TingPrediction {
         if !radiates && !relaxes(scene) && !finite_size && !surfaces_slip(scene) {
             return Ok(Self::from(&estimate.hertz));
         }
-        let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(TOLERANCE);
+        let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(PREDICTION_TOLERANCE);
         if radiates && !is_condensed {
             let impact = radiating_impact(scene, &radiating, speed, finite_size, finish)?;
             return Ok(Self::from(&impact));

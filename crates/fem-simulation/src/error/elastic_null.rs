@@ -23,13 +23,13 @@ use super::setting::Setting;
 use crate::simulation::Simulation;
 
 /// Time for which vibrations relax, over the contact time.
-const SINCE: f64 = 0.8;
+const RELAXATION_TIME_OVER_CONTACT_TIME: f64 = 0.8;
 /// Decay of the vibrations above which the run does not show them, ...
-const MOST_RELAXED: f64 = 8.0;
+const LARGEST_DECAY: f64 = 8.0;
 /// ... unless even the undecayed ones were at most this share of the energy.
-const LITTLE: f64 = 1e-5;
+const LITTLE_VIBRATION_ENERGY: f64 = 1e-5;
 /// Element size of that elastic run over that of the collision.
-const COARSER: f64 = 1.5;
+const ELASTIC_RUN_ELEMENT_RATIO: f64 = 1.5;
 
 /// The loss of restitution of elastic bodies on the same mesh with the same settings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -62,9 +62,10 @@ pub(super) fn elastic_null(
         has_elements |= body.elements.is_some_and(|elements| elements > 0);
         let series = named.material().and_then(|material| material.relaxation());
         let rate = series.map_or(0.0, fast_rate);
-        let relaxed = (SINCE * contact_time * rate).exp();
+        let relaxed = (RELAXATION_TIME_OVER_CONTACT_TIME * contact_time * rate).exp();
         let vibrations = body.vibration_energy.unwrap_or(0.0) * relaxed;
-        is_gone |= relaxed > MOST_RELAXED && vibrations.is_nan() | (vibrations > LITTLE * initial);
+        is_gone |= relaxed > LARGEST_DECAY
+            && vibrations.is_nan() | (vibrations > LITTLE_VIBRATION_ENERGY * initial);
         lost += vibrations;
     }
     if is_gone {
@@ -91,7 +92,7 @@ fn elastic_run(
     let mut file = simulation.resolved_at(approach);
     file.effects.get_or_insert_default().viscoelasticity = Some(Switch::Off);
     file.output = Some(OutputTable { report: Some(false), ..OutputTable::default() });
-    Setting::ElementSize(COARSER * plan.contact_element_size).apply(&mut file);
+    Setting::ElementSize(ELASTIC_RUN_ELEMENT_RATIO * plan.contact_element_size).apply(&mut file);
     let case = Case::of(file).ok().filter(|_| plan.makes_meshes)?;
     let shared = simulation.shared().for_reference_runs();
     let elastic = Simulation::sharing(case, &shared).ok()?;

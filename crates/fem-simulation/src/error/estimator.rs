@@ -7,7 +7,7 @@ use super::calibration::{
 };
 use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{
-    moved_share, contact_element_size, floor_of_mesh, floor_of_run, is_unresolved,
+    contact_element_size, floor_of_mesh, floor_of_run, is_unresolved, moved_share,
 };
 use super::reference_runs::{ReferenceRuns, Subject, Values};
 use crate::effects::FiniteStrain;
@@ -133,11 +133,13 @@ impl ErrorEstimator {
     /// forms are sufficient.
     pub fn updates_over_expected(&mut self, simulation: &Simulation) -> f64 {
         /// Element updates of the coarser run, a tenth of a second.
-        const MOST: u64 = 4_000_000;
+        const ELEMENT_UPDATES_OF_COARSER_RUN: u64 = 4_000_000;
         let is_open = simulation.reference_updates().is_some()
             && simulation.case().scene().gravity().is_none();
         let subject = Subject::planned(simulation).filter(|_| is_open);
-        let ratio = subject.and_then(|subject| self.runs.updates_over_expected(&subject, MOST));
+        let ratio = subject.and_then(|subject| {
+            self.runs.updates_over_expected(&subject, ELEMENT_UPDATES_OF_COARSER_RUN)
+        });
         ratio.unwrap_or(1.0)
     }
 

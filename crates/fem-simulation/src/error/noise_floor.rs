@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
 use super::calibration::{
-    MOVED_MASS, CLOSED_FORM_PRESSURE, Calibration, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER,
+    CLOSED_FORM_PRESSURE, Calibration, EARLY, FEW_AT_PRESSURE, MOVED_MASS, RADIUS_PER_SCATTER,
     RESTITUTION_PER_ROOT_SCATTER, SCATTER, TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
 };
 use crate::effects::MassScaling;

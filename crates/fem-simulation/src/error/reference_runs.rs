@@ -16,18 +16,18 @@ pub(super) type Values = [Option<f64>; 6];
 
 /// Element sizes of the coarser run of the model itself over those of the collision. The second is tried if the collision
 /// fails with the first.
-const COARSER: [f64; 2] = [2.0, 1.5];
+const COARSER_ELEMENT_RATIOS: [f64; 2] = [2.0, 1.5];
 /// Time of the coarser run of condensed bodies over that of the collision with its factorisation.
 pub const CONDENSED_REFERENCE_TIME: f64 = 0.25;
 /// Time steps of condensed reference runs of explicit elements over the elastic contact time, which give the
 /// restitution to 4e-5.
-const STEPS: f64 = 120.0;
+const STEPS_FOR_EXPLICIT: f64 = 120.0;
 /// Time steps of reference runs of condensed bodies, which give the restitution to 2e-5.
-const OWN_STEPS: f64 = 160.0;
+const STEPS_FOR_CONDENSED: f64 = 160.0;
 /// Elements across the contact of a mesh file below which its limit is taken from finer elements than its own.
 const FEW_ACROSS: f64 = 9.0;
 /// A reference run stops after this multiple of its expected element updates.
-const PATIENCE: f64 = 4.0;
+const LARGEST_UPDATES_OVER_EXPECTED: f64 = 4.0;
 
 /// Returns the stop table that limits a bouncing ball to its first contact.
 pub fn first_contact(file: &CaseFile) -> Option<StopTable> {
@@ -128,7 +128,7 @@ impl ReferenceRuns {
     /// Returns the errors from a run of the model itself with longer elements, plus those of the mesh away from the
     /// contact if the case gives it.
     pub fn coarser(&mut self, subject: &Subject<'_>, values: Values) -> Option<Values> {
-        COARSER.into_iter().find_map(|ratio| {
+        COARSER_ELEMENT_RATIOS.into_iter().find_map(|ratio| {
             let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
             let coarse = self.values(subject, &settings, FarMesh::AsGiven)?;
             let near = errors(values, extrapolated(coarse, values, ratio));
@@ -156,9 +156,9 @@ impl ReferenceRuns {
         let Cost::Steps { element_updates, .. } = subject.simulation.setup().cost else {
             return None;
         };
-        let ratio = (element_updates as f64 / most as f64).cbrt().max(COARSER[0]);
+        let ratio = (element_updates as f64 / most as f64).cbrt().max(COARSER_ELEMENT_RATIOS[0]);
         let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
-        let most = (PATIENCE * most as f64) as u64;
+        let most = (LARGEST_UPDATES_OVER_EXPECTED * most as f64) as u64;
         let run = self.run(subject, &settings, FarMesh::AsGiven, most)?;
         run.values.map(|_| run.updates_over_expected)
     }
@@ -278,9 +278,9 @@ fn collide(
             let own = table.steps.as_ref().and_then(|steps| steps.si().ok());
             let usual = CondensedOptions::default().steps as f64;
             let steps = match own {
-                _ if is_condensed => STEPS,
+                _ if is_condensed => STEPS_FOR_EXPLICIT,
                 Some(own) if own > usual => own,
-                own => own.unwrap_or(OWN_STEPS).min(OWN_STEPS),
+                own => own.unwrap_or(STEPS_FOR_CONDENSED).min(STEPS_FOR_CONDENSED),
             };
             table.steps = Some(Quantity::from_si(steps));
         }

@@ -33,9 +33,9 @@ use crate::plan::DEFAULT_PENALTY_FACTOR;
 use crate::simulation::Simulation;
 
 /// Safety factor on the estimated error.
-const ROOM: f64 = 1.1;
+const SAFETY_FACTOR: f64 = 1.1;
 /// Power of the element size with which errors are expected to fall.
-const FALL: f64 = 1.5;
+const EXPECTED_ORDER: f64 = 1.5;
 /// Least and largest ratio of element sizes of one refinement.
 pub(super) const REFINEMENT_RATIOS: [f64; 2] = [1.25, 2.0];
 /// Largest number of finer meshes.
@@ -253,7 +253,8 @@ impl ErrorEstimator {
         if simulation.levels().len() >= MOST_LEVELS {
             return Err(NotRefined::TooExpensive { updates: None });
         }
-        let by = refinement_ratio(miss.excess_of_mesh()).clamp(REFINEMENT_RATIOS[0], REFINEMENT_RATIOS[1]);
+        let by = refinement_ratio(miss.excess_of_mesh())
+            .clamp(REFINEMENT_RATIOS[0], REFINEMENT_RATIOS[1]);
         let level = RefinementLevel {
             contact_element_size_m: elements.plan.contact_element_size,
             element_updates: met.and_then(|collision| collision.element_updates),
@@ -268,7 +269,9 @@ impl ErrorEstimator {
             simulation.refined(refinement, levels.clone()).map_err(NotRefined::Rejected)
         };
         let finer = match (on(by)?, by < REFINEMENT_RATIOS[1]) {
-            (short, true) if self.expected_miss(&short).flatten().is_some() => on(REFINEMENT_RATIOS[1])?,
+            (short, true) if self.expected_miss(&short).flatten().is_some() => {
+                on(REFINEMENT_RATIOS[1])?
+            }
             (enough, _) => enough,
         };
         match finer.setup().cost {
@@ -323,7 +326,7 @@ impl ErrorEstimator {
 
 /// Returns the ratio of element sizes at which an error that exceeds the tolerance by this factor falls below it.
 pub(super) fn refinement_ratio(excess: f64) -> f64 {
-    (ROOM * excess).powf(1.0 / FALL)
+    (SAFETY_FACTOR * excess).powf(1.0 / EXPECTED_ORDER)
 }
 
 /// Returns whether contact chatter alone exceeds the tolerance.

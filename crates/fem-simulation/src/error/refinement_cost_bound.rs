@@ -8,12 +8,12 @@ use crate::simulation::Simulation;
 
 /// Smallest and largest growth of the element updates from one mesh to the next. The growth is of third order, but rows of
 /// elements are whole, and a small refinement may add no row in places.
-const UPDATES: [f64; 2] = [1.35, 9.0];
+const GROWTH_OF_UPDATES: [f64; 2] = [1.35, 9.0];
 /// Smallest and largest growth of the number of elements, which is of second order.
-const ELEMENTS: [f64; 2] = [1.2, 4.5];
+const GROWTH_OF_ELEMENTS: [f64; 2] = [1.2, 4.5];
 /// Power of the number of elements with which the time of condensed bodies grows: 0.85 to 1.2 was measured for four pairs
 /// with 700 to 150,000 elements.
-const OF_ELEMENTS: f64 = 1.2;
+const TIME_POWER_OF_ELEMENTS: f64 = 1.2;
 
 /// Upper bound of the finer meshes that may follow a collision, in number and cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,9 +30,11 @@ impl Simulation {
         let (one, most, growth, power) = match self.setup().cost {
             Cost::Steps { element_updates, .. } => {
                 let limit = self.case().scene().limits().element_updates;
-                (element_updates, limit.unwrap_or(MOST_UPDATES), UPDATES, 1.0)
+                (element_updates, limit.unwrap_or(MOST_UPDATES), GROWTH_OF_UPDATES, 1.0)
             }
-            Cost::Factors { elements, .. } => (elements, MOST_ELEMENTS, ELEMENTS, OF_ELEMENTS),
+            Cost::Factors { elements, .. } => {
+                (elements, MOST_ELEMENTS, GROWTH_OF_ELEMENTS, TIME_POWER_OF_ELEMENTS)
+            }
             Cost::Little { .. } => return None,
         };
         let left = MOST_LEVELS.saturating_sub(self.levels().len());
@@ -90,9 +92,10 @@ mod tests {
             ("2 GPa", "sphere.diameter = '4 cm', material = 'b'"),
             ("3 MPa", "wall = {}"),
         ] {
-            for (model, [least, most]) in
-                [("model.fem = {}", UPDATES), ("model.condensed = {}", ELEMENTS)]
-            {
+            for (model, [least, most]) in [
+                ("model.fem = {}", GROWTH_OF_UPDATES),
+                ("model.condensed = {}", GROWTH_OF_ELEMENTS),
+            ] {
                 let text = BALL.replace("'E'", &format!("'{modulus}'")).replace("OTHER", other);
                 let case = Case::parse("ball.toml", &(text + model), Path::new("."), &[]).unwrap();
                 let takes = |refinement: f64| {

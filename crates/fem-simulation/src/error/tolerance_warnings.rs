@@ -14,9 +14,9 @@ use crate::simulation::Simulation;
 /// Larger ratios of element sizes are not advised: the error there is not known.
 const LARGEST_RATIO: f64 = 100.0;
 /// Elements across the contact below which a mesh is reported as too coarse before the run.
-const FEWEST: f64 = 3.0;
+const FEWEST_ACROSS: f64 = 3.0;
 /// Elements across the contact that are advised: most estimates are then below 1 %.
-const ADVISED: f64 = 5.5;
+const ADVISED_ACROSS: f64 = 5.5;
 
 /// Returns a warning that the mesh resolves a contact of this radius (m) by too few elements.
 pub(crate) fn unresolved_warning(simulation: &Simulation, contact_radius: f64) -> Option<String> {
@@ -31,8 +31,8 @@ pub(crate) fn unresolved_warning(simulation: &Simulation, contact_radius: f64) -
         true => format!("set mesh.contact_element_size = \"{size}\" or less, or leave it out"),
         false => format!("use meshes with edges of {size} or less there"),
     };
-    (across < FEWEST).then(|| {
-        format!("the contact radius is resolved by only {across:.1} elements of the mesh; {advice}")
+    (across < FEWEST_ACROSS).then(|| {
+        format!("the contact radius spans only {across:.1} elements ({FEWEST_ACROSS} are needed); {advice}")
     })
 }
 
@@ -118,7 +118,7 @@ pub(crate) fn tolerance_warning(
 
 /// Returns the advised element size for a contact radius (m), rounded down to two digits.
 fn advised_size(contact_radius: f64) -> String {
-    let size = contact_radius / ADVISED;
+    let size = contact_radius / ADVISED_ACROSS;
     let step = 10f64.powf(size.log10().floor() - 1.0);
     let size = (size / step).floor() * step;
     Unit::fitting(size, "m").with_digits(2).show(size)
@@ -140,7 +140,7 @@ fn advised_ratio(missed: &[ToleranceMiss], collision: &Collision, size: f64) -> 
     let excess = of_mesh.map(ToleranceMiss::excess_of_mesh).fold(1.0, f64::max);
     // With few elements the errors oscillate with the place of the contact's edge between two nodes.
     let radius = collision.max_contact_radius.filter(|radius| *radius > 0.0);
-    let of_few = radius.map_or(1.0, |radius| ADVISED * size / radius);
+    let of_few = radius.map_or(1.0, |radius| ADVISED_ACROSS * size / radius);
     refinement_ratio(excess).max(REFINEMENT_RATIOS[0]).max(of_few)
 }
 

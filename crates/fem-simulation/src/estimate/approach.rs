@@ -6,7 +6,7 @@
 //! detects rest.
 
 use fem_case::{Body, Scene};
-use fem_collision::{Approach, FLIGHT_AFTER, Frame, RelativeMotion, RestCriterion};
+use fem_collision::{Approach, Frame, POST_CONTACT_FRACTION, RelativeMotion, RestCriterion};
 use fem_laws::Impact;
 
 use crate::estimate::Estimate;
@@ -36,7 +36,7 @@ pub(crate) fn frame_of(scene: &Scene, approach: &Approach, reduced_mass: f64) ->
 
 /// Returns the expected time from first touch to the end of the run, s.
 pub(crate) fn expected_duration(scene: &Scene, estimate: &Estimate, approach: &Approach) -> f64 {
-    let by_estimate = (1.0 + FLIGHT_AFTER) * estimate.contact_time;
+    let by_estimate = (1.0 + POST_CONTACT_FRACTION) * estimate.contact_time;
     if estimate.relaxed == 0.0 {
         return by_estimate;
     }
@@ -53,7 +53,7 @@ pub(crate) fn duration_of(
     impact: &Impact,
 ) -> Option<f64> {
     let duration = match impact.contact_time {
-        Some(contact_time) => Some((1.0 + FLIGHT_AFTER) * contact_time),
+        Some(contact_time) => Some((1.0 + POST_CONTACT_FRACTION) * contact_time),
         None => time_of_rest(scene, estimate, approach, impact),
     };
     duration.filter(|time| *time > 0.0 && time.is_finite())

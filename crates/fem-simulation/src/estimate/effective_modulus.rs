@@ -22,9 +22,9 @@ use crate::estimate::quasi_static::predicted_on_half_spaces;
 use crate::estimate::{Estimate, pair_at};
 
 /// Bisections of the logarithm of t_s.
-const HALVINGS: usize = 50;
+const BISECTIONS: usize = 50;
 /// Decades on both sides of the contact time in which t_s is searched.
-const DECADES: f64 = 12.0;
+const SEARCHED_DECADES: f64 = 12.0;
 
 /// The quantities of a collision that scale its effects, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,8 +73,8 @@ impl EffectiveModuli {
             pair.map_or(0.0, |pair| pair.contact_modulus() / elastic.pair().contact_modulus())
         };
         let of = |power: f64| elastic.contact_time() * 10f64.powf(power);
-        let (mut stiff, mut soft) = (-DECADES, DECADES);
-        for _ in 0..HALVINGS {
+        let (mut stiff, mut soft) = (-SEARCHED_DECADES, SEARCHED_DECADES);
+        for _ in 0..BISECTIONS {
             let middle = 0.5 * (stiff + soft);
             if share(of(middle)) > met { stiff = middle } else { soft = middle }
         }

@@ -18,7 +18,7 @@ use crate::rejection::Rejection;
 /// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
 const LEAST_MODULUS: f64 = 0.05;
 /// Loss of the moduli during the contact above which Ting's impact gives the effective moduli.
-const MUCH: f64 = 0.5;
+const LARGE_LOSS_OF_MODULI: f64 = 0.5;
 
 /// Closed-form estimates of a collision, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +126,7 @@ impl Estimate {
             .filter_map(|material| material.relaxation())
             .map(|series| 1.0 - series.relaxation(contact_time))
             .fold(0.0, f64::max);
-        let effective = match relaxed > MUCH {
+        let effective = match relaxed > LARGE_LOSS_OF_MODULI {
             true => EffectiveModuli::much(scene, &hertz).ok(),
             false => None,
         };
@@ -158,7 +158,7 @@ pub(crate) fn mach(scene: &Scene, speed: f64) -> f64 {
 }
 
 /// Diameters that bulk waves travel in a contact whose vibrations are those of an impact at the shear wave speed.
-const RINGING: f64 = 1.05;
+const DIAMETERS_OF_RINGING: f64 = 1.05;
 
 /// Returns the equivalent speed ratio of a scene in a contact of this duration (s): the approach speed over the shear wave
 /// speed at which bodies with faster bulk waves would vibrate as much.
@@ -172,7 +172,7 @@ fn ringing(scene: &Scene, contact_time: f64) -> f64 {
         let (material, diameter) = (body.material()?, body.diameter()?);
         let bulk = (1.5 * material.instantaneous().bulk_modulus() / material.density()).sqrt();
         let is_slow = bulk < material.shear_wave_speed();
-        is_slow.then(|| (RINGING * diameter / (bulk * contact_time)).powi(5).min(1.0))
+        is_slow.then(|| (DIAMETERS_OF_RINGING * diameter / (bulk * contact_time)).powi(5).min(1.0))
     };
     scene.bodies().iter().filter_map(of_body).fold(0.0, f64::max)
 }

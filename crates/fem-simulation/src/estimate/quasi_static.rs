@@ -20,7 +20,7 @@ pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impa
 }
 
 /// Relative accuracy of an impact used for prediction only.
-const FORECAST: f64 = 1e-3;
+const ESTIMATE_TOLERANCE: f64 = 1e-3;
 
 /// Predicts Ting's impact of an estimated scene between half-spaces at a speed (m/s).
 ///
@@ -44,11 +44,11 @@ pub(crate) fn predicted_on_half_spaces(
     speed: f64,
 ) -> Result<Rc<Impact>, LawError> {
     let ting = ting_of(scene, pair, true, None)?.with_coarse_waves();
-    known_impact(ting.with_tolerance(FORECAST)?, speed)
+    known_impact(ting.with_tolerance(ESTIMATE_TOLERANCE)?, speed)
 }
 
 /// Impacts that are cached. The choice of a model needs two dozen, most of them once per candidate.
-const REMEMBERED: usize = 32;
+const CACHED_IMPACTS: usize = 32;
 
 /// A viscoelastic pair, the speed of its impact (m/s), and the result.
 type Known = (Ting, f64, Result<Rc<Impact>, LawError>);
@@ -78,7 +78,7 @@ pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawErro
     #[cfg(test)]
     COMPUTED.set(COMPUTED.get() + 1);
     LAST.with_borrow_mut(|last| {
-        last.drain(..(last.len() + 1).saturating_sub(REMEMBERED));
+        last.drain(..(last.len() + 1).saturating_sub(CACHED_IMPACTS));
         last.push((ting, speed, impact.clone()));
     });
     impact
@@ -189,7 +189,7 @@ mod tests {
         let before = COMPUTED.get();
         let _ = SelectedModel::of(case.scene());
         let once = COMPUTED.get() - before;
-        assert!((1..=REMEMBERED).contains(&once), "{once}");
+        assert!((1..=CACHED_IMPACTS).contains(&once), "{once}");
         let _ = SelectedModel::of(case.scene());
         assert_eq!(COMPUTED.get() - before, once);
         let known = LAST.with_borrow(|last| last.iter().filter(|(.., came)| came.is_err()).count());

@@ -8,7 +8,7 @@
 use std::rc::Rc;
 
 use fem_case::Scene;
-use fem_collision::{Approach, FLIGHT_AFTER, OutputRequest};
+use fem_collision::{Approach, OutputRequest, POST_CONTACT_FRACTION};
 use fem_laws::{Impact, LawError, StaticHertz};
 
 use crate::estimate::Estimate;
@@ -17,15 +17,15 @@ use crate::estimate::quasi_static::{predicted_impact, ting_of};
 use crate::rejection::Rejection;
 
 /// Loss of the moduli during the contact above which viscosity stops the bodies.
-const RELAXED: f64 = 0.5;
+const LOSS_OF_MODULI_OF_FLOW: f64 = 0.5;
 /// Contact radius over the smallest sphere's radius above which flowing spheres are rejected.
-const WIDEST: f64 = 0.3;
+const WIDEST_CONTACT_OVER_RADIUS: f64 = 0.3;
 /// Widening of the contact by relaxation below which the speed is the cause of a wide contact.
-const WIDENED: f64 = 3.0;
+const LEAST_WIDENING_BY_FLOW: f64 = 3.0;
 /// Multiple of the predicted duration after which runs stop.
-const PATIENCE: f64 = 3.0;
+const DURATION_OVER_PREDICTED: f64 = 3.0;
 /// Approach over that of the elastic bodies below which relaxation does not slow the contact.
-const SLOWED: f64 = 3.0;
+const LEAST_APPROACH_OVER_ELASTIC: f64 = 3.0;
 
 /// Returns the largest contact radius, m: Hertz' radius with instantaneous moduli, plus that by the weight, or the radius
 /// after relaxation.
@@ -60,8 +60,8 @@ pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection>
     };
     let radius = impact.max_contact_radius;
     let share = radius / estimate.smallest_radius;
-    let is_widened = radius > WIDENED * estimate.hertz.max_contact_radius();
-    if impact.contact_time.is_some() || share <= WIDEST || !is_widened {
+    let is_widened = radius > LEAST_WIDENING_BY_FLOW * estimate.hertz.max_contact_radius();
+    if impact.contact_time.is_some() || share <= WIDEST_CONTACT_OVER_RADIUS || !is_widened {
         return Ok(());
     }
     Err(refused(format!(
@@ -74,7 +74,7 @@ pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection>
 fn refused(how: String) -> Rejection {
     let found = format!("the bodies relax so fast that they flow into each other: {how}");
     Rejection::new("material", found).with_help(format!(
-        "at most {WIDEST} are allowed; check the relaxation times, decay rates and weights of \
+        "at most {WIDEST_CONTACT_OVER_RADIUS} are allowed; check the relaxation times, decay rates and weights of \
          material.NAME.relaxation and their units: weights whose sum is below 1 leave a lasting stiffness"
     ))
 }
@@ -92,7 +92,7 @@ pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
     }
     let duration = approach_of(scene).map(|met| expected_duration(scene, estimate, &met));
     let contact_times = duration.unwrap_or(0.0) / estimate.hertz.contact_time();
-    OutputRequest::GIVE_UP_AFTER.max(PATIENCE * contact_times)
+    OutputRequest::GIVE_UP_AFTER.max(DURATION_OVER_PREDICTED * contact_times)
 }
 
 /// Times of a contact over those of elastic bodies.
@@ -109,15 +109,16 @@ pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slow
     let Some(Ok(impact)) = impact(scene, estimate) else { return Slower { stop: 1.0, end: 1.0 } };
     let hertz = &estimate.hertz;
     let stop = Some(impact.max_approach / hertz.max_approach());
-    let stop = stop.filter(|stop| *stop > SLOWED && stop.is_finite()).unwrap_or(1.0);
+    let stop =
+        stop.filter(|stop| *stop > LEAST_APPROACH_OVER_ELASTIC && stop.is_finite()).unwrap_or(1.0);
     let end = duration_of(scene, estimate, met, &impact)
-        .map_or(stop, |end| end / ((1.0 + FLIGHT_AFTER) * hertz.contact_time()));
+        .map_or(stop, |end| end / ((1.0 + POST_CONTACT_FRACTION) * hertz.contact_time()));
     Slower { stop, end: end.max(1.0) }
 }
 
 /// Returns whether relaxation determines the approach. Under gravity the weight does.
 fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
-    estimate.relaxed > RELAXED && scene.gravity().is_none()
+    estimate.relaxed > LOSS_OF_MODULI_OF_FLOW && scene.gravity().is_none()
 }
 
 /// Returns Ting's impact of strongly relaxing bodies; `None` for others.

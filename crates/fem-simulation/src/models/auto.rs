@@ -73,7 +73,7 @@ pub struct ExpectedError {
 impl From<&QuantityErrors> for ExpectedError {
     fn from(error: &QuantityErrors) -> Self {
         let [restitution, contact_time_s, peak_force_n, peak_pressure_pa] =
-            JUDGED.map(|quantity| error.size(quantity));
+            JUDGED_QUANTITIES.map(|quantity| error.size(quantity));
         Self { restitution, contact_time_s, peak_force_n, peak_pressure_pa }
     }
 }
@@ -146,12 +146,12 @@ impl SelectedModel {
 struct Candidate {
     name: &'static str,
     choice: fn() -> ModelChoice,
-    /// Errors of the model's approximations at default settings, of the quantities in [`JUDGED`].
+    /// Errors of the model's approximations at default settings, of the quantities in [`JUDGED_QUANTITIES`].
     own: [f64; 4],
 }
 
 /// The quantities that a tolerance is given for.
-const JUDGED: [QuantityOfInterest; 4] = [
+const JUDGED_QUANTITIES: [QuantityOfInterest; 4] = [
     QuantityOfInterest::Restitution,
     QuantityOfInterest::ContactTime,
     QuantityOfInterest::PeakForce,
@@ -159,7 +159,7 @@ const JUDGED: [QuantityOfInterest; 4] = [
 ];
 
 /// The effects by which models differ. Effects that no model has decide nothing; the plan warns of them.
-const DECIDING: [&dyn Effect; 5] =
+const DECIDING_EFFECTS: [&dyn Effect; 5] =
     [&Viscoelasticity, &FiniteSizeEffect, &FiniteStrain, &PartnerWaves, &Vibration];
 
 /// The candidates, from the cheapest to the most expensive.
@@ -196,7 +196,7 @@ const CANDIDATES: [Candidate; 6] = [
 ];
 
 /// Share of the default tolerances down to which meshes are made as fine as a case asks.
-const FINEST: f64 = 0.05;
+const LEAST_SHARE_OF_TOLERANCE: f64 = 0.05;
 
 /// The expected error of a candidate.
 struct Judged {
@@ -233,7 +233,7 @@ impl Candidate {
         }
         let mut worst: Option<(&str, f64)> = None;
         let mut unknown: Option<&str> = None;
-        for effect in DECIDING {
+        for effect in DECIDING_EFFECTS {
             let lacks = lacks(support(effect).as_ref());
             let is_term = effect.name() == PartnerWaves::NAME && !lacks && !is_fem;
             // Small strain is no difference between models where elements use it, too.
@@ -299,11 +299,11 @@ impl Candidate {
         let scales = scales(estimate);
         let is_made_finer = has_fields && scene.mesh().contact_element_size.is_none();
         QuantityErrors::from_fn(|quantity| {
-            let Some(k) = JUDGED.iter().position(|judged| *judged == quantity) else {
+            let Some(k) = JUDGED_QUANTITIES.iter().position(|judged| *judged == quantity) else {
                 return Some(0.0);
             };
             let share = asked[k] / usual[k];
-            let is_followed = is_made_finer && (FINEST..1.0).contains(&share);
+            let is_followed = is_made_finer && (LEAST_SHARE_OF_TOLERANCE..1.0).contains(&share);
             Some(self.own[k] * scales[k] * if is_followed { share } else { 1.0 })
         })
     }
@@ -372,7 +372,7 @@ fn disobeyed(
     EFFECTS.into_iter().find(is_disobeyed).map(|effect| effect.name())
 }
 
-/// Returns the tolerances of the quantities in [`JUDGED`]: the restitution's absolute, others relative.
+/// Returns the tolerances of the quantities in [`JUDGED_QUANTITIES`]: the restitution's absolute, others relative.
 fn tolerances(accuracy: &Accuracy) -> [f64; 4] {
     let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
     [restitution, contact_time, peak_force, peak_pressure]
@@ -387,7 +387,7 @@ fn scales(estimate: &Estimate) -> [f64; 4] {
 /// Returns the largest error over its tolerance.
 fn excess(error: &QuantityErrors, scene: &Scene, estimate: &Estimate) -> f64 {
     let allowed = tolerances(&scene.accuracy()).into_iter().zip(scales(estimate));
-    let errors = JUDGED.into_iter().map(|quantity| error.size(quantity).unwrap_or(0.0));
+    let errors = JUDGED_QUANTITIES.into_iter().map(|quantity| error.size(quantity).unwrap_or(0.0));
     errors.zip(allowed).map(|(error, (share, scale))| error / (share * scale)).fold(0.0, f64::max)
 }
 

@@ -43,7 +43,7 @@ pub fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
 }
 
 /// Penalty factor below which the overlap of the surfaces is reported.
-const SOFTEST: f64 = 0.25;
+const SOFTEST_ADVISED_FACTOR: f64 = 0.25;
 
 /// The setting that reduces contact noise in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,8 +96,8 @@ impl ContactNoiseAdvice {
             Self::Softer { penalty_factor } if penalty_factor > DEFAULT_PENALTY_FACTOR => {
                 format!("write contact.penalty_factor = {DEFAULT_PENALTY_FACTOR}")
             }
-            Self::Softer { penalty_factor } if penalty_factor > SOFTEST => {
-                format!("write contact.penalty_factor = {SOFTEST}")
+            Self::Softer { penalty_factor } if penalty_factor > SOFTEST_ADVISED_FACTOR => {
+                format!("write contact.penalty_factor = {SOFTEST_ADVISED_FACTOR}")
             }
             Self::Softer { .. } => "write time.mass_scaling = 0".to_string(),
         }

@@ -29,39 +29,39 @@ use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
 
 /// Error of the peak force times k² without the oscillation.
-const SMOOTH: f64 = 0.05;
+const SMOOTH_ERROR: f64 = 0.05;
 /// Error of the peak force times k² by the oscillation.
-const OSCILLATION: f64 = 0.10;
+const OSCILLATING_ERROR: f64 = 0.10;
 /// Error of the peak force times k² for nodes that touch exactly.
-const AT_NODES: f64 = 0.05;
+const ERROR_AT_NODES: f64 = 0.05;
 /// Share of the tolerance for the mesh. The rest is for moved mass, and without it for relaxation, which moves the
 /// contact's edge.
-const OF_MESH: f64 = 0.75;
+const TOLERANCE_SHARE_OF_MESH: f64 = 0.75;
 /// Moved mass over the tolerance: the force changes by half of its share.
 const MASS_OVER_TOLERANCE: f64 = 0.5;
 /// Most mass that is moved by default: bodies with relaxation times near the time step are more sensitive.
-const MOST_MASS: f64 = 1e-2;
+const MOST_MOVED_MASS: f64 = 1e-2;
 /// Most elements across the contact radius: 0.01 % of the force with springs and the whole oscillation.
-const MOST: f64 = 45.0;
+const MOST_ACROSS: f64 = 45.0;
 /// Share of the tolerance at finite strain on one mesh: contact time and pressure of soft balls on walls have twice the
 /// error above.
-const AT_FINITE_STRAIN: f64 = 0.5;
+const TOLERANCE_SHARE_AT_FINITE_STRAIN: f64 = 0.5;
 /// Approach speed over the shear wave speed below which waves cross the body many times during the contact. In faster
 /// impacts the first and last touch are waves of a few elements' length, which bulk viscosity damps. Soft balls on walls
 /// at 0.06, 0.17 and 0.56, ν = 0.2 to 0.49, are within the tolerance with 7, 11 and 17 elements across the contact.
-const SLOW: f64 = 0.03;
+const MACH_OF_SLOW_IMPACTS: f64 = 0.03;
 /// Fewest elements across the contact radius: with 3.5 the radius of relaxing bodies has an error of 8 %.
-const FEWEST: f64 = 4.0;
+const FEWEST_ACROSS: f64 = 4.0;
 /// Fewest elements for nodes that touch exactly: with 4.5 the error of the radius is up to 1.2 %, with 5.5 0.7 %.
-const FEWEST_AT_NODES: f64 = 5.45;
+const FEWEST_ACROSS_AT_NODES: f64 = 5.45;
 /// Least share of the elements that later contacts under gravity have, for nodes that touch exactly: the mesh stays.
-const LATER_CONTACTS: f64 = 0.75;
+const ELEMENT_SHARE_OF_LATER_CONTACTS: f64 = 0.75;
 /// Place of the edge between two nodes at which the oscillation passes through zero.
 const ZERO_OF_OSCILLATION: f64 = 0.35;
 /// Bounds of the errors of force, contact time, restitution and peak pressure over that of the force.
-const BOUNDS: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
+const ERRORS_OVER_FORCE_ERROR: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
 /// The same bounds for nodes that touch exactly.
-const BOUNDS_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
+const ERRORS_OVER_FORCE_ERROR_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 
 /// The result of the a-priori mesh rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,43 +81,48 @@ impl MeshRule {
     pub fn of(scene: &Scene, estimate: &Estimate, is_staggered: bool) -> Self {
         // Condensed bodies have no finite strain.
         let is_finite = *scene.model() == ModelChoice::Fem && FiniteStrain::is_on(scene, estimate);
-        let share = if is_finite && !is_staggered { AT_FINITE_STRAIN } else { 1.0 };
+        let share = if is_finite && !is_staggered { TOLERANCE_SHARE_AT_FINITE_STRAIN } else { 1.0 };
         let at_nodes = touches_at_nodes(scene.model());
         let (bounds, fewest) = match at_nodes {
-            true => (&BOUNDS_AT_NODES, FEWEST_AT_NODES),
-            false => (&BOUNDS, FEWEST),
+            true => (&ERRORS_OVER_FORCE_ERROR_AT_NODES, FEWEST_ACROSS_AT_NODES),
+            false => (&ERRORS_OVER_FORCE_ERROR, FEWEST_ACROSS),
         };
-        let later = if at_nodes && scene.gravity().is_some() { LATER_CONTACTS } else { 1.0 };
+        let later = if at_nodes && scene.gravity().is_some() {
+            ELEMENT_SHARE_OF_LATER_CONTACTS
+        } else {
+            1.0
+        };
         let (least, limiting_quantity) = tolerance(&scene.accuracy(), bounds);
         let tolerance = share * least;
         let error = match at_nodes {
-            true => AT_NODES,
+            true => ERROR_AT_NODES,
             false => {
                 let [lower, upper] = scene.compliance_shares();
                 let share = if is_staggered { (lower - upper).abs() } else { 1.0 };
-                SMOOTH + OSCILLATION * share
+                SMOOTH_ERROR + OSCILLATING_ERROR * share
             }
         };
-        let asked_for = (error / (OF_MESH * tolerance)).sqrt() / later;
+        let asked_for = (error / (TOLERANCE_SHARE_OF_MESH * tolerance)).sqrt() / later;
         let asked_for = scene.refinement() * for_waves(estimate.mach) * asked_for.max(fewest);
-        let across = asked_for.min(MOST);
+        let across = asked_for.min(MOST_ACROSS);
         let across = match is_staggered || at_nodes {
             true => across,
             false => (across - ZERO_OF_OSCILLATION).ceil() + ZERO_OF_OSCILLATION,
         };
-        let reached = error / (OF_MESH * MOST * MOST);
+        let reached = error / (TOLERANCE_SHARE_OF_MESH * MOST_ACROSS * MOST_ACROSS);
         Self {
             across,
-            mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(reached)).min(MOST_MASS),
-            reached: (asked_for > MOST).then_some(reached),
+            mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(reached)).min(MOST_MOVED_MASS),
+            reached: (asked_for > MOST_ACROSS).then_some(reached),
             limiting_quantity,
         }
     }
 
     /// Returns the share of moved mass that suits `across` elements across the contact on one mesh.
     pub fn mass_scaling_beside(across: f64) -> f64 {
-        let tolerance = (SMOOTH + OSCILLATION) / (OF_MESH * across * across);
-        (MASS_OVER_TOLERANCE * tolerance).min(MOST_MASS)
+        let tolerance =
+            (SMOOTH_ERROR + OSCILLATING_ERROR) / (TOLERANCE_SHARE_OF_MESH * across * across);
+        (MASS_OVER_TOLERANCE * tolerance).min(MOST_MOVED_MASS)
     }
 }
 
@@ -128,7 +133,7 @@ pub(crate) fn touches_at_nodes(model: &ModelChoice) -> bool {
 
 /// Returns the factor on the number of elements for an impact at this speed over the shear wave speed.
 fn for_waves(mach: f64) -> f64 {
-    (mach / SLOW).cbrt().max(1.0)
+    (mach / MACH_OF_SLOW_IMPACTS).cbrt().max(1.0)
 }
 
 /// Returns the tolerance of the peak force at which all tolerances are met.
@@ -202,7 +207,7 @@ mod tests {
             for k in 0..60 {
                 let tolerance = format!("accuracy.tolerance={:e}", 0.4 * 0.8_f64.powi(k));
                 let now = mesh_rule(&[set, &[tolerance.as_str()]].concat());
-                assert!(now.across <= MOST + 1.0 && now.across >= FEWEST);
+                assert!(now.across <= MOST_ACROSS + 1.0 && now.across >= FEWEST_ACROSS);
                 if let Some(before) = before {
                     assert!(now.across >= before.across && now.mass_scaling <= before.mass_scaling);
                 }

@@ -15,7 +15,7 @@
 use fem_case::{Body, CondensedOptions, ModelChoice, Scene, Shape};
 
 /// Elements across the contact by which each mesh differs from the mean.
-const QUARTER: f64 = 0.25;
+const OFFSET_OF_EACH_MESH: f64 = 0.25;
 
 /// Returns the body with the smaller elements if the meshes of the scene are staggered.
 pub(crate) fn finer_body(scene: &Scene) -> Option<usize> {
@@ -55,7 +55,7 @@ pub(super) fn is_generated(body: &Body) -> bool {
 pub(crate) fn staggered(length: f64, contact_radius: f64, finer: usize) -> [f64; 2] {
     let across = contact_radius / length;
     [0, 1].map(|side| {
-        let more = if side == finer { QUARTER } else { -QUARTER };
+        let more = if side == finer { OFFSET_OF_EACH_MESH } else { -OFFSET_OF_EACH_MESH };
         contact_radius / (across + more)
     })
 }

@@ -40,9 +40,9 @@ const PENALTY_OVER_MODULUS: f64 = 20.0;
 pub(crate) const DEFAULT_PENALTY_FACTOR: f64 = 1.0;
 const STEP_FACTOR: f64 = 0.9;
 /// Element sizes of condensed bodies per octave; sizes are rounded down by at most a ninth.
-const LENGTHS: f64 = 8.0;
+const SIZES_PER_OCTAVE: f64 = 8.0;
 /// Relative rounding of a length that was written and read.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_OF_LENGTH: f64 = 1e-9;
 /// Default limits of `[limits]`.
 const MAX_ELEMENTS: u64 = 2_000_000;
 const MAX_ELEMENT_UPDATES: u64 = 1_000_000_000_000;
@@ -197,7 +197,7 @@ impl Plan {
     /// Returns the key by which the case replaces the planned mesh away from a contact of this radius (m), if it does.
     pub(crate) fn far_mesh_key(&self, scene: &Scene, contact_radius: f64) -> Option<&'static str> {
         let chosen = REFINED_OVER_CONTACT * contact_radius;
-        let chosen = (1.0 - ROUNDING) * chosen.min(self.estimate.smallest_radius);
+        let chosen = (1.0 - ROUNDING_OF_LENGTH) * chosen.min(self.estimate.smallest_radius);
         let is_smaller = scene.mesh().refined_radius.is_some_and(|given| given < chosen);
         match (self.makes_meshes, self.growth.is_some(), is_smaller) {
             (false, ..) | (_, false, false) => None,
@@ -263,11 +263,11 @@ fn unread_keys(scene: &Scene, makes_meshes: bool, has_half_space: bool) -> Vec<S
     unread.map(|(key, .., why)| format!("mesh.{key} has no effect: {why}")).collect()
 }
 
-/// Rounds a length (m) down to one of [`LENGTHS`] sizes per octave of the smallest radius. Scenes that differ in speed,
+/// Rounds a length (m) down to one of [`SIZES_PER_OCTAVE`] sizes per octave of the smallest radius. Scenes that differ in speed,
 /// relaxation or modulus then share meshes, and condensed bodies are factored once.
 fn shared_length(length: f64, smallest_radius: f64) -> f64 {
-    let n = (LENGTHS * (smallest_radius / length).log2() * (1.0 - 1e-12)).ceil();
-    smallest_radius * (-n / LENGTHS).exp2()
+    let n = (SIZES_PER_OCTAVE * (smallest_radius / length).log2() * (1.0 - 1e-12)).ceil();
+    smallest_radius * (-n / SIZES_PER_OCTAVE).exp2()
 }
 
 /// Returns the contact radius (m) that the elements divide: at most half of the smallest body radius.

@@ -3,9 +3,9 @@
 use crate::plan::{DEFAULT_PENALTY_FACTOR, Plan};
 
 /// Ratios below this are neglected: the estimate is not more accurate.
-const LEAST: f64 = 1.05;
+const LEAST_LENGTHENING: f64 = 1.05;
 /// Integration steps over Hertz' approach.
-const STEPS: f64 = 400.0;
+const INTEGRATION_STEPS: f64 = 400.0;
 
 /// Returns the contact time over that without springs, within a tenth; 1 for stiff springs. The contact time grows like the
 /// largest approach.
@@ -18,7 +18,7 @@ const STEPS: f64 = 400.0;
 /// F = π k R o² (Johnson 1985, § 4.3), for soft ones. Bodies and springs together store the kinetic energy.
 pub(crate) fn lengthening(plan: &Plan) -> f64 {
     let ratio = ratio(plan);
-    if ratio > LEAST { ratio } else { 1.0 }
+    if ratio > LEAST_LENGTHENING { ratio } else { 1.0 }
 }
 
 /// Returns the relative lengthening by springs softer than the default; `None` for default springs, whose compliance is
@@ -27,7 +27,7 @@ pub(crate) fn softness(plan: &Plan) -> Option<f64> {
     (plan.penalty_factor < DEFAULT_PENALTY_FACTOR).then(|| ratio(plan) - 1.0)
 }
 
-/// Returns the ratio without the bound [`LEAST`]; 1 if it is not a number.
+/// Returns the ratio without the bound [`LEAST_LENGTHENING`]; 1 if it is not a number.
 fn ratio(plan: &Plan) -> f64 {
     let hertz = &plan.estimate.hertz;
     let (stiff, radius) = (hertz.max_approach(), hertz.pair().effective_radius());
@@ -38,11 +38,11 @@ fn ratio(plan: &Plan) -> f64 {
     };
     let all = 0.4 * hertz.peak_force() * stiff;
     let (mut whole, mut force, mut energy) = (0.0, 0.0, 0.0);
-    for k in 1..=STEPS as usize {
+    for k in 1..=INTEGRATION_STEPS as usize {
         if energy >= all {
             break;
         }
-        let approach = stiff * k as f64 / STEPS;
+        let approach = stiff * k as f64 / INTEGRATION_STEPS;
         let next = hertz.force(approach);
         let after = approach + overlap(approach, next);
         energy += 0.5 * (force + next) * (after - whole);

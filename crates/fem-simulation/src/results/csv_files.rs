@@ -79,7 +79,7 @@ impl Line {
 pub const CONTACT_FILE: &str = "contact.csv";
 /// Range of the rows from the axis, over the contact radius, and the least number of nodes beyond the
 /// contact.
-const REACH: f64 = 1.2;
+const CONTACT_ROWS_OVER_RADIUS: f64 = 1.2;
 const NODES_BEYOND: usize = 3;
 
 /// Returns whether the snapshots have a contact to be written.
@@ -119,7 +119,9 @@ pub fn contact_csv(
 
 /// Returns the number of written contact places.
 fn n_shown(contact: &ContactProfile) -> usize {
-    let near = contact.places.partition_point(|place| place.radius <= REACH * contact.radius);
+    let near = contact
+        .places
+        .partition_point(|place| place.radius <= CONTACT_ROWS_OVER_RADIUS * contact.radius);
     let beyond = contact
         .places
         .iter()
@@ -134,7 +136,7 @@ pub const PROBES_FILE: &str = "probes.csv";
 
 /// Quantities of a probe with their units: displacement since the start of the case, velocity, Cauchy
 /// stress (tension positive).
-const QUANTITIES: [&str; 8] = [
+const PROBE_COLUMNS: [&str; 8] = [
     "u_r_m",
     "u_y_m",
     "v_r_m_s",
@@ -156,8 +158,8 @@ pub fn probes_csv(
     samples: &[Snapshot],
 ) -> csv::Result<()> {
     let mut file = csv::Writer::from_writer(to);
-    let columns =
-        (0..probes.len()).flat_map(|k| QUANTITIES.map(|quantity| format!("probe_{k}_{quantity}")));
+    let columns = (0..probes.len())
+        .flat_map(|k| PROBE_COLUMNS.map(|quantity| format!("probe_{k}_{quantity}")));
     file.write_record(["time_s".to_string()].into_iter().chain(columns))?;
     for sample in samples {
         let displacements = [0, 1].map(|side| sample.displacement(side));

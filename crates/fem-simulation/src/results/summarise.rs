@@ -5,8 +5,7 @@ use fem_laws::HertzImpact;
 
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
-    BodySummary, BounceSummary, CostSummary, EffectSummary, Quantities, RestSummary,
-    Summary,
+    BodySummary, BounceSummary, CostSummary, EffectSummary, Quantities, RestSummary, Summary,
 };
 use super::uncertainty::uncertainty;
 use crate::effects::{EffectDecision, FiniteStrain};
@@ -116,8 +115,9 @@ fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary>
 
 /// Returns whether radius and pressure are those of the deformed bodies.
 fn radius_and_pressure(effects: &[EffectSummary]) -> &'static str {
-    let is_finite =
-        |effect: &EffectSummary| effect.decision.name == FiniteStrain::NAME && effect.decision.active;
+    let is_finite = |effect: &EffectSummary| {
+        effect.decision.name == FiniteStrain::NAME && effect.decision.active
+    };
     if effects.iter().any(is_finite) { "true" } else { "nominal" }
 }
 

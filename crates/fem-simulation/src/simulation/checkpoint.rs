@@ -11,7 +11,7 @@ use crate::models::stepper::RestartState;
 use crate::simulation::identity::{Identity, NUMERICS, PROGRAM};
 
 /// Version of the format; others are not read.
-const FORMAT: u32 = 1;
+const FORMAT_VERSION: u32 = 1;
 /// Longest first line of a checkpoint.
 const LONGEST_HEAD: usize = 1000;
 
@@ -83,7 +83,7 @@ pub fn checkpoint(run: &Identity, state: &RestartState) -> Vec<u8> {
     let body = postcard::to_stdvec(state).unwrap_or_default();
     let head = CheckpointHead {
         program: PROGRAM.to_string(),
-        format: FORMAT,
+        format: FORMAT_VERSION,
         numerics: NUMERICS.to_string(),
         case: run.case.clone(),
         result: run.result.clone(),
@@ -125,7 +125,7 @@ fn split(bytes: &[u8]) -> Result<(CheckpointHead, &[u8]), CheckpointError> {
     let end = bytes.iter().take(LONGEST_HEAD).position(|byte| *byte == b'\n');
     let (line, rest) = bytes.split_at(end.ok_or(CheckpointError::NotOne)?);
     let head: CheckpointHead = serde_json::from_slice(line).map_err(|_| CheckpointError::NotOne)?;
-    if head.program != PROGRAM || head.format != FORMAT {
+    if head.program != PROGRAM || head.format != FORMAT_VERSION {
         return Err(CheckpointError::NotOne);
     }
     Ok((head, &rest[1..]))

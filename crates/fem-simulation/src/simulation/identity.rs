@@ -18,7 +18,7 @@ pub const NUMERICS: &str = env!("FEM_NUMERICS");
 pub const PROGRAM: &str = "fem-run";
 
 /// Bytes of a digest that go into a name: two of a million cases share one by a chance of 1e-7.
-const BYTES: usize = 8;
+const DIGEST_BYTES: usize = 8;
 
 /// The identity of a run, known before it begins.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ pub fn digest_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
 
 /// Prints a digest as in names.
 pub fn name_of(digest: u64) -> String {
-    format!("{digest:0digits$x}", digits = 2 * BYTES)
+    format!("{digest:0digits$x}", digits = 2 * DIGEST_BYTES)
 }
 
 fn digest<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> u64 {
@@ -85,7 +85,11 @@ fn digest<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> u64 {
         digest.update((bytes.len() as u64).to_le_bytes());
         digest.update(bytes);
     }
-    digest.finalize().iter().take(BYTES).fold(0, |number, byte| number << 8 | u64::from(*byte))
+    digest
+        .finalize()
+        .iter()
+        .take(DIGEST_BYTES)
+        .fold(0, |number, byte| number << 8 | u64::from(*byte))
 }
 
 /// Serializes a case. It always succeeds, since a valid case has only finite numbers and text.

@@ -60,8 +60,7 @@ fn models_without_waves_report_the_loss() {
     }
     let fem = simulation(&[]);
     assert!(fem.setup().warnings().is_empty(), "{:?}", fem.setup().warnings());
-    let decision =
-        fem.setup().decisions.all.iter().find(|v| v.name == "partner waves").unwrap();
+    let decision = fem.setup().decisions.all.iter().find(|v| v.name == "partner waves").unwrap();
     assert!(decision.active && decision.reason.contains("block"), "{}", decision.reason);
 }
 

@@ -121,7 +121,8 @@ fn every_case_has_the_plan_of_its_row() {
         let models: Vec<&String> = model.as_object().unwrap().keys().collect();
         assert_eq!(models, [row.model], "{name}");
         let decisions = &simulation.setup().decisions.all;
-        let active = decisions.iter().filter(|decision| decision.active).map(|decision| decision.name);
+        let active =
+            decisions.iter().filter(|decision| decision.active).map(|decision| decision.name);
         let active: Vec<&str> = active.filter(|effect| !MESHED.contains(effect)).collect();
         assert_eq!(active, row.active, "{name}");
         for (effect, why) in row.why {

@@ -124,7 +124,7 @@ fn an_unresolved_contact_has_one_warning() {
                     })
                     .collect();
                 let [one] = of_mesh[..] else { panic!("{model} {size} {when}: {warnings:#?}") };
-                assert!(one.contains("is resolved by only 0."), "{one}");
+                assert!(one.contains("spans only 0."), "{one}");
                 assert!(one.contains("set mesh.contact_element_size = \"40 µm\" or less"), "{one}");
                 assert!(!one.contains('%'), "{one}");
             }

@@ -9,7 +9,7 @@
 //!
 //! In each pass the gaps are linearised about the x of the pass before, and the balance is that of springs that do not
 //! turn ([`ActiveSet`]). The remaining error is of second order in the change of a pass. Passes are repeated while it
-//! is more than [`BALANCED`] of the force; two suffice in most steps. The potential differs from that of [`ActiveSet`]
+//! is more than [`LARGEST_IMBALANCE`] of the force; two suffice in most steps. The potential differs from that of [`ActiveSet`]
 //! by curvatures of a force over the length of a segment, which are small beside the stiffness of elements at small
 //! strain: it is convex there, and energy is conserved as well.
 
@@ -21,7 +21,7 @@ use crate::part::MotionMut;
 
 /// Largest error in the balance of a node over the force of the contact. It acts on the next node, and its work is in
 /// no account: at most this share of the stored energy.
-const BALANCED: f64 = 1e-7;
+const LARGEST_IMBALANCE: f64 = 1e-7;
 /// Largest number of passes: 4 are needed at a contact radius of a twentieth of the radius, 11 at strains of a third.
 const MOST_PASSES: usize = 20;
 
@@ -58,7 +58,7 @@ impl Massless {
             active_set.forget_closed();
             active_set.solve(&slipping_springs.problem)?;
             let force = slipping_springs.turn(self, slipping, u, active_set);
-            if slipping_springs.lacking.iter().all(|lack| lack.abs() <= BALANCED * force) {
+            if slipping_springs.lacking.iter().all(|lack| lack.abs() <= LARGEST_IMBALANCE * force) {
                 break;
             }
         }

@@ -5,20 +5,20 @@ use fem_collision::QuantityOfInterest;
 
 use crate::effects::effect::computed_scene::ComputedScene;
 use crate::effects::effect::neglect_error::EffectStatus;
-use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::percent;
 use crate::effects::effect::support::Support;
 use crate::effects::effect::{Effect, FiniteSizeEffect, Vibration};
 use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
 use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
 
 /// Coefficient of (a/R*)² in the errors of contact time and peak force: Ting's model with finite size agrees with finite
 /// elements to 0.02 % at a/R* = 0.05.
 const SECOND_ORDER: f64 = 0.1;
 
 /// Relative error of the half-space pressure over strain times 1 − 2ν.
-const PRESSURE: f64 = 0.15;
+const PRESSURE_ERROR_PER_STRAIN: f64 = 0.15;
 
 /// Largest share of the spheres' own compliance in Hertz' approach up to which its first order has errors of 1 % in contact
 /// time and force, and half-spaces without it errors of 5 %. Poisson's ratios below −0.9 exceed it.
@@ -67,7 +67,7 @@ impl FiniteSizeEffect {
         let materials = scene.bodies().iter().filter_map(Body::material);
         let sideways =
             materials.map(|material| 1.0 - 2.0 * material.instantaneous().poissons_ratio());
-        PRESSURE * sideways.fold(0.0, f64::max) * estimate.strain
+        PRESSURE_ERROR_PER_STRAIN * sideways.fold(0.0, f64::max) * estimate.strain
     }
 
     /// Returns the share of the spheres' own compliance in Hertz' approach, with the effective moduli.

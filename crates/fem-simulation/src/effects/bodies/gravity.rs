@@ -23,7 +23,7 @@ use crate::estimate::Estimate;
 const TIME_SHARE: f64 = 0.375;
 const FORCE_SHARE: f64 = 1.2;
 /// Largest first number and square of the second at which gravity does not change the printed results of the contact.
-const NEGLIGIBLE: f64 = 1e-6;
+const NEGLIGIBLE_GRAVITY: f64 = 1e-6;
 
 impl Effect for Gravity {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
@@ -41,7 +41,7 @@ impl Effect for Gravity {
             "weight / peak force = {}; speed of a fall through the approach / approach speed = {}",
             ratios[0], ratios[1]
         );
-        if weight.max(fall * fall) < NEGLIGIBLE {
+        if weight.max(fall * fall) < NEGLIGIBLE_GRAVITY {
             number += "; it acts in flight and does not change the contact";
         }
         Some(Relevance { is_called_for: true, number, ..Relevance::default() })

@@ -12,7 +12,6 @@ use fem_material::Material;
 use crate::effects::bodies::vibration::ENOUGH_MODES;
 use crate::effects::effect::computed_scene::ComputedScene;
 use crate::effects::effect::neglect_error::EffectStatus;
-use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
@@ -20,6 +19,7 @@ use crate::effects::effect::{Effect, NamedEffect, PartnerWaves};
 use crate::effects::ting_prediction::{TingPrediction, relaxes};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{EffectiveModuli, left_at};
+use crate::quantity_errors::QuantityErrors;
 
 /// Above this T c_s/D waves return in time and give their energy back.
 const RETURN_LIMIT: f64 = 2.0;
@@ -40,7 +40,7 @@ const RADIATION_ERROR: f64 = 0.15;
 /// take across the contact at the instantaneous stiffness; bodies that relax to the share κ of it lose more by the square
 /// of this times the radiated share of the energy over κ. Balls on blocks that keep 0.1: 0.8 of the loss of Ting's model
 /// and 1.0 of that of condensed bodies are missing, where elements lose 0.027 of the restitution.
-const SMOOTHED: f64 = 2.0;
+const LOSS_BY_SMOOTHING: f64 = 2.0;
 /// Relative change of contact time and peak force over the change of restitution; 0.1 was found for balls on a half-space of
 /// their own material at a/R* = 0.7.
 const SHARE_OF_LOSS: f64 = 0.2;
@@ -246,11 +246,11 @@ fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2
 }
 
 /// Returns the relative error of the radiation term of relaxing bodies, zero for elastic ones. See
-/// [`SMOOTHED`].
+/// [`LOSS_BY_SMOOTHING`].
 fn missing_of_term(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
     let modulus = |hertz: &HertzImpact| hertz.pair().contact_modulus();
     let kept = modulus(&estimate.effective.hertz) / modulus(&estimate.hertz);
-    (SMOOTHED * radiated(crossed, estimate)).powi(2) * (kept.powi(-2) - 1.0).max(0.0)
+    (LOSS_BY_SMOOTHING * radiated(crossed, estimate)).powi(2) * (kept.powi(-2) - 1.0).max(0.0)
 }
 
 /// Returns the share of the energy that is radiated into bodies from which no wave returns in time.

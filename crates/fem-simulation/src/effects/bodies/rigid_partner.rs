@@ -10,13 +10,13 @@ use fem_case::{Body, Scene, Switch};
 
 use crate::effects::effect::computed_scene::TransformedScene;
 use crate::effects::effect::neglect_error::EffectStatus;
-use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::support::Support;
 use crate::effects::effect::{Effect, NamedEffect, RigidPartner};
 use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
 /// Share of the compliance below which a body is rigid: 4e-5 of the contact time.

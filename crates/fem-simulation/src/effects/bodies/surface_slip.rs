@@ -13,7 +13,6 @@ use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{RelativeError, SlipSurface, SurfaceSlip as Slip};
 
 use crate::effects::effect::neglect_error::EffectStatus;
-use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::{Effect, NamedEffect, SurfaceSlip};
@@ -21,6 +20,7 @@ use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;
 use crate::estimate::quasi_static::materials_mismatch;
+use crate::quantity_errors::QuantityErrors;
 
 /// Relative error of the series spring over a/R*: explicit elements change approach, time and force less, by 3 % at 0.03 and
 /// by 7 to 26 % at 0.08 to 0.2.

@@ -22,13 +22,13 @@ const LARGEST_VIBRATION: f64 = 0.01;
 /// Least loss of restitution over the bodies' own speeds in shear wave speeds ([`own_mach`]). Explicit elements lost 0.06 to
 /// 0.1 of it more than quasi-static bodies on a wall at 0.3 to 20 %, and twice that at 40 %. A small ball leaves more in a
 /// large one, which hardly moves ([`PartnerWaves::left_ringing`]).
-const LOSS: f64 = 0.1;
+const LOSS_PER_MACH: f64 = 0.1;
 /// Relative increase of the contact time over the delay of the deformation ([`slowness`]), from explicit elements or twelve
 /// modes against none, within a factor of 2.5: elastic balls on a wall at 0.3 to 40 % of the shear wave speed, and pairs at
 /// 1.5 to 18 %.
-const LENGTHENING: f64 = 2.2;
+const LENGTHENING_PER_DELAY: f64 = 2.2;
 /// Relative decrease of the peak force over the same delay.
-const WEAKENING: f64 = 5.0;
+const FORCE_DECREASE_PER_DELAY: f64 = 5.0;
 /// Relative increase of the loss over the loss by relaxation. Spheres that relax to 0.1 to 3 % lost 0.0048, 0.0021, 0.0019
 /// and 0.0023 of the restitution by inertia, where this gives 0.0051, 0.0029, 0.0011 and 0.0022.
 const OF_RELAXED: f64 = 2.0;
@@ -57,12 +57,13 @@ impl Effect for Vibration {
         let ringing = estimate.effective_ringing;
         let lengths = NeglectError::shares(
             estimate,
-            LENGTHENING * slowness + RINGING_LENGTHENING * ringing,
-            WEAKENING * slowness + RINGING_WEAKENING * ringing,
+            LENGTHENING_PER_DELAY * slowness + RINGING_LENGTHENING * ringing,
+            FORCE_DECREASE_PER_DELAY * slowness + RINGING_WEAKENING * ringing,
         );
         let relaxed = 1.0 + OF_RELAXED * relaxed_loss(scene, estimate);
         // Steep fronts increase the loss with the speed.
-        let own = (LOSS * mach * (1.0 + mach)).max(PartnerWaves::left_ringing(scene, estimate));
+        let own =
+            (LOSS_PER_MACH * mach * (1.0 + mach)).max(PartnerWaves::left_ringing(scene, estimate));
         let loss = own + RINGING_LOSS * ringing;
         Some(NeglectError { restitution: Some(loss * relaxed), ..lengths })
     }

@@ -21,19 +21,19 @@ use fem_case::{Body, ContactMethod, Scene, Switch};
 use fem_material::Material;
 
 use crate::effects::effect::neglect_error::EffectStatus;
-use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
 use crate::effects::effect::{BulkViscosity, Effect, FiniteStrain};
 use crate::effects::numerics::contact_method_of_case;
 use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
 
 /// Relative decrease of the peak force, which is a mean without ringing, over (v/c_s)^(3/5); the largest force of a single
 /// step decreases by 0.6.
-const SMOOTHING: f64 = 0.02;
+const FORCE_DECREASE_BY_SMOOTHING: f64 = 0.02;
 /// Loss of restitution over (v/c_s)^(3/5) (c_s/c_p)⁴.
-const LOSS: f64 = 0.005;
+const LOSS_OF_RESTITUTION: f64 = 0.005;
 
 /// Largest approach speed over shear wave speed for these coefficients, which were measured on pairs, walls and half-spaces.
 const LARGEST_MACH: f64 = 0.1;
@@ -98,9 +98,9 @@ impl Effect for BulkViscosity {
         };
         let largest = materials.map(squared_ratio).fold(0.0, f64::max);
         let growth = Some(estimate.mach).filter(|mach| *mach <= LARGEST_MACH)?.powf(0.6);
-        let smoothing = if rings(scene, false) { SMOOTHING } else { 0.0 };
+        let smoothing = if rings(scene, false) { FORCE_DECREASE_BY_SMOOTHING } else { 0.0 };
         let changes = NeglectError::shares(estimate, 0.0, smoothing * growth);
-        let loss = NeglectError::restitution(LOSS * growth * largest.powi(2));
+        let loss = NeglectError::restitution(LOSS_OF_RESTITUTION * growth * largest.powi(2));
         Some(NeglectError { restitution: loss.restitution, contact_time_s: None, ..changes })
     }
 }

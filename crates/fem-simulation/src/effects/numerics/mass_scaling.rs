@@ -18,7 +18,7 @@ use crate::estimate::Estimate;
 /// Largest moved mass over the lighter body's mass; at 1 % the error of the peak force is up to half of that.
 const LARGEST_MOVED_MASS: f64 = 1e-2;
 /// Moved mass over that mass below which it is rounding of the node that determines the time step.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING_OF_MASS: f64 = 1e-12;
 const NOTHING: &str = "no mass is moved";
 
 /// Share of the approach below which more mass is moved in a body.
@@ -60,7 +60,8 @@ impl MassScaling {
         };
         let each = moved.into_iter().zip(masses).zip(names).zip(Self::times(scene));
         let moved = each.filter_map(|(((moved, mass), name), times)| {
-            let share = moved.map(|moved| moved / lightest).filter(|share| *share > ROUNDING)?;
+            let share =
+                moved.map(|moved| moved / lightest).filter(|share| *share > ROUNDING_OF_MASS)?;
             let of = match share < 1.0 {
                 true => format!("{} of", percent(share)),
                 false => format!("{} times", number(share, 2)),

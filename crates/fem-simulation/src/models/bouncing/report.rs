@@ -6,7 +6,7 @@ use crate::effects::percent;
 use crate::rejection::Rejection;
 
 /// Restitution above which a ball does not come to rest.
-const LOSSLESS: f64 = 1.0 - 1e-4;
+const RESTITUTION_WITHOUT_REST: f64 = 1.0 - 1e-4;
 /// Contact radius over effective radius up to which strains are small.
 const LARGEST_STRAIN: f64 = 0.1;
 
@@ -22,7 +22,7 @@ pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)
         ));
     }
     let least = bounces.iter().map(|bounce| bounce.restitution).fold(f64::INFINITY, f64::min);
-    if *ending == Ending::Parted && n > 1 && least > LOSSLESS {
+    if *ending == Ending::Parted && n > 1 && least > RESTITUTION_WITHOUT_REST {
         said.push(format!(
             "the ball never rests, since it loses almost no energy (no restitution is below {least:.6}); the run \
              ends after the {n} contacts of stop.bounces"

@@ -10,17 +10,17 @@ use crate::estimate::viscous_flow::Slower;
 const FEWEST_STEPS: usize = 10;
 
 /// Loss of the moduli over the contact above which the force peaks early and needs smaller steps.
-const MUCH: f64 = 0.8;
+const LOSS_OF_MODULI_OF_EARLY_PEAK: f64 = 0.8;
 /// Factor on the number of steps of such bodies.
 const MORE_OF_SOFTENED: usize = 4;
 /// Largest number of steps that the factor leads to.
-const ENOUGH: usize = 1000;
+const MOST_STEPS_BY_FACTOR: usize = 1000;
 
 /// Returns the number of steps per elastic contact time for bodies that lose a share of their moduli in it. The steps are
 /// longer if the bodies stop later, and shorter if they relax to little.
 pub(super) fn n_steps(options: CondensedOptions, slower: Slower, relaxed: f64) -> usize {
-    let steps = match relaxed > MUCH {
-        true => (MORE_OF_SOFTENED * options.steps).min(ENOUGH).max(options.steps),
+    let steps = match relaxed > LOSS_OF_MODULI_OF_EARLY_PEAK {
+        true => (MORE_OF_SOFTENED * options.steps).min(MOST_STEPS_BY_FACTOR).max(options.steps),
         false => options.steps,
     };
     let slowed = (steps as f64 / slower.stop).ceil() as usize;
@@ -49,11 +49,11 @@ impl Monitor for ExpectedProgress<'_> {
 
 /// Bytes per element during elimination. Measured like the others for pairs, a wall and a half-space with 2,300 to 46,000
 /// elements: 0.5 to 0.9 kB, 2.8 kB if the factor is kept for snapshots, and 5 to 7 kB with springs of relaxation.
-const ELIMINATED: u64 = 800;
+const BYTES_PER_ELIMINATED_ELEMENT: u64 = 800;
 /// Bytes per element with its share of a kept factor.
-const KEPT: u64 = 2_800;
+const BYTES_PER_KEPT_ELEMENT: u64 = 2_800;
 /// Bytes per element with its share of the factor and of the springs of a relaxing shear modulus.
-const RELAXING: u64 = 7_000;
+const BYTES_PER_RELAXING_ELEMENT: u64 = 7_000;
 /// Largest number of bytes per element.
 pub(crate) const MOST_BYTES: u64 = 8_000;
 
@@ -66,8 +66,12 @@ pub(crate) fn relaxes_in_shear(body: &Body) -> bool {
 /// Returns the expected bytes of bodies with these numbers of elements.
 pub(crate) fn expected_bytes(bodies: [(&Body, u64); 2], keeps_factors: bool) -> u64 {
     let has_springs = bodies.map(|(body, _)| relaxes_in_shear(body));
-    let plain = if keeps_factors || has_springs.contains(&true) { KEPT } else { ELIMINATED };
-    let each = has_springs.map(|has| if has { RELAXING } else { plain });
+    let plain = if keeps_factors || has_springs.contains(&true) {
+        BYTES_PER_KEPT_ELEMENT
+    } else {
+        BYTES_PER_ELIMINATED_ELEMENT
+    };
+    let each = has_springs.map(|has| if has { BYTES_PER_RELAXING_ELEMENT } else { plain });
     bodies.iter().zip(each).map(|((_, elements), bytes)| elements.saturating_mul(bytes)).sum()
 }
 

@@ -11,8 +11,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
 use fem_collision::{
-    Approach, BodyInput, Collision, Ending, FLIGHT_AFTER, Monitor, OutputRequest, StaticContact,
-    StepInstant, Stop,
+    Approach, BodyInput, Collision, Ending, Monitor, OutputRequest, POST_CONTACT_FRACTION,
+    StaticContact, StepInstant, Stop,
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
@@ -142,7 +142,7 @@ impl Condensed {
         let approach = approach_of(scene)?;
         let slower = slower(scene, estimate, &approach);
         let per_contact = n_steps(options, slower, estimate.relaxed) as f64;
-        let n_steps = slower.end * (1.0 + FLIGHT_AFTER) * per_contact;
+        let n_steps = slower.end * (1.0 + POST_CONTACT_FRACTION) * per_contact;
         let setup = ModelSetup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach,
@@ -319,7 +319,7 @@ impl Model for Condensed {
         };
         let slower = slower(&self.scene, &estimate, approach);
         let n_steps = n_steps(self.options, slower, estimate.relaxed);
-        let duration = slower.end * (1.0 + FLIGHT_AFTER) * estimate.hertz.contact_time();
+        let duration = slower.end * (1.0 + POST_CONTACT_FRACTION) * estimate.hertz.contact_time();
         let mut monitor = ExpectedProgress { monitor, begin: approach.first_touch(), duration };
         self.follow(approach, relaxations, n_steps, request, &mut monitor)
     }

@@ -65,17 +65,17 @@ pub(super) fn cost(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> Result
 pub(crate) const REFERENCE_UPDATES: f64 = 0.125;
 /// Impact speed over the shear wave speed from which condensed bodies underestimate the discretisation error of explicit
 /// elements: at twice this speed it is 1.4 % of the contact time for rubber on a wall, where they have 0.3 %.
-const SLOW: f64 = 0.02;
+const MACH_OF_OWN_REFERENCE: f64 = 0.02;
 /// Contact radius over effective radius from which they underestimate it at finite strain.
-const FLAT: f64 = 0.1;
+const STRAIN_OF_OWN_REFERENCE: f64 = 0.1;
 
 /// Returns whether the discretisation error of explicit elements needs a reference run of explicit elements: condensed
 /// bodies have neither large strains nor waves.
 pub(crate) fn needs_own_reference(estimate: &Estimate, is_at_finite_strain: bool) -> bool {
     let Estimate { mach, strain, .. } = *estimate;
     // A strain that is NaN counts as large.
-    let is_large = is_at_finite_strain && (strain.is_nan() || strain >= FLAT);
-    is_large || mach >= SLOW
+    let is_large = is_at_finite_strain && (strain.is_nan() || strain >= STRAIN_OF_OWN_REFERENCE);
+    is_large || mach >= MACH_OF_OWN_REFERENCE
 }
 
 /// Adds the reference runs to the seconds of a run.

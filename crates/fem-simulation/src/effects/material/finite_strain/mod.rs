@@ -31,17 +31,17 @@ use fem_material::finite::HyperelasticLaw;
 use self::departure::Departure;
 use self::strained::Strained;
 use crate::effects::effect::neglect_error::EffectStatus;
-use crate::quantity_errors::QuantityErrors;
 use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::{Relevance, percent};
 use crate::effects::effect::support::Support;
 use crate::effects::effect::{Effect, FiniteStrain, PartnerWaves};
 use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
 /// Smallest difference between laws that is reported, as a share of the contact time.
-const ROUNDING: f64 = 5e-5;
+const LEAST_REPORTED_SPREAD: f64 = 5e-5;
 /// Approximate ratio of d ln(1 − e) to −d ln T for the loss by relaxation.
 const RELAXED_OVER_TIME: f64 = 0.5;
 /// Largest relative change of that loss by large strain over the square of the flatness: 1.0 % was found at 0.2 and 3.6 %
@@ -52,16 +52,16 @@ const RADIATED_OVER_TIME: f64 = 2.0;
 
 /// Contact radius over effective radius from which all elements of a body are at finite strain, since strains fall little
 /// up to the body's end.
-const FLAT: f64 = 0.1;
+const STRAIN_OF_ALL_ELEMENTS: f64 = 0.1;
 /// Approach speed over the shear wave speed from which all elements are, too, since waves carry strains of this size
 /// through the body.
-const SLOW: f64 = 1e-3;
+const MACH_OF_ALL_ELEMENTS: f64 = 1e-3;
 /// Largest error by elements far from the contact that stay at small strain, as a share of the tolerance. For elastic glass
 /// 7 % of the change of the peak force came from beyond two contact radii, 2.8 % from beyond three and 0.5 % from beyond
 /// five and a half: 0.6 to 0.9 of (a/R)³.
 const LEFT_FAR_AWAY: f64 = 0.03;
 /// Number of contact radii within which all elements are at finite strain at any tolerance.
-const NEAREST: f64 = 3.0;
+const LEAST_RADIUS_OVER_CONTACT: f64 = 3.0;
 
 impl FiniteStrain {
     /// Returns the laws of both bodies at the strains of an estimate; `None` for a body that is computed at small strain.
@@ -87,9 +87,11 @@ impl FiniteStrain {
     /// falls with its third power (`fem-explicit/src/stress/partly_finite.rs`). It is `None` if all elements are: if the case
     /// forces the effect on, in flat contacts and beside waves.
     pub(crate) fn within(scene: &Scene, estimate: &Estimate) -> Option<f64> {
-        let is_near = estimate.strain < FLAT && estimate.mach < SLOW && !is_forced_on(scene);
+        let is_near = estimate.strain < STRAIN_OF_ALL_ELEMENTS
+            && estimate.mach < MACH_OF_ALL_ELEMENTS
+            && !is_forced_on(scene);
         let change = departure(scene, estimate).over(&scene.accuracy());
-        let radii = (change / LEFT_FAR_AWAY).cbrt().max(NEAREST);
+        let radii = (change / LEFT_FAR_AWAY).cbrt().max(LEAST_RADIUS_OVER_CONTACT);
         is_near.then_some(radii * estimate.contact_radius)
     }
 
@@ -225,7 +227,7 @@ fn laws_text(scene: &Scene, estimate: &Estimate) -> String {
     names.dedup();
     let names = names.join(" and ");
     let spread = spread(scene, estimate);
-    match spread > ROUNDING {
+    match spread > LEAST_REPORTED_SPREAD {
         false => names,
         true => format!(
             "{names} by default (other laws change the contact time by {} {})",
@@ -300,7 +302,8 @@ impl Effect for FiniteStrain {
         let sizes = &estimate.effective.sizes;
         // F = πa² times the mean pressure.
         let radius = 0.5 * (peak_force + peak_pressure) * sizes.max_contact_radius;
-        shares.of_all_quantities(estimate)
+        shares
+            .of_all_quantities(estimate)
             .with(QuantityOfInterest::Restitution, restitution.abs() + lost)
             .with(QuantityOfInterest::MaxContactRadius, radius)
             .with(QuantityOfInterest::PeakPressure, peak_pressure * sizes.peak_pressure)
