@@ -82,7 +82,10 @@ fn the_step_follows_the_critical_one_down_at_once_and_up_where_there_is_room() {
         let share = share_of(&control, &model);
         let least =
             (critical / MARGIN_TO_LENGTHEN * 0.5f64.powf(1.0 / 16.0)).min(1.0 / MARGIN_TO_LENGTHEN);
-        assert!(share <= critical * ROUNDING_OF_STEP && share > least * 0.999, "{critical}: {share}");
+        assert!(
+            share <= critical * ROUNDING_OF_STEP && share > least * 0.999,
+            "{critical}: {share}"
+        );
     }
     // Little more than a level is no margin: the step would go up and down.
     let at_half = after(&control, &model, 2000, 0.5).unwrap();
