@@ -23,7 +23,7 @@ fn fem(overrides: &[&str]) -> Simulation {
 }
 
 /// Returns whether bulk viscosity is on, and the reason.
-fn decision(simulation: &Simulation) -> (bool, String) {
+fn decision_on(simulation: &Simulation) -> (bool, String) {
     let decisions = &simulation.setup().decisions.all;
     let own = decisions.iter().find(|decision| decision.name == "bulk viscosity").unwrap();
     (own.active, own.reason.clone())
@@ -44,7 +44,7 @@ fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
     ] {
         for bodies in ["start={}", TWINS] {
             let simulation = fem(&[speed, switch, bodies]);
-            let (active, said) = decision(&simulation);
+            let (active, said) = decision_on(&simulation);
             assert_eq!(active, expected, "{speed} {switch} {bodies}: {said}");
             assert!(said.contains(reason), "{said}");
             let warnings = simulation.setup().warnings();

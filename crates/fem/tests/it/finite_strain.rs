@@ -51,7 +51,7 @@ fn simulation(set: &[&str]) -> Result<Simulation, fem::CaseError> {
     Simulation::new(Case::parse("rubber.toml", RUBBER, Path::new("."), &set).unwrap())
 }
 
-fn decision(simulation: &Simulation) -> EffectDecision {
+fn decision_on(simulation: &Simulation) -> EffectDecision {
     let decisions = &simulation.setup().decisions.all;
     decisions.iter().find(|decision| decision.name == "finite strain").unwrap().clone()
 }
@@ -71,7 +71,7 @@ fn finite_strain_is_on_if_its_change_exceeds_the_tolerance() {
         (&[STEEL_BALL], true),
         (&[STIFF], false),
     ] {
-        let decision = decision(&simulation(set).unwrap());
+        let decision = decision_on(&simulation(set).unwrap());
         assert_eq!(decision.active, active, "{set:?}: {decision:?}");
         let law = if set.contains(&NEO_HOOKE) { "neo-hooke" } else { "hencky" };
         assert!(decision.reason.contains(law) || set.contains(&STIFF), "{decision:?}");
@@ -86,7 +86,7 @@ fn the_spread_of_unnamed_laws_switches_nothing_on() {
     for (tolerance, active) in [("1 %", false), ("0.2 %", false), ("0.1 %", true)] {
         let set = [format!("accuracy.tolerance='{tolerance}'")];
         let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
-        let decision = decision(&Simulation::new(case).unwrap());
+        let decision = decision_on(&Simulation::new(case).unwrap());
         assert_eq!(decision.active, active, "{tolerance}: {decision:?}");
         assert!(
             decision.reason.contains("laws change the contact time by up to 0.58 %"),
@@ -117,7 +117,7 @@ fn a_case_without_a_law_is_warned_of_the_spread_of_laws() {
     let set = ["mesh.contact_element_size='2 mm'".to_string()];
     let case = Case::parse("rubber.toml", &unnamed, Path::new("."), &set).unwrap();
     let simulation = Simulation::new(case).unwrap();
-    let reason = decision(&simulation).reason;
+    let reason = decision_on(&simulation).reason;
     assert!(reason.contains("neo-hooke") && reason.contains("other laws"), "{reason}");
     let warnings = simulation.warnings(&simulation.run(&mut ())).join("\n");
     assert!(warnings.contains("material.NAME.hyperelastic"), "{warnings}");
@@ -133,7 +133,7 @@ fn models_without_finite_strain_report_their_error() {
         assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
     }
     let auto = simulation(&["model.auto={}"]).unwrap();
-    assert!(decision(&auto).active, "elements are chosen");
+    assert!(decision_on(&auto).active, "elements are chosen");
 }
 
 #[test]
@@ -154,7 +154,7 @@ fn too_many_relaxation_terms_are_computed_at_small_strain() {
     let many =
         format!("material.rubber.relaxation={{acts_on='shear', terms=[{}]}}", terms.join(", "));
     let simulation = simulation(&[&many]).unwrap();
-    assert!(!decision(&simulation).active);
+    assert!(!decision_on(&simulation).active);
     let warnings = simulation.setup().warnings().join("\n");
     assert!(warnings.contains("ball relaxes with 40 terms"), "{warnings}");
     let error = self::simulation(&[&many, ON]).unwrap_err();
@@ -238,7 +238,7 @@ fn natural_rubber_is_computed_at_finite_strain() {
                     hyperelastic='neo-hooke' }";
         let set = ["mesh.contact_element_size='2 mm'", &body, like];
         let simulation = simulation(&set[..if material == "like" { 3 } else { 2 }]).unwrap();
-        let decision = decision(&simulation);
+        let decision = decision_on(&simulation);
         assert!(decision.active && decision.reason.ends_with("law neo-hooke"), "{decision:?}");
         simulation.run(&mut ())
     };
@@ -265,7 +265,7 @@ fn errors_beyond_the_flattest_computed_collision_are_unknown() {
     let all_is_known = |set: &[&str]| {
         let simulation = simulation(set).unwrap();
         let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
-        let is_lacking = !decision(&simulation).active;
+        let is_lacking = !decision_on(&simulation).active;
         let neglect_error = FiniteStrain.neglect_error(scene, estimate);
         let error = FiniteStrain.model_form_error(
             scene,
@@ -286,8 +286,8 @@ fn errors_beyond_the_flattest_computed_collision_are_unknown() {
     let unnamed = ["body.1.material='unnamed'", UNNAMED, flatter];
     assert_eq!(all_is_known(&unnamed), [false; 2]);
     let coarse = "accuracy.tolerance='50 %'";
-    assert!(!decision(&simulation(&[SLOW, coarse]).unwrap()).active);
-    let decision = decision(&simulation(&[flatter, coarse]).unwrap());
+    assert!(!decision_on(&simulation(&[SLOW, coarse]).unwrap()).active);
+    let decision = decision_on(&simulation(&[flatter, coarse]).unwrap());
     assert!(
         decision.active && decision.reason.contains("too wide for an estimate"),
         "{}",

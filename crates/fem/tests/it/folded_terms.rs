@@ -41,7 +41,7 @@ approach_speed = "0.5 m/s"
 snapshots = []
 "#;
 
-fn decision(simulation: &Simulation) -> &EffectDecision {
+fn decision_on(simulation: &Simulation) -> &EffectDecision {
     let decisions = &simulation.setup().decisions.all;
     decisions.iter().find(|decision| decision.name == "viscoelasticity").unwrap()
 }
@@ -61,14 +61,14 @@ fn folded_terms_change_less_than_their_stated_error() {
     let mesh = "mesh.contact_element_size='10 um'";
     for model in ["model.ting={}", "model.condensed={}"] {
         let folded = simulation(POLYMER, &[model, mesh]);
-        let decision = decision(&folded);
+        let decision = decision_on(&folded);
         assert!(
             decision.active && decision.reason.contains("of 10 terms are integrated"),
             "{}",
             decision.reason
         );
         let all = simulation(POLYMER, &[model, mesh, "effects.viscoelasticity='on'"]);
-        assert!(!decision(&all).reason.contains("integrated"), "{}", decision(&all).reason);
+        assert!(!decision_on(&all).reason.contains("integrated"), "{}", decision_on(&all).reason);
         for change in changes(&folded.run(&mut ()), &all.run(&mut ())) {
             assert!(change.abs() < 1.5e-4, "{model}: {change:e}");
         }

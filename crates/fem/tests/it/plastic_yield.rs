@@ -31,7 +31,7 @@ const MODELS: [&str; 5] = [
     "model.law.falcon.c=0",
 ];
 
-fn decision(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
+fn decision_on(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
     let simulation = simulation_of(text, overrides);
     let setup = simulation.setup();
     let decision =
@@ -42,7 +42,7 @@ fn decision(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
 #[test]
 fn an_impossible_pressure_is_reported() {
     for model in MODELS {
-        let (decision, warnings) = decision(STEEL, &[model]);
+        let (decision, warnings) = decision_on(STEEL, &[model]);
         // The pressure is 9 GPa, a thirteenth of E*; the stress is 0.62 of it.
         assert!(warnings.contains("1/13 of the contact modulus"), "{model}: {warnings}");
         assert!(warnings.contains("yield_strength"), "{warnings}");
@@ -54,7 +54,7 @@ fn an_impossible_pressure_is_reported() {
 fn a_yield_strength_gives_the_speed_and_the_range() {
     for model in MODELS {
         let (decision, warnings) =
-            decision(STEEL, &[model, "material.steel.yield_strength='1 GPa'"]);
+            decision_on(STEEL, &[model, "material.steel.yield_strength='1 GPa'"]);
         // Johnson's ½mv² = 53 R³Y⁵/E*⁴ is 0.067 m/s; then Thornton and Johnson at 72 times that.
         assert!(warnings.contains("yields from 69.1"), "{model}: {warnings}");
         assert!(warnings.contains("from 0.41 to 0.78"), "{warnings}");
@@ -66,12 +66,12 @@ fn a_yield_strength_gives_the_speed_and_the_range() {
 fn no_warning_without_yield() {
     let glass = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
     for overrides in [&[][..], &["material.glass.yield_strength='3 GPa'"]] {
-        let (decision, warnings) = decision(glass, overrides);
+        let (decision, warnings) = decision_on(glass, overrides);
         assert_eq!(warnings, "");
         assert!(!decision.active);
     }
     let slow = ["material.steel.yield_strength='1 GPa'", "body.0.approach_speed='1 cm/s'"];
-    let (decision, warnings) = decision(STEEL, &slow);
+    let (decision, warnings) = decision_on(STEEL, &slow);
     assert_eq!(warnings, "");
     assert!(decision.reason.contains("it yields from"), "{}", decision.reason);
 }
@@ -81,7 +81,7 @@ fn the_body_that_yields_first_is_named() {
     let soft = "material.soft={density=7850, youngs_modulus=210e9, poissons_ratio=0.3, \
                 yield_strength=1e8}";
     let overrides = ["material.steel.yield_strength=1e9", soft, "body.1.material='soft'"];
-    let (_, warnings) = decision(STEEL, &overrides);
+    let (_, warnings) = decision_on(STEEL, &overrides);
     assert!(warnings.contains("upper yields from"), "{warnings}");
     assert!(!warnings.contains("lower yields"), "{warnings}");
 }
@@ -95,20 +95,20 @@ fn rubber_does_not_yield() {
     let beside = "material.hard={density=1100, youngs_modulus='200 MPa', poissons_ratio=0.4}";
     let stiff = "material.hard={density=8000, youngs_modulus='200 GPa', poissons_ratio=0.3}";
     for model in MODELS {
-        let (decision, warnings) = decision(STEEL, &[model, soft, slow]);
+        let (decision, warnings) = decision_on(STEEL, &[model, soft, slow]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         assert!(decision.reason.contains("do not yield"), "{}", decision.reason);
-        let (_, warnings) = decision(STEEL, &[model, "material.steel.hyperelastic='hencky'"]);
+        let (_, warnings) = decision_on(STEEL, &[model, "material.steel.hyperelastic='hencky'"]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         // The stiffer body yields.
         let fast = "body.0.approach_speed='30 m/s'";
-        let (_, warnings) = decision(STEEL, &[model, soft, beside, "body.1.material='hard'", fast]);
+        let (_, warnings) = decision_on(STEEL, &[model, soft, beside, "body.1.material='hard'", fast]);
         assert!(warnings.contains("plastic flow: the stress reaches upper"), "{model}: {warnings}");
         // A body far stiffer than the rubber does not yield.
-        let (_, warnings) = decision(STEEL, &[model, soft, stiff, "body.1.material='hard'", slow]);
+        let (_, warnings) = decision_on(STEEL, &[model, soft, stiff, "body.1.material='hard'", slow]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         let strength = "material.steel.yield_strength='1 MPa'";
-        let (_, warnings) = decision(STEEL, &[model, soft, slow, strength]);
+        let (_, warnings) = decision_on(STEEL, &[model, soft, slow, strength]);
         assert!(warnings.contains("yields from"), "{model}: {warnings}");
     }
 }

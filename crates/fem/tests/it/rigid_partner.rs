@@ -44,7 +44,7 @@ fn run(set: &[&str]) -> Collision {
     simulation(set).unwrap().run(&mut ())
 }
 
-fn decision(simulation: &Simulation) -> &EffectDecision {
+fn decision_on(simulation: &Simulation) -> &EffectDecision {
     let decisions = &simulation.setup().decisions.all;
     decisions.iter().find(|decision| decision.name == "rigid partner").unwrap()
 }
@@ -55,7 +55,7 @@ fn a_very_stiff_partner_is_rigid_with_the_same_results() {
     for model in MODELS {
         let set = [model, "mesh.contact_element_size='0.3 mm'"];
         let plain = simulation(&set).unwrap();
-        let is_rigid = decision(&plain);
+        let is_rigid = decision_on(&plain);
         assert!(is_rigid.active && is_rigid.reason.contains("anvil"), "{}", is_rigid.reason);
         let warnings = plain.setup().warnings().join("\n");
         assert!(!warnings.contains("rigid"), "{warnings}");
@@ -94,13 +94,13 @@ fn a_forced_rigid_partner_changes_the_results_as_estimated() {
             _ => "effects.bulk_viscosity='auto'",
         };
         let set = [model, stiff, "mesh.contact_element_size='0.3 mm'", smooth];
-        assert!(!decision(&simulation(&set).unwrap()).active);
+        assert!(!decision_on(&simulation(&set).unwrap()).active);
         let on = "effects.rigid_partner='on'";
         let forced = simulation(&[set[0], set[1], set[2], set[3], on]).unwrap();
         let warnings = forced.setup().warnings().join("\n");
         assert!(warnings.contains("forced to be rigid"), "{model}: {warnings}");
         let setup = forced.setup();
-        let estimated = forced.neglect_error(decision(&forced), &setup.estimate).unwrap();
+        let estimated = forced.neglect_error(decision_on(&forced), &setup.estimate).unwrap();
         let (rigid, whole) = (forced.run(&mut ()), run(&set));
         let found = (rigid.contact_time.unwrap() - whole.contact_time.unwrap()).abs();
         let ratio = found / estimated.contact_time_s.unwrap();
@@ -133,7 +133,7 @@ fn rigid_balls_on_a_half_space_and_held_ones() {
         let [fem, condensed] = ["model.fem={}", "model.condensed={}"].map(|model| {
             let set: Vec<&str> = scene.into_iter().chain([model]).collect();
             let simulation = simulation(&set).unwrap();
-            assert!(decision(&simulation).active, "{scene:?}");
+            assert!(decision_on(&simulation).active, "{scene:?}");
             simulation.run(&mut ())
         });
         assert!(fem.is_complete(), "{scene:?}: {:?}", fem.ending);

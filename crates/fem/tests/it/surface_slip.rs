@@ -50,7 +50,7 @@ fn run(set: &[&str]) -> Collision {
     simulation(set).run(&mut ())
 }
 
-fn decision(simulation: &Simulation) -> EffectDecision {
+fn decision_on(simulation: &Simulation) -> EffectDecision {
     let decisions = &simulation.setup().decisions.all;
     decisions.iter().find(|decision| decision.name == "surface slip").unwrap().clone()
 }
@@ -95,18 +95,18 @@ fn unlike_bodies_need_slip_and_a_switch_is_obeyed() {
     let words = |simulation: &Simulation| simulation.setup().warnings().join("\n");
     for model in ["model.fem={}", "model.condensed={}", "model.ting={}"] {
         let (plain, off) = (simulation(&[model]), simulation(&[model, OFF]));
-        assert!(decision(&plain).active, "{}", decision(&plain).reason);
+        assert!(decision_on(&plain).active, "{}", decision_on(&plain).reason);
         assert!(!words(&plain).contains("slip"), "{}", words(&plain));
-        assert!(!decision(&off).active);
+        assert!(!decision_on(&off).active);
         assert!(words(&off).contains("surface slip is needed, but switched off"));
         // The resolved case has the same decision.
         let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();
-        assert!(!decision(&again).active);
+        assert!(!decision_on(&again).active);
     }
     // Models without slip report the neglected change.
     for model in ["model.hertz={}", "model.hertz.finite_size=true", LAW] {
         let (plain, off) = (simulation(&[model]), simulation(&[model, OFF]));
-        assert!(!decision(&plain).active);
+        assert!(!decision_on(&plain).active);
         let words = words(&plain);
         assert!(
             words.contains("contact time by about 0.63 % and the peak force by 0.84 %"),
@@ -122,7 +122,7 @@ fn like_bodies_do_not_slip() {
     for model in ["fem", "condensed", "ting"] {
         let [plain, off] =
             ["effects={}", OFF].map(|switch| coarse_mesh::simulation(model, &[switch]));
-        let own = decision(&plain);
+        let own = decision_on(&plain);
         assert!(!own.active && own.reason.contains("do not slip"), "{}", own.reason);
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
         let wall = "body.0={ name = 'block', wall = {} }";
@@ -139,7 +139,7 @@ fn like_bodies_do_not_slip() {
 fn forced_slip_between_like_bodies_changes_nothing() {
     for (model, allowed) in [("fem", 1e-3), ("condensed", 1e-7), ("ting", 1e-7)] {
         let [on, off] = [ON, OFF].map(|switch| coarse_mesh::simulation(model, &[switch, PENALTY]));
-        assert!(decision(&on).active, "{model}");
+        assert!(decision_on(&on).active, "{model}");
         let change = change(&on.run(&mut ()), &off.run(&mut ()));
         assert!(change[2].abs() < 1e-2 * allowed, "{model}: {change:?}");
         assert!(change[..4].iter().all(|change| change.abs() < allowed), "{model}: {change:?}");
@@ -152,7 +152,7 @@ fn bodies_that_relax_differently_slip() {
     let relaxing = "material.steel={ density = 1200, youngs_modulus = '3 GPa', poissons_ratio = 0.2, \
                     relaxation = { acts_on = 'shear', terms = [{ weight = 0.8, decay_rate = 3e4 }] } }";
     let [condensed, ting] = ["model.condensed={}", "model.ting={}"].map(|model| {
-        assert!(decision(&simulation(&[model, relaxing])).active);
+        assert!(decision_on(&simulation(&[model, relaxing])).active);
         change(&run(&[model, relaxing]), &run(&[model, relaxing, OFF]))
     });
     assert!(condensed[1].abs() > 5e-5, "{condensed:?}");
