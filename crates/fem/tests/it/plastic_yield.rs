@@ -102,10 +102,12 @@ fn rubber_does_not_yield() {
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         // The stiffer body yields.
         let fast = "body.0.approach_speed='30 m/s'";
-        let (_, warnings) = decision_on(STEEL, &[model, soft, beside, "body.1.material='hard'", fast]);
+        let (_, warnings) =
+            decision_on(STEEL, &[model, soft, beside, "body.1.material='hard'", fast]);
         assert!(warnings.contains("plastic flow: the stress reaches upper"), "{model}: {warnings}");
         // A body far stiffer than the rubber does not yield.
-        let (_, warnings) = decision_on(STEEL, &[model, soft, stiff, "body.1.material='hard'", slow]);
+        let (_, warnings) =
+            decision_on(STEEL, &[model, soft, stiff, "body.1.material='hard'", slow]);
         assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
         let strength = "material.steel.yield_strength='1 MPa'";
         let (_, warnings) = decision_on(STEEL, &[model, soft, slow, strength]);
