@@ -109,7 +109,7 @@ impl ContactInterface {
     /// Multiplies the springs in the stiffness bound by a factor. The shorter time step then follows very stiff
     /// springs as they open and close.
     #[must_use]
-    pub fn with_shorter_steps(mut self, times: f64) -> Self {
+    pub fn with_stability_factor(mut self, times: f64) -> Self {
         self.bound_factors = self.bound_factors.map(|factor| times * factor);
         self
     }

@@ -6,7 +6,7 @@
 
 use fem_collision::{Approach, BodyInput, Expectation, OutputRequest, SnapshotRequest};
 use fem_explicit::{
-    BulkViscosity, ContactMethod, ExplicitBodies, NodeForce, Parts, Settings,
+    BulkViscosity, ExplicitBodies, NodeForce, Parts, Settings, SmallStrainContact,
     ViscosityCoefficients, Weight, collide,
 };
 use fem_material::finite::HyperelasticLaw;
@@ -90,10 +90,10 @@ fn main() -> Result<(), Error> {
         parts,
     };
     let method = |method| Parts { method, penalty_factor: 1.0, ..Parts::default() };
-    scene("penalty springs", glass()?, method(ContactMethod::Penalty)).run()?;
-    scene("node to surface", glass()?, method(ContactMethod::NodeToSurface)).run()?;
-    scene("massless boundary", glass()?, method(ContactMethod::Massless)).run()?;
-    let massless = || method(ContactMethod::Massless);
+    scene("penalty springs", glass()?, method(SmallStrainContact::Penalty)).run()?;
+    scene("node to surface", glass()?, method(SmallStrainContact::NodeToSurface)).run()?;
+    scene("massless boundary", glass()?, method(SmallStrainContact::Massless)).run()?;
+    let massless = || method(SmallStrainContact::Massless);
     scene("all moduli relax", relaxing(ActsOn::All)?, massless()).run()?;
     scene("shear relaxes", relaxing(ActsOn::Shear)?, massless()).run()?;
     let unlike = |name, method| -> Result<Scene, Error> {
@@ -101,9 +101,9 @@ fn main() -> Result<(), Error> {
         let parts = Parts { surface_slip: true, method, penalty_factor: 1.0, ..Parts::default() };
         Ok(Scene { name, materials, on_wall: false, speed: 0.5, parts })
     };
-    unlike("slipping surfaces, massless", ContactMethod::Massless)?.run()?;
-    unlike("slipping surfaces, penalty", ContactMethod::Penalty)?.run()?;
-    let mut with_forces = method(ContactMethod::Massless);
+    unlike("slipping surfaces, massless", SmallStrainContact::Massless)?.run()?;
+    unlike("slipping surfaces, penalty", SmallStrainContact::Penalty)?.run()?;
+    let mut with_forces = method(SmallStrainContact::Massless);
     let BodyInput::Sphere { mesh, material: of_mesh } = input(glass()?, Side::Above)? else {
         return Err("a sphere has a mesh".into());
     };

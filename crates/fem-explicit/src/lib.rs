@@ -83,7 +83,7 @@ mod tests;
 mod time;
 
 pub use body::Body;
-pub use contact::{Contact, ContactMethod, Massless, MovedContact, Springs};
+pub use contact::{Contact, Massless, MovedContact, SmallStrainContact, Springs};
 pub use error::ModelError;
 pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;

@@ -33,7 +33,7 @@ use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 
 use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
-use crate::impact::{Impact, ImpactInstant};
+use crate::impact::{Impact, ImpactInstant, restitution};
 use crate::laws::{ContactLaw, EndRule};
 use crate::numerics::bisection::falling_zero;
 use crate::pair::Pair;
@@ -134,7 +134,7 @@ impl LawImpact {
             }
         });
         Ok(Impact {
-            restitution: outcome.end.map_or(0.0, |[_, w, ..]| -w),
+            restitution: restitution(outcome.end.map(|[_, w, ..]| w), 1.0),
             contact_time: outcome.end.map(|[_, _, t, _]| t * time),
             peak_force: outcome.peak_force * force,
             max_approach: outcome.max_approach * length,

@@ -7,10 +7,6 @@ use crate::request::Approach;
 use crate::result::{Ending, Stop};
 use crate::run::{DeepestOverlap, EnergyLedger, HistoryRow, StepInstant};
 
-/// Warning for bodies with a restitution of 0.
-pub const STAY_TOGETHER: &str = "the bodies stay together: they would separate at less than a thousandth of the speed of approach, so the \
-     run ends before the contact does";
-
 /// Largest energy residual of a valid run, as a fraction of the initial energy.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
 
@@ -22,9 +18,9 @@ pub struct Collision {
     pub approach: Approach,
     /// How the collision ended.
     pub ending: Ending,
-    /// Relative velocity after over before, 1 when elastic; 0 for bodies that stay together.
+    /// Restitution ([`Ending::restitution`]).
     pub restitution: Option<f64>,
-    /// First to last instant with a contact force, openings in between included, s.
+    /// Time from the first to the last contact force, including intervals in which the surfaces were open, s.
     pub contact_time: Option<f64>,
     /// First instant with a contact force since the start of the case, s.
     pub first_contact: Option<f64>,
@@ -86,9 +82,8 @@ pub struct Collision {
     pub factor_bytes: Option<u64>,
     /// Steps whose contact problem took more than one solution, for models that solve one per step.
     pub repeated_contact_solutions: Option<u64>,
-    /// All contacts of a ball that gravity brings back, the first one included; else empty. All
-    /// other results but the ending, the history and the final energies belong to the first
-    /// contact.
+    /// All contacts of a ball that gravity brings back, the first one included; else empty. Every other result, except
+    /// the ending, the history and the final energies, describes the first contact.
     pub bounces: Vec<Bounce>,
     /// The state of a ball that has come to rest.
     pub rest: Option<RestState>,

@@ -264,6 +264,10 @@ impl Stop {
     }
 }
 
+/// Warning for bodies with a restitution of 0.
+pub const STAY_TOGETHER: &str = "the bodies stay together: they would separate at less than a thousandth of the speed of approach, so the \
+     run ends before the contact does";
+
 /// The end of a collision.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Ending {
@@ -275,4 +279,21 @@ pub enum Ending {
     AtRest,
     /// The run stopped early; the results are those until then.
     Stopped(Stop),
+}
+
+impl Ending {
+    /// Returns the restitution: rate of separation over approach speed for bodies that have separated, 0 for bodies that
+    /// stay together, and `None` for a run that was stopped.
+    pub fn restitution(&self, rate_of_separation: f64, approach_speed: f64) -> Option<f64> {
+        match self {
+            Self::Parted => Some(rate_of_separation / approach_speed),
+            Self::Together | Self::AtRest => Some(0.0),
+            Self::Stopped(_) => None,
+        }
+    }
+
+    /// Returns the warning about bodies that stay together.
+    pub fn together_warning(&self) -> Option<String> {
+        matches!(self, Self::Together | Self::AtRest).then(|| STAY_TOGETHER.to_string())
+    }
 }

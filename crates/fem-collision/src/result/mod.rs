@@ -5,8 +5,7 @@ mod ending;
 mod quantity_of_interest;
 
 pub use collision::{
-    BodyResult, Bounce, CandidateRegion, Collision, LARGEST_RESIDUAL, RestState, STAY_TOGETHER,
-    StaticContact,
+    BodyResult, Bounce, CandidateRegion, Collision, LARGEST_RESIDUAL, RestState, StaticContact,
 };
-pub use ending::{Ending, Stop};
+pub use ending::{Ending, STAY_TOGETHER, Stop};
 pub use quantity_of_interest::QuantityOfInterest;

@@ -7,8 +7,8 @@ pub(crate) mod sample;
 use fem_collision::{
     Collision, DeepestOverlap, Ending, EnergyLedger, ForceNoise, ForcePulse, Frame, History,
     LARGEST_RESIDUAL, Monitor, OutputRequest, POST_CONTACT_FRACTION, PostContactVibration,
-    Progress, RelativeMotion, RestCriterion, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, StepInstant,
-    Stop, longest_at_pole, nan_aware_max, nan_aware_max_abs,
+    Progress, RelativeMotion, RestCriterion, STEPS_BETWEEN_REPORTS, StepInstant, Stop,
+    longest_at_pole, nan_aware_max, nan_aware_max_abs,
 };
 
 use crate::contact::pressure::Pressures;
@@ -314,17 +314,10 @@ impl<'a> ImpactRun<'a> {
 
     fn finish(self, ending: Ending) -> FinishedRun {
         let (motion, frame) = (&self.motion, self.frame);
-        let (is_parted, is_stopped) =
-            (ending == Ending::Parted, matches!(ending, Ending::Stopped(_)));
-        let restitution = match ending {
-            Ending::Parted => {
-                // The rate is that at the end of the contact.
-                let fallen = frame.gravity * (motion.time() - self.last_contact);
-                Some((fallen - motion.rate) / frame.speed())
-            }
-            Ending::Together | Ending::AtRest => Some(0.0),
-            Ending::Stopped(_) => None,
-        };
+        let is_parted = ending == Ending::Parted;
+        // The rate is that at the end of the contact.
+        let fallen = frame.gravity * (motion.time() - self.last_contact);
+        let restitution = ending.restitution(fallen - motion.rate, frame.speed());
         let velocity_after = restitution.map(|e| frame.velocities(-e * frame.speed()));
         let mut bodies = self.pair.bodies_before(frame);
         let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
@@ -388,7 +381,7 @@ impl<'a> ImpactRun<'a> {
             history,
             snapshots: Vec::new(),
             probes: Vec::new(),
-            warnings: if is_stopped || is_parted { Vec::new() } else { vec![STAY_TOGETHER.into()] },
+            warnings: ending.together_warning().into_iter().collect(),
             ending,
         };
         FinishedRun { collision, trace: self.trace }

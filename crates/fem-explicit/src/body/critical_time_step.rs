@@ -105,17 +105,17 @@ impl NodalBound {
             .map(|(&mass, (&stiffness, &damping))| [mass, stiffness, damping])
     }
 
-    /// Leaves out nodes without mass, whose forces are in balance.
+    /// Sets stiffness and damping of massless nodes to zero, so that they do not limit the step.
     pub fn leave_out(&mut self, massless: impl Iterator<Item = usize>) {
         for node in massless {
             (self.stiffness[node], self.damping[node]) = (0.0, 0.0);
         }
     }
 
-    /// Returns the critical time step without mass scaling, s.
+    /// Returns the critical time step without mass scaling, s: the shortest of all nodes.
     pub fn critical_time_step(&self) -> f64 {
         let pulled = self.nodes().filter(|node| *node != [0.0; 3]);
-        pulled.map(critical_time_step).fold(f64::INFINITY, f64::min)
+        pulled.map(node_critical_step).fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the mass that is missing for a critical time step (s) at some nodes, and the spare mass at the others, kg.
@@ -186,20 +186,20 @@ impl ChangingBound {
         Self { stiffness: bound.stiffness, of_elements, damping: bound.damping }
     }
 
-    /// Returns the critical time step (s) at masses (kg) and the critical node, from the present bounds of the elements with
-    /// the growth of the contact's (N/m), and the growth of its damping (N s/m). A step that is not a number counts as the
-    /// shortest. The bounds are replaced by the critical steps of the nodes, s.
-    pub fn critical_time_step(
+    /// Returns the critical time step (s) of the deformed body and the critical node. `bounds_then_steps` holds the present
+    /// bounds of the elements with the growth of the contact's (N/m) on entry, and the critical step of each node (s) on
+    /// return. A step that is not a number counts as the shortest.
+    pub fn current_critical_step(
         &self,
         mass: &[f64],
-        of_elements: &mut [f64],
+        bounds_then_steps: &mut [f64],
         grown_damping: &[f64],
     ) -> (f64, usize) {
         let mut least = (f64::INFINITY, 0);
-        for (k, bound) in of_elements.iter_mut().enumerate() {
+        for (k, bound) in bounds_then_steps.iter_mut().enumerate() {
             let grown = *bound - self.of_elements[k];
             let damping = self.damping[k] + grown_damping[k];
-            let step = critical_time_step([mass[k], self.stiffness[k] + grown, damping]);
+            let step = node_critical_step([mass[k], self.stiffness[k] + grown, damping]);
             if step < least.0 || step.is_nan() {
                 least = (step, k);
             }
@@ -210,7 +210,7 @@ impl ChangingBound {
 }
 
 /// Returns the critical time step (s) of a node with a mass (kg), stiffness (N/m) and damping (N s/m).
-fn critical_time_step([mass, stiffness, damping]: [f64; 3]) -> f64 {
+fn node_critical_step([mass, stiffness, damping]: [f64; 3]) -> f64 {
     match damping == 0.0 {
         true => 2.0 * (mass / stiffness).sqrt(),
         // The root of the module documentation, without the difference of two large numbers.

@@ -67,7 +67,8 @@ impl UnscaledBody {
         }
     }
 
-    fn bound(&self) -> &NodalBound {
+    /// Returns masses and bounds of its nodes.
+    pub fn bound(&self) -> &NodalBound {
         match self {
             Self::Meshed(meshed) => &meshed.bound,
             Self::Rigid(sphere) => &sphere.bound,
@@ -96,11 +97,6 @@ impl UnscaledBody {
             Self::Meshed(meshed) => meshed.stress.strain_measure().finite().is_some(),
             Self::Rigid(_) => false,
         }
-    }
-
-    /// Returns the critical time step without mass scaling, s.
-    pub fn critical_time_step(&self) -> f64 {
-        self.bound().critical_time_step()
     }
 
     /// Returns its mass, kg; `None` for a half-space.

@@ -26,9 +26,10 @@ pub(crate) use pushed_nodes::PushedNodes;
 pub use springs::Springs;
 pub(crate) use springs::contact_between;
 
-/// The contact method: where springs act between the surfaces.
+/// The contact of bodies at small strain: where springs act between the surfaces. Bodies alone have [`Self::Penalty`] by
+/// default; a case has its own default.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum ContactMethod {
+pub enum SmallStrainContact {
     /// Springs at the Gauss points of both surfaces, between nodes that have mass.
     #[default]
     Penalty,
@@ -38,7 +39,7 @@ pub enum ContactMethod {
     NodeToSurface,
 }
 
-impl ContactMethod {
+impl SmallStrainContact {
     /// Returns the factor on the stiffness of the springs in the bound of the critical time step, for springs that are
     /// `factor` times as stiff as usual.
     ///
@@ -46,7 +47,7 @@ impl ContactMethod {
     /// more often. With springs at Gauss points 100 and 1000 times as stiff, a glass pair gained up to 4e-3 of its
     /// energy at the usual step and 4e-4 at half of it. Springs at nodes, which close as a whole, gained 3e-2 at the
     /// usual step, 8e-4 at a third and 2e-4 at a quarter of it.
-    pub fn shorter_steps(self, factor: f64) -> f64 {
+    pub fn stability_factor(self, factor: f64) -> f64 {
         match self {
             Self::Massless => 1.0,
             Self::Penalty => factor.clamp(1.0, 4.0),
@@ -115,8 +116,7 @@ pub trait Contact: Part {
         Box::new(())
     }
 
-    /// Takes the history to the end of a step, whose motion is given with the history of the stress, and moves the
-    /// nodes without mass.
+    /// Advances its own history over a step, and moves the nodes without mass; `motions` include the history of the stress.
     fn advance(
         &self,
         _motions: [MotionMut<'_>; 2],

@@ -8,7 +8,7 @@ use fem_contact::{
     Surface,
 };
 
-use super::{Contact, ContactMethod, Massless};
+use super::{Contact, Massless, SmallStrainContact};
 use crate::error::ModelError;
 use crate::part::{Field, Motion, NodalField, Part};
 use crate::settings::Settings;
@@ -27,13 +27,13 @@ pub(crate) fn contact_between(
     inputs: &[BodyInput; 2],
     gap: f64,
     settings: &Settings,
-    (method, surface_slip, shorter_steps): (ContactMethod, bool, f64),
+    (method, surface_slip, stability_factor): (SmallStrainContact, bool, f64),
 ) -> Result<Box<dyn Contact>, ModelError> {
     let [lower, upper] = inputs;
     let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
     let &Settings { contact_stiffness, candidate_radius, .. } = settings;
     let interface = match method {
-        ContactMethod::NodeToSurface if !surface_slip => ContactInterface::node_to_surface,
+        SmallStrainContact::NodeToSurface if !surface_slip => ContactInterface::node_to_surface,
         _ => ContactInterface::new,
     };
     let interface =
@@ -42,14 +42,14 @@ pub(crate) fn contact_between(
         Some(ratio) => interface.with_rigid_mass(ratio),
         None => interface,
     };
-    let interface = interface.with_shorter_steps(shorter_steps);
+    let interface = interface.with_stability_factor(stability_factor);
     let springs = match surface_slip {
         true => Springs::Slipping(SlippingInterface::new(interface)),
         false => Springs::Straight(interface),
     };
     Ok(match method {
-        ContactMethod::Massless => Box::new(Massless::new(inputs, springs)?),
-        ContactMethod::Penalty | ContactMethod::NodeToSurface => Box::new(springs),
+        SmallStrainContact::Massless => Box::new(Massless::new(inputs, springs)?),
+        SmallStrainContact::Penalty | SmallStrainContact::NodeToSurface => Box::new(springs),
     })
 }
 

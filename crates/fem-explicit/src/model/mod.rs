@@ -11,7 +11,9 @@ use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
 use crate::body::{Body, UnscaledBody};
-use crate::contact::{Contact, ContactMethod, Massless, MovedContact, Springs, contact_between};
+use crate::contact::{
+    Contact, Massless, MovedContact, SmallStrainContact, Springs, contact_between,
+};
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::part::Motion;
@@ -41,9 +43,9 @@ pub struct Parts {
     /// A contact in place of the springs.
     pub contact: Option<Box<dyn Contact>>,
     /// Contact method at small strain.
-    pub method: ContactMethod,
+    pub method: SmallStrainContact,
     /// Stiffness of the springs over the usual one. Stiffer springs between nodes with mass need a shorter step than
-    /// stability asks for ([`ContactMethod::shorter_steps`]).
+    /// stability asks for ([`SmallStrainContact::stability_factor`]).
     pub penalty_factor: f64,
 }
 
@@ -93,7 +95,7 @@ impl ExplicitBodies {
                 Box::new(MovedContact::new(&inputs, approach.gap(), settings)?)
             }
             None => {
-                let times = parts.method.shorter_steps(parts.penalty_factor);
+                let times = parts.method.stability_factor(parts.penalty_factor);
                 let (gap, slips) = (approach.gap(), parts.surface_slip);
                 contact_between(&inputs, gap, settings, (parts.method, slips, times))?
             }
@@ -117,7 +119,7 @@ impl ExplicitBodies {
         let smallest = |step: &dyn Fn(&UnscaledBody) -> f64| {
             movable.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
         };
-        let plain = smallest(&UnscaledBody::critical_time_step);
+        let plain = smallest(&|body| body.bound().critical_time_step());
         let masses = movable.each_ref().map(|body| body.as_ref().and_then(UnscaledBody::mass));
         let lightest = masses.into_iter().flatten().reduce(f64::min).unwrap_or_default();
         let critical = movable.iter().zip(settings.mass_times).filter_map(|(body, times)| {

@@ -46,7 +46,7 @@ fn demand_and_node(
         }
         damping.fill(0.0);
         model.contact().add_bound_growth(&motions, within, side, stiffness, damping);
-        let (own, at) = bound.critical_time_step(&body.nodal_mass, stiffness, damping);
+        let (own, at) = bound.current_critical_step(&body.nodal_mass, stiffness, damping);
         if own < critical || own.is_nan() {
             (critical, node) = (own, [side, at]);
         }
@@ -78,7 +78,7 @@ pub(crate) fn fault(model: &ExplicitBodies, state: &State, scratch: &mut Scratch
             let history = placed.of(&state.bodies[side].history);
             stress.add_stiffness_bound(&state.motions(model)[side], history, stiffness);
         }
-        without_contact = bound.critical_time_step(&body.nodal_mass, stiffness, damping).0;
+        without_contact = bound.current_critical_step(&body.nodal_mass, stiffness, damping).0;
     }
     // The contact has more of the stiffness than the elements.
     let is_of_contact = without_contact > SQRT_2 * demand.critical_time_step;

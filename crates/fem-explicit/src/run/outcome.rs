@@ -1,8 +1,7 @@
 //! The collision that a run returns.
 
 use fem_collision::{
-    BodyResult, Collision, Ending, EnergyLedger, History, LARGEST_RESIDUAL, STAY_TOGETHER, Stop,
-    longest_at_pole,
+    BodyResult, Collision, Ending, EnergyLedger, History, LARGEST_RESIDUAL, Stop, longest_at_pole,
 };
 use fem_material::Material;
 use fem_material::engineering::show;
@@ -25,8 +24,7 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
         stability,
         ..
     } = run;
-    let (is_complete, is_parted) =
-        (!matches!(ending, Ending::Stopped(_)), ending == Ending::Parted);
+    let is_parted = ending == Ending::Parted;
     let bodies = model.bodies();
     let velocity_after = match ending {
         Ending::Parted => sampled.last.map(|row| {
@@ -40,7 +38,6 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
     };
     let vibration_energy =
         sampled.aftermath.filter(|_| is_parted).and_then(|aftermath| aftermath.vibration_energy());
-    let speed = model.approach().speed();
     let bodies = [0, 1].map(|side: usize| {
         let body = &bodies[side];
         let is_moved = !body.is_wall();
@@ -54,7 +51,7 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
         }
     });
     let ends = log.first_contact.zip(log.last_contact);
-    let peaks = sampled.pulse.peaks(log.peak_force, resolving(model));
+    let peaks = sampled.pulse.peaks(log.peak_force, resolving_size(model));
     let (mut snapshots, mut warnings) = recorder.finish();
     let has_failed =
         matches!(&ending, Ending::Stopped(stop) if !matches!(stop, Stop::Interrupted { .. }));
@@ -63,10 +60,8 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
     }
     let is_of_stability = matches!(&ending, Ending::Stopped(Stop::StabilityLost { .. }));
     warnings.extend(stability.warning().filter(|_| !is_of_stability));
-    if is_complete && !is_parted {
-        warnings.push(STAY_TOGETHER.to_string());
-    }
-    let is_together = is_complete && !is_parted;
+    warnings.extend(ending.together_warning());
+    let is_together = matches!(ending, Ending::Together | Ending::AtRest);
     let lasted = ends.filter(|_| !is_together).map(|(first, last)| last - first);
     if let (Some(lasted), Some(time)) = (lasted, model.waves_return())
         && lasted > time
@@ -83,9 +78,8 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
     let is_sound = of_stake * ledger.worst_residual <= LARGEST_RESIDUAL;
     Collision {
         approach: *model.approach(),
-        ending,
         restitution: velocity_after
-            .map(|[lower, upper]| if is_parted { (upper - lower) / speed } else { 0.0 }),
+            .and_then(|[lower, upper]| ending.restitution(upper - lower, model.approach().speed())),
         // A contact has a duration only if it has ended.
         contact_time: ends.filter(|_| is_parted).map(|(first, last)| last - first),
         first_contact: log.first_contact,
@@ -121,6 +115,7 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
         snapshots,
         probes,
         warnings,
+        ending,
     }
 }
 
@@ -128,9 +123,9 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending)
 /// on the mesh.
 const MACH_OF_STEEP_FRONTS: f64 = 0.02;
 
-/// Returns the element size (m), two of which resolve the pressure of early contact; infinite where first touch makes a
-/// steep front.
-fn resolving(model: &ExplicitBodies) -> f64 {
+/// Returns the element size (m) from which the pressure counts as a peak, as soon as the contact spans two of them; infinite
+/// where first touch makes a steep front.
+fn resolving_size(model: &ExplicitBodies) -> f64 {
     let mut materials = model.bodies().iter().filter_map(Body::material);
     let is_slow = |material: &Material| {
         model.approach().speed() < MACH_OF_STEEP_FRONTS * material.shear_wave_speed()

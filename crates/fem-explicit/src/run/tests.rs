@@ -7,7 +7,7 @@ use super::phases::is_closed_next;
 use super::*;
 use crate::state::{Scratch, State};
 use crate::test_support::{settings, sphere, unit_glass};
-use crate::{ContactMethod, Parts, Settings};
+use crate::{Parts, Settings, SmallStrainContact};
 
 /// Unit spheres at a hundredth of the wave's speed, two elements a block's side.
 fn model() -> ExplicitBodies {
@@ -206,10 +206,10 @@ const LONG: Expectation = Expectation { contact_time: 1200.0, ..EXPECTED };
 #[test]
 fn every_step_has_the_energy_of_a_balance() {
     for (method, stiffness) in [
-        (ContactMethod::Penalty, 5.0),
-        (ContactMethod::Penalty, 500.0),
-        (ContactMethod::Massless, 500.0),
-        (ContactMethod::NodeToSurface, 50.0),
+        (SmallStrainContact::Penalty, 5.0),
+        (SmallStrainContact::Penalty, 500.0),
+        (SmallStrainContact::Massless, 500.0),
+        (SmallStrainContact::NodeToSurface, 50.0),
     ] {
         for wall in [false, true] {
             let sphere =
@@ -245,7 +245,7 @@ fn every_step_has_the_energy_of_a_balance() {
             // There is something to be seen: springs that open and close within a step.
             let seen = run.restart_state.ledger.worst_residual;
             assert!(
-                seen >= largest && (seen > 1e-10 || method == ContactMethod::Massless),
+                seen >= largest && (seen > 1e-10 || method == SmallStrainContact::Massless),
                 "{seen:e}"
             );
         }

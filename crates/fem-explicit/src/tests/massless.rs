@@ -5,7 +5,7 @@ use fem_mesh::Side;
 use nalgebra::DMatrix;
 
 use super::stability::{both_closed, partly_closed, tangent};
-use crate::contact::ContactMethod;
+use crate::contact::SmallStrainContact;
 use crate::model::{ExplicitBodies, Parts};
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
@@ -15,7 +15,7 @@ use fem_contact::SlippingInterface;
 use fem_material::{ActsOn, ElasticModuli, Material};
 
 fn pair(
-    method: ContactMethod,
+    method: SmallStrainContact,
     sizes: [f64; 2],
     settings: &Settings,
     glass: &Material,
@@ -79,7 +79,8 @@ fn massless_critical_step_is_safe_and_independent_of_springs() {
             let settings =
                 Settings { contact_stiffness: stiffness, step_factor: 1.0, ..settings() };
             let of = |method| pair(method, sizes, &settings, &unit_glass());
-            let (model, springs) = (of(ContactMethod::Massless), of(ContactMethod::Penalty));
+            let (model, springs) =
+                (of(SmallStrainContact::Massless), of(SmallStrainContact::Penalty));
             for state in [both_closed(&springs), partly_closed(&springs)] {
                 let square = largest_square(&tangent(&springs, &state), &model);
                 let ratio = model.time_step() * square.sqrt() / 2.0;
@@ -107,9 +108,9 @@ fn worst_lack(stiffness: f64, materials: [&Material; 2], slips_at: Option<f64>) 
         let approach = Approach::at(slips_at.unwrap_or(1.0)).unwrap();
         ExplicitBodies::with_parts([body(0), body(1)], approach, &settings, parts).unwrap()
     };
-    let straight = model(ContactMethod::Penalty, false).interface().expect("springs").clone();
+    let straight = model(SmallStrainContact::Penalty, false).interface().expect("springs").clone();
     let slipping = SlippingInterface::new(straight.clone());
-    let model = model(ContactMethod::Massless, surface_slip);
+    let model = model(SmallStrainContact::Massless, surface_slip);
     let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
     let (mut n_closed, mut worst) = (0, 0.0f64);
     for _ in 0..60 {

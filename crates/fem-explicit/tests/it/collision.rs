@@ -2,7 +2,7 @@
 
 use crate::common::{COARSE_RUN, Pair, Quantities, quantities};
 use fem_collision::{Account, BodyInput, Collision, Ending};
-use fem_explicit::{ContactMethod, ExplicitBodies, Settings};
+use fem_explicit::{ExplicitBodies, Settings, SmallStrainContact};
 use fem_material::ActsOn;
 
 /// Scatter of the force from instant to instant over its peak.
@@ -16,7 +16,7 @@ fn noise(run: &Collision) -> f64 {
 #[test]
 fn elastic_collisions_equal_converged_finite_elements() {
     let pair = |method| Pair { method, history_rows: 0, ..Pair::default() };
-    let runs = [ContactMethod::Penalty, ContactMethod::Massless].map(|method| {
+    let runs = [SmallStrainContact::Penalty, SmallStrainContact::Massless].map(|method| {
         let run = pair(method).run();
         assert!(run.history.is_empty() && run.warnings.is_empty());
         assert_eq!(run.ending, Ending::Parted);
@@ -58,7 +58,7 @@ fn elastic_collisions_equal_converged_finite_elements() {
     let [short, step] = [springs, massless].map(|run| run.time_step.unwrap());
     assert!(step > 1.1 * short, "{step:e} {short:e}");
     // The penalty of textbooks: a node that closes brings the spring of an element.
-    let at_nodes = pair(ContactMethod::NodeToSurface).run();
+    let at_nodes = pair(SmallStrainContact::NodeToSurface).run();
     let found = quantities(&at_nodes);
     assert_eq!(at_nodes.ending, Ending::Parted);
     assert!((found.contact_time / 62.818e-6 - 1.0).abs() < 0.02, "{}", found.contact_time);
@@ -70,7 +70,7 @@ fn elastic_collisions_equal_converged_finite_elements() {
 #[test]
 fn viscoelastic_collisions_equal_converged_finite_elements() {
     let all = [(ActsOn::All, 0.92763), (ActsOn::Shear, 0.94811)];
-    let methods = [ContactMethod::Penalty, ContactMethod::Massless];
+    let methods = [SmallStrainContact::Penalty, SmallStrainContact::Massless];
     for ((acts_on, e), method) in all.into_iter().flat_map(|case| methods.map(|m| (case, m))) {
         let run = Pair { relaxation: Some(acts_on), method, ..Pair::default() }.run();
         // +0.0008 and +0.0004 measured; first order in the element size.
@@ -78,7 +78,7 @@ fn viscoelastic_collisions_equal_converged_finite_elements() {
         assert!((found - e).abs() < 0.0015, "{acts_on:?} {method:?}: {found}");
         // Dissipation by the trapezoidal rule over what is observed, 1e-6 of the contact time squared.
         assert!(residual < 2e-6, "{residual}");
-        let rounding = if method == ContactMethod::Penalty { 1e-13 } else { 1e-12 };
+        let rounding = if method == SmallStrainContact::Penalty { 1e-13 } else { 1e-12 };
         assert!(momentum_residual < rounding, "{momentum_residual:e}");
         // Energy that is not rebound is dissipated, 1 − e², but for vibrations and what the branches
         // still store at the end, 3e-4.

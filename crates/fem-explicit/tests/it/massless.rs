@@ -2,11 +2,11 @@
 
 use crate::common::{Pair, quantities};
 use fem_collision::{BodyInput, Collision, Ending};
-use fem_explicit::{ContactMethod, ExplicitBodies, Run};
+use fem_explicit::{ExplicitBodies, Run, SmallStrainContact};
 use fem_material::ActsOn;
 
 fn coarse() -> Pair {
-    Pair { method: ContactMethod::Massless, ..Pair::coarse() }
+    Pair { method: SmallStrainContact::Massless, ..Pair::coarse() }
 }
 
 /// For any stiffness the step stays the same, to the bit, and no energy is gained. The softest springs let the
@@ -103,7 +103,7 @@ fn massless_resumed_run_is_the_same_to_the_bit() {
     let model = pair.model();
     assert_eq!(pair.in_pieces(&model, 61), pair.run_model(&model));
     // The same springs between nodes that have mass are another model.
-    let penalty = Pair { method: ContactMethod::Penalty, ..pair.clone() }.model();
+    let penalty = Pair { method: SmallStrainContact::Penalty, ..pair.clone() }.model();
     let start = Run::new(&model, pair.expected(), &pair.request()).restart_state().clone();
     assert!(Run::resume(&penalty, start).is_err());
 }
@@ -120,7 +120,7 @@ fn masses_and_their_centres_stay() {
             [body.mass(), moment / body.nodal_mass().iter().sum::<f64>()]
         })
     };
-    let [bare, full] = [ContactMethod::Massless, ContactMethod::Penalty].map(masses);
+    let [bare, full] = [SmallStrainContact::Massless, SmallStrainContact::Penalty].map(masses);
     for (bare, full) in bare.into_iter().zip(full) {
         assert!((bare[0] / full[0] - 1.0).abs() < 1e-13);
         // Mass scaling adds 2e-4 of the mass near the pole, elsewhere a little in each.

@@ -1,7 +1,7 @@
 //! Collisions of unlike bodies whose surfaces slip on each other.
 
 use fem_collision::BodyInput;
-use fem_explicit::{ContactMethod, ExplicitBodies, ModelError, Parts, Run, Settings};
+use fem_explicit::{ExplicitBodies, ModelError, Parts, Run, Settings, SmallStrainContact};
 use fem_material::{ElasticModuli, Material};
 
 use crate::common::{Pair, quantities};
@@ -39,7 +39,7 @@ fn model(pair: &Pair, material: Option<Material>, surface_slip: bool) -> Explici
 /// ΔF/F = a|κβ|/π and ΔT/T = −0.240 a|κβ|, next orders and the mesh aside.
 #[test]
 fn slip_changes_a_collision_by_its_first_order_and_balances() {
-    for method in [ContactMethod::Penalty, ContactMethod::Massless] {
+    for method in [SmallStrainContact::Penalty, SmallStrainContact::Massless] {
         slip_is_of_first_order(&Pair { method, ..pair() });
     }
 }
@@ -73,7 +73,7 @@ fn slip_is_of_first_order(pair: &Pair) {
 #[test]
 fn like_bodies_hardly_slip() {
     let radii = [11.1e-3, 7.95e-3];
-    let method = ContactMethod::Massless;
+    let method = SmallStrainContact::Massless;
     let pair = Pair { radii, element_size: 45e-6, method, ..pair() };
     let [with, without] =
         [true, false].map(|slips| quantities(&pair.run_model(&model(&pair, None, slips))));
@@ -90,7 +90,7 @@ fn like_bodies_hardly_slip() {
 /// between masses, a hundred times as stiff, close and open a hundred times.
 #[test]
 fn massless_slipping_boundary_is_stable_at_any_stiffness() {
-    let pair = Pair { method: ContactMethod::Massless, ..pair() };
+    let pair = Pair { method: SmallStrainContact::Massless, ..pair() };
     let run = |factor: f64| {
         let mut bodies = [pair.sphere(0), pair.sphere(1)];
         if let BodyInput::Sphere { material, .. } = &mut bodies[0] {
@@ -118,7 +118,7 @@ fn massless_slipping_boundary_is_stable_at_any_stiffness() {
 /// To the same bits, and not from the restart state of a model without slip.
 #[test]
 fn slipping_run_resumes_to_the_bit() {
-    for method in [ContactMethod::Penalty, ContactMethod::Massless] {
+    for method in [SmallStrainContact::Penalty, SmallStrainContact::Massless] {
         is_the_same_in_pieces(&Pair { element_size: 120e-6, method, ..pair() });
     }
 }

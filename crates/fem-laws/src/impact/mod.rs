@@ -7,7 +7,7 @@ pub use path::ImpactPath;
 /// Summary and history of one collision, from first touch to the end of contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Impact {
-    /// Relative speed after over before; 0 if the bodies stay together.
+    /// Relative velocity after over before; 0 if the bodies stay together.
     pub restitution: f64,
     /// s; `None` if the bodies stay together for ever.
     pub contact_time: Option<f64>,
@@ -48,6 +48,12 @@ pub struct ImpactInstant {
     /// Energy radiated as waves, J, from the state; `None` for a model without radiation. Where all three
     /// are known they add up to the work.
     pub radiated: Option<f64>,
+}
+
+/// Returns the restitution from the rate of the approach at the end of the contact, negative as the bodies separate; 0 for
+/// bodies that stay together, which have no end.
+pub(crate) fn restitution(rate_at_end: Option<f64>, approach_speed: f64) -> f64 {
+    rate_at_end.map_or(0.0, |rate| -rate / approach_speed)
 }
 
 impl Impact {

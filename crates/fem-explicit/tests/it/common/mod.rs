@@ -5,7 +5,9 @@
 use std::sync::LazyLock;
 
 use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
-use fem_explicit::{ContactMethod, ExplicitBodies, Parts, RestartState, Run, Settings, collide};
+use fem_explicit::{
+    ExplicitBodies, Parts, RestartState, Run, Settings, SmallStrainContact, collide,
+};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
@@ -24,7 +26,7 @@ pub struct Pair {
     pub gap: f64,
     pub element_size: f64,
     pub step_factor: f64,
-    pub method: ContactMethod,
+    pub method: SmallStrainContact,
     /// Times the usual stiffness of the springs.
     pub penalty_factor: f64,
     pub relaxation: Option<ActsOn>,
@@ -48,7 +50,7 @@ impl Default for Pair {
             gap: 0.0,
             element_size: 45e-6,
             step_factor: 0.9,
-            method: ContactMethod::Penalty,
+            method: SmallStrainContact::Penalty,
             penalty_factor: 1.0,
             relaxation: None,
             terms: &[(1.0, 1.0 / 2708.0)],

@@ -10,7 +10,7 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, StaticContact, Stop,
 };
 use fem_explicit::{
-    ContactMethod, ExplicitBodies, ModelError, NodeForce, Parts, Run, Settings,
+    ExplicitBodies, ModelError, NodeForce, Parts, Run, Settings, SmallStrainContact,
     ViscosityCoefficients, Weight,
 };
 use fem_mesh::SphereMesh;
@@ -90,7 +90,7 @@ struct Made {
     settings: Settings,
     /// Element size at the contact, m.
     contact_element_size: f64,
-    method: ContactMethod,
+    method: SmallStrainContact,
     /// Penalty factor of the contact springs over the default.
     penalty_factor: f64,
     /// Speed of these bodies over that of the whole scene ([`Plan::speed_share`]).
@@ -398,11 +398,11 @@ fn settings(scene: &Scene, plan: &Plan) -> Settings {
     }
 }
 
-fn method(planned: fem_case::ContactMethod) -> ContactMethod {
+fn method(planned: fem_case::ContactMethod) -> SmallStrainContact {
     match planned {
-        fem_case::ContactMethod::Massless => ContactMethod::Massless,
-        fem_case::ContactMethod::Penalty => ContactMethod::Penalty,
-        fem_case::ContactMethod::NodeToSurface => ContactMethod::NodeToSurface,
+        fem_case::ContactMethod::Massless => SmallStrainContact::Massless,
+        fem_case::ContactMethod::Penalty => SmallStrainContact::Penalty,
+        fem_case::ContactMethod::NodeToSurface => SmallStrainContact::NodeToSurface,
     }
 }
 

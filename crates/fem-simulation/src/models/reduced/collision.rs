@@ -2,7 +2,7 @@
 
 use fem_collision::{
     Account, BodyResult, Collision, Ending, EnergyLedger, Frame, HistoryRow, OutputRequest,
-    STAY_TOGETHER, nan_aware_max_abs,
+    nan_aware_max_abs,
 };
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, ImpactInstant, ImpactPath, Pair};
@@ -50,7 +50,7 @@ pub(super) fn of_impact(
             ..BodyResult::default()
         }),
         history: rows.of(impact, pair, law, request.history_rows),
-        warnings: is_together.then(|| STAY_TOGETHER.to_string()).into_iter().collect(),
+        warnings: ending.together_warning().into_iter().collect(),
         ..Collision::empty(frame.approach, ending)
     }
 }
