@@ -24,16 +24,10 @@ pub trait Target: Sync {
     fn make(&self, random: &mut Random) -> Vec<u8>;
 
     /// Reads an input.
-    ///
-    /// # Errors
-    /// Returns a finding: a fault of the reader.
     fn take(&self, input: &[u8]) -> Result<Taken, String>;
 }
 
 /// Checks the message of a rejected input.
-///
-/// # Errors
-/// Returns a finding if the message is empty, very long, or has control characters.
 pub fn rejected(message: &str) -> Result<Taken, String> {
     let is_tame = !message.contains(|c: char| c.is_control() && c != '\n');
     match is_tame && message.trim().len() > 8 && message.len() < 100_000 {

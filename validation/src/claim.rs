@@ -76,9 +76,6 @@ pub struct Claim {
 
 impl Claim {
     /// Loads a case of the claim.
-    ///
-    /// # Errors
-    /// The case cannot be read or is invalid.
     pub(crate) fn load_case(&self, run: &RunFile) -> Result<Case, CaseError> {
         Case::load(&tidy(&self.folder.join(&run.case)), &run.set)
     }

@@ -94,9 +94,6 @@ impl TryFrom<RawCheck> for CheckFile {
 
 /// Reads the claims of a folder, those with the given names or all, in the order in which they
 /// are shown.
-///
-/// # Errors
-/// The folder cannot be read, a claim file is invalid, or there is no claim with a name.
 pub fn load_claims(folder: &Path, names: &[String]) -> Result<Vec<Claim>, ClaimError> {
     let unreadable = |error| ClaimError::Unreadable { path: folder.to_path_buf(), error };
     let mut known = Vec::new();

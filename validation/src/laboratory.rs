@@ -46,18 +46,12 @@ impl<'a> Laboratory<'a> {
     }
 
     /// Returns the parameters of the study.
-    ///
-    /// # Errors
-    /// A parameter is missing, unknown or of the wrong type.
     pub fn parameters<T: DeserializeOwned>(&self) -> Result<T, StudyError> {
         let table = self.claim.parameters.clone();
         table.try_into().map_err(|error| StudyError::parameters(format!("[parameters]: {error}")))
     }
 
     /// Returns a case of the claim by the name of its `[run.NAME]`.
-    ///
-    /// # Errors
-    /// The claim has no such run, or the case is invalid.
     pub fn case(&self, run: &str) -> Result<Case, StudyError> {
         let file = self.claim.runs.get(run).ok_or_else(|| {
             StudyError::parameters(format!("the claim has no [run.{run}], which the study needs"))
@@ -66,9 +60,6 @@ impl<'a> Laboratory<'a> {
     }
 
     /// Returns the names and the cases of all runs of the claim.
-    ///
-    /// # Errors
-    /// A case is invalid.
     pub fn cases(&self) -> Result<(Vec<&'a String>, Vec<Case>), StudyError> {
         let names: Vec<&String> = self.claim.runs.keys().collect();
         let cases = names.iter().map(|name| self.case(name)).collect::<Result<_, _>>()?;
@@ -76,10 +67,6 @@ impl<'a> Laboratory<'a> {
     }
 
     /// Runs a case of the explicit model, or takes the result of an earlier run of it.
-    ///
-    /// # Errors
-    /// The case cannot be prepared or has another model, the run does not end by itself, or the user interrupts
-    /// it.
     pub fn run(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
         if self.observer.is_interrupted() {
             return Err(StudyError::Interrupted);
@@ -96,18 +83,12 @@ impl<'a> Laboratory<'a> {
     }
 
     /// Runs cases on all cores and returns their results in order.
-    ///
-    /// # Errors
-    /// As [`Laboratory::run`], for the first case with an error.
     pub fn run_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<ExplicitRun>>, StudyError> {
         cases.into_par_iter().map(|case| self.run(case)).collect()
     }
 
     /// Runs a case of any model, or takes the result of an earlier run of it. A partner that the plan treats as rigid
     /// gets no elements, which would need thousands of times as many steps.
-    ///
-    /// # Errors
-    /// As [`Laboratory::run`], with any model.
     pub fn simulate(&self, case: Case) -> Result<Arc<Run>, StudyError> {
         if *case.scene().model() == ModelChoice::Fem && !has_rigid_partner(&case) {
             return self.run(case).map(|run| Arc::new(run.run.clone()));
@@ -122,17 +103,11 @@ impl<'a> Laboratory<'a> {
     }
 
     /// Runs cases of any model on all cores and returns their results in order.
-    ///
-    /// # Errors
-    /// As [`Laboratory::simulate`], for the first case with an error.
     pub fn simulate_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Run>>, StudyError> {
         cases.into_par_iter().map(|case| self.simulate(case)).collect()
     }
 
     /// Does other work than [`Laboratory::run`]; the work returns its result and its number of element updates.
-    ///
-    /// # Errors
-    /// Those of the work.
     pub fn work<T>(
         &self,
         work: impl FnOnce() -> Result<(T, u64), StudyError>,

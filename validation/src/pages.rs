@@ -137,9 +137,6 @@ struct Page<'a> {
 }
 
 /// Returns the page as HTML; of `n_all` claims only those with a result were tested.
-///
-/// # Errors
-/// The template cannot be rendered; no result causes that.
 pub fn page(results: &[ClaimResult], n_all: usize, version: &str) -> Result<String, askama::Error> {
     let of = |section: Section| {
         let claims: Vec<_> = results.iter().filter(|r| r.claim.section == section).collect();

@@ -97,9 +97,6 @@ pub struct ExplicitRun {
 
 impl ExplicitRun {
     /// Returns the penalty springs between the bodies.
-    ///
-    /// # Errors
-    /// The contact is not made of penalty springs alone, for example with surface slip.
     pub fn springs(&self) -> Result<&ContactInterface, StudyError> {
         self.model.interface().ok_or_else(no_springs)
     }

@@ -64,9 +64,6 @@ fn within_memory(case: Case) -> Result<Case, CaseError> {
 
 impl Session {
     /// Reads a case and begins its collision; the previous one is dropped.
-    ///
-    /// # Errors
-    /// The case is invalid, its model rejects it, or it would record too much.
     pub fn begin(&mut self, text: &str, ask: RecordedAmount) -> Result<RunStart, CaseError> {
         (self.simulation, self.stepper, self.collision) = (None, None, None);
         let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;

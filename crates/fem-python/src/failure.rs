@@ -29,9 +29,6 @@ pub fn raised(py: Python<'_>, failure: &Failure) -> PyErr {
 /// Turns failures into Python exceptions.
 pub trait OrRaise<T> {
     /// Returns the value, or the exception.
-    ///
-    /// # Errors
-    /// The failure as an exception.
     fn or_raise(self, py: Python<'_>) -> PyResult<T>;
 }
 

@@ -78,9 +78,6 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
 
 /// Returns `histories.svg`: approach rate and velocity of the first body over time at one speed (m/s),
 /// elastic and with the law, and the overlap at several speeds.
-///
-/// # Errors
-/// A collision cannot be computed.
 pub fn histories_figure(
     scene: &Scene,
     model: &Model,
@@ -206,9 +203,6 @@ pub fn cradle_figure(swings: &[(Trial, Swing)]) -> String {
 
 /// Returns `calibrate.svg`: restitution over speed or contact time, and the weights with their ranges over
 /// relaxation time.
-///
-/// # Errors
-/// A collision cannot be computed.
 pub fn calibration_figure(found: &Calibration) -> Result<String, FitError> {
     let charts = [restitution_chart(found)?, weight_chart(found)];
     Ok(fem_figure::svg(&charts).unwrap_or_default())

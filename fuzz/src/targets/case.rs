@@ -69,9 +69,6 @@ impl Target for CaseText {
 }
 
 /// Checks a valid case: it can be written and read again, planned and run.
-///
-/// # Errors
-/// Returns a finding.
 pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     let written =
         case.file().to_toml().map_err(|error| format!("it cannot be written: {error}"))?;

@@ -119,9 +119,6 @@ impl Command {
 }
 
 /// Waits for a process and ends it after a time limit.
-///
-/// # Errors
-/// The process takes too long.
 fn wait(child: &mut Child) -> Result<(), String> {
     let begin = Instant::now();
     while child.try_wait().map_err(|error| error.to_string())?.is_none() {

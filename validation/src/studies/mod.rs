@@ -62,9 +62,6 @@ pub fn study_names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Returns the study of a name.
-///
-/// # Errors
-/// There is no such study; the message lists all.
 pub(crate) fn find_study(name: &str) -> Result<Study, String> {
     let found = STUDIES.iter().find(|(known, _)| *known == name);
     found.map(|(_, study)| *study).ok_or_else(|| {

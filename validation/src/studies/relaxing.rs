@@ -6,9 +6,6 @@ use fem_case::schema::{RelaxationTable, TermTable};
 use crate::error::StudyError;
 
 /// Returns the case with this relaxation of a material.
-///
-/// # Errors
-/// There is no such material, or the relaxation is invalid.
 pub(super) fn with_relaxation(
     case: &Case,
     material: &str,
@@ -22,9 +19,6 @@ pub(super) fn with_relaxation(
 }
 
 /// Returns the case with this as the only Prony term of a material that relaxes, acting on the same moduli.
-///
-/// # Errors
-/// There is no such material, it is elastic, or the term is invalid.
 pub(super) fn with_term(case: &Case, material: &str, term: TermTable) -> Result<Case, StudyError> {
     let own = case.file().material.get(material).and_then(|table| table.relaxation.as_ref());
     let missing = || StudyError::parameters(format!("the case has no `{material}` that relaxes"));

@@ -32,9 +32,6 @@ pub struct AccuracyResult<'a> {
 
 /// Returns `accuracy.csv`, one row per variant. Errors are relative except that of the restitution; settings
 /// are written as for `--set`.
-///
-/// # Errors
-/// The writer's; none in memory.
 pub fn csv(result: &AccuracyResult<'_>) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let counts = ["series", "settings", "elements_across", "elements", "steps", "element_updates"];

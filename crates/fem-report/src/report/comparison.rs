@@ -44,9 +44,6 @@ struct Cell {
 }
 
 /// Returns the page that compares several results, as HTML.
-///
-/// # Errors
-/// The template cannot be rendered; no result causes that.
 pub fn comparison_page(results: &[StoredResult]) -> Result<String, ReportError> {
     let charts = Quantity::ALL.map(|quantity| history_chart(results, quantity));
     let charts = charts.into_iter().chain([pressure_chart(results)]);

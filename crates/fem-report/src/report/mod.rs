@@ -67,9 +67,6 @@ struct FilmFrame {
 }
 
 /// Returns the report page of one result as HTML.
-///
-/// # Errors
-/// The template cannot be rendered; no result causes that.
 pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
     let contour = contour_of_result(result, MOST_FRAMES);
     let of_one = std::slice::from_ref(result);

@@ -95,9 +95,6 @@ struct SeriesFile {
 
 impl StoredResult {
     /// Reads a result folder.
-    ///
-    /// # Errors
-    /// The folder has no summary of a run.
     pub fn read(folder: &Path) -> Result<Self, ReportError> {
         let no_result = |fault: String| ReportError::NoResult {
             folder: one_line(&folder.display().to_string()),
@@ -116,9 +113,6 @@ impl StoredResult {
     }
 
     /// Reads several result folders. Results whose folders have the same name are named by their paths.
-    ///
-    /// # Errors
-    /// A folder has no summary of a run, or is named twice.
     pub fn read_all(folders: &[PathBuf]) -> Result<Vec<Self>, ReportError> {
         let mut results: Vec<Self> = Vec::with_capacity(folders.len());
         let mut places: Vec<PathBuf> = Vec::with_capacity(folders.len());
@@ -140,9 +134,6 @@ impl StoredResult {
     }
 
     /// Reads a folder whose summary is this text; files that are missing or damaged are left out.
-    ///
-    /// # Errors
-    /// The text is no JSON, or not the summary of a run.
     pub fn of(folder: &Path, summary: &str) -> Result<Self, String> {
         let summary: Value = serde_json::from_str(summary).map_err(|error| error.to_string())?;
         if summary.get("hertz").is_none() {

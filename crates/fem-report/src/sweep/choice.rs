@@ -39,9 +39,6 @@ pub struct HorizontalKey {
 
 impl FigureChoice {
     /// Returns the choice of a sweep file, or the default.
-    ///
-    /// # Errors
-    /// A key that is not varied, a horizontal key whose values are not numbers, or an unknown column.
     pub fn of(sweep: &Sweep, numbers: &KeyNumbers) -> Result<Self, CaseError> {
         let keys: Vec<&str> = sweep.keys().map(|swept| swept.key.as_str()).collect();
         let places: Vec<(usize, usize)> = sweep.places().collect();

@@ -46,18 +46,12 @@ fn tolerance(text: &str) -> Result<String, std::convert::Infallible> {
 
 impl CaseArguments {
     /// Reads the case. Mesh files of a case from the standard input are looked up in the current folder.
-    ///
-    /// # Errors
-    /// The first fault of the case.
     pub fn load(&self) -> Result<Case, CaseError> {
         self.overridden(&self.set)
     }
 
     /// Reads the case and warns of implausible values, which often lack a unit; for commands that do not
     /// run the case.
-    ///
-    /// # Errors
-    /// The same as those of [`CaseArguments::load`].
     pub fn load_and_warn(&self) -> Result<Case, CaseError> {
         let case = self.load()?;
         standard_output::warn(case.scene().implausible_numbers());
@@ -65,9 +59,6 @@ impl CaseArguments {
     }
 
     /// Reads the case with another tolerance.
-    ///
-    /// # Errors
-    /// The same as those of [`CaseArguments::load`].
     pub fn load_within(&self, within: &ToleranceArguments) -> Result<Case, CaseError> {
         self.overridden(&[&self.set[..], within.tolerance.as_slice()].concat())
     }

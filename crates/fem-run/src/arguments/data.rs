@@ -21,9 +21,6 @@ pub struct ColumnArguments {
 
 impl ColumnArguments {
     /// Reads a table with commas, semicolons or tabs, decimal points or commas, in UTF-8 or Latin-1.
-    ///
-    /// # Errors
-    /// The file cannot be read, is no CSV, has no row, or lacks a named column.
     pub fn read(&self, path: &Path) -> Result<Table, Failure> {
         let name = path.display().to_string();
         let bytes = std::fs::read(path).map_err(|error| {
@@ -39,9 +36,6 @@ impl ColumnArguments {
     }
 
     /// Renames the columns of a table as the options say.
-    ///
-    /// # Errors
-    /// A named column is missing.
     pub fn name_columns(&self, table: Table) -> Result<Table, Failure> {
         let names = self.columns.iter().map(|text| {
             let (name, column) = split(text, "--columns")?;

@@ -43,9 +43,6 @@ impl End {
 impl LawArguments {
     /// Returns the law with the parameters of the options, and else those of the case if it has the same
     /// law.
-    ///
-    /// # Errors
-    /// Unknown parameters or invalid values; see [`ChosenLaw::of`].
     pub fn choose(&self, case: &Case, family: LawFamily) -> Result<ChosenLaw, Failure> {
         let parse = |text: &String| {
             let (key, value) = split(text, "--param")?;
@@ -60,9 +57,6 @@ impl LawArguments {
 }
 
 /// Parses the name of a law.
-///
-/// # Errors
-/// There is no such law.
 pub fn parse_family(name: &str) -> Result<LawFamily, String> {
     LawFamily::from_name(name).ok_or_else(|| {
         let names: Vec<_> = LawFamily::ALL.iter().map(|family| family.name()).collect();
@@ -73,9 +67,6 @@ pub fn parse_family(name: &str) -> Result<LawFamily, String> {
 }
 
 /// Returns the index of a law's parameter.
-///
-/// # Errors
-/// There is no such parameter.
 pub fn find_key(family: LawFamily, key: &str, option: &str) -> Result<usize, Failure> {
     find_parameter(family, key).map_err(|error| {
         Failure::bad_input(format!("{option}: {error}")).with_help_if(error.help())
@@ -88,9 +79,6 @@ pub fn of_value(option: &str) -> impl Fn(ParameterError) -> Failure {
 }
 
 /// Splits `KEY=VALUE` at its first `=`.
-///
-/// # Errors
-/// There is no `=`.
 pub fn split<'t>(text: &'t str, option: &str) -> Result<(&'t str, &'t str), Failure> {
     text.split_once('=').ok_or_else(|| {
         Failure::bad_input(format!("{option} {text:?}: there is no `=`"))
@@ -99,18 +87,12 @@ pub fn split<'t>(text: &'t str, option: &str) -> Result<(&'t str, &'t str), Fail
 }
 
 /// Parses a confidence level.
-///
-/// # Errors
-/// The level is not between 0 and 1.
 pub fn parse_confidence(text: &str) -> Result<f64, String> {
     let level = parse_share(text).ok().filter(|level| *level > 0.0 && *level < 1.0);
     level.ok_or_else(|| "give a level between 0 and 1, such as 0.95 for 95 %".to_string())
 }
 
 /// Parses a number without a unit, `0.9` or `90 %`.
-///
-/// # Errors
-/// The text is no number, or has a unit.
 pub fn parse_share(text: &str) -> Result<f64, String> {
     match parse_quantity(text) {
         Ok((value, dimension)) if dimension.0 == [0; 4] => Ok(value),
@@ -119,17 +101,11 @@ pub fn parse_share(text: &str) -> Result<f64, String> {
 }
 
 /// Parses a speed, m/s.
-///
-/// # Errors
-/// The text is no positive speed.
 pub fn parse_speed(text: &str) -> Result<f64, String> {
     positive(text, "speed", "1 cm/s", [1, 0, -1, 0])
 }
 
 /// Parses a length, m.
-///
-/// # Errors
-/// The text is no positive length.
 pub fn parse_length(text: &str) -> Result<f64, String> {
     positive(text, "length", "2 mm", [1, 0, 0, 0])
 }

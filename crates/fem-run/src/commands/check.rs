@@ -47,9 +47,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Returns the resolved case as TOML, with comments on the expected run.
-///
-/// # Errors
-/// The model rejects the case.
 pub fn text(case: Case, name: &str) -> Result<String, Failure> {
     Ok(checked(case, name)?.1)
 }

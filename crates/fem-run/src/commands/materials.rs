@@ -31,9 +31,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Returns a material of the library as a table of a case, with source and range as comments; `lib:` before
 /// the name is optional.
-///
-/// # Errors
-/// There is no such material.
 pub fn one(name: &str) -> Result<String, Failure> {
     let name = name.strip_prefix("lib:").unwrap_or(name);
     let found = materials().get(name).zip(table_text(name));

@@ -239,9 +239,6 @@ fn reported(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
 }
 
 /// Returns a pool of so many threads, by default one per processor.
-///
-/// # Errors
-/// The system has no threads left.
 pub fn thread_pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build();
     pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))

@@ -18,9 +18,6 @@ pub const MADE_FROM: &str = "validate";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Writes page, table, pictures and summary of the claims that are done, of `n_all`.
-///
-/// # Errors
-/// The file system.
 pub fn write_files(folder: &Path, results: &[ClaimResult], n_all: usize) -> Result<(), Failure> {
     let fault = |error: &dyn std::error::Error| {
         Failure::failed(format!("the page cannot be written: {error}"))

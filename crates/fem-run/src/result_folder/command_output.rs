@@ -33,9 +33,6 @@ pub struct OutputArguments {
 impl OutputArguments {
     /// Claims the folder without touching its content. It may replace a result of the same command that was
     /// made from the same `inputs`, such as a case's identity and a file's path.
-    ///
-    /// # Errors
-    /// The place cannot be written, or holds something that may not be replaced.
     pub fn claim(
         &self,
         stem: &str,
@@ -65,9 +62,6 @@ pub struct CommandOutput {
 
 impl CommandOutput {
     /// Writes a file.
-    ///
-    /// # Errors
-    /// The file system.
     pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
         self.files.push(name.to_string());
         std::fs::write(self.folder.path().join(name), bytes).map_err(|error| {
@@ -77,9 +71,6 @@ impl CommandOutput {
     }
 
     /// Writes a table.
-    ///
-    /// # Errors
-    /// The file system.
     pub fn write_table(
         &mut self,
         name: &str,
@@ -96,9 +87,6 @@ impl CommandOutput {
     }
 
     /// Writes the numbers, moves all files to their place, and prints `text` and the path of that place.
-    ///
-    /// # Errors
-    /// The file system.
     pub fn publish(
         mut self,
         numbers: &impl Serialize,

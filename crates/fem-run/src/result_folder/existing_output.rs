@@ -54,9 +54,6 @@ struct OwnershipKeys {
 
 impl ExistingOutput {
     /// Looks at a path and follows symbolic links.
-    ///
-    /// # Errors
-    /// A folder that cannot be read.
     pub fn at(path: &Path) -> io::Result<Self> {
         let metadata = match fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Absent),
@@ -91,9 +88,6 @@ impl ExistingResult {
     }
 
     /// Moves the user's files from `old` to `new`. A name that exists there gets `.kept` appended.
-    ///
-    /// # Errors
-    /// The file system.
     pub fn move_user_files(&self, old: &Path, new: &Path) -> io::Result<()> {
         for entry in fs::read_dir(old)? {
             let name = entry?.file_name();
@@ -110,9 +104,6 @@ impl ExistingResult {
     }
 
     /// Deletes the program's files in `old`, the identifying ones last, and then the folder.
-    ///
-    /// # Errors
-    /// The file system, or a folder that is not empty then.
     pub fn remove_own_files(&self, old: &Path) -> io::Result<()> {
         let identifies = |name: &&String| IDENTIFYING_FILES.contains(&name.as_str());
         let (last, first): (Vec<_>, Vec<_>) = self.files.iter().partition(identifies);

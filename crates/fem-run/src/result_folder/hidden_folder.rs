@@ -33,9 +33,6 @@ pub struct HiddenFolder {
 
 impl HiddenFolder {
     /// Creates a folder beside `target` with the permissions of any new folder.
-    ///
-    /// # Errors
-    /// The file system.
     pub fn beside(target: &Path) -> io::Result<Self> {
         let parent = target.parent().unwrap_or(Path::new("/"));
         let name = target.file_name().unwrap_or_default();
@@ -88,18 +85,12 @@ impl HiddenFolder {
     }
 
     /// Removes the folder if it contains nothing but the lock file.
-    ///
-    /// # Errors
-    /// The folder contains more, or the file system.
     pub fn remove(&mut self) -> io::Result<()> {
         fs::remove_file(self.path().join(LOCK_FILE))?;
         fs::remove_dir(self.path())
     }
 
     /// Moves the folder to the place of its result.
-    ///
-    /// # Errors
-    /// The file system, or a folder there that is not empty. The hidden folder stays then.
     pub fn move_to(&mut self, target: &Path) -> io::Result<()> {
         // Other systems do not move a folder with an open file.
         if cfg!(not(unix)) {

@@ -104,9 +104,6 @@ pub struct ResultFolder {
 impl ResultFolder {
     /// Claims `out` without touching its content, and recovers what killed runs left beside it. `longest_name`
     /// is the longest file name to come.
-    ///
-    /// # Errors
-    /// The place cannot be written, or holds something that may not be replaced.
     pub fn claim(out: &Path, longest_name: &str, replaces: Replaces) -> Result<Self, Failure> {
         if let Some(parent) = resolve(out)?.parent() {
             recover_leftovers(parent);
@@ -115,9 +112,6 @@ impl ResultFolder {
     }
 
     /// Claims a folder where nothing is left to recover.
-    ///
-    /// # Errors
-    /// The same as those of [`ResultFolder::claim`].
     pub fn claim_recovered(
         out: &Path,
         longest_name: &str,
@@ -150,9 +144,6 @@ impl ResultFolder {
     }
 
     /// Writes a file into the final place at once, which may hold an old result or not exist yet.
-    ///
-    /// # Errors
-    /// The file system; an old file of the same name is unchanged then.
     pub fn write_ahead(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         match fs::create_dir(&self.target) {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
@@ -163,9 +154,6 @@ impl ResultFolder {
 
     /// Moves the files to their place and returns it as the user would name it. A result that lacks files is
     /// written beside an old one.
-    ///
-    /// # Errors
-    /// The place cannot be taken; the message says where the files are.
     pub fn publish(mut self, is_whole: bool) -> Result<PathBuf, Failure> {
         let Some(mut hidden) = self.hidden.take() else { return Ok(self.shown.clone()) };
         self.made.clear();

@@ -33,9 +33,6 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
 }
 
 /// Returns the restart state of this run from a folder; `None` if there is no restart file.
-///
-/// # Errors
-/// The file belongs to another case or build, is damaged, or cannot be read.
 pub fn read_restart(folder: &Path, identity: &Identity) -> Result<Option<RestartState>, Failure> {
     let path = folder.join(RESTART_FILE);
     let refused = |what: &dyn std::fmt::Display| {

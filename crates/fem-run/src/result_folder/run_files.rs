@@ -45,9 +45,6 @@ pub struct WrittenResult {
 
 /// Writes the result folder that `fem-run CASE --out FOLDER` would write, with file names from `stem`.
 /// `force` allows it to replace the result of another case.
-///
-/// # Errors
-/// The place cannot be written, or holds something that may not be replaced.
 pub fn save(
     folder: &Path,
     stem: &str,

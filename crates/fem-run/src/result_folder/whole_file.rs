@@ -18,17 +18,11 @@ const HEAD: u64 = 600;
 
 /// Replaces a file in one step: readers see the old content or the new one. `beside` is a folder on the same
 /// file system for the temporary file.
-///
-/// # Errors
-/// The file system; nothing has changed then.
 pub fn write_whole(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
     write_streamed(path, beside, |file| file.write_all(bytes))
 }
 
 /// Does the same with the output of `write`.
-///
-/// # Errors
-/// The file system, or `write`; nothing has changed then.
 pub fn write_streamed(
     path: &Path,
     beside: &Path,
@@ -41,9 +35,6 @@ pub fn write_streamed(
 }
 
 /// Does the same for a file that must survive a crash of the machine.
-///
-/// # Errors
-/// The file system; nothing has changed then.
 pub fn write_lasting(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = temporary_file(beside)?;
     file.write_all(bytes)?;
@@ -85,9 +76,6 @@ pub struct OwnedFileKind {
 
 impl OwnedFileKind {
     /// Checks that such a file may be written at `path`.
-    ///
-    /// # Errors
-    /// The extension is wrong, or another file is in the way.
     pub fn check(&self, path: &Path) -> Result<(), Failure> {
         let shown = shown(path);
         let Self { what, extension, option, .. } = self;
@@ -111,9 +99,6 @@ impl OwnedFileKind {
     }
 
     /// Writes such a file and returns the line that reports it; `-` is the standard output, without a line.
-    ///
-    /// # Errors
-    /// As [`check`](Self::check), and the file system.
     pub fn write(&self, path: &Path, text: &str) -> Result<Option<String>, Failure> {
         if path == Path::new("-") {
             standard_output::print(text)?;

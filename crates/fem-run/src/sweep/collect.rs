@@ -67,9 +67,6 @@ impl Collector<'_> {
     ///
     /// Another process may finish a member after this one has read the folder, and write its table before
     /// this one. A process that looks again after writing and finds nothing new is the last.
-    ///
-    /// # Errors
-    /// The file system.
     pub fn collect(&mut self, is_own: impl Fn(usize) -> bool) -> Result<SweepOutcome, Failure> {
         loop {
             self.folder.refresh();

@@ -43,9 +43,6 @@ impl SweepFolder {
     }
 
     /// Checks whether the folder can be claimed, without writing.
-    ///
-    /// # Errors
-    /// The place holds something other than a sweep.
     pub fn check(&self) -> Result<(), Failure> {
         let out = &self.path;
         let named = shown(out);
@@ -74,9 +71,6 @@ impl SweepFolder {
     }
 
     /// Claims a new or empty folder or that of an earlier sweep, and writes the manifest.
-    ///
-    /// # Errors
-    /// The place cannot be written, or holds something else.
     pub fn claim(
         &self,
         mark: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -98,9 +92,6 @@ impl SweepFolder {
     }
 
     /// Claims a folder that may hold this sweep already, filter manifest is then left unchanged.
-    ///
-    /// # Errors
-    /// The same as those of [`SweepFolder::claim`].
     pub fn join(&self, mark: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         match self.path.join(MANIFEST_FILE).is_file() && is_ours(&self.path).unwrap_or(false) {
             true => Ok(()),
@@ -178,9 +169,6 @@ impl SweepFolder {
     }
 
     /// Replaces a file in one step: readers see the old content or the new one.
-    ///
-    /// # Errors
-    /// The file system.
     pub fn write(
         &self,
         name: &str,

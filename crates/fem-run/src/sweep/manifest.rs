@@ -19,9 +19,6 @@ pub struct Manifest<'a> {
 
 impl Manifest<'_> {
     /// Writes the manifest member by member.
-    ///
-    /// # Errors
-    /// `to` cannot be written.
     pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
         serde_json::to_writer_pretty(&mut *to, self)?;
         to.write_all(b"\n")

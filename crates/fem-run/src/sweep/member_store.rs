@@ -192,9 +192,6 @@ impl MemberFile {
     }
 
     /// Appends the summary of a member.
-    ///
-    /// # Errors
-    /// The file system; the file is unchanged then.
     pub fn append(&self, identity: &str, summary: &Summary) -> io::Result<()> {
         let mut line = serde_json::to_vec(&WrittenLine { member: identity, summary })?;
         line.push(b'\n');

@@ -110,9 +110,6 @@ fn result_cells(row: &Row) -> [String; 5] {
 }
 
 /// Returns success, or which members failed, or how to continue.
-///
-/// # Errors
-/// Members that are not done, or that failed.
 pub fn conclude(
     collected: &SweepOutcome,
     n_own: usize,

@@ -50,9 +50,6 @@ impl SweepJob<'_> {
 
 /// Runs these members in this order, without those that another process finishes first. An interrupted
 /// member leaves nothing.
-///
-/// # Errors
-/// A result cannot be written; the other members end early then.
 pub fn run_members(job: &SweepJob<'_>, left: &[usize]) -> Result<(), Failure> {
     let progress = ItemProgress::new(job.interrupt.clone(), "members", left.len(), job.quiet);
     let pack = job.folder.pack(job.shard);

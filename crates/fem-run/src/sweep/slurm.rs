@@ -66,10 +66,6 @@ pub struct SlurmBatch {
 
 impl SlurmBatch {
     /// Prepares the array of a checked sweep.
-    ///
-    /// # Errors
-    /// Options that the script sets itself or that are not in one line; more shards than members or than an
-    /// array may have.
     pub fn of(
         sweep: &Sweep,
         checked: &Checked,
@@ -115,9 +111,6 @@ impl SlurmBatch {
     }
 
     /// Writes the script into the sweep's folder and returns its path.
-    ///
-    /// # Errors
-    /// The current folder has no name, or the script cannot be written.
     pub fn write(
         &self,
         sweep: &Path,
@@ -155,9 +148,6 @@ impl SlurmBatch {
     }
 
     /// Submits the script and returns its output.
-    ///
-    /// # Errors
-    /// There is no shell or no Slurm, or Slurm rejects the script.
     pub fn submit(&self, script: &Path) -> Result<String, Failure> {
         let path = quoted(&script.display().to_string());
         let help = format!("the script is kept; submit it with: sh {path}");

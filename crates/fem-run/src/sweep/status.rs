@@ -39,9 +39,6 @@ fn digest<'de, D: Deserializer<'de>>(from: D) -> Result<u64, D::Error> {
 }
 
 /// Returns the progress of the sweep in a folder.
-///
-/// # Errors
-/// The folder holds no sweep.
 pub fn status(folder: &Path) -> Result<String, Failure> {
     let place = folder.join(MANIFEST_FILE);
     let name = shown(folder);

@@ -13,9 +13,6 @@ pub fn shown(path: &Path) -> String {
 }
 
 /// Prints text to stdout. A reader that has gone away (`fem-run check CASE | head`) is no error.
-///
-/// # Errors
-/// A stdout that cannot be written, for example on a full disk.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {

@@ -1,6 +1,6 @@
 //! The laws of DEM codes that fit e(v) and T(v), and their ranges of validity.
 
-use crate::fit::dem::{Dashpot, Elastic, Export, Sphere, fit_dissipation, restitution_of};
+use crate::fit::dem::{Export, Sphere, fit_dissipation, restitution_of};
 use crate::fit::{FitError, Model, Outcome, Point, Problem};
 use fem_case::{Body, Case, Scene};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
@@ -88,9 +88,10 @@ impl DemExport {
             pair,
             speeds: curve.speeds(),
             tolerance,
-            hertz: Elastic { restitution: e, validity: constant_validity },
+            restitution: e,
+            contact_time,
+            validity: constant_validity,
             dissipation_time: (viscoelastic.values[0], viscoelastic.validity),
-            linear: Dashpot { restitution: e, contact_time, validity: constant_validity },
             hunt_crossley,
             unpublished_loss: curve.unpublished_loss.clone(),
         };

@@ -35,7 +35,7 @@
 //! // Input of DEM codes.
 //! let curve = ImpactCurve::measured(case.scene(), &measured)?;
 //! let export = DemExport::of(&case, curve, 0.01)?.export;
-//! assert!((export.hertz.restitution - 0.58).abs() < 1e-6);
+//! assert!((export.restitution - 0.58).abs() < 1e-6);
 //! assert!(export.snippets()?.iter().any(|snippet| snippet.code == "LAMMPS"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -102,7 +102,7 @@ impl PairExport {
                 unpublished_loss = [first, second].map(|place| kinds[place].0.clone()).into();
                 unpublished_loss.dedup();
             }
-            let restitution = export.as_ref().map_or(1.0, |of| of.export.hertz.restitution);
+            let restitution = export.as_ref().map_or(1.0, |of| of.export.restitution);
             let grains = [first, second];
             let pair = PairOfGrains { grains, pair, restitution, unpublished_loss };
             pairs.push(FittedPair { pair, export });
@@ -145,7 +145,7 @@ impl PairExport {
         let [first, second] = pair.grains.map(|place| &self.grains[place]);
         let laws = export.as_ref();
         let speeds = laws.map(|of| of.export.speeds);
-        let validity = laws.map(|of| of.export.hertz.validity);
+        let validity = laws.map(|of| of.export.validity);
         let is_known = pair.unpublished_loss.is_empty();
         let good = validity.filter(|[from, to, _]| from <= to && is_known);
         PairNumbers {

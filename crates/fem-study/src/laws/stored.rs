@@ -89,7 +89,7 @@ impl DemExport {
             "effective_radius_m": export.pair.effective_radius(),
             "contact_modulus_pa": export.pair.contact_modulus(),
             "dissipation_time_s": export.dissipation_time.0,
-            "linear_contact_time_s": export.linear.contact_time,
+            "linear_contact_time_s": export.contact_time,
             "has_hertz_times": self.curve.has_hertz_times,
             "unpublished_loss": export.unpublished_loss,
             "data": points.iter().map(point).collect::<Value>(),

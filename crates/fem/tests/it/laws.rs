@@ -119,7 +119,7 @@ fn an_export_has_its_range_of_validity() {
     let export = DemExport::of(&case, curve, 0.01).unwrap();
     let [constant, viscoelastic, _] = &export.laws;
     // The law has this restitution at each speed within its tolerance.
-    assert!((export.export.hertz.restitution - 0.9).abs() < 1e-7);
+    assert!((export.export.restitution - 0.9).abs() < 1e-7);
     assert_eq!(constant.validity[..2], [0.05, 0.5]);
     assert!(viscoelastic.validity[2] > 0.01);
     let numbers = export.numbers("ball", &export.export.snippets().unwrap());

@@ -78,9 +78,6 @@ pub(super) struct Expected {
 
 impl Axis {
     /// Reads an axis.
-    ///
-    /// # Errors
-    /// The file cannot be read or is invalid.
     pub fn read(folder: &Path, name: &str) -> Result<Self, StudyError> {
         let path = folder.join(format!("{name}.toml"));
         let wrong = |error: String| StudyError::parameters(format!("{}: {error}", path.display()));

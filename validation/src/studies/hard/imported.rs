@@ -60,9 +60,6 @@ enum Change {
 
 impl Imported {
     /// Writes the mesh and returns the override that names it.
-    ///
-    /// # Errors
-    /// The mesh cannot be made, or the file cannot be written.
     pub fn write(&self, folder: &Path, name: &str) -> Result<String, StudyError> {
         let Self { radius, element_size, refined_radius, .. } = *self;
         let half_disc =

@@ -16,9 +16,6 @@ pub(super) struct Reference(Numbers);
 
 impl Reference {
     /// Returns the reference of a scene with a model.
-    ///
-    /// # Errors
-    /// The reference cannot be computed, or the user interrupts it.
     pub fn of<'a>(
         against: &Against,
         scene: &Scene,

@@ -38,9 +38,6 @@ pub(super) struct SceneResult {
 }
 
 /// Adds the table of earlier faults, if the claim has `seen.toml`.
-///
-/// # Errors
-/// The file is invalid, or names a scene that does not exist.
 pub(super) fn tabulate_earlier_faults(
     folder: &Path,
     results: &[SceneResult],
@@ -107,9 +104,6 @@ struct FuzzTarget {
 }
 
 /// Adds the table of hostile inputs.
-///
-/// # Errors
-/// `fed.toml` is missing or invalid.
 pub(super) fn tabulate_hostile_inputs(
     folder: &Path,
     findings: &mut Findings,

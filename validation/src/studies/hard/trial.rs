@@ -30,9 +30,6 @@ pub(super) type Numbers = [Option<f64>; 4];
 
 impl Trial {
     /// Runs a case if it is valid.
-    ///
-    /// # Errors
-    /// The user interrupted the study.
     pub fn of(laboratory: &Laboratory, case: Result<Case, CaseError>) -> Result<Self, StudyError> {
         let outcome = laboratory.work(|| {
             let refused = |error: CaseError| (Outcome::Refused(error.to_string()), None);

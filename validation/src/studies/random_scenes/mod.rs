@@ -65,9 +65,6 @@ impl Random {
 }
 
 /// Loads the case of a scene: the claim's `[run.base]` with these overrides.
-///
-/// # Errors
-/// The claim has no such run; the outer error. The scene is no valid case; the inner error.
 fn load(laboratory: &Laboratory, set: &[String]) -> Result<Result<Case, CaseError>, StudyError> {
     let claim = laboratory.claim();
     let base = claim.runs.get("base").ok_or_else(|| {

@@ -74,9 +74,6 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
 }
 
 /// Returns `pairs.csv`, one row per pair with the input of each code.
-///
-/// # Errors
-/// The table cannot be written.
 pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
     let keys: BTreeSet<&String> = rows.iter().flat_map(|row| row.entries.keys()).collect();
     let failed =
@@ -119,9 +116,6 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
 }
 
 /// Returns the text of `export.json`.
-///
-/// # Errors
-/// The numbers cannot be written as JSON.
 pub fn pairs_json(export: &PairExport, case: &str, rows: &[PairNumbers]) -> Result<Value, Failure> {
     Ok(json!({ "case": case, "tolerance": export.tolerance, "pairs": value_of(&rows)? }))
 }

@@ -5,8 +5,8 @@
 
 use fem_laws::Pair;
 
-use super::mfix::mfix_entry;
-use super::snippet::{Sphere, short, unpublished_loss};
+use super::entries::mfix_entry;
+use super::{Sphere, short, unpublished_loss};
 
 /// Longest list of pairs that stands in a sentence, in characters.
 const LONGEST_LIST: usize = 40;
