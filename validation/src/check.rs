@@ -93,7 +93,6 @@ impl Check {
         CheckResult { check: self.clone(), measured, passed }
     }
 
-    /// Formats a value in the quantity's unit, with five digits.
     fn show(&self, value: f64) -> String {
         if self.unit.is_empty() {
             return plain(value);

@@ -46,10 +46,8 @@ fn to_two_digits(value: f64) -> f64 {
     digit * (value / digit).round()
 }
 
-/// The cost estimate of a run with elements.
 #[derive(Clone, Copy, Debug)]
 pub struct Forecast {
-    /// Seconds here, reference runs included.
     pub seconds: Option<f64>,
     /// Element updates of the collision over those that closed forms announce.
     pub longer: f64,
@@ -169,7 +167,6 @@ fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     collision + files + CONDENSED_REFERENCE_TIME * (collision + making)
 }
 
-/// A monitor that stops a run as soon as its time can be forecast.
 struct Patient {
     begin: Instant,
     /// Time until the first step, s: relaxing bodies are factored before it.
@@ -180,7 +177,6 @@ struct Patient {
 }
 
 impl Patient {
-    /// Returns the time of the whole collision, s.
     fn collision(&self) -> f64 {
         let (spent, fraction) = self.seen;
         let steps = spent - self.before;

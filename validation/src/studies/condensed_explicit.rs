@@ -24,14 +24,12 @@ use crate::run::Run;
 struct Parameters {
     /// Elements across Hertz' contact radius.
     elements_per_contact_radius: f64,
-    /// `[contact]` and `[time]` of all cases.
     contact: ContactTable,
     time: TimeTable,
     /// Keys of the condensed model.
     condensed: CondensedTable,
 }
 
-/// Name and value of a quantity.
 type Quantity = (&'static str, fn(&Run) -> f64);
 
 const RELATIVE: [Quantity; 5] = [
@@ -42,7 +40,6 @@ const RELATIVE: [Quantity; 5] = [
     ("peak_pressure", |run| run.peak_pressure()),
 ];
 
-/// Runs every case of the claim with both models.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let (names, own) = laboratory.cases()?;

@@ -24,7 +24,6 @@ struct Parameters {
     contact_element_sizes: Vec<f64>,
 }
 
-/// Name, symbol, unit and value of a quantity.
 type Quantity = (&'static str, &'static str, &'static str, fn(&Run) -> f64);
 
 const QUANTITIES: [Quantity; 5] = [
@@ -35,7 +34,6 @@ const QUANTITIES: [Quantity; 5] = [
     ("peak_pressure", "p0", "Pa", |run| run.peak_pressure()),
 ];
 
-/// Runs the case `base` at each element size.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { contact_element_sizes: sizes } = laboratory.parameters()?;
     let base = laboratory.case("base")?;

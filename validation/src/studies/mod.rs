@@ -22,10 +22,8 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// A function that measures the quantities of a claim.
 pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 
-/// All studies and their names.
 const STUDIES: &[(&str, Study)] = &[
     ("balances", mechanics::balances::study),
     ("condensed_explicit", condensed_explicit::study),
@@ -61,7 +59,6 @@ pub fn study_names() -> impl Iterator<Item = &'static str> {
     STUDIES.iter().map(|(name, _)| *name)
 }
 
-/// Returns the study of a name.
 pub(crate) fn find_study(name: &str) -> Result<Study, String> {
     let found = STUDIES.iter().find(|(known, _)| *known == name);
     found.map(|(_, study)| *study).ok_or_else(|| {

@@ -32,7 +32,6 @@ pub fn halves(run: &ExplicitRun, snapshot: &Snapshot, unit: f64) -> [Section; 2]
     halves
 }
 
-/// Returns the smallest and the largest value of both bodies; NaN if any value is.
 pub fn range(halves: &[Section; 2]) -> (f64, f64) {
     let values = || halves.iter().flat_map(|half| half.values.iter().copied());
     if values().any(f64::is_nan) {

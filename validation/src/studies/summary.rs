@@ -5,7 +5,6 @@ use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::run::Run;
 
-/// Runs every case of the claim.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let (names, cases) = laboratory.cases()?;
     let runs = laboratory.simulate_all(cases)?;

@@ -24,7 +24,6 @@ const RELATIVE: [Quantity; 4] = [
     ("peak_pressure", |run| run.peak_pressure()),
 ];
 
-/// Runs every case of the claim twice.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let (names, own) = laboratory.cases()?;
     let mut cases = Vec::new();

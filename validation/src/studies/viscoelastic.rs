@@ -23,15 +23,12 @@ use crate::studies::relaxing::with_relaxation;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Decay rate times Hertz' contact time, for a series of one term.
     rates: Vec<f64>,
     /// G∞/G0, at the base's decay rate.
     equilibrium: Vec<f64>,
-    /// Approach speeds, m/s, at the base's relaxation.
     speeds: Vec<f64>,
     /// A series of several terms: (weight, decay rate times Hertz' contact time).
     series: Vec<(f64, f64)>,
-    /// The material that relaxes.
     material: String,
     /// Decay rate times contact time of the single term if it is not varied.
     rate: f64,
@@ -39,7 +36,6 @@ struct Parameters {
     refinement: f64,
 }
 
-/// A member of the study.
 struct Member {
     group: &'static str,
     acts_on: ActsOn,
@@ -62,7 +58,6 @@ const GROUPS: [(&str, &str); 4] = [
     ("series", ""),
 ];
 
-/// Runs all members.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let base = laboratory.case("base")?;

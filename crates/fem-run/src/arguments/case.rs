@@ -8,7 +8,6 @@ use fem_case::{Case, CaseError};
 
 use crate::text::standard_output;
 
-/// Stands for the standard input.
 const STDIN: &str = "-";
 
 /// A case file and its overrides.
@@ -35,7 +34,6 @@ pub struct ToleranceArguments {
     tolerance: Option<String>,
 }
 
-/// Returns a tolerance as an override of the case.
 fn tolerance(text: &str) -> Result<String, std::convert::Infallible> {
     let value = match text.parse::<f64>() {
         Ok(share) => format!("{share:?}"),
@@ -70,7 +68,6 @@ impl CaseArguments {
         Case::load(&self.case, overrides)
     }
 
-    /// Returns the name of the case in messages.
     pub fn name(&self) -> String {
         if self.case.as_os_str() == STDIN {
             return "<stdin>".to_string();
@@ -95,7 +92,6 @@ pub fn stem_of(path: &Path) -> String {
     stem.replace(|c: char| c.is_control() || c == ':' || c == '\\', "_")
 }
 
-/// Parses a number of threads or shards.
 pub fn parse_count(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "give a whole number, at least 1".to_string())
 }

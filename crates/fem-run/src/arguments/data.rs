@@ -35,7 +35,6 @@ impl ColumnArguments {
         self.name_columns(Table::parse(&name, &decode(&bytes))?)
     }
 
-    /// Renames the columns of a table as the options say.
     pub fn name_columns(&self, table: Table) -> Result<Table, Failure> {
         let names = self.columns.iter().map(|text| {
             let (name, column) = split(text, "--columns")?;

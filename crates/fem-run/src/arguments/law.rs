@@ -31,7 +31,6 @@ pub enum End {
 }
 
 impl End {
-    /// Returns the rule for the law.
     pub fn rule(self) -> EndRule {
         match self {
             Self::ZeroForce => EndRule::ZeroForce,
@@ -56,7 +55,6 @@ impl LawArguments {
     }
 }
 
-/// Parses the name of a law.
 pub fn parse_family(name: &str) -> Result<LawFamily, String> {
     LawFamily::from_name(name).ok_or_else(|| {
         let names: Vec<_> = LawFamily::ALL.iter().map(|family| family.name()).collect();
@@ -66,7 +64,6 @@ pub fn parse_family(name: &str) -> Result<LawFamily, String> {
     })
 }
 
-/// Returns the index of a law's parameter.
 pub fn find_key(family: LawFamily, key: &str, option: &str) -> Result<usize, Failure> {
     find_parameter(family, key).map_err(|error| {
         Failure::bad_input(format!("{option}: {error}")).with_help_if(error.help())
@@ -86,7 +83,6 @@ pub fn split<'t>(text: &'t str, option: &str) -> Result<(&'t str, &'t str), Fail
     })
 }
 
-/// Parses a confidence level.
 pub fn parse_confidence(text: &str) -> Result<f64, String> {
     let level = parse_share(text).ok().filter(|level| *level > 0.0 && *level < 1.0);
     level.ok_or_else(|| "give a level between 0 and 1, such as 0.95 for 95 %".to_string())

@@ -101,7 +101,6 @@ fn near_command(word: &str) -> Option<String> {
 }
 
 impl Arguments {
-    /// Runs the command line of a process that began at `started`.
     pub fn execute(self, started: Instant) -> Result<(), Failure> {
         match (self.command, self.input) {
             (Some(command), _) => command.execute(Self::command),

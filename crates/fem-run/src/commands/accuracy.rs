@@ -54,7 +54,6 @@ fn seconds(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "give seconds, greater than 0".to_string())
 }
 
-/// Runs the study of a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let (budget, quiet) = (arguments.budget, arguments.output.quiet);
@@ -103,7 +102,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })
 }
 
-/// Prints one line on stderr about the study.
 fn announce(case: &str, variants: &Variants, budget: f64) {
     let updates = variants.all.iter().fold(0u64, |sum, variant| sum.saturating_add(variant.price));
     let _ = writeln!(
@@ -184,7 +182,6 @@ impl Monitor for Deadline<'_> {
 
 /// Forecast of run times from those of earlier variants.
 struct Forecast {
-    /// Time of an element update, s.
     update: f64,
     /// Time of the last condensed variant, s.
     condensed: f64,

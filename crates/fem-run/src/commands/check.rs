@@ -35,7 +35,6 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Checks a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_within(&arguments.within)?;
     let (simulation, text) = checked(case, &arguments.input.name())?;
@@ -76,7 +75,6 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     Ok((simulation, text))
 }
 
-/// Returns the description of the expected run; its setup took `spent` seconds.
 fn expect(
     simulation: &Simulation,
     estimator: &ErrorEstimator,
@@ -257,7 +255,6 @@ fn one_degree_of_freedom(description: &str, force: Option<&ForceLaw>) -> String 
     format!("Model\n{}", table(&[Left, Left], rows))
 }
 
-/// Returns the text as TOML comments.
 fn as_comment(text: &str) -> String {
     let comment = |line: &str| format!("# {line}").trim_end().to_string() + "\n";
     text.lines().map(comment).collect()

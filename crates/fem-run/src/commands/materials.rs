@@ -21,7 +21,6 @@ pub struct Arguments {
     name: Option<String>,
 }
 
-/// Prints the list or one material.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.name {
         None => standard_output::print(&list()?),
@@ -51,7 +50,6 @@ pub fn one(name: &str) -> Result<String, Failure> {
     Ok(format!("{}\n{text}", comments.join("\n")))
 }
 
-/// Returns the list, one row per material.
 fn list() -> Result<String, CaseError> {
     let mut rows = Vec::new();
     for (name, entry) in materials() {

@@ -32,7 +32,6 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Writes the meshes and prints their quality.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
     let meshes = build_meshes(case.scene(), &Plan::of_case(&case)?)

@@ -41,7 +41,6 @@ pub struct ReportArguments {
     quiet: bool,
 }
 
-/// Writes a page and prints where it is.
 pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     let records = StoredResult::read_all(&arguments.folders)?;
     let (text, usual) = match (records.as_slice(), arguments.folders.as_slice()) {
@@ -103,7 +102,6 @@ pub enum Figure {
     Profile,
 }
 
-/// Writes a figure and prints where it is.
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let (records, figure) = (StoredResult::read_all(&arguments.folders)?, arguments.what);
     let of_one = |name: &str| match records.as_slice() {

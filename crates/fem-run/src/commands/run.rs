@@ -59,7 +59,6 @@ pub struct Options {
     quiet: bool,
 }
 
-/// Runs a case.
 pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let begin = Instant::now();
@@ -173,7 +172,6 @@ fn compute(
     }
 }
 
-/// Prints what begins on stderr.
 fn announce(
     simulation: &Simulation,
     estimator: &ErrorEstimator,
@@ -209,7 +207,6 @@ fn tell_finer(simulation: &Simulation, estimator: &mut ErrorEstimator, making: f
     }
 }
 
-/// Returns the model and its cost estimate.
 fn price(
     simulation: &Simulation,
     estimator: &ErrorEstimator,

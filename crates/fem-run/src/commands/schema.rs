@@ -27,7 +27,6 @@ enum Of {
     Sweep,
 }
 
-/// Prints the schema.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let schema = match arguments.of {
         Of::Case => json_schema::of_cases(),
@@ -36,7 +35,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     standard_output::print(&text_of(&schema))
 }
 
-/// Returns the text of a schema file.
 pub fn text_of(schema: &Value) -> String {
     format!("{schema:#}\n")
 }

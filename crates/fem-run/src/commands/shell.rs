@@ -16,7 +16,6 @@ pub struct CompletionArguments {
     shell: Shell,
 }
 
-/// Prints the completion script of a command line.
 pub fn complete(arguments: &CompletionArguments, mut command: Command) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, "fem-run", &mut script);

@@ -65,10 +65,8 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Most implausible values that are reported.
 const MOST_ODDITIES: usize = 5;
 
-/// A sweep, its folder and its threads.
 struct Work<'a> {
     arguments: &'a Arguments,
     sweep: &'a Sweep,
@@ -79,7 +77,6 @@ struct Work<'a> {
     expected: OnceCell<SweepCost>,
 }
 
-/// Runs a sweep.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.status {
         return standard_output::print(&status(&arguments.sweep)?);
@@ -190,7 +187,6 @@ impl Work<'_> {
         conclude(&collected, places.len(), self.interrupt.is_requested())
     }
 
-    /// Writes the script for Slurm, and submits it on request.
     fn hand_over(
         &self,
         batch: &SlurmBatch,
@@ -238,7 +234,6 @@ fn reported(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
     checked.oddities.iter().take(MOST_ODDITIES)
 }
 
-/// Returns a pool of so many threads, by default one per processor.
 pub fn thread_pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build();
     pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))

@@ -70,7 +70,6 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Evaluates claims and prints their state.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let claims = load_claims(&arguments.claims, &arguments.names).map_err(refused)?;
     if claims.is_empty() {
@@ -150,7 +149,6 @@ fn run(
     Ok(results.into_iter().filter(is_whole).collect())
 }
 
-/// Writes the Markdown table and its pictures.
 fn write_table(path: &Path, results: &[ClaimResult]) -> Result<(), Failure> {
     write_text(path, &markdown(results))?;
     for (name, figure) in pictures(results) {

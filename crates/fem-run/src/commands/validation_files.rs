@@ -9,7 +9,6 @@ use serde_json::json;
 use crate::text::failure::Failure;
 use fem::results::{PROGRAM, SUMMARY_FILE};
 
-/// File name of the page.
 pub const PAGE_FILE: &str = "index.html";
 /// The table, one row per check.
 const TABLE_FILE: &str = "checks.csv";
@@ -17,7 +16,6 @@ const TABLE_FILE: &str = "checks.csv";
 pub const MADE_FROM: &str = "validate";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Writes page, table, pictures and summary of the claims that are done, of `n_all`.
 pub fn write_files(folder: &Path, results: &[ClaimResult], n_all: usize) -> Result<(), Failure> {
     let fault = |error: &dyn std::error::Error| {
         Failure::failed(format!("the page cannot be written: {error}"))

@@ -11,7 +11,6 @@ use crate::text::failure::Status;
 /// group.
 const ONE_SIGNAL: Duration = Duration::from_secs(1);
 
-/// Whether the user has asked the program to end.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
@@ -34,7 +33,6 @@ impl Interrupt {
         interrupt
     }
 
-    /// Whether a signal has come.
     pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -21,10 +21,8 @@ const LINE_SHARE: f64 = 0.1;
 const SHORTEST_SILENCE: Duration = Duration::from_secs(1);
 /// ... and at least this often.
 const LONGEST_SILENCE: Duration = Duration::from_secs(30);
-/// Ticks of a bar for one run.
 const TICKS: u64 = 1000;
 
-/// Where progress is shown.
 enum Display {
     Nothing,
     Bar(ProgressBar),
@@ -52,7 +50,6 @@ impl Display {
         }
     }
 
-    /// Prints a line, unless there is a bar or nothing is shown.
     fn line(&self, line: &str) {
         if let Self::Lines = self {
             // A closed stderr is no reason to end.
@@ -78,14 +75,12 @@ pub struct RunProgress {
 }
 
 impl RunProgress {
-    /// Creates the progress of a run that begins now; nothing is shown if `quiet`.
     pub fn new(interrupt: Interrupt, quiet: bool) -> Self {
         let display = Display::choose(quiet, TICKS, "{bar:32} {percent:>3} %  {msg}  {eta} left");
         let (next_share, last_line) = (LINE_SHARE, Instant::now());
         Self { interrupt, display, next_share, last_line, first: None }
     }
 
-    /// Removes the bar.
     pub fn finish(self) {
         self.display.finish();
     }
@@ -143,7 +138,6 @@ pub struct ItemProgress {
 }
 
 impl ItemProgress {
-    /// Creates the progress of `n_items` items called `what`; nothing is shown if `quiet`.
     pub fn new(interrupt: Interrupt, what: &'static str, n_items: usize, quiet: bool) -> Self {
         let length = n_items as u64 * TICKS;
         let template = "{bar:32} {percent:>3} %  {msg}  {elapsed}, {eta} left";
@@ -163,22 +157,18 @@ impl ItemProgress {
         }
     }
 
-    /// Whether items should end early.
     pub fn is_stopped(&self) -> bool {
         self.interrupt.is_requested() || self.is_aborted.load(Ordering::Relaxed)
     }
 
-    /// Makes all items end early.
     pub fn abort(&self) {
         self.is_aborted.store(true, Ordering::Relaxed);
     }
 
-    /// Starts an item.
     pub fn begin(&self) -> ItemMonitor<'_> {
         ItemMonitor { progress: self, ticks: 0 }
     }
 
-    /// Counts an item as done and reports its outcome.
     pub fn finish_item(&self, line: &str) {
         let n_done = self.n_done.fetch_add(1, Ordering::Relaxed) + 1;
         let n_items = self.n_items;
@@ -188,7 +178,6 @@ impl ItemProgress {
         self.display.line(&format!("[{n_done}/{n_items}] {}", one_line(line)));
     }
 
-    /// Removes the bar.
     pub fn finish(&self) {
         self.display.finish();
     }
@@ -205,7 +194,6 @@ impl Observer for ItemProgress {
     }
 }
 
-/// The monitor of one item.
 pub struct ItemMonitor<'a> {
     progress: &'a ItemProgress,
     ticks: u64,
@@ -219,7 +207,6 @@ impl ItemMonitor<'_> {
         self.ticks = self.ticks.max(ticks);
     }
 
-    /// Ends the item.
     pub fn finish(mut self) {
         self.advance(TICKS);
     }
@@ -234,23 +221,19 @@ impl Monitor for ItemMonitor<'_> {
 
 /// Reports on stderr how many members of a sweep have been checked, if that takes a while.
 pub struct CheckProgress {
-    /// `None` if nothing is shown.
     n_members: Option<usize>,
     n_checked: usize,
     last: Instant,
 }
 
 impl CheckProgress {
-    /// Silence after which a line is printed.
     const SILENCE: Duration = Duration::from_secs(2);
 
-    /// Creates the progress of checking `n_members` members; nothing is shown if `quiet`.
     pub fn new(n_members: usize, quiet: bool) -> Self {
         let n_members = (!quiet).then_some(n_members);
         Self { n_members, n_checked: 0, last: Instant::now() }
     }
 
-    /// Counts a member.
     pub fn tick(&mut self) {
         if let Some(line) = self.line(self.last.elapsed()) {
             let _ = writeln!(stderr(), "{line}");

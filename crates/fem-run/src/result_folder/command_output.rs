@@ -61,7 +61,6 @@ pub struct CommandOutput {
 }
 
 impl CommandOutput {
-    /// Writes a file.
     pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
         self.files.push(name.to_string());
         std::fs::write(self.folder.path().join(name), bytes).map_err(|error| {
@@ -70,7 +69,6 @@ impl CommandOutput {
         })
     }
 
-    /// Writes a table.
     pub fn write_table(
         &mut self,
         name: &str,

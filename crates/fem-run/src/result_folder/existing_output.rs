@@ -21,18 +21,12 @@ const HEAD_BYTES: u64 = 1024;
 /// The file that the process writing a hidden folder keeps locked.
 pub const LOCK_FILE: &str = ".fem-run-lock";
 
-/// The kind of file that exists at a path.
 #[derive(Debug)]
 pub enum ExistingOutput {
-    /// Nothing exists there.
     Absent,
-    /// An empty folder.
     Empty,
-    /// A result folder of this program.
     Result(ExistingResult),
-    /// A folder that is no result of this program.
     Foreign,
-    /// A file, not a folder.
     File,
 }
 
@@ -44,7 +38,6 @@ pub struct ExistingResult {
     made_from: Option<String>,
 }
 
-/// The keys of an identifying file that are read.
 #[derive(Deserialize)]
 struct OwnershipKeys {
     program: String,
@@ -53,7 +46,6 @@ struct OwnershipKeys {
 }
 
 impl ExistingOutput {
-    /// Looks at a path and follows symbolic links.
     pub fn at(path: &Path) -> io::Result<Self> {
         let metadata = match fs::metadata(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Absent),
@@ -126,7 +118,6 @@ pub fn restart_head(folder: &Path) -> Option<CheckpointHead> {
     checkpoint_head(&bytes).ok()
 }
 
-/// Returns the folders above `path` that do not exist yet, the outermost last.
 pub fn missing_parents(path: &Path) -> Vec<PathBuf> {
     let is_missing = |folder: &&Path| folder.symlink_metadata().is_err();
     path.ancestors().skip(1).take_while(is_missing).map(Path::to_path_buf).collect()

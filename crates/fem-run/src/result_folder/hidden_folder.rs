@@ -60,17 +60,14 @@ impl HiddenFolder {
         Err(io::Error::other("other runs keep removing new folders"))
     }
 
-    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// Returns the path of the subfolder for the old result.
     pub fn old(&self) -> PathBuf {
         self.path().join(OLD)
     }
 
-    /// Keeps the folder for good and returns its path.
     pub fn keep(&mut self) -> PathBuf {
         self.disarm();
         // Without a lock file no process removes the folder.
@@ -174,7 +171,6 @@ fn take_abandoned(parent: &Path, path: &Path) -> Option<(File, PathBuf)> {
     lock_file.exists().then(|| (file, parent.join(name)))
 }
 
-/// Recovers a new result.
 fn recover_new(path: &Path, target: &Path) {
     match (ExistingOutput::at(path), target.file_name()) {
         (Ok(ExistingOutput::Result(new)), Some(_)) => match ExistingOutput::at(target) {
@@ -196,7 +192,6 @@ fn recover_new(path: &Path, target: &Path) {
     }
 }
 
-/// Recovers an old result that was moved aside.
 fn recover_old(path: &Path, target: &Path) {
     let old = path.join(OLD);
     let is_free = matches!(ExistingOutput::at(target), Ok(ExistingOutput::Absent));

@@ -30,24 +30,20 @@ use whole_file::write_lasting;
 pub use existing_output::missing_parents;
 pub use hidden_folder::recover_leftovers;
 
-/// Attempts to take a place that other runs are changing.
 const ATTEMPTS: usize = 100;
 /// Looks at a folder after which it counts as foreign.
 const LOOKS: usize = 5;
 /// Digits of the digest in the name of a folder.
 const DIGITS: usize = 8;
 
-/// Which existing results a new one may replace.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Replaces {
-    /// All results of this program.
     Any,
     /// Results that were made from the input with this digest.
     MadeFrom(String),
 }
 
 impl Replaces {
-    /// Allows results of the same input, or all results by force.
     pub fn only(made_from: &str, force: bool) -> Self {
         if force { Self::Any } else { Self::MadeFrom(made_from.to_string()) }
     }
@@ -60,10 +56,8 @@ impl Replaces {
     }
 }
 
-/// The path of a result folder.
 #[derive(Debug)]
 pub struct ResultPath {
-    /// The folder that is written.
     pub out: PathBuf,
     /// The default folder, if it holds the result of another case.
     pub taken: Option<PathBuf>,
@@ -138,7 +132,6 @@ impl ResultFolder {
         Ok(folder)
     }
 
-    /// Returns the folder to write files into until they are published.
     pub fn path(&self) -> &Path {
         self.hidden.as_ref().map_or(&self.target, HiddenFolder::path)
     }
@@ -178,7 +171,6 @@ impl Drop for ResultFolder {
     }
 }
 
-/// Returns the absolute path of `out` with symbolic links resolved.
 fn resolve(out: &Path) -> Result<PathBuf, Failure> {
     let fault = |found: &str| {
         Failure::bad_input(format!("--out {}: {found}", shown(out)))
@@ -303,7 +295,6 @@ fn is_taken(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::AlreadyExists)
 }
 
-/// Returns the path with a suffix appended to its last name.
 fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(suffix);

@@ -49,7 +49,6 @@ pub fn read_restart(folder: &Path, identity: &Identity) -> Result<Option<Restart
     }
 }
 
-/// Prints one line about the state from which the run continues.
 pub fn announce_restart(state: Option<&RestartState>) {
     let text = match state {
         Some(state) => format!(
@@ -62,7 +61,6 @@ pub fn announce_restart(state: Option<&RestartState>) {
     let _ = writeln!(stderr(), "{text}");
 }
 
-/// Writes the restart file of a run.
 pub struct RestartWriter<'a> {
     folder: &'a ResultFolder,
     identity: &'a Identity,
@@ -72,7 +70,6 @@ pub struct RestartWriter<'a> {
 }
 
 impl<'a> RestartWriter<'a> {
-    /// Creates the writer of a run that begins now.
     pub fn new(
         folder: &'a ResultFolder,
         identity: &'a Identity,
@@ -81,7 +78,6 @@ impl<'a> RestartWriter<'a> {
         Self { folder, identity, arguments, last: Instant::now(), has_failed: false }
     }
 
-    /// Whether the run may leave a restart file.
     pub fn is_on(&self) -> bool {
         self.arguments.checkpoint_every.is_some() || self.arguments.restart
     }
@@ -94,7 +90,6 @@ impl<'a> RestartWriter<'a> {
         }
     }
 
-    /// Updates the file if it is time.
     pub fn update(&mut self, simulation: &Simulation, stepper: &dyn Stepper) {
         let every = self.arguments.checkpoint_every;
         if every.is_none_or(|every| self.last.elapsed() < every) {

@@ -23,7 +23,6 @@ use super::{Replaces, ResultFolder};
 use crate::progress::stopwatch::Stopwatch;
 use crate::text::failure::Failure;
 
-/// Reserves space for the summary.
 const RESERVE_FILE: &str = ".fem-run-room";
 /// Bytes by which a summary may grow once all files are known.
 const RESERVE: usize = 16 << 10;
@@ -33,13 +32,10 @@ pub fn longest_name(stem: &str) -> String {
     format!(".{stem}_99999_mid-compression.vtu.XXXXXX.tmp")
 }
 
-/// The outcome of writing a result.
 pub struct WrittenResult {
     /// The summary with the names of the written files; none if nothing could be written.
     pub summary: Summary,
-    /// The content of `summary.json`.
     pub text: String,
-    /// The error, if something could not be written.
     pub fault: Option<Failure>,
 }
 
@@ -176,7 +172,6 @@ fn write_tables(
     Ok(())
 }
 
-/// Writes a whole table, or removes it.
 fn write_table(
     folder: &Path,
     name: &str,

@@ -9,9 +9,7 @@ use tempfile::NamedTempFile;
 use crate::text::failure::Failure;
 use crate::text::standard_output::{self, shown};
 
-/// Beginning of the names of temporary files.
 pub const PREFIX: &str = ".fem-run-";
-/// End of the names of temporary files.
 pub const SUFFIX: &str = ".tmp";
 /// Bytes at the beginning of a file in which its marker is searched.
 const HEAD: u64 = 600;
@@ -64,18 +62,14 @@ pub fn with_usual_permissions(builder: &mut tempfile::Builder<'_, '_>, mode: u32
 /// A kind of file that a command writes where the user says. It replaces files of its own kind only.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnedFileKind {
-    /// The name of the kind in messages.
     pub what: &'static str,
-    /// The file name extension.
     pub extension: &'static str,
     /// Text in the first lines of every such file.
     pub marker: &'static str,
-    /// The option that names the file.
     pub option: &'static str,
 }
 
 impl OwnedFileKind {
-    /// Checks that such a file may be written at `path`.
     pub fn check(&self, path: &Path) -> Result<(), Failure> {
         let shown = shown(path);
         let Self { what, extension, option, .. } = self;

@@ -15,21 +15,15 @@ use super::folder::{FIGURE_FILE, SweepFolder};
 use crate::text::failure::Failure;
 use crate::text::standard_output::one_line;
 
-/// Most rows that are printed; the table has all.
 const MOST_SHOWN: usize = 40;
-/// Most failed members that are named.
 const MOST_NAMED: usize = 40;
 
-/// The known results of a sweep's members.
 #[derive(Clone, Debug, Default)]
 pub struct SweepOutcome {
-    /// Members that are done.
     pub n_done: usize,
     /// Members of this process that are done.
     pub n_own_done: usize,
-    /// The first rows.
     pub shown: Vec<Row>,
-    /// Members of this process that failed.
     pub n_failed: usize,
     /// The first failed members, each with the reason.
     pub failed: Vec<String>,
@@ -37,7 +31,6 @@ pub struct SweepOutcome {
     pub warnings: WarningKinds,
 }
 
-/// The outcome of one reading of all summaries.
 struct MemberScan {
     collected: SweepOutcome,
     is_there: Vec<bool>,
@@ -47,17 +40,11 @@ struct MemberScan {
     n_failed: usize,
 }
 
-/// A sweep and the place of its results.
 pub struct Collector<'a> {
-    /// The sweep as its file describes it.
     pub sweep: &'a Sweep,
-    /// All members of the sweep.
     pub members: &'a [Member],
-    /// The folder of the results.
     pub folder: &'a mut SweepFolder,
-    /// The values of the varied keys.
     pub numbers: &'a KeyNumbers,
-    /// The quantities that the figure shows.
     pub choice: &'a FigureChoice,
 }
 
@@ -133,7 +120,6 @@ impl Collector<'_> {
         self.folder.summaries(members.map(Member::identity))
     }
 
-    /// Returns the rows of the members that are done.
     fn rows<'m>(
         &'m self,
         members: impl Iterator<Item = &'m Member> + Clone + 'm,
@@ -152,7 +138,6 @@ impl Collector<'_> {
 }
 
 impl SweepOutcome {
-    /// Counts a member that is done.
     pub fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
         self.n_done += 1;
         self.n_own_done += usize::from(is_own);

@@ -16,7 +16,6 @@ const PATIENCE: Duration = Duration::from_millis(500);
 /// Members that are forecast, spread from the most expensive to the cheapest of those left.
 const N_SAMPLES: usize = 12;
 
-/// Cost estimate of the members that are left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweepCost {
     /// With the expected mesh refinements.
@@ -25,16 +24,13 @@ pub struct SweepCost {
     pub most: Option<TotalTime>,
 }
 
-/// Run times of members.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TotalTime {
     /// Sum over all members, s.
     pub seconds: f64,
-    /// The longest run time, s.
     longest: f64,
 }
 
-/// A member that was forecast.
 struct ForecastSample {
     /// Its rank among the members left, by cost.
     rank: usize,
@@ -45,7 +41,6 @@ struct ForecastSample {
 }
 
 impl SweepCost {
-    /// Estimates the cost of the members that are left.
     pub fn of(sweep: &Sweep, checked: &Checked, pool: &ThreadPool) -> Self {
         let n = checked.left.len();
         let n_samples = n.min(N_SAMPLES);

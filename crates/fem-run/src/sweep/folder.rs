@@ -21,7 +21,6 @@ use crate::text::standard_output::shown;
 
 /// The manifest: the varied keys, and the values and identities of the members.
 pub const MANIFEST_FILE: &str = "sweep.json";
-/// The figure of the sweep.
 pub const FIGURE_FILE: &str = "sweep.svg";
 const MEMBERS: &str = "members";
 /// Summaries that are in memory at the same time.
@@ -29,7 +28,6 @@ const AT_ONCE: usize = 1024;
 /// Bytes that identify a manifest.
 const HEAD: u64 = 256;
 
-/// The folder of a sweep.
 #[derive(Debug)]
 pub struct SweepFolder {
     path: PathBuf,
@@ -106,17 +104,14 @@ impl SweepFolder {
         fs::create_dir_all(self.path.join(MEMBERS))
     }
 
-    /// Returns the folder, as the user named it.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Returns the folder for the result of a member.
     pub fn member(&self, identity: &str) -> PathBuf {
         self.path.join(MEMBERS).join(identity)
     }
 
-    /// Returns the member file of this process.
     pub fn pack(&self, shard: Shard) -> MemberFile {
         MemberFile::new(&self.path.join(MEMBERS), shard)
     }
@@ -134,7 +129,6 @@ impl SweepFolder {
         }
     }
 
-    /// Reads what this and other processes have added.
     pub fn refresh(&mut self) {
         self.store.refresh();
     }
@@ -156,12 +150,10 @@ impl SweepFolder {
         .flatten()
     }
 
-    /// As `in_folder`, but only if the last look has found folders of members.
     fn unpacked(&self, identity: &str) -> Option<Value> {
         self.store.has_others().then(|| self.in_folder(identity)).flatten()
     }
 
-    /// Returns the summary of a member that has a folder of its own.
     fn in_folder(&self, identity: &str) -> Option<Value> {
         let bytes = fs::read(self.member(identity).join(SUMMARY_FILE)).ok()?;
         let summary: Value = serde_json::from_slice(&bytes).ok()?;
@@ -177,7 +169,6 @@ impl SweepFolder {
         write_streamed(&self.path.join(name), &self.path, write)
     }
 
-    /// Removes an outdated file, if it exists.
     pub fn remove(&self, name: &str) {
         let _ = fs::remove_file(self.path.join(name));
     }

@@ -7,13 +7,9 @@ use fem::sweep::Member;
 use fem_case::Sweep;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// The content of the manifest.
 pub struct Manifest<'a> {
-    /// The sweep as its file describes it.
     pub sweep: &'a Sweep,
-    /// All members of the sweep.
     pub members: &'a [Member],
-    /// Overrides of the base case.
     pub set: &'a [String],
 }
 
@@ -41,7 +37,6 @@ impl Serialize for Manifest<'_> {
     }
 }
 
-/// The values of each key.
 struct KeyValues<'a>(&'a Sweep);
 
 impl Serialize for KeyValues<'_> {
@@ -54,7 +49,6 @@ impl Serialize for KeyValues<'_> {
     }
 }
 
-/// The list of members.
 struct MemberList<'a>(&'a Sweep, &'a [Member]);
 
 impl Serialize for MemberList<'_> {
@@ -63,7 +57,6 @@ impl Serialize for MemberList<'_> {
     }
 }
 
-/// A member's identity and values.
 struct MemberEntry<'a>(&'a Sweep, &'a Member);
 
 impl Serialize for MemberEntry<'_> {
@@ -75,7 +68,6 @@ impl Serialize for MemberEntry<'_> {
     }
 }
 
-/// The values of a member by key.
 struct MemberValues<'a>(&'a Sweep, usize);
 
 impl Serialize for MemberValues<'_> {

@@ -40,7 +40,6 @@ impl ShardFilter {
     }
 }
 
-/// A line, to write.
 #[derive(Serialize)]
 struct WrittenLine<'a> {
     member: &'a str,
@@ -62,13 +61,11 @@ struct Head<'a> {
     _complete: bool,
 }
 
-/// The summary of a line.
 #[derive(Deserialize)]
 struct Packed {
     summary: Value,
 }
 
-/// The position of a line.
 #[derive(Clone, Copy, Debug)]
 struct LinePosition {
     file: u32,
@@ -76,7 +73,6 @@ struct LinePosition {
     start: u64,
 }
 
-/// The member files of a sweep.
 #[derive(Debug)]
 pub struct MemberStore {
     folder: PathBuf,
@@ -144,7 +140,6 @@ impl MemberStore {
         self.has_others
     }
 
-    /// Whether the summary of a member is there.
     pub fn has(&self, identity: &str) -> bool {
         self.place(identity).is_some()
     }
@@ -186,12 +181,10 @@ pub struct MemberFile {
 }
 
 impl MemberFile {
-    /// Prepares the file of a shard in a folder.
     pub fn new(folder: &Path, shard: Shard) -> Self {
         Self { folder: folder.to_path_buf(), shard, file: Mutex::default() }
     }
 
-    /// Appends the summary of a member.
     pub fn append(&self, identity: &str, summary: &Summary) -> io::Result<()> {
         let mut line = serde_json::to_vec(&WrittenLine { member: identity, summary })?;
         line.push(b'\n');

@@ -19,7 +19,6 @@ use crate::text::failure::Failure;
 use crate::text::standard_output::{one_line, shown};
 use crate::text::tables::table;
 
-/// Prints one line on stderr about the members and their cost.
 pub fn announce(
     name: &str,
     sweep: &Sweep,
@@ -58,12 +57,10 @@ pub fn announce(
     }
 }
 
-/// Returns the size of a member file with the summaries of `n_members` members.
 pub fn member_file_size(n_members: usize) -> String {
     estimated((LINE_BYTES * n_members as u64) as f64, "B")
 }
 
-/// Returns the main results of each member, and where the rest is.
 pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder: &Path) -> String {
     let keys = sweep.keys().map(|swept| swept.key.as_str());
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
@@ -134,7 +131,6 @@ pub fn conclude(
     )))
 }
 
-/// Most kinds that are printed.
 const MOST_KINDS: usize = 20;
 
 /// Returns one line per kind, the most frequent first, and the number of kinds left out. Kinds that were

@@ -22,26 +22,19 @@ use crate::result_folder::run_files::{longest_name, write_result};
 use crate::result_folder::{Replaces, ResultFolder};
 use crate::text::failure::Failure;
 
-/// The members to run and their environment.
 pub struct SweepJob<'a> {
-    /// The sweep as its file describes it.
     pub sweep: &'a Sweep,
     /// The members in order, those to run among them.
     pub members: &'a [Member],
-    /// The folder of the results.
     pub folder: &'a SweepFolder,
     /// The part of the sweep that this process computes.
     pub shard: Shard,
-    /// The threads that members run on.
     pub pool: &'a ThreadPool,
-    /// Shows no progress.
     pub quiet: bool,
-    /// Whether the user has asked to end.
     pub interrupt: Interrupt,
 }
 
 impl SweepJob<'_> {
-    /// Returns the identity of the member with this index.
     fn identity(&self, index: usize) -> String {
         let place = self.members.binary_search_by_key(&index, |member| member.index);
         place.map_or(String::new(), |place| self.members[place].identity())
@@ -62,7 +55,6 @@ pub fn run_members(job: &SweepJob<'_>, left: &[usize]) -> Result<(), Failure> {
     keeper.first_failure.into_inner().ok().flatten().map_or(Ok(()), Err)
 }
 
-/// Writes the result of each member when it has ended.
 struct ResultKeeper<'a> {
     job: &'a SweepJob<'a>,
     progress: &'a ItemProgress,
@@ -152,7 +144,6 @@ impl ResultKeeper<'_> {
     }
 }
 
-/// Returns the result of a member in one line.
 fn in_a_few_words(summary: &Summary) -> String {
     if let Some(reason) = &summary.stopped_because {
         return format!("FAILED: {reason}");

@@ -13,17 +13,14 @@ impl Shard {
     /// All members of the sweep.
     pub const WHOLE: Self = Self { first: 0, step: 1 };
 
-    /// Returns K of `K/N`, from 1.
     pub fn number(&self) -> usize {
         self.first + 1
     }
 
-    /// Returns N of `K/N`.
     pub fn step(&self) -> usize {
         self.step
     }
 
-    /// Whether the shard has the member with this index.
     pub fn has(&self, index: usize) -> bool {
         index % self.step == self.first
     }

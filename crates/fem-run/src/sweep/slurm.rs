@@ -21,7 +21,6 @@ use crate::arguments::case::{parse_count, stem_of};
 use crate::text::failure::Failure;
 use crate::text::standard_output::{one_line, shown};
 
-/// File name of the script for `sbatch`.
 const SCRIPT_FILE: &str = "sweep.sbatch";
 /// Target time of a task, s: long for a scheduler, short enough to be lost.
 const TASK_SECONDS: f64 = 300.0;
@@ -49,13 +48,11 @@ pub struct SlurmOptions {
 }
 
 impl SlurmOptions {
-    /// Returns these options if a script is to be written.
     pub fn options(&self) -> Option<&Self> {
         self.slurm.is_some().then_some(self)
     }
 }
 
-/// A sweep as a job array.
 pub struct SlurmBatch {
     options: String,
     n_shards: usize,
@@ -65,7 +62,6 @@ pub struct SlurmBatch {
 }
 
 impl SlurmBatch {
-    /// Prepares the array of a checked sweep.
     pub fn of(
         sweep: &Sweep,
         checked: &Checked,
@@ -110,7 +106,6 @@ impl SlurmBatch {
         })
     }
 
-    /// Writes the script into the sweep's folder and returns its path.
     pub fn write(
         &self,
         sweep: &Path,
@@ -147,7 +142,6 @@ impl SlurmBatch {
             .replace("@COMMAND@", &command.join(" "))
     }
 
-    /// Submits the script and returns its output.
     pub fn submit(&self, script: &Path) -> Result<String, Failure> {
         let path = quoted(&script.display().to_string());
         let help = format!("the script is kept; submit it with: sh {path}");
@@ -192,7 +186,6 @@ fn program() -> PathBuf {
     own.unwrap_or_else(|| PathBuf::from("fem-run"))
 }
 
-/// Returns the processors per task in the options of sbatch.
 fn cpus_per_task(options: &str) -> usize {
     let words: Vec<&str> = options.split_whitespace().collect();
     let given = words.iter().enumerate().find_map(|(k, word)| {
@@ -203,7 +196,6 @@ fn cpus_per_task(options: &str) -> usize {
     given.unwrap_or(1).max(1)
 }
 
-/// Returns the output of a program in one line.
 fn one_line_output(output: &[u8]) -> String {
     let text = String::from_utf8_lossy(output);
     let lines: Vec<String> =

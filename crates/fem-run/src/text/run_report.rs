@@ -14,9 +14,7 @@ use indicatif::{DecimalBytes, HumanCount};
 use super::standard_output::{one_line, shown};
 use super::tables::{headed, table};
 
-/// Stands for a missing number.
 const NONE: &str = "-";
-/// Stands for an error or a change that is not known.
 const UNKNOWN: &str = "?";
 /// Within this distance from 1 a restitution is also printed as 1 − e.
 const NEARLY_ELASTIC: f64 = 1e-3;
@@ -24,10 +22,8 @@ const NEARLY_ELASTIC: f64 = 1e-3;
 const LEAST_LOSS: f64 = 1e-6;
 /// Relative errors below this are rounding.
 const ROUNDING: f64 = 1e-9;
-/// Most bounces that are printed; the summary has all.
 const MOST_BOUNCES: usize = 12;
 
-/// Returns the report of a run whose files are in `place`, if there are any.
 pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     let mut text = String::new();
     let title = summary.case.title.as_deref().unwrap_or_default();
@@ -248,7 +244,6 @@ fn price(summary: &Summary) -> String {
     )
 }
 
-/// Returns the models that were considered, their expected errors, and why one was chosen.
 pub fn models(considered: &[ModelCandidate]) -> String {
     let row = |considered: &ModelCandidate| {
         let ExpectedError { restitution, contact_time_s, peak_force_n, peak_pressure_pa } =
@@ -264,7 +259,6 @@ pub fn models(considered: &[ModelCandidate]) -> String {
     headed(header, considered.iter().map(row))
 }
 
-/// Returns the changes of restitution, contact time and peak force.
 pub fn changes(changes: &NeglectError) -> [String; 3] {
     let NeglectError { restitution, contact_time_s, peak_force_n } = *changes;
     [
@@ -282,7 +276,6 @@ fn change(change: Option<f64>, show: &dyn Fn(f64) -> String) -> String {
     }
 }
 
-/// Returns for each effect whether it is on or off, and why.
 pub fn effects<'a>(effects: impl Iterator<Item = &'a EffectDecision>) -> String {
     let row = |effect: &EffectDecision| {
         [on_or_off(effect).to_string(), effect.name.to_string(), effect.reason.clone()]
@@ -290,12 +283,10 @@ pub fn effects<'a>(effects: impl Iterator<Item = &'a EffectDecision>) -> String 
     table(&[Left, Left, Left], effects.map(row))
 }
 
-/// Returns "on" or "off".
 pub fn on_or_off(effect: &EffectDecision) -> &'static str {
     if effect.active { "on" } else { "off" }
 }
 
-/// Returns one line per warning.
 pub fn warnings(warnings: &[String]) -> String {
     if warnings.is_empty() {
         return "No warnings.\n".to_string();

@@ -7,7 +7,6 @@ use super::failure::Failure;
 
 pub use fem_report::number_text::one_line;
 
-/// Returns a path as messages show it, in one line.
 pub fn shown(path: &Path) -> String {
     one_line(&path.display().to_string())
 }
@@ -23,7 +22,6 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints warnings to stderr.
 pub fn warn(warnings: impl IntoIterator<Item = String>) {
     for warning in warnings {
         // A closed stderr is no reason to end.

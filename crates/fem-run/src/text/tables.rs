@@ -32,12 +32,10 @@ pub fn headed<R: Into<Row>>(header: &str, rows: impl IntoIterator<Item = R>) -> 
     table(&alignment, std::iter::once(names).chain(rows.into_iter().map(Into::into)))
 }
 
-/// Returns a table of names and values.
 pub fn pairs<const N: usize>(rows: [(&str, String); N]) -> String {
     table(&[Left, Left], rows.map(|(name, value)| [name.to_string(), value]))
 }
 
-/// Returns a parameter's value with its unit.
 pub fn show_value(value: f64, unit: &str) -> String {
     if ["s", "m/s"].contains(&unit) {
         show(value, unit)

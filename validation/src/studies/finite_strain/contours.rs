@@ -29,7 +29,6 @@ const WIDTH: f64 = 1.45;
 const BELOW: f64 = 0.12;
 const ABOVE: f64 = 2.15;
 
-/// Runs every case of the claim, whose snapshots are the four named instants, or four times.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let (names, cases) = laboratory.cases()?;
     let runs = laboratory.run_all(cases)?;

@@ -28,20 +28,16 @@ struct Parameters {
     against: BTreeMap<String, String>,
 }
 
-/// The pulse of a run.
 #[derive(Clone, Copy)]
 struct Measured {
-    /// Contact time, s.
     contact_time: f64,
     pulse: Pulse,
     restitution: f64,
-    /// The peak force that the program prints, N.
     printed: f64,
     /// Largest contact radius over R*.
     strain: f64,
 }
 
-/// Runs all cases and compares.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { against } = laboratory.parameters()?;
     let (names, cases) = laboratory.cases()?;

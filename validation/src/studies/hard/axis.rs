@@ -9,7 +9,6 @@ use serde::Deserialize;
 use super::imported::Imported;
 use crate::error::StudyError;
 
-/// Scenes from one extreme to the other.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Axis {
@@ -17,46 +16,35 @@ pub(super) struct Axis {
     pub hard: String,
     /// Case that all scenes modify, relative to the claim's folder.
     pub case: PathBuf,
-    /// Overrides of all scenes.
     #[serde(default)]
     pub set: Vec<String>,
     pub scene: Vec<Scene>,
 }
 
-/// A hard scene.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Scene {
     pub name: String,
-    /// Difficulty of the scene, in words.
     pub hard: String,
-    /// Overrides, after those of the axis.
     #[serde(default)]
     pub set: Vec<String>,
-    /// Mesh files of its bodies.
     #[serde(default)]
     pub imported: Vec<Imported>,
-    /// Reference of its results.
     pub against: Option<Against>,
     /// Expectations by the model's table: `ting = {}`, `condensed = { vibration_modes = 12 }`.
     pub model: BTreeMap<String, Expected>,
 }
 
-/// Reference of the results of a scene.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Against {
-    /// Hertz' elastic half-spaces.
     Hertz,
-    /// Ting's impact with the spheres' finite size.
     Ting,
     /// Another scene of the axis with the same model, in numbers without unit.
     Scene(String),
-    /// A published restitution.
     Restitution(f64),
 }
 
-/// How a run ends.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Expected {
@@ -77,7 +65,6 @@ pub(super) struct Expected {
 }
 
 impl Axis {
-    /// Reads an axis.
     pub fn read(folder: &Path, name: &str) -> Result<Self, StudyError> {
         let path = folder.join(format!("{name}.toml"));
         let wrong = |error: String| StudyError::parameters(format!("{}: {error}", path.display()));

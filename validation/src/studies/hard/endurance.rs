@@ -43,7 +43,6 @@ pub(super) fn endure(n_steps: usize) -> Result<([f64; 2], u64), StudyError> {
     Ok((worst, (n_steps * elements) as u64))
 }
 
-/// Returns the velocity of the mass centre along the axis, m/s.
 fn velocity(sphere: &FreeMotion) -> f64 {
     let mass = sphere.body().nodal_mass();
     let momentum: f64 = mass.iter().zip(sphere.velocity()).map(|(m, v)| m * v[1]).sum();

@@ -11,7 +11,6 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::studies::random_scenes::Random;
 
-/// A mesh file of one of the bodies.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Imported {
@@ -27,11 +26,9 @@ pub(super) struct Imported {
     change: Change,
 }
 
-/// Modification of a mesh.
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Change {
-    /// The file as exported.
     #[default]
     Plain,
     /// Elements under the contact are sheared by half of their height.

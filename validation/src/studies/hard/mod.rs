@@ -40,7 +40,6 @@ struct Parameters {
     quick: bool,
 }
 
-/// A scene with one of its models.
 struct Entry<'a> {
     axis: usize,
     scene: &'a Scene,
@@ -48,16 +47,13 @@ struct Entry<'a> {
     expected: &'a Expected,
 }
 
-/// Number of steps of the body that flies and vibrates.
 const ENDURANCE: usize = 1_000_000;
 
-/// Outcome of an entry, and its reference.
 struct Tried {
     trial: Trial,
     reference: Option<Reference>,
 }
 
-/// Runs every scene of every axis with every model that it names.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let axes = parameters.axes.iter().map(|name| Axis::read(&laboratory.claim().folder, name));

@@ -15,7 +15,6 @@ const TING: &str = "ting={finite_size=true}";
 pub(super) struct Reference(Numbers);
 
 impl Reference {
-    /// Returns the reference of a scene with a model.
     pub fn of<'a>(
         against: &Against,
         scene: &Scene,

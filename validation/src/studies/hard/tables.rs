@@ -15,7 +15,6 @@ struct EarlierFaults {
     class: Vec<FaultClass>,
 }
 
-/// A class of fault.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FaultClass {
@@ -30,7 +29,6 @@ struct FaultClass {
     held: Vec<String>,
 }
 
-/// Result of a scene with a model: restitution, differences, outcome.
 pub(super) struct SceneResult {
     pub key: [String; 3],
     pub restitution: String,
@@ -84,12 +82,10 @@ pub(super) fn tabulate_earlier_faults(
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FuzzFile {
-    /// The command that repeats it.
     command: String,
     fed: Vec<FuzzTarget>,
 }
 
-/// Counts of one fuzz target.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FuzzTarget {

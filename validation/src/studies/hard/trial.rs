@@ -10,14 +10,11 @@ use fem_laws::HertzImpact;
 use crate::error::StudyError;
 use crate::laboratory::Laboratory;
 
-/// The outcome of a run.
 pub(super) struct Trial {
     pub outcome: Outcome,
-    /// Estimated element updates of explicit elements.
     estimated: Option<u64>,
 }
 
-/// The end of a run.
 pub(super) enum Outcome {
     /// The run ended by itself.
     Ran { collision: Box<Collision>, warnings: Vec<String>, hertz: HertzImpact },
@@ -29,7 +26,6 @@ pub(super) enum Outcome {
 pub(super) type Numbers = [Option<f64>; 4];
 
 impl Trial {
-    /// Runs a case if it is valid.
     pub fn of(laboratory: &Laboratory, case: Result<Case, CaseError>) -> Result<Self, StudyError> {
         let outcome = laboratory.work(|| {
             let refused = |error: CaseError| (Outcome::Refused(error.to_string()), None);
@@ -54,7 +50,6 @@ impl Trial {
         }
     }
 
-    /// Returns the dimensionless numbers.
     pub fn numbers(&self) -> Option<Numbers> {
         let Outcome::Ran { collision, hertz, .. } = &self.outcome else { return None };
         Some([
@@ -132,7 +127,6 @@ impl Trial {
 /// Largest number of characters of a shortened text.
 const LONGEST: usize = 100;
 
-/// Returns the first words of a text.
 fn beginning(text: &str) -> String {
     let words = text.split_whitespace();
     let mut short = words.fold(String::new(), |mut short, word| {
@@ -148,12 +142,10 @@ fn beginning(text: &str) -> String {
     short
 }
 
-/// Returns the larger of two signed numbers, or NaN if one is.
 fn largest(so_far: f64, value: f64) -> f64 {
     if value > so_far || value.is_nan() { value } else { so_far }
 }
 
-/// Runs a case without snapshots, so that no warning is about instants that did not occur.
 fn run(case: Case) -> Result<(Outcome, Option<u64>), CaseError> {
     let mut simulation = Simulation::new(case)?;
     simulation.skip_snapshots();

@@ -20,11 +20,9 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// All profiles, in the order of their declaration.
     pub const ALL: [Self; 5] =
         [Self::Pressure, Self::Axial, Self::Radial, Self::Surface, Self::Hoop];
 
-    /// Returns its name in claims.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pressure => "pressure",
@@ -35,7 +33,6 @@ impl Profile {
         }
     }
 
-    /// Returns its name for readers.
     pub fn label(self) -> &'static str {
         match self {
             Self::Pressure => "contact pressure",

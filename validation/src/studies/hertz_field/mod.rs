@@ -35,7 +35,6 @@ struct Parameters {
     rim: f64,
 }
 
-/// Runs the case on all meshes.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     if parameters.elements.len() < 2 {

@@ -19,7 +19,6 @@ struct Parameters {
     drawn: Vec<String>,
 }
 
-/// Runs every case of the claim.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let (names, cases) = laboratory.cases()?;

@@ -32,7 +32,6 @@ struct Parameters {
     element_sizes: Vec<[f64; 2]>,
 }
 
-/// Tests each pair.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut findings = Findings::new();

@@ -32,7 +32,6 @@ const NO_ENERGY: f64 = 1e-10;
 #[serde(deny_unknown_fields)]
 struct Parameters {
     poissons_ratio: f64,
-    /// Element sizes of the lower and the upper body, over the radius.
     element_sizes: Vec<[f64; 2]>,
     penalty_factors: Vec<f64>,
     /// Added mass over mass.
@@ -41,7 +40,6 @@ struct Parameters {
     spring_count: f64,
 }
 
-/// Solves all pairs.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(
@@ -114,10 +112,8 @@ fn alone(material: &Material, size: f64) -> Result<(f64, usize), StudyError> {
     Ok((motion.time_step() * largest.sqrt() / 2.0, n_rigid))
 }
 
-/// Two bodies in contact.
 struct Pair<'a> {
     material: &'a Material,
-    /// Sizes of the elements.
     sizes: [f64; 2],
     penalty: f64,
     /// Added mass over mass.

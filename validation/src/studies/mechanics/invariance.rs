@@ -14,7 +14,6 @@ use crate::run::Run;
 
 const REFERENCE: &str = "plain";
 
-/// Runs all cases.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let (names, cases) = laboratory.cases()?;
     let runs = laboratory.run_all(cases)?;

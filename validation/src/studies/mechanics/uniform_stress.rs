@@ -34,7 +34,6 @@ struct Graded {
     refined_radius: f64,
 }
 
-/// Deforms spheres and measures their forces.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut findings = Findings::new();

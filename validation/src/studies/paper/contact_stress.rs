@@ -9,7 +9,6 @@ use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::run::Run;
 
-/// Runs `[run.elastic]` at all speeds.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let speeds: Speeds = laboratory.parameters()?;
     let runs = speeds.run_elastic(laboratory)?;
@@ -59,7 +58,6 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Returns the pressure on the axis, Pa.
 fn pressure(row: &HistoryRow) -> f64 {
     row.centre_pressure.unwrap_or(f64::NAN)
 }

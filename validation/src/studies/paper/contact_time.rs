@@ -9,7 +9,6 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Contact times at one speed, s.
 struct Point {
     speed: f64,
     ours: f64,
@@ -17,18 +16,15 @@ struct Point {
     finite: f64,
 }
 
-/// Speeds of explicit elements, and of condensed bodies with more elements.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Approach speeds, m/s.
     speeds: Vec<f64>,
     elements_per_contact_radius: f64,
     condensed_speeds: Vec<f64>,
     condensed_elements_per_contact_radius: f64,
 }
 
-/// Runs `[run.elastic]` at all speeds, `[run.condensed]` at some.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { speeds, elements_per_contact_radius, .. } = laboratory.parameters()?;
     let speeds = Speeds { speeds, elements_per_contact_radius };

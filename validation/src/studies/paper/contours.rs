@@ -24,7 +24,6 @@ struct Parameters {
     half_height: f64,
 }
 
-/// Runs `[run.elastic]`, whose snapshots are the four named instants.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let run = laboratory.run_all(vec![laboratory.case("elastic")?])?.remove(0);

@@ -18,17 +18,14 @@ use crate::error::StudyError;
 use crate::laboratory::Laboratory;
 use crate::run::ExplicitRun;
 
-/// Parameters of a study over speeds.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Speeds {
-    /// Approach speeds, m/s.
     speeds: Vec<f64>,
     elements_per_contact_radius: f64,
 }
 
 impl Speeds {
-    /// Runs `[run.elastic]` at each.
     fn run_elastic(&self, laboratory: &Laboratory) -> Result<Vec<Arc<ExplicitRun>>, StudyError> {
         let elements = self.elements_per_contact_radius;
         let elastic = laboratory.case("elastic")?;

@@ -21,7 +21,6 @@ use crate::run::ExplicitRun;
 struct Parameters {
     /// Diameters, m, ascending.
     diameters: Vec<f64>,
-    /// Approach speeds, m/s, ascending.
     speeds: Vec<f64>,
     elements_per_contact_radius: f64,
     /// n of the reduced law.
@@ -29,18 +28,14 @@ struct Parameters {
     fit: Fit,
 }
 
-/// The measured restitution that the reduced law is fitted to.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Fit {
-    /// Diameters of both spheres, m.
     diameters: [f64; 2],
-    /// Approach speed, m/s.
     speed: f64,
     restitution: f64,
 }
 
-/// One pairing over the speeds.
 struct Pairing {
     diameters: [f64; 2],
     /// Speed, restitution of the finite elements, and that of the reduced law.
@@ -71,7 +66,6 @@ impl Pairing {
     }
 }
 
-/// Runs `[run.glass]` for all distinct pairings and speeds, and one pairing swapped.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let glass = laboratory.case("glass")?;

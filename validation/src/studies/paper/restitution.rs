@@ -31,7 +31,6 @@ struct Parameters {
     rates: [f64; 2],
 }
 
-/// Runs all cases; those named `all` and `shear` are varied by their decay rate.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let (names, cases) = laboratory.cases()?;

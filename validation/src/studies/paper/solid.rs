@@ -46,7 +46,6 @@ impl Parameters {
     }
 }
 
-/// Runs `[run.glass]` with each solid.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let glass = laboratory.case("glass")?;

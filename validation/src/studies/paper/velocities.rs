@@ -18,10 +18,8 @@ use crate::laboratory::Laboratory;
 use crate::run::{ExplicitRun, Run};
 use crate::studies::summary::quantities;
 
-/// The run that is drawn.
 const MAIN: &str = "elastic";
 
-/// Runs all cases of the claim; the one named `elastic` is drawn.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut findings = Findings::new();
     let (names, cases) = laboratory.cases()?;
@@ -55,7 +53,6 @@ impl RigidPair {
         Self { masses, before: scene.bodies().each_ref().map(|body| body.velocity()) }
     }
 
-    /// Returns the velocities, m/s, at an approach rate.
     fn velocities(&self, approach_rate: f64) -> [f64; 2] {
         let [m1, m2] = self.masses;
         let [v1, v2] = self.before;

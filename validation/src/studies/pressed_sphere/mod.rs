@@ -42,7 +42,6 @@ struct Parameters {
     speed: f64,
 }
 
-/// Runs the study.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut findings = Findings::new();
@@ -117,7 +116,6 @@ fn mean_force_ratio(rows: &[HistoryRow], depth: f64, hertz: impl Fn(f64) -> f64)
     ratios.iter().sum::<f64>() / ratios.len() as f64
 }
 
-/// Returns the largest energy residual over the final work of the plates.
 fn residual(rows: &[HistoryRow]) -> f64 {
     let work = rows.last().and_then(|row| row.energy(Account::WallWork)).unwrap_or(f64::NAN);
     rows.iter().map(|row| row.residual.unwrap_or(f64::NAN).abs()).fold(0.0, nan_aware_max_abs)

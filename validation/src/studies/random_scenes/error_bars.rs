@@ -34,9 +34,7 @@ const MOST_DRAWN: usize = 8;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Seed of the scenes that are the same each time.
     seed: u64,
-    /// Number of scenes of each half.
     scenes: usize,
     /// Scenes that need more element updates on the finest mesh are skipped.
     element_updates: f64,
@@ -46,7 +44,6 @@ struct Parameters {
 type Parted = (Trial, Vec<BarParts>);
 type Numbers = [Option<f64>; 6];
 
-/// Tests the error bars of explicit elements and of condensed bodies.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { seed, scenes, element_updates } = laboratory.parameters()?;
     // The only random number that is available without a clock: the seed of hash tables.

@@ -7,7 +7,6 @@
 
 use super::Random;
 
-/// A material and its wave speed.
 struct Drawn {
     table: String,
     wave_speed: f64,

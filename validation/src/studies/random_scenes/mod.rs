@@ -30,12 +30,10 @@ pub use soft_scenes::study as soft_scenes_study;
 pub(in crate::studies) struct Random(u64);
 
 impl Random {
-    /// Creates the generator of a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// Returns a number in [0, 1).
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -44,7 +42,6 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 * 2f64.powi(-53)
     }
 
-    /// Returns a number of a range.
     pub fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
@@ -95,7 +92,6 @@ fn computed<T: Send>(
     Ok(all)
 }
 
-/// The errors of a result and their error bars.
 struct Trial {
     scene: String,
     numbers: Vec<NumberTrial>,
@@ -113,7 +109,6 @@ struct NumberTrial {
 }
 
 impl NumberTrial {
-    /// Returns the error over the bar and the uncertainty of the reference.
     fn share(&self) -> f64 {
         self.error.abs() / (self.bar + self.reference_uncertainty)
     }

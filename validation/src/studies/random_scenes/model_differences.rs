@@ -68,7 +68,6 @@ impl Tolerance {
     }
 }
 
-/// A collision computed by one model.
 struct Ran {
     simulation: Simulation,
     collision: Collision,
@@ -85,7 +84,6 @@ struct Difference {
     warns: bool,
 }
 
-/// Runs random scenes.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut scenes = Vec::new();

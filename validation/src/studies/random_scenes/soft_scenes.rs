@@ -42,14 +42,12 @@ struct Parameters {
     element_updates: f64,
 }
 
-/// The result of one scene.
 struct SoftTrial {
     trial: Trial,
     has_warned: bool,
     is_estimated: bool,
 }
 
-/// Runs the study.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { seed, scenes, element_updates } = laboratory.parameters()?;
     let mut random = Random::new(seed);
@@ -77,7 +75,6 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Returns the overrides that make a random scene.
 fn overrides(random: &mut Random) -> Vec<String> {
     const RADIUS: f64 = 0.01;
     const DENSITY: f64 = 1000.0;

@@ -41,7 +41,6 @@ struct Ringing {
     errors: Vec<f64>,
 }
 
-/// Computes every mode on every mesh.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let (ratios, modes) = (&parameters.poissons_ratios, &parameters.modes);

@@ -33,19 +33,16 @@ const SCAN_START: f64 = 1.0;
 /// 0.87 of shear waves. Far below, the equation is smaller than its rounding.
 const SCAN_START_OVER_DEGREE: f64 = 0.8;
 
-/// An elastic sphere of radius 1 with shear waves of speed 1.
 #[derive(Debug, Clone, Copy)]
 pub struct ElasticSphere {
     /// Ratio of the wave speeds c_s/c_d.
     slowness: f64,
 }
 
-/// A free vibration.
 #[derive(Debug, Clone, Copy)]
 pub struct Vibration {
     sphere: ElasticSphere,
     degree: usize,
-    /// Dimensionless frequency ω R/c_s.
     pub frequency: f64,
     /// Amplitudes A and B.
     amplitudes: [f64; 2],

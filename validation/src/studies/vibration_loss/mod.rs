@@ -24,7 +24,6 @@ struct Parameters {
     highest_frequency: f64,
 }
 
-/// Runs the cases and sums the modes.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();

@@ -51,7 +51,6 @@ impl Pulse {
 pub struct Excited {
     pub degree: usize,
     pub overtone: usize,
-    /// Dimensionless frequency ω R/c_s.
     pub frequency: f64,
     pub energy: f64,
 }

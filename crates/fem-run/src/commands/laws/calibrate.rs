@@ -86,7 +86,6 @@ const OPTIONS: SettingNames = SettingNames {
     model: "--model",
 };
 
-/// Runs the calibration and writes its result.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
     let table = arguments.columns.read(&arguments.data)?;
@@ -151,7 +150,6 @@ fn fill_uncertainties(arguments: &Arguments, measured: &mut MeasuredPairs) -> Re
     })
 }
 
-/// Parses a regularisation λ.
 fn parse_ridge(text: &str) -> Result<f64, String> {
     let ridge = text.parse::<f64>().ok().filter(|ridge| *ridge >= 0.0 && ridge.is_finite());
     ridge.ok_or_else(|| {

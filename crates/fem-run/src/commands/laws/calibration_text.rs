@@ -7,7 +7,6 @@ use fem_case::schema::ActsOn;
 
 use crate::text::tables::{headed, show_value};
 
-/// Returns the text on stdout.
 pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     let mut text = heading(found);
     text += &weights(found);

@@ -74,7 +74,6 @@ fn acceleration(text: &str) -> Result<Measured, NotMeasured> {
     parse_measured(Kind::Acceleration, text)
 }
 
-/// Computes a trial or a file of trials.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let cradle = cradle(arguments)?;
     let Some(path) = &arguments.data else {
@@ -145,7 +144,6 @@ pub fn numbers(arguments: &Arguments, table: Option<&Table>) -> Result<Value, Fa
     }
 }
 
-/// Returns the trial of the options with its result.
 fn single(cradle: &Cradle, arguments: &Arguments) -> Result<(Trial, Swing), Failure> {
     // clap requires both angles if there is no file.
     let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) else {
@@ -181,7 +179,6 @@ fn with_default(angle: Measured, arguments: &Arguments) -> Measured {
     }
 }
 
-/// Returns the trials of a table with their results.
 fn swings(
     cradle: &Cradle,
     table: &Table,

@@ -53,7 +53,6 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// Fits the laws and writes the snippets.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
     if arguments.wants_pairs() {
@@ -105,7 +104,6 @@ pub fn numbers(
 }
 
 impl Arguments {
-    /// Whether a table of all pairs is requested.
     fn wants_pairs(&self) -> bool {
         !(self.materials.is_empty() && self.diameters.is_empty())
     }

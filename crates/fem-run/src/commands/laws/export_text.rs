@@ -12,7 +12,6 @@ use crate::text::failure::Failure;
 use crate::text::standard_output;
 use crate::text::tables::headed;
 
-/// Returns the text on stdout, one line per snippet.
 pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
     let row = |snippet: &Snippet| {
         let [from, to, worst] = snippet.validity;
@@ -48,7 +47,6 @@ fn valid_speeds(from: Option<f64>, to: Option<f64>) -> String {
     }
 }
 
-/// Returns the text on stdout, one line per pair.
 pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
     let row = |row: &PairNumbers| {
         let grain = |material: &str, diameter| format!("{} {material}", show(diameter, "m"));
@@ -115,7 +113,6 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
     writer.into_inner().map_err(|error| Failure::failed(error.to_string()))
 }
 
-/// Returns the text of `export.json`.
 pub fn pairs_json(export: &PairExport, case: &str, rows: &[PairNumbers]) -> Result<Value, Failure> {
     Ok(json!({ "case": case, "tolerance": export.tolerance, "pairs": value_of(&rows)? }))
 }

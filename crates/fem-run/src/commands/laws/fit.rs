@@ -69,11 +69,9 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// The law to fit.
 #[derive(Clone, Copy, Debug)]
 enum Wanted {
     One(LawFamily),
-    /// The best of all laws.
     All,
 }
 
@@ -84,7 +82,6 @@ fn parse_wanted(name: &str) -> Result<Wanted, String> {
     }
 }
 
-/// Runs the fit and writes its result.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
     let table = arguments.columns.read(&arguments.data)?;
@@ -98,7 +95,6 @@ pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Valu
     fitted(arguments, case, &table, |found| value_of(&found.fitted.numbers(&name)))
 }
 
-/// A fitted law, and the ranking if it is the first of that.
 struct Found<'a> {
     fitted: LawFit<'a>,
     law: &'a ChosenLaw,
@@ -188,7 +184,6 @@ fn ranked(arguments: &Arguments, case: &Case, data: &Restitutions) -> Result<Law
     Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule))?)
 }
 
-/// Returns the fitting problem of the options and the case.
 fn problem<'a>(
     arguments: &Arguments,
     law: &'a ChosenLaw,

@@ -11,7 +11,6 @@ use fem_report::law_figures::evidence;
 use crate::text::standard_output::one_line;
 use crate::text::tables::{headed, show_value};
 
-/// Returns the text on stdout.
 pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     let LawFit { problem, fit, .. } = fitted;
     let (model, points) = (problem.model, problem.points);

@@ -41,14 +41,12 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// The answer of one law.
 enum Answer {
     Solved(Box<LawInversion>),
     /// The reason why no parameter gives the restitution.
     Unsolved(LawFamily, String),
 }
 
-/// Solves and prints.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
     let (speed, answers) = answers(arguments, &case)?;
@@ -73,7 +71,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     ))
 }
 
-/// Solves and returns the numbers.
 pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
     let (speed, answers) = answers(arguments, case)?;
     let mut solutions = Vec::new();
@@ -101,7 +98,6 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
     )
 }
 
-/// Returns the speed and the answer of each law.
 fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Failure> {
     let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
     let wanted = arguments.restitution;
@@ -163,7 +159,6 @@ fn solve(
     })
 }
 
-/// Returns one row per solution.
 fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
     let parameter = solved.parameter();
     let line = |(value, time): (f64, Option<f64>)| {

@@ -52,7 +52,6 @@ enum Partner {
     HalfSpace,
 }
 
-/// Writes the case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let path = arguments.name.with_extension_toml();
     let text = text_of(&path, &arguments.material, arguments.partner)?;
@@ -76,7 +75,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     ))
 }
 
-/// Quotes a name for a shell.
 fn shell_word(name: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_./,:+@%".contains(c);
     match name.chars().all(is_plain) {
