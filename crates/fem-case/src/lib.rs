@@ -69,6 +69,7 @@ pub use quantity::{
     QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
 pub use scene::body::{Body, Shape};
+pub use scene::defaults;
 pub use scene::model::{CondensedOptions, ModelChoice};
 pub use scene::{Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, impact_speed};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};

@@ -1,41 +1,40 @@
 //! Rules for values and between keys, added to a schema: ranges, exclusive shapes, and names of the library.
 //!
-//! [`crate::validate`] has the complete rules and decides if the two differ; a test applies both to a list of faulty cases.
+//! [`crate::validate`] has the complete rules and takes precedence; a test applies both to a list of faulty cases.
 
 use fem_laws::{KeyNeed, KeyRange, KeySet};
 use serde_json::{Value, json};
 
 use crate::library;
+use crate::quantity::range::Range;
 use crate::schema::model_tables::{LawKey, LawTable};
 
-/// Keys of a definition that must be greater than 0; as a string they must not begin with a minus.
-const POSITIVE: &[(&str, &[&str])] = &[
+/// Keys of a definition, and their range ([`rule`]).
+const RANGES: &[(&str, &[&str], Range)] = &[
     (
         "MaterialTable",
         &["density", "youngs_modulus", "shear_modulus", "bulk_modulus", "yield_strength"],
+        Range::POSITIVE,
     ),
-    ("TermTable", &["decay_rate", "relaxation_time"]),
-    ("SphereTable", &["diameter"]),
-    ("GravityTable", &["acceleration"]),
-    ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"]),
-    ("ContactTable", &["penalty_factor"]),
-];
-
-/// Keys of a definition and the range of a bare number.
-const RANGES: &[(&str, &str, &str, f64, &str, f64)] = &[
-    ("MaterialTable", "poissons_ratio", "exclusiveMinimum", -1.0, "exclusiveMaximum", 0.5),
-    ("TermTable", "weight", "minimum", 0.0, "maximum", 1.0),
-    ("MeshTable", "growth", "exclusiveMinimum", 1.0, "maximum", f64::MAX),
-    ("TimeTable", "step_factor", "exclusiveMinimum", 0.0, "maximum", 1.0),
-    ("TimeTable", "mass_scaling", "minimum", 0.0, "maximum", 0.1),
-    ("StopTable", "bounces", "minimum", 1.0, "maximum", 1e4),
-    ("StartTable", "gap", "minimum", 0.0, "maximum", f64::MAX),
-    ("CondensedTable", "vibration_modes", "minimum", 0.0, "maximum", 100.0),
-    ("CondensedTable", "steps", "minimum", 50.0, "maximum", 1e5),
-    ("ToleranceTable", "restitution", "exclusiveMinimum", 0.0, "maximum", 0.5),
-    ("ToleranceTable", "contact_time", "exclusiveMinimum", 0.0, "maximum", 0.5),
-    ("ToleranceTable", "peak_force", "exclusiveMinimum", 0.0, "maximum", 0.5),
-    ("ToleranceTable", "peak_pressure", "exclusiveMinimum", 0.0, "maximum", 0.5),
+    ("MaterialTable", &["poissons_ratio"], Range::POISSONS_RATIO),
+    ("TermTable", &["decay_rate", "relaxation_time"], Range::POSITIVE),
+    ("TermTable", &["weight"], Range::RELAXATION_WEIGHT),
+    ("SphereTable", &["diameter"], Range::POSITIVE),
+    ("GravityTable", &["acceleration"], Range::POSITIVE),
+    ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"], Range::POSITIVE),
+    ("MeshTable", &["growth"], Range::GROWTH),
+    ("ContactTable", &["penalty_factor"], Range::POSITIVE),
+    ("TimeTable", &["step_factor"], Range::STEP_FACTOR),
+    ("TimeTable", &["mass_scaling"], Range::MASS_SCALING),
+    ("StopTable", &["bounces"], Range::BOUNCES),
+    ("StartTable", &["gap"], Range::NOT_NEGATIVE),
+    ("CondensedTable", &["vibration_modes"], Range::VIBRATION_MODES),
+    ("CondensedTable", &["steps"], Range::CONDENSED_STEPS),
+    (
+        "ToleranceTable",
+        &["restitution", "contact_time", "peak_force", "peak_pressure"],
+        Range::TOLERANCE,
+    ),
 ];
 
 const MODULI: [&str; 4] = ["youngs_modulus", "shear_modulus", "bulk_modulus", "poissons_ratio"];
@@ -43,17 +42,10 @@ const SHAPES: [&str; 3] = ["sphere", "wall", "half_space"];
 
 /// Adds the rules to the schema of cases; `laws` are the names of laws.
 pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
-    for (table, keys) in POSITIVE {
+    for (table, keys, range) in RANGES {
         for key in *keys {
-            add(schema, &format!("/definitions/{table}/properties/{key}"), [above_zero()]);
+            add(schema, &format!("/definitions/{table}/properties/{key}"), [rule(*range)]);
         }
-    }
-    for (table, key, low, least, high, most) in RANGES {
-        let range = match *most {
-            f64::MAX => json!({ *low: least }),
-            most => json!({ *low: least, *high: most }),
-        };
-        add(schema, &format!("/definitions/{table}/properties/{key}"), [range]);
     }
     add(schema, "/definitions/MaterialTable", [two_of(&MODULI)]);
     let needs_material = json!({
@@ -77,16 +69,11 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
 
 /// Adds the ranges of the laws' keys, and which of them must be given.
 fn add_laws(schema: &mut Value) {
-    for LawKey { table, key, range, .. } in LawTable::KEYS {
-        let rule = match range {
-            KeyRange::Positive => above_zero(),
-            KeyRange::NotNegative => continue,
-            KeyRange::Restitution => json!({ "exclusiveMinimum": 0.0, "maximum": 1.0 }),
-            KeyRange::LikePoissonsRatio => {
-                json!({ "exclusiveMinimum": -1.0, "exclusiveMaximum": 1.0 })
-            }
-        };
-        add(schema, &format!("/definitions/{table}/properties/{key}"), [rule]);
+    for &LawKey { table, key, range, .. } in LawTable::KEYS {
+        if range != KeyRange::NotNegative {
+            let pointer = format!("/definitions/{table}/properties/{key}");
+            add(schema, &pointer, [rule(Range::from(range))]);
+        }
     }
     let mut tables: Vec<_> = LawTable::KEYS.iter().map(|key| (key.table, key.family)).collect();
     tables.dedup();
@@ -117,9 +104,17 @@ fn add_laws(schema: &mut Value) {
     }
 }
 
-/// Returns the rule for a bare number greater than 0, or a string without a minus at its start.
-fn above_zero() -> Value {
-    json!({ "exclusiveMinimum": 0, "pattern": "^\\s*[^-−\\s]" })
+/// Returns the rule for a bare number in a range. A string for a number greater than 0 must not begin with a minus.
+fn rule(range: Range) -> Value {
+    if range == Range::POSITIVE {
+        return json!({ "exclusiveMinimum": 0, "pattern": "^\\s*[^-−\\s]" });
+    }
+    let low = if range.is_low_open { "exclusiveMinimum" } else { "minimum" };
+    let high = if range.is_high_open { "exclusiveMaximum" } else { "maximum" };
+    match range.high.is_finite() {
+        true => json!({ low: range.low, high: range.high }),
+        false => json!({ low: range.low }),
+    }
 }
 
 /// Adds rules to a definition.

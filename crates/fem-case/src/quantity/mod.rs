@@ -1,6 +1,7 @@
 //! A quantity of a known kind (a length, a rate, …) as a case file gives it: a bare SI number or a string with a unit. The
 //! kind is a type parameter only here; scenes use `f64`.
 
+pub(crate) mod range;
 pub(crate) mod unit_table;
 pub(crate) mod units;
 

@@ -2,6 +2,7 @@
 //! decides on settings that are `None`.
 
 pub(crate) mod body;
+pub mod defaults;
 pub(crate) mod model;
 pub(crate) mod plausibility;
 
@@ -130,7 +131,7 @@ impl Scene {
         match self.gravity {
             None => self.bodies[0].velocity - self.bodies[1].velocity,
             Some(Gravity { acceleration, .. }) => {
-                let height = self.gap.unwrap_or_default();
+                let height = self.gap.unwrap_or(defaults::GAP);
                 impact_speed(self.bodies[1].velocity, acceleration, height)
             }
         }
@@ -138,7 +139,7 @@ impl Scene {
 
     /// Returns the time of first contact, s, after a fall or a motion at constant speed.
     pub fn first_touch(&self) -> f64 {
-        let gap = self.gap.unwrap_or_default();
+        let gap = self.gap.unwrap_or(defaults::GAP);
         match self.gravity {
             None => gap / self.approach_speed(),
             Some(Gravity { acceleration, .. }) => {
@@ -348,9 +349,6 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// The tolerance of a case that gives none.
-    pub const DEFAULT_TOLERANCE: f64 = 0.01;
-
     /// Returns one tolerance for all results, and three times that for the peak pressure.
     pub fn within(tolerance: f64) -> Self {
         Self {

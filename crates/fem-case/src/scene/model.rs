@@ -2,11 +2,12 @@
 
 use fem_laws::{EndRule, LawInput};
 
+use crate::scene::defaults;
+
 /// The model of the collision.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ModelChoice {
     /// Explicit finite elements.
-    #[default]
     Fem,
     /// The cheapest of the other models that meets the tolerances.
     Auto,
@@ -70,6 +71,6 @@ pub struct CondensedOptions {
 
 impl Default for CondensedOptions {
     fn default() -> Self {
-        Self { vibration_modes: 0, steps: 250, penalty_springs: false }
+        defaults::CONDENSED
     }
 }

@@ -4,13 +4,14 @@ use fem_laws::{EndRule, KeyRange, LawFamily};
 use serde::{Deserialize, Serialize};
 
 use crate::error::CaseError;
+use crate::quantity::range::Range;
 use crate::quantity::{
     Count, Damping, Number, Quantity, QuantityInfo, QuantityKind, Speed, Stiffness, Time, Viscosity,
 };
 use crate::schema::body_tables::EmptyTable;
 use crate::schema::macros::{keywords, optional_keys};
 use crate::source::toml_syntax::join;
-use crate::validate::{Allowed, Check};
+use crate::validate::Check;
 
 optional_keys! {
     /// `[model]`: exactly one key.
@@ -255,7 +256,7 @@ macro_rules! law_tables {
                         let value = check.optional(
                             &join(path, stringify!($key)),
                             _table.$key.as_ref(),
-                            Allowed::by(KeyRange::$range),
+                            Range::from(KeyRange::$range),
                         )?;
                         values.extend(value.map(|value| (stringify!($key), value)));
                     )*

@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use fem_material::Material;
 
-use super::{ANY, Check, NOT_NEGATIVE, POSITIVE};
+use super::Check;
 use crate::error::CaseError;
 use crate::library;
+use crate::quantity::range::Range;
 use crate::scene::body::{Body, Shape};
+use crate::scene::defaults;
 use crate::schema::{BodyTable, CaseFile, SphereTable};
 use crate::source::explain::{listed, near};
 use crate::source::toml_syntax::{is_bare, join, quote_key};
@@ -27,7 +29,7 @@ impl Check<'_> {
             let path = join("material", &quote_key(name));
             materials.insert(name.as_str(), self.material(&path, table)?);
             let strength = table.yield_strength.as_ref();
-            self.optional(&join(&path, "yield_strength"), strength, POSITIVE)?;
+            self.optional(&join(&path, "yield_strength"), strength, Range::POSITIVE)?;
         }
         let [lower, upper] = file.body.as_slice() else {
             let count = file.body.len();
@@ -102,7 +104,7 @@ impl Check<'_> {
         let Some(name) = &body.material else { return Ok(None) };
         let path = join(&join("material", &quote_key(name)), "yield_strength");
         let given = file.material.get(name).and_then(|table| table.yield_strength.as_ref());
-        self.optional(&path, given, POSITIVE)
+        self.optional(&path, given, Range::POSITIVE)
     }
 
     /// Returns the shape and the approach speed, m/s.
@@ -122,7 +124,7 @@ impl Check<'_> {
             Key::Sphere(sphere) => {
                 let at_sphere = at("sphere");
                 let diameter =
-                    self.number(&join(&at_sphere, "diameter"), &sphere.diameter, POSITIVE)?;
+                    self.number(&join(&at_sphere, "diameter"), &sphere.diameter, Range::POSITIVE)?;
                 if sphere.mesh.as_ref().is_some_and(String::is_empty) {
                     let error = self.error(&join(&at_sphere, "mesh"), "mesh is an empty path");
                     return Err(error.with_help("name a mesh file, or remove the key"));
@@ -144,9 +146,9 @@ impl Check<'_> {
                 Shape::Wall
             }
         };
-        let allowed = if unbounded(table).is_some() { NOT_NEGATIVE } else { ANY };
+        let allowed = if unbounded(table).is_some() { Range::NOT_NEGATIVE } else { Range::ANY };
         let speed = self.optional(&at("approach_speed"), table.approach_speed.as_ref(), allowed)?;
-        Ok((shape, speed.unwrap_or(0.0)))
+        Ok((shape, speed.unwrap_or(defaults::APPROACH_SPEED)))
     }
 
     /// Returns the only shape of a body.

@@ -1,15 +1,12 @@
 //! `[gravity]` and `[stop]`: the weight of the upper sphere, its support, and the number of bounces.
 
-use super::{Allowed, Check, POSITIVE, allowed};
+use super::Check;
 use crate::error::CaseError;
+use crate::quantity::range::Range;
 use crate::scene::body::{Body, Shape};
-use crate::scene::{Gravity, impact_speed};
+use crate::scene::{Gravity, defaults, impact_speed};
 use crate::schema::{CaseFile, GravityTable};
 use crate::source::toml_syntax::join;
-
-/// More contacts than any ball makes before it comes to rest.
-const BOUNCES: Allowed =
-    allowed("a whole number from 1 to 10000", |x| (1.0..=1e4).contains(&x) && x.fract() == 0.0);
 
 /// The pairs of bodies that gravity allows.
 const SUPPORTS: &str = "with gravity, the second body must be a free sphere and the first a support: \
@@ -31,12 +28,12 @@ impl Check<'_> {
             }
         }
         let bounces = file.stop.as_ref().and_then(|stop| stop.bounces.as_ref());
-        let bounces = self.optional("stop.bounces", bounces, BOUNCES)?;
+        let bounces = self.optional("stop.bounces", bounces, Range::BOUNCES)?;
         match &file.gravity {
             None => self.no_gravity(bodies, bounces.is_some()).map(|()| None),
             Some(table) => {
                 let acceleration = self.weight(table, bodies, gap)?;
-                let bounces = bounces.map_or(1, |bounces| bounces as usize);
+                let bounces = bounces.map_or(defaults::BOUNCES, |bounces| bounces as usize);
                 Ok(Some(Gravity { acceleration, bounces }))
             }
         }
@@ -50,7 +47,7 @@ impl Check<'_> {
             return Err(self.error(&join(&place(index), "held"), message).with_help(help));
         }
         if has_bounces {
-            let message = "bounces without [gravity]: the bodies never meet again";
+            let message = "stop.bounces needs [gravity]: without it the bodies meet once";
             return Err(self.error("stop.bounces", message).with_help(help));
         }
         Ok(())
@@ -58,7 +55,8 @@ impl Check<'_> {
 
     /// Returns the acceleration (m/s²) if the upper body can fall on the lower one.
     fn weight(&self, table: &GravityTable, bodies: &[Body; 2], gap: f64) -> Result<f64, CaseError> {
-        let acceleration = self.number("gravity.acceleration", &table.acceleration, POSITIVE)?;
+        let acceleration =
+            self.number("gravity.acceleration", &table.acceleration, Range::POSITIVE)?;
         let [lower, upper] = bodies;
         let reject =
             |path: &str, message: String| Err(self.error(path, message).with_help(SUPPORTS));
@@ -86,7 +84,10 @@ impl Check<'_> {
         }
         let impact_speed = impact_speed(upper.velocity, acceleration, gap);
         if !(impact_speed > 0.0 && impact_speed.is_finite()) {
-            let message = format!("\"{}\" meets its support at {impact_speed:?} m/s", upper.name);
+            let message = format!(
+                "\"{}\" would never reach its support (impact speed {impact_speed:?} m/s)",
+                upper.name
+            );
             let given = ["body.1.approach_speed", "start.gap"];
             let path = given.into_iter().find(|path| self.document.has(path)).unwrap_or("gravity");
             return Err(self.error(path, message).with_help(

@@ -2,8 +2,9 @@
 
 use fem_material::{ElasticModuli, Material, MaterialError, ModuliInput, PronySeries, PronyTerm};
 
-use super::{ANY, Check, POSITIVE};
+use super::Check;
 use crate::error::CaseError;
+use crate::quantity::range::Range;
 use crate::schema::{MaterialTable, RelaxationTable};
 use crate::source::toml_syntax::join;
 
@@ -15,14 +16,26 @@ impl Check<'_> {
         table: &MaterialTable,
     ) -> Result<Material, CaseError> {
         let at = |key: &str| join(path, key);
-        let density = self.number(&at("density"), &table.density, ANY)?;
+        let density = self.number(&at("density"), &table.density, Range::ANY)?;
         let (youngs_modulus, shear_modulus) = (&table.youngs_modulus, &table.shear_modulus);
         let (bulk_modulus, poissons_ratio) = (&table.bulk_modulus, &table.poissons_ratio);
         let input = ModuliInput {
-            youngs_modulus: self.optional(&at("youngs_modulus"), youngs_modulus.as_ref(), ANY)?,
-            shear_modulus: self.optional(&at("shear_modulus"), shear_modulus.as_ref(), ANY)?,
-            bulk_modulus: self.optional(&at("bulk_modulus"), bulk_modulus.as_ref(), ANY)?,
-            poissons_ratio: self.optional(&at("poissons_ratio"), poissons_ratio.as_ref(), ANY)?,
+            youngs_modulus: self.optional(
+                &at("youngs_modulus"),
+                youngs_modulus.as_ref(),
+                Range::ANY,
+            )?,
+            shear_modulus: self.optional(
+                &at("shear_modulus"),
+                shear_modulus.as_ref(),
+                Range::ANY,
+            )?,
+            bulk_modulus: self.optional(&at("bulk_modulus"), bulk_modulus.as_ref(), Range::ANY)?,
+            poissons_ratio: self.optional(
+                &at("poissons_ratio"),
+                poissons_ratio.as_ref(),
+                Range::ANY,
+            )?,
         };
         let n_terms = table.relaxation.as_ref().map_or(0, |relaxation| relaxation.terms.len());
         let place = |error| self.material_error(path, &error, n_terms);
@@ -50,10 +63,12 @@ impl Check<'_> {
         for (index, term) in table.terms.iter().enumerate() {
             let at_term = format!("{path}.relaxation.terms.{index}");
             let at = |key: &str| join(&at_term, key);
-            let weight = self.number(&at("weight"), &term.weight, ANY)?;
+            let weight = self.number(&at("weight"), &term.weight, Range::ANY)?;
             let relaxation_time = match (&term.decay_rate, &term.relaxation_time) {
-                (Some(rate), None) => 1.0 / self.number(&at("decay_rate"), rate, POSITIVE)?,
-                (None, Some(time)) => self.number(&at("relaxation_time"), time, POSITIVE)?,
+                (Some(rate), None) => {
+                    1.0 / self.number(&at("decay_rate"), rate, Range::POSITIVE)?
+                }
+                (None, Some(time)) => self.number(&at("relaxation_time"), time, Range::POSITIVE)?,
                 (Some(_), Some(_)) => {
                     let message = "both decay_rate and relaxation_time are given";
                     let (rate, time) = (at("decay_rate"), at("relaxation_time"));

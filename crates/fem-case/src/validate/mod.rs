@@ -11,30 +11,11 @@ mod output;
 use std::path::Path;
 
 use crate::error::CaseError;
+use crate::quantity::range::Range;
 use crate::quantity::{Quantity, QuantityKind};
-use crate::scene::{Limits, MeshSettings, Scene};
+use crate::scene::{Limits, MeshSettings, Scene, defaults};
 use crate::schema::CaseFile;
 use crate::source::document::Document;
-
-/// The numbers that a key allows, as text and as a test.
-pub(crate) struct Allowed {
-    words: &'static str,
-    test: fn(f64) -> bool,
-}
-
-const fn allowed(words: &'static str, test: fn(f64) -> bool) -> Allowed {
-    Allowed { words, test }
-}
-
-const ANY: Allowed = allowed("any number", |_| true);
-const POSITIVE: Allowed = allowed("greater than 0", |x| x > 0.0);
-const NOT_NEGATIVE: Allowed = allowed("0 or greater", |x| x >= 0.0);
-const ABOVE_ONE: Allowed = allowed("greater than 1", |x| x > 1.0);
-const STEP_FACTOR: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
-const MASS_SCALING: Allowed = allowed("from 0 (none) to 0.1", |x| (0.0..=0.1).contains(&x));
-/// Whole numbers up to the largest that doubles represent without gaps.
-const COUNT: Allowed =
-    allowed("a whole number from 1 to 9e15", |x| (1.0..=9e15).contains(&x) && x.fract() == 0.0);
 
 /// Returns the scene of a case, or its first fault.
 ///
@@ -63,8 +44,8 @@ pub(crate) fn validate(
         };
     }
     let bodies = check.bodies(file)?;
-    let gap = number!(start.gap, NOT_NEGATIVE);
-    let gravity = check.gravity(file, &bodies, gap.unwrap_or_default())?;
+    let gap = number!(start.gap, Range::NOT_NEGATIVE);
+    let gravity = check.gravity(file, &bodies, gap.unwrap_or(defaults::GAP))?;
     let probes = check.probes(&output.probe, &bodies)?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_else(|| stem.to_string()),
@@ -72,27 +53,28 @@ pub(crate) fn validate(
         gap,
         gravity,
         mesh: MeshSettings {
-            contact_element_size: number!(mesh.contact_element_size, POSITIVE),
-            refined_radius: number!(mesh.refined_radius, POSITIVE),
-            growth: number!(mesh.growth, ABOVE_ONE),
-            far_radius: number!(mesh.far_radius, POSITIVE),
+            contact_element_size: number!(mesh.contact_element_size, Range::POSITIVE),
+            refined_radius: number!(mesh.refined_radius, Range::POSITIVE),
+            growth: number!(mesh.growth, Range::GROWTH),
+            far_radius: number!(mesh.far_radius, Range::POSITIVE),
             staggered: mesh.staggered,
         },
         contact_method: contact.method,
-        penalty_factor: number!(contact.penalty_factor, POSITIVE),
-        step_factor: number!(time.step_factor, STEP_FACTOR),
-        mass_scaling: number!(time.mass_scaling, MASS_SCALING),
+        penalty_factor: number!(contact.penalty_factor, Range::POSITIVE),
+        step_factor: number!(time.step_factor, Range::STEP_FACTOR),
+        mass_scaling: number!(time.mass_scaling, Range::MASS_SCALING),
         snapshots: output.snapshots.as_ref().map(|value| check.snapshots(value)).transpose()?,
         probes,
         fields: output.fields,
-        wants_report: output.report.unwrap_or(true),
+        wants_report: output.report.unwrap_or(defaults::REPORT),
         model: check.model(file.model.as_ref())?,
         accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),
         limits: Limits {
-            elements: number!(limits.elements, COUNT).map(|count| count as u64),
-            element_updates: number!(limits.element_updates, COUNT).map(|count| count as u64),
-            memory: number!(limits.memory, COUNT).map(|bytes| bytes as u64),
+            elements: number!(limits.elements, Range::COUNT).map(|count| count as u64),
+            element_updates: number!(limits.element_updates, Range::COUNT)
+                .map(|count| count as u64),
+            memory: number!(limits.memory, Range::COUNT).map(|bytes| bytes as u64),
         },
         refinement: 1.0,
     })
@@ -119,19 +101,19 @@ impl Check<'_> {
         &self,
         path: &str,
         quantity: &Quantity<K>,
-        allowed: Allowed,
+        allowed: Range,
     ) -> Result<f64, CaseError> {
         let key = path.rsplit('.').find(|part| part.parse::<usize>().is_err()).unwrap_or(path);
         let value = quantity.si().map_err(|error| {
             let (message, help) = quantity.explain(&error, key);
             self.error(path, message).with_help(help)
         })?;
-        if (allowed.test)(value) {
+        if allowed.has(value) {
             Ok(value)
         } else {
             Err(self
                 .error(path, format!("{key} is {quantity}"))
-                .with_help(format!("{key} must be {}", allowed.words)))
+                .with_help(format!("{key} must be {}", allowed.words())))
         }
     }
 
@@ -140,7 +122,7 @@ impl Check<'_> {
         &self,
         path: &str,
         quantity: Option<&Quantity<K>>,
-        allowed: Allowed,
+        allowed: Range,
     ) -> Result<Option<f64>, CaseError> {
         quantity.map(|quantity| self.number(path, quantity, allowed)).transpose()
     }

@@ -1,39 +1,32 @@
 //! `[model]`: exactly one model, and for `law` exactly one law with the keys that it needs.
 
-use fem_laws::{EndRule, KeyNeed, KeyRange, KeySet, LawFamily, LawImpact, LawInput, Ting};
+use fem_laws::{EndRule, KeyNeed, KeyRange, KeySet, LawFamily, LawInput};
 
-use super::{Allowed, Check, NOT_NEGATIVE, POSITIVE, allowed};
+use super::Check;
 use crate::error::CaseError;
+use crate::quantity::range::Range;
 use crate::quantity::{Count, Number, Quantity};
+use crate::scene::defaults;
 use crate::scene::model::{CondensedOptions, ModelChoice};
-use crate::schema::model_tables::{CondensedTable, End, LawKey, LawTable, ModelTable};
+use crate::schema::model_tables::{CondensedTable, LawKey, LawTable, ModelTable};
 use crate::source::explain::listed;
 use crate::source::toml_syntax::join;
 
-const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
-const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));
-const MODES: Allowed =
-    allowed("a whole number from 0 to 100", |x| (0.0..=100.0).contains(&x) && x.fract() == 0.0);
-const STEPS: Allowed =
-    allowed("a whole number from 50 to 100000", |x| (50.0..=1e5).contains(&x) && x.fract() == 0.0);
-const LIKE_POISSON: Allowed = allowed("between -1 and 1", |x| x > -1.0 && x < 1.0);
-
-impl Allowed {
-    /// Returns the numbers that a key of a law allows.
-    pub(crate) fn by(range: KeyRange) -> Self {
+impl From<KeyRange> for Range {
+    fn from(range: KeyRange) -> Self {
         match range {
-            KeyRange::Positive => POSITIVE,
-            KeyRange::NotNegative => NOT_NEGATIVE,
-            KeyRange::Restitution => RESTITUTION,
-            KeyRange::LikePoissonsRatio => LIKE_POISSON,
+            KeyRange::Positive => Self::POSITIVE,
+            KeyRange::NotNegative => Self::NOT_NEGATIVE,
+            KeyRange::Restitution => Self::RESTITUTION,
+            KeyRange::LikePoissonsRatio => Self::LIKE_POISSONS_RATIO,
         }
     }
 }
 
 impl Check<'_> {
-    /// Returns the model that `[model]` selects; by default explicit finite elements.
+    /// Returns the model that `[model]` selects; the default without the table.
     pub(super) fn model(&self, table: Option<&ModelTable>) -> Result<ModelChoice, CaseError> {
-        let Some(table) = table else { return Ok(ModelChoice::default()) };
+        let Some(table) = table else { return Ok(defaults::MODEL) };
         let ModelTable { fem, condensed, ting, hertz, law, auto } = table;
         let given = [
             ("fem", fem.is_some()),
@@ -54,14 +47,14 @@ impl Check<'_> {
         if let Some(ting) = ting {
             let tolerance = self.tolerance("model.ting.tolerance", ting.tolerance.as_ref())?;
             return Ok(ModelChoice::Ting {
-                finite_size: ting.finite_size.unwrap_or_default(),
-                tolerance: tolerance.unwrap_or(Ting::DEFAULT_TOLERANCE),
+                finite_size: ting.finite_size.unwrap_or(defaults::FINITE_SIZE),
+                tolerance: tolerance.unwrap_or(defaults::TING_TOLERANCE),
             });
         }
         match (hertz, law) {
-            (Some(hertz), _) => {
-                Ok(ModelChoice::Hertz { finite_size: hertz.finite_size.unwrap_or_default() })
-            }
+            (Some(hertz), _) => Ok(ModelChoice::Hertz {
+                finite_size: hertz.finite_size.unwrap_or(defaults::FINITE_SIZE),
+            }),
             (_, Some(law)) => self.law_model(law),
             _ => Ok(ModelChoice::Fem),
         }
@@ -74,11 +67,11 @@ impl Check<'_> {
             let count = self.optional(&path, value.as_ref(), allowed)?;
             Ok::<_, CaseError>(count.map(|count| count as usize))
         };
-        let default = CondensedOptions::default();
+        let default = defaults::CONDENSED;
         Ok(ModelChoice::Condensed(CondensedOptions {
-            vibration_modes: count("vibration_modes", vibration_modes, MODES)?
+            vibration_modes: count("vibration_modes", vibration_modes, Range::VIBRATION_MODES)?
                 .unwrap_or(default.vibration_modes),
-            steps: count("steps", steps, STEPS)?.unwrap_or(default.steps),
+            steps: count("steps", steps, Range::CONDENSED_STEPS)?.unwrap_or(default.steps),
             penalty_springs: penalty_springs.unwrap_or(default.penalty_springs),
         }))
     }
@@ -112,7 +105,7 @@ impl Check<'_> {
         path: &str,
         given: Option<&Quantity<Number>>,
     ) -> Result<Option<f64>, CaseError> {
-        self.optional(path, given, TOLERANCE)
+        self.optional(path, given, Range::INTEGRATION_TOLERANCE)
     }
 
     fn law_model(&self, table: &LawTable) -> Result<ModelChoice, CaseError> {
@@ -134,7 +127,7 @@ impl Check<'_> {
         }
         let inner = self.tolerance(&join(&path, "tolerance"), tolerance)?;
         let outer = self.tolerance("model.law.tolerance", table.tolerance.as_ref())?;
-        let end_rule = EndRule::from(end.or(table.end).unwrap_or(End::ZeroForce));
+        let end_rule = end.or(table.end).map_or(defaults::LAW_END, EndRule::from);
         let law = self.law_input(family, &path, table.values(self, &path)?)?;
         if family.end_rule().is_some_and(|own| own != end_rule) {
             let place = if end.is_some() { join(&path, "end") } else { join("model.law", "end") };
@@ -142,7 +135,7 @@ impl Check<'_> {
             let error = self.error(&place, message);
             return Err(error.with_help("remove end; the same law with another end is tsuji"));
         }
-        let tolerance = inner.or(outer).unwrap_or(LawImpact::DEFAULT_TOLERANCE);
+        let tolerance = inner.or(outer).unwrap_or(defaults::LAW_TOLERANCE);
         Ok(ModelChoice::Law { law, end_rule, tolerance })
     }
 }

@@ -1,7 +1,8 @@
 //! `[output]`: the instants at which fields are written, and the positions of probes.
 
-use super::{ANY, Allowed, Check, NOT_NEGATIVE, allowed};
+use super::Check;
 use crate::error::CaseError;
+use crate::quantity::range::Range;
 use crate::quantity::{Count, Quantity};
 use crate::scene::body::{Body, Shape};
 use crate::scene::{Probe, Snapshots};
@@ -9,8 +10,6 @@ use crate::schema::{ProbeTable, SnapshotLabel, SnapshotsValue};
 use crate::source::explain::near;
 use crate::source::toml_syntax::join;
 
-const SNAPSHOT_COUNT: Allowed =
-    allowed("a whole number from 1 to 100000", |x| (1.0..=1e5).contains(&x) && x.fract() == 0.0);
 /// The largest number of probes: each stores a few thousand instants.
 const MOST_PROBES: usize = 100;
 /// Relative tolerance of a radius, for the rounding of units.
@@ -23,7 +22,7 @@ impl Check<'_> {
         let list = match value {
             SnapshotsValue::Count(count) => {
                 let count =
-                    self.number(path, &Quantity::<Count>::from_si(*count), SNAPSHOT_COUNT)?;
+                    self.number(path, &Quantity::<Count>::from_si(*count), Range::SNAPSHOTS)?;
                 return Ok(Snapshots::Count(count as usize));
             }
             SnapshotsValue::List(list) => list,
@@ -42,7 +41,7 @@ impl Check<'_> {
                         .error(&path, format!("\"{text}\" is not the label of a snapshot"))
                         .with_help(format!("{}{}", near(text, words), help())));
                 }
-                _ => times.push(self.number(&path, item, NOT_NEGATIVE)?),
+                _ => times.push(self.number(&path, item, Range::NOT_NEGATIVE)?),
             }
             let at = |index: usize| join("output.snapshots", &index.to_string());
             if !labels.is_empty() && !times.is_empty() {
@@ -84,8 +83,8 @@ impl Check<'_> {
     fn probe(&self, k: usize, table: &ProbeTable, bodies: &[Body; 2]) -> Result<Probe, CaseError> {
         let path = format!("output.probe.{k}");
         let (of_r, of_y) = (join(&path, "r"), join(&path, "y"));
-        let r = self.number(&of_r, &table.r, NOT_NEGATIVE)?;
-        let y = self.number(&of_y, &table.y, ANY)?;
+        let r = self.number(&of_r, &table.r, Range::NOT_NEGATIVE)?;
+        let y = self.number(&of_y, &table.y, Range::ANY)?;
         let names = bodies.each_ref().map(Body::name);
         let Some(side) = names.iter().position(|name| *name == table.body) else {
             let message = format!("there is no body \"{}\"", table.body);

@@ -35,7 +35,6 @@ pub use effect::{
     PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
 pub(crate) use effect::{effect_named, is_called_for};
-pub(crate) use numerics::contact_method_of_case;
 
 /// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -1,7 +1,7 @@
 //! Reference runs: cheaper collisions of the same bodies, whose Richardson limit estimates the discretisation error.
 
 use fem_case::schema::{ContactMethod, StopTable};
-use fem_case::{CaseFile, CondensedOptions, Quantity};
+use fem_case::{CaseFile, Quantity, defaults};
 use fem_collision::{Approach, Collision, OutputRequest, QuantityOfInterest};
 
 use super::calibration::ORDER;
@@ -276,7 +276,7 @@ fn collide(
         let table = file.model.as_mut().and_then(|model| model.condensed.as_mut());
         if let Some(table) = table {
             let own = table.steps.as_ref().and_then(|steps| steps.si().ok());
-            let usual = CondensedOptions::default().steps as f64;
+            let usual = defaults::CONDENSED.steps as f64;
             let steps = match own {
                 _ if is_condensed => STEPS_FOR_EXPLICIT,
                 Some(own) if own > usual => own,

@@ -16,6 +16,7 @@
 
 use std::convert::Infallible;
 
+use fem_case::defaults::PENALTY_FACTOR;
 use fem_case::{Body, Case, CaseError, Shape};
 use fem_collision::{Collision, Monitor, QuantityOfInterest, Stop};
 use fem_material::engineering::Unit;
@@ -29,7 +30,6 @@ use super::reference_runs::Subject;
 use super::tolerance_check::{ToleranceMiss, missed, misses};
 use crate::models::method::Cost;
 use crate::models::stepper::RefinementLevel;
-use crate::plan::DEFAULT_PENALTY_FACTOR;
 use crate::simulation::Simulation;
 
 /// Safety factor on the estimated error.
@@ -319,7 +319,7 @@ impl ErrorEstimator {
         // Springs overlap by half of this on average, and the contact time grows like the approach.
         let overlap = collision.deepest_overlap.map_or(0.0, |deepest| deepest.overlap);
         let of_springs = 0.5 * overlap / collision.max_approach?;
-        let is_soft = scene.penalty_factor().is_some_and(|factor| factor < DEFAULT_PENALTY_FACTOR);
+        let is_soft = scene.penalty_factor().is_some_and(|factor| factor < PENALTY_FACTOR);
         (is_soft && of_springs > miss.tolerance).then_some(FaultySetting::SoftSprings)
     }
 }

@@ -20,7 +20,7 @@ use crate::rejection::Rejection;
 pub fn approach_of(scene: &Scene) -> Result<Approach, Rejection> {
     let velocities = scene.bodies().each_ref().map(|body| body.velocity());
     let approach = match scene.gravity() {
-        None => Approach::new(velocities, scene.gap().unwrap_or_default()),
+        None => Approach::new(velocities, scene.gap().unwrap_or(fem_case::defaults::GAP)),
         Some(_) => Approach::new([0.0, -scene.approach_speed()], 0.0),
     };
     approach.map_err(|error| Rejection::new("body", error.to_string()))

@@ -4,9 +4,10 @@
 //! effects that it lacks ([`Method::support`], [`Effect::neglect_error`]). A model is skipped if it lacks an effect
 //! whose size cannot be estimated, or if its result would come with the advice to use another model.
 
-use fem_case::{Accuracy, CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots, Switch};
+use fem_case::{
+    Accuracy, CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots, Switch, defaults,
+};
 use fem_collision::QuantityOfInterest;
-use fem_laws::Ting;
 use serde::Serialize;
 
 use super::method_of;
@@ -176,18 +177,18 @@ const CANDIDATES: [Candidate; 6] = [
     },
     Candidate {
         name: "ting = { finite_size = true }",
-        choice: || ModelChoice::Ting { finite_size: true, tolerance: Ting::DEFAULT_TOLERANCE },
+        choice: || ModelChoice::Ting { finite_size: true, tolerance: defaults::TING_TOLERANCE },
         own: [2e-4, 2e-4, 2e-4, 1e-3],
     },
     Candidate {
         name: "condensed = {}",
-        choice: || ModelChoice::Condensed(CondensedOptions::default()),
+        choice: || ModelChoice::Condensed(defaults::CONDENSED),
         own: [1e-4, 5e-4, 2e-3, 1e-2],
     },
     Candidate {
         name: "condensed = { vibration_modes = 12 }",
         choice: || {
-            let options = CondensedOptions { vibration_modes: 12, ..CondensedOptions::default() };
+            let options = CondensedOptions { vibration_modes: 12, ..defaults::CONDENSED };
             ModelChoice::Condensed(options)
         },
         own: [1e-4, 5e-4, 3e-3, 1e-2],
@@ -294,7 +295,7 @@ impl Candidate {
 
     /// Returns the errors of the model's approximations, which fall with the tolerance where it chooses the mesh.
     fn own_error(&self, scene: &Scene, estimate: &Estimate, has_fields: bool) -> QuantityErrors {
-        let usual = tolerances(&Accuracy::within(Accuracy::DEFAULT_TOLERANCE));
+        let usual = tolerances(&defaults::accuracy());
         let asked = tolerances(&scene.accuracy());
         let scales = scales(estimate);
         let is_made_finer = has_fields && scene.mesh().contact_element_size.is_none();

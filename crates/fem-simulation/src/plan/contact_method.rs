@@ -1,19 +1,20 @@
 //! The contact method of explicit elements, and the settings that reduce contact noise.
 //!
 //! A massless boundary neither chatters nor gains energy: the force scatters by 0.01 % of its peak. At finite strain and
-//! with bulk viscosity, springs act on nodes with mass instead. With the default penalty factor [`DEFAULT_PENALTY_FACTOR`] the force then
+//! with bulk viscosity, springs act on nodes with mass instead. With the default penalty factor the force then
 //! scatters by less than 0.4 % of its peak (measured from factors of 1 to 300: docs/contact.md), and softer springs reduce
 //! the scatter.
 
+use fem_case::defaults::{CONTACT_METHOD, PENALTY_FACTOR};
 use fem_case::{ContactMethod, Scene, Switch};
 
-use crate::effects::{FiniteStrain, contact_method_of_case};
+use crate::effects::FiniteStrain;
 use crate::estimate::quasi_static::surfaces_slip;
-use crate::plan::{DEFAULT_PENALTY_FACTOR, Plan};
+use crate::plan::Plan;
 
 /// Returns the contact method at small strain.
 pub fn contact_method(scene: &Scene) -> ContactMethod {
-    match contact_method_of_case(scene) {
+    match scene.contact_method().unwrap_or(CONTACT_METHOD) {
         ContactMethod::Massless if !massless_is_possible(scene) => ContactMethod::Penalty,
         ContactMethod::NodeToSurface if surfaces_slip(scene) => ContactMethod::Penalty,
         method => method,
@@ -77,11 +78,11 @@ impl ContactNoiseAdvice {
     /// time step: at finite strain a step factor of 0.4 leaves a fifth of it.
     pub(crate) fn advice_on_energy(&self) -> String {
         match *self {
-            Self::Softer { penalty_factor } if penalty_factor <= DEFAULT_PENALTY_FACTOR => {
+            Self::Softer { penalty_factor } if penalty_factor <= PENALTY_FACTOR => {
                 "lower time.step_factor".to_string()
             }
             Self::Softer { .. } => {
-                format!("write contact.penalty_factor = {DEFAULT_PENALTY_FACTOR}")
+                format!("write contact.penalty_factor = {PENALTY_FACTOR}")
             }
             _ => self.advice(),
         }
@@ -93,8 +94,8 @@ impl ContactNoiseAdvice {
             Self::MoreSteps => "raise model.condensed.steps".to_string(),
             Self::ShorterSteps => "lower time.step_factor".to_string(),
             Self::Massless => "write contact.method = \"massless\"".to_string(),
-            Self::Softer { penalty_factor } if penalty_factor > DEFAULT_PENALTY_FACTOR => {
-                format!("write contact.penalty_factor = {DEFAULT_PENALTY_FACTOR}")
+            Self::Softer { penalty_factor } if penalty_factor > PENALTY_FACTOR => {
+                format!("write contact.penalty_factor = {PENALTY_FACTOR}")
             }
             Self::Softer { penalty_factor } if penalty_factor > SOFTEST_ADVISED_FACTOR => {
                 format!("write contact.penalty_factor = {SOFTEST_ADVISED_FACTOR}")

@@ -15,6 +15,7 @@ use fem_case::schema::{
 };
 use fem_case::{
     Body, Case, CaseError, CaseFile, ContactMethod, ModelChoice, Quantity, Scene, Shape, Snapshots,
+    defaults,
 };
 use fem_collision::{
     OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest, far_radius_at_rest,
@@ -36,17 +37,10 @@ const CANDIDATES_OVER_CONTACT: f64 = 1.5;
 /// Default penalty stiffness per area times element size, over E*. In the glass pair with eight elements across the
 /// contact, 10 changes the contact time by 0.14 %, 20 by 0.02 %, and 40 adds noise to the force.
 const PENALTY_OVER_MODULUS: f64 = 20.0;
-/// Default of the key `contact.penalty_factor`.
-pub(crate) const DEFAULT_PENALTY_FACTOR: f64 = 1.0;
-const STEP_FACTOR: f64 = 0.9;
 /// Element sizes of condensed bodies per octave; sizes are rounded down by at most a ninth.
 const SIZES_PER_OCTAVE: f64 = 8.0;
 /// Relative rounding of a length that was written and read.
 const ROUNDING_OF_LENGTH: f64 = 1e-9;
-/// Default limits of `[limits]`.
-const MAX_ELEMENTS: u64 = 2_000_000;
-const MAX_ELEMENT_UPDATES: u64 = 1_000_000_000_000;
-const MAX_MEMORY: u64 = 8_000_000_000;
 
 /// The decisions before the meshes are generated, SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,7 +119,7 @@ impl Plan {
             radius.min(estimate.smallest_radius)
         });
         let candidate_radius = candidate_radius(&estimate, contact_element_size);
-        let penalty_factor = scene.penalty_factor().unwrap_or(DEFAULT_PENALTY_FACTOR);
+        let penalty_factor = scene.penalty_factor().unwrap_or(defaults::PENALTY_FACTOR);
         let contact_stiffness =
             penalty_factor * PENALTY_OVER_MODULUS * estimate.hertz.pair().contact_modulus();
         let per_area = contact_stiffness / contact_element_size;
@@ -133,8 +127,9 @@ impl Plan {
             let found = format!(
                 "springs of contact.penalty_factor = {penalty_factor:e} have {per_area:e} Pa/m"
             );
-            return Err(Rejection::new("contact.penalty_factor", found)
-                .with_help("it must be positive and finite; leave it out for the default"));
+            return Err(Rejection::new("contact.penalty_factor", found).with_help(
+                "this stiffness must be positive and finite; leave contact.penalty_factor out",
+            ));
         }
         let makes_meshes = scene.bodies().iter().any(is_generated);
         let far_radius = far_radius(scene, &estimate, refined_radius, candidate_radius);
@@ -143,8 +138,8 @@ impl Plan {
         let out_of_reach = rule.reached.filter(|_| is_chosen);
         if let Some(reached) = out_of_reach {
             warnings.push(format!(
-                "accuracy.tolerance cannot be met: {:.0} elements across the contact give an error of about {} of the peak \
-                 force: allow more of it",
+                "accuracy.tolerance cannot be met: even {:.0} elements across the contact leave an error of about {} of the \
+                 peak force; raise accuracy.tolerance",
                 rule.across,
                 percent(reached)
             ));
@@ -152,7 +147,7 @@ impl Plan {
         let limits = scene.limits();
         Ok(Self {
             speed_share: 1.0,
-            gap: scene.gap().unwrap_or(0.0),
+            gap: scene.gap().unwrap_or(defaults::GAP),
             contact_element_size,
             finer_body,
             limiting_quantity: rule.limiting_quantity,
@@ -165,13 +160,13 @@ impl Plan {
             contact_method: contact_method(scene),
             penalty_factor,
             contact_stiffness,
-            step_factor: scene.step_factor().unwrap_or(STEP_FACTOR),
+            step_factor: scene.step_factor().unwrap_or(defaults::STEP_FACTOR),
             mass_scaling: scene.mass_scaling().unwrap_or(rule.mass_scaling),
             snapshots: request(scene.snapshots()),
-            max_elements: limits.elements.unwrap_or(MAX_ELEMENTS),
-            max_element_updates: limits.element_updates.unwrap_or(MAX_ELEMENT_UPDATES),
+            max_elements: limits.elements.unwrap_or(defaults::MAX_ELEMENTS),
+            max_element_updates: limits.element_updates.unwrap_or(defaults::MAX_ELEMENT_UPDATES),
             give_up_after: viscous_flow::give_up_after(scene, &estimate),
-            max_memory: limits.memory.unwrap_or(MAX_MEMORY),
+            max_memory: limits.memory.unwrap_or(defaults::MAX_MEMORY),
             warnings,
             estimate,
         })

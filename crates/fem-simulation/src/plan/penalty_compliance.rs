@@ -1,6 +1,8 @@
 //! Lengthening of a contact by compliant penalty springs.
 
-use crate::plan::{DEFAULT_PENALTY_FACTOR, Plan};
+use fem_case::defaults::PENALTY_FACTOR;
+
+use crate::plan::Plan;
 
 /// Ratios below this are neglected: the estimate is not more accurate.
 const LEAST_LENGTHENING: f64 = 1.05;
@@ -24,7 +26,7 @@ pub(crate) fn lengthening(plan: &Plan) -> f64 {
 /// Returns the relative lengthening by springs softer than the default; `None` for default springs, whose compliance is
 /// part of the discretisation error.
 pub(crate) fn softness(plan: &Plan) -> Option<f64> {
-    (plan.penalty_factor < DEFAULT_PENALTY_FACTOR).then(|| ratio(plan) - 1.0)
+    (plan.penalty_factor < PENALTY_FACTOR).then(|| ratio(plan) - 1.0)
 }
 
 /// Returns the ratio without the bound [`LEAST_LENGTHENING`]; 1 if it is not a number.

@@ -13,6 +13,7 @@
 //! | likely causes of an early stop | `results/stop_advice.rs` |
 
 use fem_case::ModelChoice;
+use fem_case::defaults::PENALTY_FACTOR;
 use fem_case::engineering::show;
 use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, Stop};
 
@@ -25,8 +26,8 @@ use crate::error::{
 use crate::estimate::mach;
 use crate::models::method::{Cost, ElementSetup};
 use crate::models::{ModelCandidate, SelectedModel};
+use crate::plan::Plan;
 use crate::plan::penalty_compliance::softness;
-use crate::plan::{DEFAULT_PENALTY_FACTOR, Plan};
 use crate::simulation::Simulation;
 
 /// Safety factor on the advised stiffness of springs.
@@ -94,7 +95,7 @@ impl Simulation {
         (longer > self.case().scene().accuracy().contact_time).then(|| {
             format!(
                 "contact.penalty_factor = {} makes the springs so soft that the contact lasts about {:.0} % longer; write \
-                 contact.penalty_factor = {DEFAULT_PENALTY_FACTOR}, or leave it out",
+                 contact.penalty_factor = {PENALTY_FACTOR}, or leave it out",
                 elements.plan.penalty_factor,
                 100.0 * longer
             )
@@ -151,7 +152,7 @@ fn of_elements(
     let coarse = widest_contact(simulation, collision)
         .and_then(|radius| unresolved_warning(simulation, radius));
     let is_unresolved = is_unresolved(simulation, collision);
-    let is_soft = elements.plan.penalty_factor < DEFAULT_PENALTY_FACTOR;
+    let is_soft = elements.plan.penalty_factor < PENALTY_FACTOR;
     // On a coarse mesh the mesh is the cause of overlap, unless the springs are soft.
     let is_of_mesh = is_unresolved || (coarse.is_some() && !is_soft);
     let overlap = overlap(simulation, collision).filter(|_| !is_of_mesh);
@@ -214,7 +215,7 @@ fn penetration(collision: &Collision, plan: &Plan, overlap: &Overlap) -> Option<
     let size = plan.contact_element_size / (ROOM_OF_ADVICE * excess.powf(ELEMENT_SIZE_PER_OVERLAP));
     let shorter = match plan.makes_meshes {
         // The springs are the cause, and not the mesh.
-        _ if plan.penalty_factor < DEFAULT_PENALTY_FACTOR => String::new(),
+        _ if plan.penalty_factor < PENALTY_FACTOR => String::new(),
         true => format!(", or use a mesh.contact_element_size of {} or less", show(size, "m")),
         false => ", or use meshes that are finer at the contact".to_string(),
     };
@@ -227,7 +228,7 @@ fn penetration(collision: &Collision, plan: &Plan, overlap: &Overlap) -> Option<
             100.0 * overlap.of_approach,
             100.0 * overlap.of_element,
             100.0 * LARGEST_PENETRATION,
-            two_digits(factor.max(DEFAULT_PENALTY_FACTOR)),
+            two_digits(factor.max(PENALTY_FACTOR)),
         )
     })
 }

@@ -52,7 +52,7 @@ impl<'a> Drawing<'a> {
 /// Returns the gap of the surfaces at time 0, m; for a falling ball, that of its first touch.
 fn start_gap(simulation: &Simulation, collision: &Collision) -> f64 {
     if collision.approach == simulation.setup().approach {
-        return simulation.case().scene().gap().unwrap_or_default();
+        return simulation.case().scene().gap().unwrap_or(fem_case::defaults::GAP);
     }
     collision.approach.gap()
 }

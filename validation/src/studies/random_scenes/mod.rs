@@ -13,7 +13,7 @@ mod linear_scenes;
 mod model_differences;
 mod soft_scenes;
 
-use fem_case::{Accuracy, Case, CaseError};
+use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 use rayon::prelude::*;
 
@@ -115,7 +115,7 @@ impl NumberTrial {
 
     /// Whether the error is within the default tolerance; approach and contact radius have none.
     fn is_met(&self) -> bool {
-        let accuracy = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
+        let accuracy = fem_case::defaults::accuracy();
         let tolerance = match self.quantity {
             QuantityOfInterest::Restitution => accuracy.restitution,
             QuantityOfInterest::ContactTime => accuracy.contact_time,

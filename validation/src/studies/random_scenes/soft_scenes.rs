@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use fem::Simulation;
 use fem::accuracy::Setting;
 use fem::effects::{Effect, FiniteStrain};
-use fem_case::{Accuracy, Case, CaseError};
+use fem_case::{Case, CaseError};
 use fem_collision::{Collision, QuantityOfInterest};
 use serde::Deserialize;
 
@@ -66,7 +66,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     findings.measure("covered", count(|one| one.trial.share() <= 1.0));
     findings.measure("met", count(|one| one.has_warned || one.trial.is_met()));
     findings.measure("foretold", count(|one| one.is_estimated));
-    let least = 0.1 * Accuracy::DEFAULT_TOLERANCE;
+    let least = 0.1 * fem_case::defaults::TOLERANCE;
     let all = trials.iter().flat_map(|one| &one.trial.numbers);
     let ratios = all.map(|NumberTrial { error, bar, .. }| bar / error.abs().max(least));
     findings.measure("bar", quantile(ratios, 0.5));

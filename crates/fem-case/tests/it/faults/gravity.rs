@@ -53,7 +53,7 @@ fn a_falling_sphere_needs_a_support() {
 
 #[test]
 fn held_and_bounces_need_gravity() {
-    fault(&[(GRAVITY, ""), ("= 3", "= «3»")], "bounces without [gravity]", "9.81 m/s^2");
+    fault(&[(GRAVITY, ""), ("= 3", "= «3»")], "stop.bounces needs [gravity]", "9.81 m/s^2");
     let held = format!("{SPHERE}\nheld = «true»");
     fault(
         &[(GRAVITY, ""), (STOP, ""), (WALL, &held)],
@@ -74,7 +74,7 @@ fn gravity_and_bounces_reject_values_out_of_range() {
         fault(&[("bounces = 3", &format!("bounces = {wrong}"))], "bounces is", "");
     }
     let at_rest = [("approach_speed = 0.5\n", ""), ("gap = 0.1", "gap = «0»")];
-    fault(&at_rest, "meets its support at 0.0 m/s", "gap = \"10 cm\"");
+    fault(&at_rest, "would never reach its support (impact speed 0.0 m/s)", "gap = \"10 cm\"");
 }
 
 /// Torricelli: √(v² + 2 g h), thrown down or up; time of flight from h + v t − g t²/2 = 0.

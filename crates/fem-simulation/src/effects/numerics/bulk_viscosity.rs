@@ -17,7 +17,7 @@
 //! The factors are measured: pairs, walls and half-spaces, ν from −0.4 to 0.45, elastic and relaxing, at
 //! default settings and v/c_s from 3e-3 to 0.08, within a factor of three.
 
-use fem_case::{Body, ContactMethod, Scene, Switch};
+use fem_case::{Body, ContactMethod, Scene, Switch, defaults};
 use fem_material::Material;
 
 use crate::effects::effect::neglect_error::EffectStatus;
@@ -25,7 +25,6 @@ use crate::effects::effect::neglect_error::NeglectError;
 use crate::effects::effect::relevance::Relevance;
 use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
 use crate::effects::effect::{BulkViscosity, Effect, FiniteStrain};
-use crate::effects::numerics::contact_method_of_case;
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 
@@ -56,7 +55,8 @@ fn is_called_for(scene: &Scene, mach: f64, is_finite: bool) -> bool {
 
 /// Returns whether the contact rings without it. At finite strain springs act on nodes with mass.
 fn rings(scene: &Scene, is_finite: bool) -> bool {
-    is_finite || contact_method_of_case(scene) != ContactMethod::Massless
+    is_finite
+        || scene.contact_method().unwrap_or(defaults::CONTACT_METHOD) != ContactMethod::Massless
 }
 
 impl Effect for BulkViscosity {

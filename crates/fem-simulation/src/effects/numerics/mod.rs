@@ -4,20 +4,14 @@ mod bulk_viscosity;
 mod mass_scaling;
 mod mirror_symmetry;
 
+use fem_case::Scene;
 use fem_case::engineering::show;
-use fem_case::{ContactMethod, Scene};
 use fem_collision::{CandidateRegion, Collision};
 
 use super::effect::neglect_error::NeglectError;
 use super::effect::support::Support;
 use super::effect::{ContactSearch, DashpotEffect, Effect, HourglassControl, PenaltySprings};
 use crate::estimate::Estimate;
-
-/// Returns the contact method of the case. The default is a massless boundary, which gains no energy at any
-/// penalty stiffness and does not ring (docs/contact.md).
-pub(crate) fn contact_method_of_case(scene: &Scene) -> ContactMethod {
-    scene.contact_method().unwrap_or(ContactMethod::Massless)
-}
 
 impl Effect for DashpotEffect {}
 

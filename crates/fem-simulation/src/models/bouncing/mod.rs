@@ -97,7 +97,7 @@ impl Ball {
     /// Returns speed (m/s) and time (s) of first touch, and the height of the fall, m.
     fn fall(&self, approach: &Approach) -> (f64, f64, f64) {
         if *approach == self.first.setup().approach {
-            let height = self.scene.gap().unwrap_or_default();
+            let height = self.scene.gap().unwrap_or(fem_case::defaults::GAP);
             return (approach.speed(), self.scene.first_touch(), height);
         }
         let acceleration = self.gravity.acceleration;

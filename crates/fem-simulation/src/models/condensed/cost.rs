@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn bodies_that_relax_to_little_take_more_steps() {
         let steps = |steps: usize, stop: f64, relaxed: f64| {
-            let options = CondensedOptions { steps, ..CondensedOptions::default() };
+            let options = CondensedOptions { steps, ..fem_case::defaults::CONDENSED };
             n_steps(options, Slower { stop, end: stop }, relaxed)
         };
         assert_eq!([0.0, 0.5, 0.9].map(|relaxed| steps(250, 1.0, relaxed)), [250, 250, 1000]);

@@ -347,7 +347,7 @@ fn stop_of(error: CondensedError, approach: &Approach) -> Stop {
 fn options(scene: &Scene) -> CondensedOptions {
     match scene.model() {
         ModelChoice::Condensed(options) => *options,
-        _ => CondensedOptions::default(),
+        _ => fem_case::defaults::CONDENSED,
     }
 }
 

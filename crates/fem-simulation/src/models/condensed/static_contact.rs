@@ -3,7 +3,7 @@
 //! Relaxation times may be far above the time step of explicit elements. The same bodies are condensed with equilibrium
 //! moduli, on a mesh that the plan chooses for Hertz' contact radius under the force, and pressed together.
 
-use fem_case::{CondensedOptions, ModelChoice, Scene};
+use fem_case::{ModelChoice, Scene};
 use fem_collision::StaticContact;
 use fem_condensed::{CondensedError, CondensedPair};
 use fem_laws::StaticHertz;
@@ -37,11 +37,11 @@ pub(in crate::models) fn of_elements(
         )));
     };
     // A static contact needs a larger mesh of a half-space than waves do.
-    let relaxed = relaxed.with_model(ModelChoice::Condensed(CondensedOptions::default()));
+    let relaxed = relaxed.with_model(ModelChoice::Condensed(fem_case::defaults::CONDENSED));
     let plan = Plan::of(&relaxed)?;
     let bodies = BodySource::of_scene(&relaxed, &plan)?;
     check_memory(&plan, &bodies)?;
-    let settings = settings(&relaxed, &plan, CondensedOptions::default());
+    let settings = settings(&relaxed, &plan, fem_case::defaults::CONDENSED);
     let key = PairKey { bodies, settings };
     let of_error = |error: CondensedError| refuse(error.to_string());
     let mut pair = CondensedPair::new(inputs(&key)?, key.settings).map_err(of_error)?;

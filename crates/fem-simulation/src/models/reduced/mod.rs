@@ -197,7 +197,7 @@ pub(super) fn refused(scene: &Scene, error: &LawError) -> Rejection {
 
 /// Returns the case with the start filled in, which all reduced models read.
 pub(super) fn resolve_start(scene: &Scene, mut file: CaseFile) -> CaseFile {
-    let gap = scene.gap().unwrap_or_default();
+    let gap = scene.gap().unwrap_or(fem_case::defaults::GAP);
     file.start = Some(StartTable { gap: Some(Quantity::from_si(gap)) });
     file
 }
