@@ -7,10 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde::de::Error as _;
 
-use crate::check::{Check, Kind, Tolerance};
-use crate::claim::{Claim, RunFile, Section};
-use crate::error::ClaimError;
-use crate::studies::find_study;
+use crate::{Check, Claim, ClaimError, Kind, RunFile, Section, Tolerance, studies::find_study};
 
 const CLAIM_FILE: &str = "claim.toml";
 

@@ -11,12 +11,9 @@ use fem_laws::HertzImpact;
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 
-use crate::check::{Check, CheckResult};
-use crate::claim::Claim;
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::run::{ExplicitRun, Run};
-use crate::studies::find_study;
+use crate::{
+    Check, CheckResult, Claim, ExplicitRun, Findings, Run, StudyError, studies::find_study,
+};
 
 /// Observes the evaluation of claims from several threads.
 pub trait Observer: Sync {

@@ -6,9 +6,7 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::claim::{Claim, Section};
-use crate::findings::Figure;
-use crate::laboratory::ClaimResult;
+use crate::{Claim, ClaimResult, Figure, Section};
 
 /// The study whose tables the page shows.
 const HARD: &str = "hard";

@@ -11,8 +11,7 @@ use fem_collision::Collision;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::commands;
-use crate::text::failure::Failure;
+use crate::{commands, text::Failure};
 
 /// The input of a job.
 #[derive(Clone, Debug, Default)]

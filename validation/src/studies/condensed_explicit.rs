@@ -14,10 +14,7 @@ use fem_case::schema::{CondensedTable, ContactTable, SnapshotsValue, TimeTable};
 use fem_collision::{Collision, HistoryRow};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::{Findings, Laboratory, Run, StudyError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

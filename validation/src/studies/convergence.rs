@@ -12,10 +12,7 @@ use fem_collision::SnapshotInstant;
 use fem_figure::{Axis, Chart, Curve};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::{ExplicitRun, Run};
+use crate::{ExplicitRun, Findings, Laboratory, Run, StudyError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -18,9 +18,7 @@ mod vibration;
 mod vibration_loss;
 mod viscoelastic;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, StudyError};
 
 pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 

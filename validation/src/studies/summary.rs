@@ -1,9 +1,6 @@
 //! Measures the quantities of each run: `NAME.restitution`, `NAME.contact_time`, ….
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::{Findings, Laboratory, Run, StudyError};
 
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let (names, cases) = laboratory.cases()?;

@@ -9,10 +9,7 @@ use std::sync::Arc;
 use fem_case::Switch;
 use fem_case::schema::EffectsTable;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::{Findings, Laboratory, Run, StudyError};
 
 /// Name and value of a quantity.
 type Quantity = (&'static str, fn(&Run) -> f64);

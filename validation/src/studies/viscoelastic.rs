@@ -14,11 +14,7 @@ use fem_figure::{Axis, Chart, Curve};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
-use crate::studies::relaxing::with_relaxation;
+use crate::{Findings, Laboratory, Run, StudyError, studies::relaxing::with_relaxation};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

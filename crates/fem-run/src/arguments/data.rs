@@ -6,8 +6,7 @@ use std::path::Path;
 use fem::measured::{DataError, Table, decode};
 
 use super::law::split;
-use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::{Failure, one_line};
 
 /// Options for reading measured data.
 #[derive(clap::Args, Debug)]

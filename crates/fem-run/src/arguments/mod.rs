@@ -13,8 +13,7 @@ use clap::{CommandFactory, Parser};
 use fem_case::nearest;
 
 use crate::commands::{Command, run};
-use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::{Failure, one_line};
 use case::CaseArguments;
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a wall or a half-space.

@@ -12,13 +12,12 @@ use fem_report::accuracy::{
 };
 use indicatif::HumanCount;
 
-use crate::arguments::case::{CaseArguments, ToleranceArguments};
-use crate::progress::ItemProgress;
-use crate::progress::interrupt::Interrupt;
-use crate::result_folder::command_output::OutputArguments;
-use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
-use crate::text::tables::table;
+use crate::{
+    arguments::case::{CaseArguments, ToleranceArguments},
+    progress::{ItemProgress, interrupt::Interrupt},
+    result_folder::command_output::OutputArguments,
+    text::{Failure, one_line, table},
+};
 
 /// Shorter runs are timed three times, and the median is taken.
 const TIMED_THRICE: Duration = Duration::from_millis(500);

@@ -10,13 +10,12 @@ use fem_case::EffectsTable;
 use fem_case::engineering::{number, show};
 use fem_collision::QuantityOfInterest;
 
-use crate::arguments::case::{CaseArguments, ToleranceArguments};
-use crate::forecast::{Forecast, estimated, estimated_count};
-use crate::progress::stopwatch::peak_memory_with;
-use crate::text::failure::Failure;
-use crate::text::run_report;
-use crate::text::standard_output;
-use crate::text::tables::{headed, mesh_table, pairs, table};
+use crate::{
+    arguments::case::{CaseArguments, ToleranceArguments},
+    forecast::{Forecast, estimated, estimated_count},
+    progress::stopwatch::peak_memory_with,
+    text::{Failure, headed, mesh_table, pairs, run_report, standard_output, table},
+};
 
 /// Time for the reference runs that decide whether the mesh is fine enough.
 const PATIENCE_WITH_REFERENCE_RUNS: Duration = Duration::from_secs(2);

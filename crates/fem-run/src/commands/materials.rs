@@ -7,9 +7,7 @@ use fem_case::schema::BodyTable;
 use fem_case::{Case, CaseError};
 use textwrap::{Options, WordSeparator, WordSplitter};
 
-use crate::text::failure::Failure;
-use crate::text::standard_output;
-use crate::text::tables::headed;
+use crate::text::{Failure, headed, standard_output};
 
 /// List the materials that a case can name as "lib:NAME", or print one of them
 ///

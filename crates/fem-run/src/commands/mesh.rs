@@ -7,9 +7,8 @@ use fem_mesh::SphereMesh;
 use fem_vtk::{VtuFile, VtuWriter};
 
 use crate::arguments::case::CaseArguments;
-use crate::text::failure::Failure;
 use crate::text::standard_output;
-use crate::text::tables::mesh_table;
+use crate::text::{Failure, mesh_table};
 
 /// Field data that identifies a file of this command.
 const MARK: &str = "fem-run mesh";

@@ -25,9 +25,8 @@ use crate::result_folder::restart::{
 };
 use crate::result_folder::run_files::{WrittenResult, longest_name, write_result};
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::text::failure::Failure;
 use crate::text::run_report::report;
-use crate::text::standard_output::{self, one_line, shown};
+use crate::text::{Failure, one_line, shown, standard_output};
 
 /// How to run a case.
 #[derive(clap::Args, Debug)]

@@ -3,8 +3,7 @@
 use fem_case::json_schema;
 use serde_json::Value;
 
-use crate::text::failure::Failure;
-use crate::text::standard_output;
+use crate::text::{Failure, standard_output};
 
 /// Print the JSON schema of case files or of sweep files
 ///

@@ -4,8 +4,7 @@ use clap::Command;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use crate::text::failure::Failure;
-use crate::text::standard_output;
+use crate::text::{Failure, standard_output};
 
 /// Print a script that completes fem-run's arguments in a shell
 ///

@@ -19,9 +19,7 @@ use crate::progress::ItemProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::result_folder::whole_file::OwnedFileKind;
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::text::failure::Failure;
-use crate::text::standard_output::{self, one_line, shown};
-use crate::text::tables::{headed, table};
+use crate::text::{Failure, headed, one_line, shown, standard_output, table};
 
 /// Identifies the Markdown tables of this command.
 const TABLE: OwnedFileKind = OwnedFileKind {

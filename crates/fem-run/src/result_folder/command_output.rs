@@ -9,8 +9,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::{Replaces, ResultFolder, ResultPath};
-use crate::text::failure::Failure;
-use crate::text::standard_output::{self, shown};
+use crate::text::{Failure, shown, standard_output};
 
 /// Options for the result folder of a command.
 #[derive(clap::Args, Clone, Debug)]

@@ -21,8 +21,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::text::failure::Failure;
-use crate::text::standard_output::shown;
+use crate::text::{Failure, shown};
 use existing_output::{ExistingOutput, ExistingResult};
 use hidden_folder::HiddenFolder;
 use whole_file::write_lasting;

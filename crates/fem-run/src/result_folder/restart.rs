@@ -9,8 +9,7 @@ use fem::{Identity, RestartState, Simulation, Stepper, checkpoint, restart_state
 use fem_case::engineering::show;
 
 use super::ResultFolder;
-use crate::text::failure::Failure;
-use crate::text::standard_output::shown;
+use crate::text::{Failure, shown};
 
 pub use super::existing_output::RESTART_FILE;
 

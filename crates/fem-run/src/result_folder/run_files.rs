@@ -18,10 +18,8 @@ use fem_collision::{Collision, SnapshotInstant};
 use fem_report::report::{REPORT_FILE, StoredResult, report_page};
 use fem_report::section_view::{contour_of_frames, half_width, mirrored, sections};
 
-use super::whole_file::write_whole;
-use super::{Replaces, ResultFolder};
-use crate::progress::stopwatch::Stopwatch;
-use crate::text::failure::Failure;
+use super::{Replaces, ResultFolder, whole_file::write_whole};
+use crate::{progress::stopwatch::Stopwatch, text::Failure};
 
 const RESERVE_FILE: &str = ".fem-run-room";
 /// Bytes by which a summary may grow once all files are known.

@@ -6,8 +6,7 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use crate::text::failure::Failure;
-use crate::text::standard_output::{self, shown};
+use crate::text::{Failure, shown, standard_output};
 
 pub const PREFIX: &str = ".fem-run-";
 pub const SUFFIX: &str = ".tmp";

@@ -12,8 +12,7 @@ use fem_report::sweep::{FigureChoice, FigurePoint, sweep_figure};
 use serde_json::Value;
 
 use super::folder::{FIGURE_FILE, SweepFolder};
-use crate::text::failure::Failure;
-use crate::text::standard_output::one_line;
+use crate::text::{Failure, one_line};
 
 const MOST_SHOWN: usize = 40;
 const MOST_NAMED: usize = 40;

@@ -16,8 +16,7 @@ use super::shard::Shard;
 use crate::result_folder::missing_parents;
 use crate::result_folder::recover_leftovers;
 use crate::result_folder::whole_file::{PREFIX, write_streamed};
-use crate::text::failure::Failure;
-use crate::text::standard_output::shown;
+use crate::text::{Failure, shown};
 
 /// The manifest: the varied keys, and the values and identities of the members.
 pub const MANIFEST_FILE: &str = "sweep.json";

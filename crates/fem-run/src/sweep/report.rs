@@ -15,9 +15,7 @@ use super::collect::SweepOutcome;
 use super::cost_estimate::{SweepCost, TotalTime};
 use super::member_store::LINE_BYTES;
 use crate::forecast::estimated;
-use crate::text::failure::Failure;
-use crate::text::standard_output::{one_line, shown};
-use crate::text::tables::table;
+use crate::text::{Failure, one_line, shown, table};
 
 pub fn announce(
     name: &str,

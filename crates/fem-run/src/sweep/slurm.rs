@@ -18,8 +18,7 @@ use super::cost_estimate::SweepCost;
 use super::folder::SweepFolder;
 use super::report::{duration, member_file_size};
 use crate::arguments::case::{parse_count, stem_of};
-use crate::text::failure::Failure;
-use crate::text::standard_output::{one_line, shown};
+use crate::text::{Failure, one_line, shown};
 
 const SCRIPT_FILE: &str = "sweep.sbatch";
 /// Target time of a task, s: long for a scheduler, short enough to be lost.

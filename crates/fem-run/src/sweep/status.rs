@@ -13,9 +13,7 @@ use serde::de::{Error, IgnoredAny};
 use super::folder::{MANIFEST_FILE, SweepFolder};
 use super::member_store::ShardFilter;
 use super::report::duration;
-use crate::text::failure::Failure;
-use crate::text::standard_output::{one_line, shown};
-use crate::text::tables::table;
+use crate::text::{Failure, one_line, shown, table};
 
 /// The keys of `sweep.json` that are read.
 #[derive(Deserialize)]

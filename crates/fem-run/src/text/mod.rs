@@ -4,3 +4,7 @@ pub mod failure;
 pub mod run_report;
 pub mod standard_output;
 pub mod tables;
+
+pub use failure::Failure;
+pub use standard_output::{one_line, shown};
+pub use tables::{headed, mesh_table, pairs, show_value, table};

@@ -14,11 +14,7 @@
 use fem_collision::{Snapshot, SnapshotInstant};
 use fem_figure::contour::{Panel, Section, Window};
 
-use crate::error::StudyError;
-use crate::findings::{Figure, Findings};
-use crate::laboratory::Laboratory;
-use crate::run::ExplicitRun;
-use crate::studies::sections;
+use crate::{ExplicitRun, Figure, Findings, Laboratory, StudyError, studies::sections};
 
 const MILLI: f64 = 1e3;
 const MEGA: f64 = 1e6;

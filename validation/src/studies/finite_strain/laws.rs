@@ -14,12 +14,11 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::{Findings, Table};
-use crate::laboratory::Laboratory;
-use crate::pulse::{Pulse, largest_mean, width_at_tenth};
-use crate::run::Run;
-use crate::studies::summary;
+use crate::{
+    Findings, Laboratory, Pulse, Run, StudyError, Table,
+    pulse::{largest_mean, width_at_tenth},
+    studies::summary,
+};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

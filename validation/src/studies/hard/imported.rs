@@ -8,8 +8,7 @@ use std::path::Path;
 use fem_mesh::{HalfDisc, SphereMesh};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::studies::random_scenes::Random;
+use crate::{StudyError, studies::random_scenes::Random};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]

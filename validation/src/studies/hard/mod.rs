@@ -20,10 +20,7 @@ use fem_case::CaseError;
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use crate::claim::RunFile;
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, RunFile, StudyError};
 use axis::{Axis, Expected, Scene};
 use endurance::endure;
 use reference::Reference;

@@ -2,10 +2,11 @@
 
 use fem_case::{Case, CaseError};
 
-use super::axis::{Against, Scene};
-use super::trial::{Numbers, Trial};
-use crate::error::StudyError;
-use crate::laboratory::Laboratory;
+use super::{
+    axis::{Against, Scene},
+    trial::{Numbers, Trial},
+};
+use crate::{Laboratory, StudyError};
 
 /// Ting's model with finite spheres.
 const TING: &str = "ting={finite_size=true}";

@@ -6,8 +6,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
+use crate::{Findings, StudyError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -7,8 +7,7 @@ use fem_case::{Case, CaseError};
 use fem_collision::{BalanceSide, Collision, HistoryRow, QuantityOfInterest};
 use fem_laws::HertzImpact;
 
-use crate::error::StudyError;
-use crate::laboratory::Laboratory;
+use crate::{Laboratory, StudyError};
 
 pub(super) struct Trial {
     pub outcome: Outcome,

@@ -8,8 +8,7 @@ use fem_laws::HertzPressure;
 use fem_mesh::segment_measures;
 
 use super::closed_form::{Profile, closed_form, shear_below};
-use crate::error::StudyError;
-use crate::run::ExplicitRun;
+use crate::{ExplicitRun, StudyError};
 
 /// A value at a place with its weight in an integral.
 #[derive(Clone, Copy)]

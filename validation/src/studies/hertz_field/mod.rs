@@ -15,10 +15,7 @@ use fem_case::schema::SnapshotsValue;
 use fem_figure::{Axis, Chart, Curve, GREY};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::studies::order::fitted_order;
+use crate::{Findings, Laboratory, StudyError, studies::order::fitted_order};
 use closed_form::{Profile, closed_form, shear};
 use fields::{Fields, relative_error};
 

@@ -7,10 +7,7 @@ use fem_collision::{Account, HistoryRow};
 use fem_figure::{Axis, Chart, Curve, GREY, Mark};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::{Findings, Laboratory, Run, StudyError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

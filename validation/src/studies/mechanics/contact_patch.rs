@@ -15,9 +15,7 @@ use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side, SphereMesh, segment_measures};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, StudyError};
 
 /// Radius of the sphere over that of the patch; height and slope of its surface within the patch are of order 1e-9.
 const SPHERE_RADIUS: f64 = 1e9;

@@ -18,10 +18,7 @@ use fem_mesh::{HalfDisc, Side, SphereMesh};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::no_springs;
+use crate::{Findings, Laboratory, StudyError, run::no_springs};
 
 /// Half-width of the block in elements, so that few elements reach any size.
 const BLOCK: f64 = 2.0;

@@ -7,10 +7,7 @@
 
 use fem_collision::nan_aware_max_abs;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::{Findings, Laboratory, Run, StudyError};
 
 const REFERENCE: &str = "plain";
 

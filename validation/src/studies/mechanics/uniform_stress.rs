@@ -15,9 +15,7 @@ use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, StudyError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

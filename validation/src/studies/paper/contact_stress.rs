@@ -4,10 +4,7 @@ use fem_collision::HistoryRow;
 use fem_figure::{Axis, Chart, Curve, GREY};
 
 use super::{Speeds, exponent};
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::{Findings, Laboratory, Run, StudyError};
 
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let speeds: Speeds = laboratory.parameters()?;

@@ -5,9 +5,7 @@ use fem_figure::{Axis, Chart, Curve};
 use serde::Deserialize;
 
 use super::{Speeds, case_at, exponent};
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, StudyError};
 
 struct Point {
     speed: f64,

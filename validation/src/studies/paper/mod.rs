@@ -14,9 +14,7 @@ use fem::Plan;
 use fem_case::Case;
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::laboratory::Laboratory;
-use crate::run::ExplicitRun;
+use crate::{ExplicitRun, Laboratory, StudyError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -11,10 +11,7 @@ use fem_laws::{LawImpact, Pair, laws};
 use serde::Deserialize;
 
 use super::{case_at, exponent, falls_through};
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::ExplicitRun;
+use crate::{ExplicitRun, Findings, Laboratory, StudyError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -9,11 +9,7 @@ use fem_figure::{Axis, Chart, Curve, GREY};
 use serde::Deserialize;
 
 use super::falls_through;
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::{ExplicitRun, Run};
-use crate::studies::relaxing::with_term;
+use crate::{ExplicitRun, Findings, Laboratory, Run, StudyError, studies::relaxing::with_term};
 
 /// The two readings: run, label.
 const READINGS: [(&str, &str); 2] = [("all", "constant ν"), ("shear", "elastic bulk")];

@@ -10,10 +10,7 @@ use fem_figure::{Axis, Chart, Curve};
 use fem_material::{ActsOn, PronySeries};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::studies::relaxing::with_term;
+use crate::{Findings, Laboratory, StudyError, studies::relaxing::with_term};
 
 /// Steps of the integration of springs and dashpot, over three relaxation times.
 const N_STEPS: u32 = 600;

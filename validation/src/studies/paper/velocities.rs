@@ -12,11 +12,7 @@ use fem_case::Scene;
 use fem_case::engineering::show;
 use fem_figure::{Axis, Chart, Curve, GREY};
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::{ExplicitRun, Run};
-use crate::studies::summary::quantities;
+use crate::{ExplicitRun, Findings, Laboratory, Run, StudyError, studies::summary::quantities};
 
 const MAIN: &str = "elastic";
 

@@ -22,9 +22,7 @@ use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, StudyError};
 use plate::FarPlate;
 
 /// Penalty factor of both plates: overlaps are h/60 times the pressure over E*.

@@ -15,11 +15,12 @@ use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 use serde::Deserialize;
 
-use super::linear_scenes::{Ratios, overrides};
-use super::{NumberTrial, Random, Trial, computed, load, quantile, tabulate};
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use super::{
+    NumberTrial, Random, Trial, computed,
+    linear_scenes::{Ratios, overrides},
+    load, quantile, tabulate,
+};
+use crate::{Findings, Laboratory, StudyError};
 
 /// Mass scaling of the explicit elements that a limit is computed from.
 const LITTLE_MASS: f64 = 2e-4;

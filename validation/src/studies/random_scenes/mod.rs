@@ -17,10 +17,7 @@ use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 use rayon::prelude::*;
 
-use crate::claim::RunFile;
-use crate::error::StudyError;
-use crate::findings::{Findings, Table};
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, RunFile, StudyError, Table};
 
 pub use error_bars::study as error_bars_study;
 pub use model_differences::study as model_differences_study;

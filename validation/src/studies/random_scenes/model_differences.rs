@@ -14,11 +14,12 @@ use fem_collision::{Collision, QuantityOfInterest};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::linear_scenes::{Ratios, overrides};
-use super::{Random, load};
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use super::{
+    Random,
+    linear_scenes::{Ratios, overrides},
+    load,
+};
+use crate::{Findings, Laboratory, StudyError};
 
 /// Factor within which the closed forms of neglected effects are accurate.
 const ESTIMATED_WITHIN: f64 = 3.0;

@@ -20,9 +20,7 @@ use fem_collision::{Collision, QuantityOfInterest};
 use serde::Deserialize;
 
 use super::{NumberTrial, Random, Trial, computed, load, quantile, tabulate};
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
+use crate::{Findings, Laboratory, StudyError};
 
 /// Ratio of the element sizes from which errors are estimated.
 const FINER: f64 = 1.6;

@@ -13,10 +13,7 @@ use serde::Deserialize;
 
 pub(crate) use spheroidal::{ElasticSphere, Vibration};
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::studies::order::fitted_order;
+use crate::{Findings, Laboratory, StudyError, studies::order::fitted_order};
 
 /// Frequency beyond every mode that a mesh of a dozen elements can resolve.
 const HIGHEST_FREQUENCY: f64 = 12.0;

@@ -11,10 +11,7 @@ use fem_figure::{Axis, Chart, Curve};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use crate::error::StudyError;
-use crate::findings::Findings;
-use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::{Findings, Laboratory, Run, StudyError};
 use modes::{Excited, Pulse, excite};
 
 #[derive(Deserialize)]

@@ -8,12 +8,11 @@ use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
 use fem_report::law_figures::cradle_figure;
 use serde_json::{Value, json};
 
-use crate::arguments::case::stem_of;
-use crate::arguments::data::ColumnArguments;
-use crate::result_folder::command_output::OutputArguments;
-use crate::text::failure::Failure;
-use crate::text::standard_output;
-use crate::text::tables::{headed, table};
+use crate::{
+    arguments::{case::stem_of, data::ColumnArguments},
+    result_folder::command_output::OutputArguments,
+    text::{Failure, headed, standard_output, table},
+};
 
 /// Compute the restitution from the angles of a Newton's cradle
 ///

@@ -8,9 +8,8 @@ use fem_case::engineering::{number, show};
 use serde_json::{Value, json};
 
 use crate::jobs::value_of;
-use crate::text::failure::Failure;
 use crate::text::standard_output;
-use crate::text::tables::headed;
+use crate::text::{Failure, headed};
 
 pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
     let row = |snippet: &Snippet| {

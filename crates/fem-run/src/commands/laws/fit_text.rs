@@ -8,8 +8,7 @@ use fem_laws::LawFamily;
 
 use fem_report::law_figures::evidence;
 
-use crate::text::standard_output::one_line;
-use crate::text::tables::{headed, show_value};
+use crate::text::{headed, one_line, show_value};
 
 pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     let LawFit { problem, fit, .. } = fitted;

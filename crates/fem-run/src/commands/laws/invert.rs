@@ -9,9 +9,8 @@ use serde_json::{Value, json};
 
 use crate::arguments::case::CaseArguments;
 use crate::arguments::law::{LawArguments, find_key, parse_family, parse_share, parse_speed};
-use crate::text::failure::Failure;
 use crate::text::standard_output;
-use crate::text::tables::{headed, show_value};
+use crate::text::{Failure, headed, show_value};
 
 /// Find the parameter of a law that gives a restitution at one speed
 ///

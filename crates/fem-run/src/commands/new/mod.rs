@@ -9,8 +9,7 @@ use serde_json::Value;
 
 use crate::arguments::case::stem_of;
 use crate::commands::{materials, schema};
-use crate::text::failure::Failure;
-use crate::text::standard_output::{self, one_line, shown};
+use crate::text::{Failure, one_line, shown, standard_output};
 
 /// The text of a new case; `{…}` are placeholders.
 const TEMPLATE: &str = include_str!("template.toml");
