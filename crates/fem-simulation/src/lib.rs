@@ -1,9 +1,10 @@
 //! Computes one collision, from a case to results with their error.
 //!
 //! ```text
-//! estimate ─ effects ─ plan ─ models ─ simulation ─ results ─ error
-//! closed     what to   mesh,  method   a case and   summary,  discretisation and
-//! forms      compute   step            its model    history   model-form error
+//! estimate ─ effects ─ plan ─ models ─ simulation ─ error ────────── results
+//! closed     what to   mesh,  method   a case and   discretisation   summary, history,
+//! forms      compute   step            its model    error, finer     warnings, model-
+//!                                                   meshes           form error
 //! ```
 //!
 //! [`Simulation`] joins a case and its model. A method rejects a scene with a [`Rejection`] that names a key of the case.
