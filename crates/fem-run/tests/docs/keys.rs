@@ -9,26 +9,27 @@ use fem_collision::{Account, ShownIn};
 use crate::common::Place;
 use crate::pages::Page;
 
-/// Returns the page, and a folder with a result in `runs/case`.
-fn page_and_result() -> (Page, Place) {
-    let place = Place::new();
-    place.succeed("case.toml --quiet");
-    (Page::load("docs/results.md"), place)
-}
-
 fn keys(summary: &serde_json::Value, pointer: &str) -> BTreeSet<String> {
     summary.pointer(pointer).and_then(|value| value.as_object()).unwrap().keys().cloned().collect()
 }
 
 #[test]
-fn keys_of_a_summary_are_those_of_the_page() {
-    let (page, place) = page_and_result();
+fn results_page_has_the_keys_columns_and_arrays_of_a_result() {
+    let (page, place) = (Page::load("docs/results.md"), Place::new());
+    place.succeed("case.toml --quiet");
+    keys_of_a_summary_are_those_of_the_page(&page, &place);
+    energies_are_those_of_the_accounts(&page, &place);
+    columns_of_a_history_are_those_of_the_page(&page, &place);
+    snapshots_have_the_arrays_and_names_of_the_page(&page, &place);
+}
+
+fn keys_of_a_summary_are_those_of_the_page(page: &Page, place: &Place) {
     let summary = place.json("runs/case/summary.json");
     let (_, listed) = page.first_columns("key").remove(0);
     assert_eq!(BTreeSet::from_iter(listed), keys(&summary, ""));
     // The second cell of a row names exactly the keys of an object.
     for (row, pointer) in [("bodies", "/bodies/0"), ("cost", "/cost")] {
-        let named = named_in_row(&page, row);
+        let named = named_in_row(page, row);
         assert_eq!(BTreeSet::from_iter(named), keys(&summary, pointer), "{pointer}");
     }
 }
@@ -42,10 +43,8 @@ fn named_in_row(page: &Page, key: &str) -> Vec<String> {
 
 /// Page and summary have every account of energy in the order of the table of accounts; a summary omits optional
 /// accounts that its run does not use.
-#[test]
-fn energies_are_those_of_the_accounts() {
-    let (page, place) = page_and_result();
-    let named = named_in_row(&page, "energy");
+fn energies_are_those_of_the_accounts(page: &Page, place: &Place) {
+    let named = named_in_row(page, "energy");
     let accounts = Account::all().map(energy_key);
     let of_table = ["initial_j".to_string()].into_iter().chain(accounts);
     let of_table: Vec<_> =
@@ -67,9 +66,7 @@ fn energies_are_those_of_the_accounts() {
     }
 }
 
-#[test]
-fn columns_of_a_history_are_those_of_the_page() {
-    let (page, place) = page_and_result();
+fn columns_of_a_history_are_those_of_the_page(page: &Page, place: &Place) {
     let history = place.text("runs/case/history.csv");
     let code = page.code();
     let listed = code.iter().find(|code| code.text.starts_with("time_s, ")).unwrap();
@@ -78,9 +75,7 @@ fn columns_of_a_history_are_those_of_the_page() {
     assert_eq!(history.lines().next(), Some(listed.as_str()));
 }
 
-#[test]
-fn snapshots_have_the_arrays_and_names_of_the_page() {
-    let (page, place) = page_and_result();
+fn snapshots_have_the_arrays_and_names_of_the_page(page: &Page, place: &Place) {
     let files = place.list("runs/case");
     for ending in ["case.pvd", "case.vtu.series", "case_0_mid-compression.vtu"] {
         assert!(files.iter().any(|file| file == ending), "{ending} is not in {files:?}");

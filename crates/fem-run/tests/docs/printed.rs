@@ -220,50 +220,21 @@ fn pages_with_output_are_checked() {
 }
 
 #[test]
-#[ignore = "21 s; .ci/run runs it"]
-fn readme_output_equals_printed_output() {
-    check("README.md", Pace::Quick, Digits::All);
-}
-
-#[test]
-fn fits_page_output_equals_printed_output() {
+fn quick_output_on_pages_equals_printed_output() {
     check("docs/fits.md", Pace::Quick, Digits::All);
-}
-
-/// Runs the commands of pages that quote no output, in order.
-#[test]
-#[ignore = "9 s; .ci/run runs it"]
-fn commands_of_the_first_pages_run() {
-    for page in ["docs/why-balls-bounce.md", "docs/gallery.md", "docs/measurement-to-dem.md"] {
-        check(page, Pace::Quick, Digits::All);
-    }
-}
-
-#[test]
-fn cradle_page_output_equals_printed_output() {
     check("docs/cradle.md", Pace::Quick, Digits::All);
-}
-
-#[test]
-fn calibrate_page_output_equals_printed_output() {
     check("docs/calibrate.md", Pace::Quick, Digits::ButLast);
 }
 
+/// Includes the commands of pages that quote no output.
 #[test]
-#[ignore = "takes seconds; .ci/run asks for it"]
-fn fits_page_slow_output_equals_printed_output() {
+#[ignore = "a minute; .ci/run runs it"]
+fn slow_output_on_pages_equals_printed_output() {
+    for page in ["README", "docs/why-balls-bounce", "docs/gallery", "docs/measurement-to-dem"] {
+        check(&format!("{page}.md"), Pace::Quick, Digits::All);
+    }
     check("docs/fits.md", Pace::Slow, Digits::All);
-}
-
-#[test]
-#[ignore = "takes seconds; .ci/run asks for it"]
-fn sweeps_page_slow_output_equals_printed_output() {
     check("docs/sweeps.md", Pace::Slow, Digits::All);
-}
-
-#[test]
-#[ignore = "takes seconds; .ci/run asks for it"]
-fn calibrate_page_slow_output_equals_printed_output() {
     check("docs/calibrate.md", Pace::Slow, Digits::ButLast);
 }
 

@@ -65,6 +65,11 @@ fn check_states_the_refined_mesh_or_the_refinement_bound() {
     let condensed = place.succeed(["check", "case.toml", "--set", "model.condensed={}"]).stdout;
     let time = condensed.lines().find(|line| line.starts_with("# time  ")).unwrap();
     assert!(time.contains("about ") && time.contains("here, after"), "{time}");
+    // Small mass scaling is not rounded to zero.
+    let tight = ["accuracy.tolerance=1e-5", "mesh.contact_element_size='50 um'"];
+    let told = place.succeed(["check", "case.toml", "--set", tight[0], "--set", tight[1]]).stdout;
+    let row = told.lines().find(|line| line.starts_with("# time.mass_scaling")).unwrap();
+    assert!(row.contains("e-") && !row.contains("0.00"), "{row}");
     // The case gives its element size.
     assert!(!condensed.contains("mesh refinement"), "{condensed}");
     let open = place.succeed(["check", "auxetic.toml", "--set", "model.condensed={}"]).stdout;
@@ -76,49 +81,20 @@ fn check_states_the_refined_mesh_or_the_refinement_bound() {
 #[test]
 fn check_prints_the_size_of_metre_spheres_without_a_warning() {
     let place = Place::new();
-    let sizes = |value: &str| {
-        let set = |k: usize| format!("body.{k}.sphere.diameter={value}");
-        [
-            "case.toml".into(),
-            "--set".into(),
-            set(0),
-            "--set".into(),
-            set(1),
-            "--set".into(),
-            "model=hertz".to_string(),
-        ]
-    };
-    let run = |command: &[&str], value: &str| {
-        let sizes = sizes(value);
-        let sizes = sizes.iter().map(String::as_str);
-        place.succeed(&command.iter().copied().chain(sizes).collect::<Vec<_>>())
+    let run = |command: &str, value: &str| {
+        let sizes = [0, 1].map(|k| format!("--set body.{k}.sphere.diameter={value}"));
+        let sizes: Vec<&str> = sizes.iter().flat_map(|set| set.splitn(2, ' ')).collect();
+        place.succeed((command, "case.toml --set model=hertz", &sizes))
     };
     for (value, is_told) in [("22.2", true), ("'2 m'", true), ("'99 cm'", false), ("0.0222", false)]
     {
         let words = "(bare numbers are in metres)";
-        let checked = run(&["check"], value);
+        let checked = run("check", value);
         assert_eq!(checked.stdout.contains(words), is_told, "{value}: {}", checked.stdout);
-        let ran = run(&["--force", "--out", "out"], value);
+        let ran = run("--force --out out", value);
         assert_eq!(ran.stderr.contains(words), is_told, "{value}: {}", ran.stderr);
         assert!(!ran.stderr.contains("warning: the diameter"), "{}", ran.stderr);
     }
-}
-
-/// Mass scaling is not rounded to zero.
-#[test]
-fn check_does_not_round_small_mass_scaling_to_zero() {
-    let place = Place::new();
-    let tight = [
-        "check",
-        "case.toml",
-        "--set",
-        "accuracy.tolerance=1e-5",
-        "--set",
-        "mesh.contact_element_size='50 um'",
-    ];
-    let told = place.succeed(tight).stdout;
-    let row = told.lines().find(|line| line.starts_with("# time.mass_scaling")).unwrap();
-    assert!(row.contains("e-") && !row.contains("0.00"), "{row}");
 }
 
 /// A sweep's cost estimate includes the mesh refinement that some members need.

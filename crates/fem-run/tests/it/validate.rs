@@ -41,6 +41,13 @@ fn a_claim_that_holds_is_shown_with_its_reference() {
         ["checks.csv", "index.html", "summary.json"].map(String::from)
     );
     assert_eq!(place.json("runs/validation/summary.json")["passed"], true);
+    let page = place.text("runs/validation/index.html");
+    for outside in ["<script", "<link", "@import", "src=\"http", "url("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    for source in page.split("src=\"").skip(1) {
+        assert!(source.starts_with("data:image/svg+xml;base64,"));
+    }
     // A second time, over the old page.
     place.succeed("validate mine --quiet");
 }
@@ -54,22 +61,14 @@ fn a_claim_that_fails_ends_with_status_1_and_keeps_the_page() {
     let page = place.text("runs/validation/index.html");
     assert!(page.contains("FAIL") && page.contains("It is so."));
     assert_eq!(place.json("runs/validation/summary.json")["passed"], false);
-}
-
-#[test]
-fn a_quantity_that_the_study_does_not_measure_fails() {
-    let place = place(&CHECK.replace("pair.restitution", "pair.colour"));
+    // A quantity that the study does not measure, and a run that fails.
+    let other = CHECK.replace("pair.restitution", "pair.colour");
+    place.write("validation/mine/claim.toml", &claim(&other));
     place.fails(1, "validate").prints("not measured");
-}
-
-#[test]
-fn a_run_that_fails_is_a_claim_that_fails() {
-    let place = place(CHECK);
     let sets: Vec<_> = crate::common::FAILS.iter().skip(1).step_by(2).collect();
     let text = claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = {sets:?}\n"));
     place.write("validation/mine/claim.toml", &text);
-    let ran = place.fails(1, "validate");
-    assert!(ran.stdout.contains("mine") && ran.stdout.contains("FAIL"), "{}", ran.stdout);
+    place.fails(1, "validate").prints("mine|FAIL");
 }
 
 #[test]
@@ -125,20 +124,6 @@ fn bad_claims_are_refused_before_anything_runs() {
     place.write("validation/mine/claim.toml", &claim(CHECK));
     place.write("case.toml", &crate::common::CASE.replace("density", "densty"));
     place.fails(2, "validate").tells("case.toml:4:1: ");
-}
-
-/// The page is self-contained.
-#[test]
-fn the_page_is_self_contained() {
-    let place = place(CHECK);
-    place.succeed("validate --quiet");
-    let page = place.text("runs/validation/index.html");
-    for outside in ["<script", "<link", "@import", "src=\"http", "url("] {
-        assert!(!page.contains(outside), "{outside}");
-    }
-    for source in page.split("src=\"").skip(1) {
-        assert!(source.starts_with("data:image/svg+xml;base64,"));
-    }
 }
 
 /// validation/claims.md agrees with the claims: same claims, checks, references and tolerances, and all of

@@ -16,10 +16,10 @@ fn keys(value: &serde_json::Value) -> String {
 }
 
 #[test]
-fn summary_has_the_documented_keys() {
+fn result_has_the_documented_keys_and_files() {
     let place = Place::new();
-    place.succeed("case.toml --out out");
-    let summary = place.json("out/summary.json");
+    place.succeed("case.toml");
+    let summary = place.json("runs/case/summary.json");
     assert_eq!(keys(&summary), format!("{QUANTITIES} {OTHERS}"));
     for (object, expected) in [
         (&summary["hertz"], QUANTITIES),
@@ -60,12 +60,6 @@ fn summary_has_the_documented_keys() {
     let spent = &summary["cost"];
     let expected = 1e9 * number(&spent["solve_s"]) / number(&summary["element_updates"]);
     assert!((number(&spent["ns_per_element_update"]) / expected - 1.0).abs() < 1e-9);
-}
-
-#[test]
-fn result_folder_has_the_documented_files() {
-    let place = Place::new();
-    place.succeed("case.toml");
     assert_eq!(place.list("."), ["case.toml", "runs"]);
     assert_eq!(place.list("runs"), ["case"]);
     let files = "case.pvd case.vtu.series case_0_mid-compression.vtu case_1_maximum.vtu \
@@ -82,7 +76,6 @@ fn result_folder_has_the_documented_files() {
 
     let maximum = VtuFile::open(place.path("runs/case/case_1_maximum.vtu")).unwrap();
     let mesh = maximum.quad_mesh().unwrap();
-    let summary = place.json("runs/case/summary.json");
     let total = |key: &str| -> u64 {
         let bodies = summary["bodies"].as_array().unwrap();
         bodies.iter().map(|body| body[key].as_u64().unwrap()).sum()
@@ -124,12 +117,8 @@ fn a_wall_has_neither_elements_nor_mass() {
     );
     let history = place.text("out/history.csv");
     assert!(history.starts_with("time_s,") && history.contains("velocity_floor_m_s"));
-}
-
-#[test]
-fn initial_gap_separates_the_bodies_in_the_snapshot() {
-    let place = Place::new();
-    place.succeed("case.toml --set start.gap=2e-6 --out out");
+    // A gap separates the bodies in a snapshot.
+    place.succeed("case.toml --set start.gap=2e-6 --out out --force");
     let mesh = VtuFile::open(place.path("out/case_1_maximum.vtu")).unwrap().quad_mesh().unwrap();
     let below = mesh.points.iter().filter(|p| p[1] < 0.0).map(|p| p[1]).fold(-1.0, f64::max);
     let above = mesh.points.iter().filter(|p| p[1] > 0.0).map(|p| p[1]).fold(1.0, f64::min);
@@ -202,7 +191,7 @@ fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
 }
 
 #[test]
-fn foreign_folders_are_rejected_as_result_folder() {
+fn foreign_and_current_folders_are_rejected_as_result_folder() {
     let place = Place::new();
     for (name, text) in [("notes.txt", "mine"), ("summary.json", "{\"program\": \"other\"}")] {
         let folder = format!("folder of {name}");
@@ -216,15 +205,10 @@ fn foreign_folders_are_rejected_as_result_folder() {
         );
         assert_eq!(place.list(&folder), [name]);
     }
-    std::fs::create_dir(place.path("empty")).unwrap();
-    place.succeed("case.toml --set model=ting --out empty");
-    assert!(place.path("empty/summary.json").exists());
-}
-
-#[test]
-fn current_folder_is_rejected_as_result_folder() {
-    let place = Place::new();
+    std::fs::create_dir(place.path("out")).unwrap();
     place.succeed("case.toml --set model=ting --out out");
+    assert!(place.path("out/summary.json").exists());
+    // Nor is the current folder replaced.
     let mut command = place.command("../case.toml --set model=ting --out .");
     let ran: crate::common::Ran = command.current_dir(place.path("out")).output().unwrap().into();
     assert_eq!(ran.code, Some(2));
@@ -252,6 +236,10 @@ fn a_symbolic_link_stays_and_what_it_points_at_is_replaced() {
 fn failed_run_writes_a_result_marked_incomplete() {
     let place = Place::new();
     place.succeed("case.toml --set model=ting --out out");
+    // A run that is rejected leaves it alone.
+    let before = place.read("out/summary.json");
+    place.fails(2, "case.toml --out out --set body.0.approach_speed=-1");
+    assert_eq!((place.read("out/summary.json"), place.list(".").len()), (before, 2));
     for out in ["out/", "fresh"] {
         place.fails(1, (["case.toml", "--out", out, "--force"], FAILS)).tells("marked incomplete");
         let summary = place.json(&format!("{}/summary.json", out.trim_end_matches('/')));
@@ -261,16 +249,6 @@ fn failed_run_writes_a_result_marked_incomplete() {
     assert_eq!(place.list("."), ["case.toml", "fresh", "out"]);
     place.succeed("case.toml --set model=ting --out out --force");
     assert_eq!(place.json("out/summary.json")["complete"], true);
-}
-
-#[test]
-fn a_refused_run_leaves_an_older_result_alone() {
-    let place = Place::new();
-    place.succeed("case.toml --set model=ting --out out");
-    let before = place.read("out/summary.json");
-    place.fails(2, "case.toml --out out --set body.0.approach_speed=-1");
-    assert_eq!(place.read("out/summary.json"), before);
-    assert_eq!(place.list("."), ["case.toml", "out"]);
 }
 
 #[test]

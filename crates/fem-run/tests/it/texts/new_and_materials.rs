@@ -25,13 +25,9 @@ fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
     assert_eq!(own["peak_force_n"], short["peak_force_n"]);
     assert_eq!(own["case"]["material"]["pmma"], short["case"]["material"]["lib:pmma"]);
     assert_eq!(short["case"]["material"]["lib:pmma"]["density"], 1190.0);
-}
-
-#[test]
-fn unknown_material_is_rejected_with_a_suggestion() {
-    let ran = Place::new().fails(2, "materials rubber");
-    ran.tells("did you mean natural-rubber?");
-    assert!(ran.stdout.is_empty());
+    let unknown = place.fails(2, "materials rubber");
+    unknown.tells("did you mean natural-rubber?");
+    assert!(unknown.stdout.is_empty());
 }
 
 /// A new case runs, also with each of its commented keys enabled.
@@ -114,24 +110,6 @@ fn schema_has_the_keys_of_the_reader() {
     }
     place.write("sweep.toml", "nothing = 1\ncase = 'case.toml'\nvary = { title = ['a'] }\n");
     assert_eq!(told(&place.run("sweep sweep.toml").stderr), keys(&read("sweep")));
-}
-
-#[test]
-fn misspelled_command_gets_a_suggestion() {
-    let place = Place::new();
-    for (arguments, meant) in [
-        (&["chek"][..], "did you mean fem-run check?"),
-        (&["nwe"], "did you mean fem-run new?"),
-        (&["swep", "sweep.toml"], "did you mean sweep?"),
-        (&["mateirals"], "did you mean fem-run materials?"),
-        (&["help", "exprt"], "did you mean export?"),
-    ] {
-        place.fails(2, arguments).tells(meant);
-    }
-    // The word is meant as a file.
-    for file in ["mesh.toml", "glass"] {
-        place.run([file]).tells("there is no such file");
-    }
 }
 
 #[test]

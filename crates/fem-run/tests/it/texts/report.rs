@@ -68,32 +68,17 @@ fn report_of_a_run_with_fields_has_all_sections() {
 }
 
 #[test]
-fn a_result_without_fields_has_a_page_and_no_picture_of_them() {
+fn a_result_without_fields_has_a_page_with_its_title_escaped_and_no_picture() {
     let place = Place::new();
-    place.succeed(TING);
+    place.succeed((TING, ["--set", "title='<script>alert(1)</script>'"]));
     let page = place.text("runs/case/report.html");
     stands_alone(&page);
     assert!(page.contains("Contact radius a [µm]") && !page.contains("<figure>"));
-    place.fails(2, "plot runs/case --what contours").tells("nothing to draw");
-}
-
-#[test]
-fn report_false_writes_no_page() {
-    let place = Place::new();
-    let spared = "--set output.report=false";
-    place.succeed((TING, spared));
-    assert_eq!(place.list("runs/case"), ["history.csv", "summary.json"]);
-}
-
-/// Titles are escaped.
-#[test]
-fn report_escapes_the_title() {
-    let place = Place::new();
-    let title = ["--set", "title='<script>alert(1)</script>'"];
-    place.succeed((TING, title));
-    let page = place.text("runs/case/report.html");
     assert!(!page.contains("<script>alert"));
     assert_eq!(page.matches("<script>").count(), 1);
+    place.fails(2, "plot runs/case --what contours").tells("nothing to draw");
+    place.succeed((TING, "--set output.report=false --out spared"));
+    assert_eq!(place.list("spared"), ["history.csv", "summary.json"]);
 }
 
 #[test]
@@ -179,24 +164,14 @@ fn picture_of_a_ball_on_a_wall_fills_its_frame() {
     assert!((height / 400.0 - 0.625).abs() < 1e-3, "{height}");
 }
 
-#[test]
-fn report_rejects_folders_without_a_result_and_foreign_files() {
-    let place = Place::new();
-    place.succeed(TING);
-    for folder in [".", "nowhere"] {
-        place.fails(2, ["report", folder]).tells("summary.json cannot be read");
-    }
-    place.write("mine.html", "<p>mine</p>");
-    place.fails(2, "report runs/case --out mine.html");
-    assert_eq!(place.text("mine.html"), "<p>mine</p>");
-    place.succeed("report runs/case");
-}
-
 /// Commands that write a single file overwrite no file of others.
 #[test]
 fn single_file_commands_overwrite_no_foreign_file() {
     let place = Place::new();
     place.succeed(TING);
+    for folder in [".", "nowhere"] {
+        place.fails(2, ["report", folder]).tells("summary.json cannot be read");
+    }
     place.succeed((TING, "--out runs/other"));
     let summary = place.text("runs/case/summary.json");
     fn own(name: &str) -> Vec<&str> {

@@ -15,17 +15,9 @@ fn stdout_has_the_report_and_stderr_the_messages() {
     }
     assert!(ran.stderr.starts_with("case.toml: "), "{}", ran.stderr);
     assert!(!ran.stdout.contains('\u{1b}') && !ran.stderr.contains('\u{1b}'));
-}
-
-#[test]
-fn a_coarse_mesh_is_warned_of() {
-    let place = Place::new();
-    // `check` warns about the expected contact, a run about the computed one.
-    let warning = "the contact radius spans only 2.5 elements";
-    place.succeed("check case.toml").prints(warning);
-    let ran = place.succeed("case.toml --out out");
-    assert!(!ran.stderr.contains(warning), "{}", ran.stderr);
-    let warnings = place.json("out/summary.json")["warnings"].to_string();
+    // Before the run the warning is about the expected contact, after it about the computed one.
+    ran.tells("warning: the contact radius is resolved by only 2.5 elements");
+    let warnings = place.json("runs/case/summary.json")["warnings"].to_string();
     assert!(warnings.contains("because of the mesh"), "{warnings}");
 }
 
@@ -36,7 +28,6 @@ fn quiet_prints_only_errors_and_warnings() {
     assert_eq!(ran.stdout, "");
     ran.tells(" because of the mesh");
     assert!(ran.stderr.lines().all(|line| line.starts_with("warning: ")), "{}", ran.stderr);
-    assert!(place.path("runs/case/summary.json").exists());
     // 22.2 mm with the unit forgotten: not rejected, but reported.
     for command in
         [&["case.toml", "--set", "model=hertz", "--out", "odd"][..], &["check", "case.toml"]]
@@ -96,20 +87,13 @@ fn help_version_and_completions_are_there() {
     }
 }
 
+/// A case may have the name of a command; a file name with a blank is quoted for a shell.
 #[test]
 fn a_case_named_like_a_command_runs_with_its_folder() {
     let place = Place::new();
     place.write("check", crate::common::CASE);
-    place.succeed("./check");
-    assert!(place.path("runs/check/check.pvd").exists());
-}
-
-/// Misspelled names of models are corrected in the message; a file name with a blank is quoted for a shell.
-#[test]
-fn misspelled_models_get_a_suggestion_and_file_names_are_quoted() {
-    let place = Place::new();
-    place.fails(2, "check case.toml --set model=tingg").tells("did you mean `ting`?");
-    place.run("check case.toml --set model.law=tsujii").tells("did you mean `tsuji`?");
+    place.succeed("./check --set model=ting");
+    assert!(place.path("runs/check/summary.json").exists());
     place.succeed("new 'wei rd2'").prints("fem-run check 'wei rd2.toml'");
     place.succeed("new plain").prints("fem-run check plain.toml");
 }
