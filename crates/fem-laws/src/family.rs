@@ -24,17 +24,16 @@ pub struct LawParameter {
     pub default: Option<f64>,
     /// Values that a fit may try.
     pub limits: (f64, f64),
+    /// Value that a fit of a plain number without a default begins with.
+    pub start: f64,
 }
 
 impl LawParameter {
     /// Returns a valid value to begin with, near a collision at `speed`, m/s.
     pub fn guess(&self, speed: f64) -> f64 {
-        self.default.unwrap_or(match (self.role, self.key) {
-            (ParameterRole::Speed, _) => speed,
-            (ParameterRole::Number, "e") => 0.8,
-            // Like Poisson's ratio; at 0, the middle, nothing depends on it in first order.
-            (ParameterRole::Number, "eta_2") => 0.25,
-            (ParameterRole::Number, _) => 0.5 * (self.limits.0 + self.limits.1),
+        self.default.unwrap_or(match self.role {
+            ParameterRole::Speed => speed,
+            ParameterRole::Number => self.start,
             _ => 1.0,
         })
     }
@@ -125,6 +124,7 @@ struct Role {
     unit: Option<&'static str>,
     default: Option<f64>,
     limits: (f64, f64),
+    start: f64,
 }
 
 impl Role {
@@ -136,11 +136,17 @@ impl Role {
     const DAMPING_EXPONENT: Self = Self::number(Some(0.5), (0.0, 3.0));
 
     const fn factor(role: ParameterRole) -> Self {
-        Self { role, unit: None, default: None, limits: (0.0, f64::INFINITY) }
+        Self { role, unit: None, default: None, limits: (0.0, f64::INFINITY), start: 1.0 }
     }
 
+    /// A number with a default, or one that a fit begins in the middle of its limits.
     const fn number(default: Option<f64>, limits: (f64, f64)) -> Self {
-        Self { role: ParameterRole::Number, unit: None, default, limits }
+        let start = 0.5 * (limits.0 + limits.1);
+        Self { role: ParameterRole::Number, unit: None, default, limits, start }
+    }
+
+    const fn starting_at(self, start: f64) -> Self {
+        Self { start, ..self }
     }
 
     /// Sets the unit of a key that is a plain number in a case file, because its unit depends on an exponent.
@@ -154,8 +160,8 @@ impl Role {
             Some(unit) => unit,
             None => own_unit,
         };
-        let Self { role, default, limits, .. } = self;
-        LawParameter { key, unit, dimension, role, default, limits }
+        let Self { role, default, limits, start, .. } = self;
+        LawParameter { key, unit, dimension, role, default, limits, start }
     }
 }
 

@@ -88,7 +88,7 @@ macro_rules! contact_laws {
             given by [e, v: KeyNeed::Optional], values laws::hunt_crossley_values;
             keys {
                 /// Restitution wanted, > 0 and ≤ 1.
-                e: Number, Restitution, Role::number(None, (1e-6, 1.0));
+                e: Number, Restitution, Role::number(None, (1e-6, 1.0)).starting_at(0.8);
                 /// Approach speed at which it is wanted, > 0; the case's if absent.
                 v: Speed, Positive, Role::SPEED;
             }
@@ -159,7 +159,8 @@ macro_rules! contact_laws {
                 /// Viscoelastic coefficient in place of E, ≥ 0.
                 eta_1: Viscosity, NotNegative, Role::DAMPING;
                 /// Viscoelastic coefficient in place of ν, between −1 and 1.
-                eta_2: Number, LikePoissonsRatio, Role::number(None, (-0.99, 0.99));
+                // At 0, the middle of the limits, nothing depends on it in first order.
+                eta_2: Number, LikePoissonsRatio, Role::number(None, (-0.99, 0.99)).starting_at(0.25);
             }
 
             /// Hertz' spring with the damping 2 A E* R*^(1−n) ξ^n ξ̇.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use fem::{Explicit, Simulation};
+use fem_case::schema::LawTable;
 use fem_case::{Case, CaseError, ModelChoice};
 use fem_collision::{Account, Collision};
 use fem_laws::{EndRule, LawFamily, LawInput};
@@ -68,6 +69,7 @@ fn every_model_and_law_is_read() {
     let outer = "law = { hertz = {}, end = \"zero_overlap\", tolerance = 1e-5 }";
     assert_eq!([model(inner), model(outer)], [expected.clone(), expected]);
     let kilopascal_seconds = [("eta_1", 1e3), ("eta_2", 0.0)];
+    let mut read = vec!["hertz"];
     for (value, family, values) in [
         (
             "linear = { k = \"10 N/um\", c = \"30 N s/m\" }",
@@ -119,7 +121,10 @@ fn every_model_and_law_is_read() {
         ),
     ] {
         assert_eq!(law(value), input(family, values));
+        read.push(family.name());
     }
+    let missing = LawTable::NAMES.iter().filter(|name| !read.contains(*name));
+    assert_eq!(missing.collect::<Vec<_>>(), [&""; 0], "a law has no row above");
 }
 
 #[test]

@@ -14,7 +14,7 @@ use fem::Plan;
 use fem_case::Case;
 use serde::Deserialize;
 
-use crate::{ExplicitRun, Laboratory, StudyError};
+use crate::{ExplicitRun, Laboratory, StudyError, studies::order::fitted_order};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,15 +44,8 @@ fn case_at(case: &Case, speed: f64, elements: f64) -> Result<Case, StudyError> {
 
 /// Returns the exponent p of the least-squares fit y ∝ xᵖ; NaN if a number is not positive.
 fn exponent(points: &[(f64, f64)]) -> f64 {
-    let n = points.len() as f64;
-    let logarithms = || points.iter().map(|(x, y)| (x.ln(), y.ln()));
-    let (x, y) = logarithms().fold((0.0, 0.0), |(x, y), (u, v)| (x + u / n, y + v / n));
-    let (mut xx, mut xy) = (0.0, 0.0);
-    for (u, v) in logarithms() {
-        xx += (u - x) * (u - x);
-        xy += (u - x) * (v - y);
-    }
-    xy / xx
+    let is_positive = points.iter().all(|point| point.1 > 0.0);
+    if is_positive { fitted_order(points.iter().copied()) } else { f64::NAN }
 }
 
 /// Returns the place between two positive numbers at which a function falls through a value, to rounding; NaN if it

@@ -13,10 +13,9 @@ use std::hash::{BuildHasher, Hasher};
 use fem::accuracy::{BarParts, Limit, Setting};
 use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
-use serde::Deserialize;
 
 use super::{
-    NumberTrial, Random, Trial, computed,
+    NumberTrial, Parameters, Random, Trial, computed,
     linear_scenes::{Ratios, overrides},
     load, quantile, tabulate,
 };
@@ -31,15 +30,6 @@ const CONDENSED: [f64; 5] = [8.0, 11.0, 16.0, 23.0, 32.0];
 const N_SHOWN: usize = 8;
 /// Largest number of scenes drawn per scene that is computed.
 const MOST_DRAWN: usize = 8;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Parameters {
-    seed: u64,
-    scenes: usize,
-    /// Scenes that need more element updates on the finest mesh are skipped.
-    element_updates: f64,
-}
 
 /// A trial and the parts of its error bars.
 type Parted = (Trial, Vec<BarParts>);

@@ -16,6 +16,7 @@ mod soft_scenes;
 use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 use rayon::prelude::*;
+use serde::Deserialize;
 
 use crate::{Findings, Laboratory, RunFile, StudyError, Table};
 
@@ -56,6 +57,16 @@ impl Random {
     fn decades(&mut self, from: f64, to: f64) -> f64 {
         10f64.powf(self.within(from, to))
     }
+}
+
+/// Parameters of the studies of error bars.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    seed: u64,
+    scenes: usize,
+    /// Scenes that need more element updates on the finest mesh that is run are skipped.
+    element_updates: f64,
 }
 
 /// Loads the case of a scene: the claim's `[run.base]` with these overrides.

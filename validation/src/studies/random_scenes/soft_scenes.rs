@@ -17,9 +17,8 @@ use fem::accuracy::Setting;
 use fem::effects::{Effect, FiniteStrain};
 use fem_case::{Case, CaseError};
 use fem_collision::{Collision, QuantityOfInterest};
-use serde::Deserialize;
 
-use super::{NumberTrial, Random, Trial, computed, load, quantile, tabulate};
+use super::{NumberTrial, Parameters, Random, Trial, computed, load, quantile, tabulate};
 use crate::{Findings, Laboratory, StudyError};
 
 /// Ratio of the element sizes from which errors are estimated.
@@ -30,15 +29,6 @@ const ESTIMATED_WITHIN: f64 = 3.0;
 const NOISE: f64 = 0.01;
 /// Largest number of scenes drawn per scene that is run.
 const MOST_DRAWN: usize = 12;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Parameters {
-    seed: u64,
-    scenes: usize,
-    /// Scenes that need more element updates on the mesh under test are skipped.
-    element_updates: f64,
-}
 
 struct SoftTrial {
     trial: Trial,

@@ -40,11 +40,8 @@ pub struct Arguments {
     quiet: bool,
 }
 
-enum Answer {
-    Solved(Box<LawInversion>),
-    /// The reason why no parameter gives the restitution.
-    Unsolved(LawFamily, String),
-}
+/// A law, and its parameter or the reason why none gives the restitution.
+type Answer = (LawFamily, Result<LawInversion, String>);
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
@@ -53,10 +50,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     let mut rows = Vec::new();
-    for answer in &answers {
+    for (family, answer) in &answers {
         match answer {
-            Answer::Solved(solved) => rows.extend(lines(solved)),
-            Answer::Unsolved(family, reason) => {
+            Ok(solved) => rows.extend(lines(solved)),
+            Err(reason) => {
                 let [none, dash] = [String::new(), "-".into()];
                 rows.push([family.name().into(), none.clone(), dash, reason.clone(), none]);
             }
@@ -74,19 +71,19 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
     let (speed, answers) = answers(arguments, case)?;
     let mut solutions = Vec::new();
     let mut unsolved = serde_json::Map::new();
-    for answer in answers {
+    for (family, answer) in answers {
         match answer {
-            Answer::Solved(solved) => {
+            Ok(solved) => {
                 solutions.extend(solved.solutions().into_iter().map(|solution| {
                     json!({
-                        "law": solved.model.family().name(),
+                        "law": family.name(),
                         "parameter": solved.parameter().key,
                         "value": solution.0,
                         "contact_time_s": solution.1,
                     })
                 }))
             }
-            Answer::Unsolved(family, reason) => {
+            Err(reason) => {
                 unsolved.insert(family.name().to_string(), reason.into());
             }
         }
@@ -120,18 +117,18 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
     let mut answers = Vec::new();
     for family in families {
         match solve(arguments, case, family, speed) {
-            Ok(solved) => answers.push(Answer::Solved(Box::new(solved))),
+            Ok(solved) => answers.push((family, Ok(solved))),
             Err(failure) if law.is_some() => return Err(failure),
             // Among all laws, those that need more parameters are left out.
             Err(_) if needs_more(family) => {}
             Err(failure) => {
                 let reason = failure.to_string();
                 let short = reason.split(':').next().unwrap_or("").to_string();
-                answers.push(Answer::Unsolved(family, short));
+                answers.push((family, Err(short)));
             }
         }
     }
-    if !answers.iter().any(|answer| matches!(answer, Answer::Solved(_))) {
+    if answers.iter().all(|(_, answer)| answer.is_err()) {
         let message = format!("no law gives a restitution of {wanted} at {}", show(speed, "m/s"));
         return Err(Failure::bad_input(message).with_help("name a law with --law to see its range"));
     }
