@@ -73,16 +73,14 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
     let mut unsolved = serde_json::Map::new();
     for (family, answer) in answers {
         match answer {
-            Ok(solved) => {
-                solutions.extend(solved.solutions().into_iter().map(|solution| {
-                    json!({
-                        "law": family.name(),
-                        "parameter": solved.parameter().key,
-                        "value": solution.0,
-                        "contact_time_s": solution.1,
-                    })
-                }))
-            }
+            Ok(solved) => solutions.extend(solved.solutions().into_iter().map(|solution| {
+                json!({
+                    "law": family.name(),
+                    "parameter": solved.parameter().key,
+                    "value": solution.0,
+                    "contact_time_s": solution.1,
+                })
+            })),
             Err(reason) => {
                 unsolved.insert(family.name().to_string(), reason.into());
             }
