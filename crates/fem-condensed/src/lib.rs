@@ -13,12 +13,11 @@
 //!
 //! Elements, masses and penalty springs are those of the explicit model. Contact acts along the common normal of
 //! the flattened interface, at matching nodes; the finer of two unlike meshes is projected on the nodes of the
-//! coarser. Gaps are those of the true arcs. The contact problem of a step is solved exactly, without iteration
+//! coarser. Initial gaps are taken between the exact circles, not between the element edges. The contact problem of a step is solved exactly, without iteration
 //! (`disc_contact`).
 //!
-//! A relaxing body is a set of scalar viscoelastic modes (`viscoelastic_modes`): as many as contact nodes for
-//! constant Poisson's ratio, a Galerkin basis of twice that for a relaxing shear modulus with an elastic bulk
-//! modulus (`shear`). Modes of free vibration add the inertia that the quasi-static body lacks (`vibration`). For
+//! A relaxing body is a set of scalar viscoelastic modes (`viscoelastic_modes`). With constant Poisson's ratio there is one
+//! per contact node. With a relaxing shear modulus and an elastic bulk modulus a Galerkin basis has two per node (`shear`). Modes of free vibration add the inertia that the quasi-static body lacks (`vibration`). For
 //! a body so large that its waves do not return within the contact, such as a half-space, a separate element
 //! models the radiated energy (`radiation`).
 //!

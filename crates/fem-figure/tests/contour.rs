@@ -145,7 +145,7 @@ fn a_half_region_and_its_image_have_no_seam() {
     assert!((disc.area() - whole.area()).abs() < ROUNDING);
 }
 
-/// A frame made from half of the section shows what the picture of all panels shows.
+/// One frame drawn from the half section equals that frame of the picture with all panels.
 #[test]
 fn frames_have_classes_for_a_page_to_restyle() {
     let half = square(8, |[x, y]| 0.3 * y - x * y);

@@ -280,7 +280,7 @@ impl LawFamily {
         Self::ALL.into_iter().find(|family| family.name() == name)
     }
 
-    /// Returns the index of the parameter that stands for the loss: the first one that damps, or else the
+    /// Returns the index of the parameter that a fit varies to match the loss: the first one that damps, or else the
     /// first; `None` for a law without parameters.
     pub fn loss_parameter(self) -> Option<usize> {
         let damps = |parameter: &LawParameter| {

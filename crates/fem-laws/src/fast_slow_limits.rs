@@ -11,18 +11,23 @@
 //! + \tfrac32\sqrt{u(t)}\int_{t_1}^t\varphi(t-s)\,\mathrm du(s),
 //! ```
 //!
-//! t₁ = t in loading and its mirror image in unloading. The work K∮P du is the loss; its part in loading,
-//! of the largest approach; that and P at T/2, of the largest force; and the change of u̇ at each u, less
-//! the time from the end of contact at u = −∫φ du, where the surface still recovers, that of T. With
-//! integrals over Hertz' pulse (the loss of fast terms is C₁ of Ramírez et al. 1999):
+//! where t₁ = t in loading and its mirror image in unloading. The changes follow from integrals over Hertz' pulse:
+//!
+//! - the loss of energy from the work K∮P du;
+//! - the largest approach from the part of this work in loading;
+//! - the largest force from both this part and P at T/2;
+//! - the contact time from the change of u̇ at each u, less the time after the contact ends at u = −∫φ du, in which the
+//!   surface still recovers.
+//!
+//! The loss of fast terms is C₁ of Ramírez et al. (1999).
 //!
 //! | | ε | φ | 1 − e | −ΔT/T | −ΔF/F |
 //! |---|---|---|---|---|---|
 //! | slow | g T/τ | −ε t/T | 4/9 ε | 0.0368 ε | 0.1974 ε |
 //! | fast, beside g′ that is left | g τ/(g′ T) | ε T δ(t) | c ε, c = 5.568 | (1 − c/10) ε | 3/5 c ε |
 //!
-//! g is of the contact's modulus: a term of the shear modulus G of one body has the share of it that this
-//! body has of the contact's compliance, times ∂ ln(E/(1−ν²))/∂ ln G: at constant K, or 1 where K relaxes
+//! Here g is the weight of the term in the contact's modulus. A term of the shear modulus G of one body is weighted with this
+//! body's share of the contact's compliance and with ∂ ln(E/(1−ν²))/∂ ln G at constant K; that derivative is 1 if K relaxes
 //! with G.
 //!
 //! Limits: ε ≪ 1. For a weak term with τ ≈ T, e and F are overestimated and T is underestimated by up to a

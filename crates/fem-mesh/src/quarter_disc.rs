@@ -1,7 +1,7 @@
 //! The graded quarter disc: the meridian of a half-space, out to a distance.
 //!
-//! It is the quarter plane of which the half disc of a sphere is the image (`half_disc`), without
-//! the map and without an image of the block at infinity:
+//! The half disc of a sphere is a conformal image of this quarter plane (`half_disc`). Here the map is left out, and so is
+//! the block at infinity:
 //!
 //! * a block of m × m cells of equal size at the contact, its free corner drawn in;
 //! * rings of 2 m cells, radii in geometric progression;

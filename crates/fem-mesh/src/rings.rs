@@ -58,8 +58,9 @@ pub(crate) struct Ring {
     pub near: f64,
     /// Logarithm of the ring's radius over it.
     pub log_radius: f64,
-    /// Shares of the blocks' outlines in the ring's.
+    /// Weight of the near block's outline in the ring's.
     pub near_share: f64,
+    /// Weight of the far block's outline in the ring's.
     pub far_share: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Meshes from elsewhere that are none of a sphere: refused by number.
+//! Imported meshes that are not spheres are rejected; the message names the node or element.
 
 use fem_mesh::{HalfDisc, SphereMesh};
 

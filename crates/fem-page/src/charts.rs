@@ -121,7 +121,7 @@ fn energy_curves(run: &[HistoryRow], common: Option<f64>) -> Vec<EnergyCurve> {
     curves
 }
 
-/// Returns the index of an account's colour, which is also that of the page's bar of energies.
+/// Returns the index of an account's colour; the page's bar of energies uses the same indices.
 fn colour(account: Account) -> usize {
     match account {
         Account::Kinetic => 0,

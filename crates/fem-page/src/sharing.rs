@@ -8,8 +8,8 @@
 //! \qquad \frac1{m^*} = \frac1{m_1}+\frac1{m_2}
 //! ```
 //!
-//! (König's theorem). The rebound returns e² of the relative part. If a body of infinite mass is at rest, the
-//! whole motion is relative to it. Energies of the bodies are those of the summary.
+//! (König's theorem). The rebound returns e² of the relative part. With a wall or a half-space at rest
+//! all motion is relative motion. Energies of the bodies are those of the summary.
 
 use fem::{Account, Collision, HistoryRow};
 use serde::Serialize;

@@ -64,7 +64,7 @@ impl Case {
         Self::made(py, name, text, folder, overrides)
     }
 
-    /// Returns the arguments of `parse` that make the case again, also in another process.
+    /// Returns the arguments of `parse` that recreate the case, also in another process (pickle).
     fn parts(&self) -> (String, String, PathBuf, Vec<String>) {
         (self.name.clone(), self.text.clone(), self.folder.clone(), self.overrides.clone())
     }

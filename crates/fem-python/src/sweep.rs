@@ -1,4 +1,4 @@
-//! Many cases side by side.
+//! Sweeps: many cases computed in parallel.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};

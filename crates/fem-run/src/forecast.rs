@@ -9,15 +9,15 @@ use fem_case::engineering::Unit;
 use fem_collision::{Monitor, OutputRequest, Phase, Progress};
 use indicatif::HumanCount;
 
-/// Steps are timed for at least this long, ...
+/// Least time for which steps are timed.
 const PATIENCE: Duration = Duration::from_millis(1);
-/// ... and until this number of reports, ...
+/// Least number of reports for which they are timed, within [`PATIENCE_WITH_REPORTS`].
 const REPORTS: u32 = 5;
-/// ... but not longer than this.
+/// Longest time for which they are timed.
 const PATIENCE_WITH_REPORTS: Duration = Duration::from_millis(50);
-/// Longest timing of condensed bodies, ...
+/// Longest time for which steps of condensed bodies are timed.
 const PATIENCE_WITH_CONDENSED: Duration = Duration::from_millis(20);
-/// ... or until this share of the collision is computed.
+/// Share of the collision after which their timing ends.
 const SHARE_OF_CONDENSED: f64 = 0.2;
 /// Time to compute the fields of a snapshot over the time to make condensed bodies: 0.08 for elastic ones,
 /// 0.1 for relaxing ones.

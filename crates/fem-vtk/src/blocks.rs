@@ -96,7 +96,8 @@ impl Deflate {
     }
 }
 
-/// Appends the zlib stream of a block. The size of the buffer determines how stored bytes are split.
+/// Appends the zlib stream of a block. zlib splits stored bytes at the size of `room`,
+/// so a constant size gives equal files.
 fn append_stream(
     state: &mut Compress,
     room: &mut Vec<u8>,

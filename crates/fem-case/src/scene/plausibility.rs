@@ -21,8 +21,8 @@ const LEAST_SHARE: f64 = 1e-3;
 
 impl Scene {
     /// Returns the library's materials, without `lib:`, that have no published loss and no relaxation in the case, so that
-    /// the restitution lacks their loss. A contact law, whose loss the user gives, has none; bodies that hardly deform do not
-    /// count.
+    /// the restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves out bodies
+    /// that hardly deform.
     pub fn materials_of_unpublished_loss(&self) -> Vec<&str> {
         if matches!(self.model, ModelChoice::Law { .. }) {
             return Vec::new();
@@ -41,9 +41,9 @@ impl Scene {
         (!names.is_empty()).then(|| {
             let names = names.join(" and ");
             format!(
-                "the loss of {names} in an impact is not published: the restitution does not include it, and \
-                 the error is not known; give the material a relaxation; `fem-run calibrate` finds it from \
-                 measured restitutions"
+                "the loss of {names} in an impact is not published: the restitution is that of a material without it, \
+                 and its error is unknown; give the material a relaxation, which `fem-run calibrate` finds from measured \
+                 restitutions"
             )
         })
     }
@@ -92,8 +92,8 @@ impl Scene {
             let density = material.density();
             if !DENSITIES.contains(&density) {
                 found.push(format!(
-                    "the density of {name} is {} kg/m^3; solids have 10 to 25000, and a bare \
-                     number is in kg/m^3",
+                    "the density of {name} is {} kg/m^3, but solids have 10 to 25000 kg/m^3; a number \
+                     without a unit is in kg/m^3",
                     number(density, 5)
                 ));
             }

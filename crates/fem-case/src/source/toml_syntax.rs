@@ -1,5 +1,5 @@
-//! TOML syntax: dotted paths of keys (`body.0.sphere.diameter`, `material."my glass".density`), spans that are
-//! counted from elsewhere, and messages of one line.
+//! TOML syntax: dotted paths of keys (`body.0.sphere.diameter`, `material."my glass".density`), spans
+//! relative to another start, and single-line messages.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};

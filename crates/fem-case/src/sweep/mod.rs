@@ -222,7 +222,7 @@ impl Sweep {
         self.read(choice, &[])
     }
 
-    /// Returns all faults of the base case with these values of these axes, each alone.
+    /// Returns all faults, one by one, of the base case with these values of these axes.
     pub(crate) fn faults(&self, choice: &[(usize, usize)]) -> Vec<CaseError> {
         read_repaired(|repairs| self.read(choice, repairs)).1
     }

@@ -117,7 +117,7 @@ impl Check<'_> {
         let at = |key: &str| join(path, key);
         if table.name.is_empty() || !table.name.chars().all(is_bare) {
             return Err(self
-                .error(&at("name"), format!("\"{}\" is not a body's name", table.name))
+                .error(&at("name"), format!("\"{}\" is not a valid body name", table.name))
                 .with_help("a name is made of letters A-Z a-z, digits, _ and -"));
         }
         let shape = match self.shape_key(path, table)? {

@@ -4,7 +4,7 @@
 //! parts are divided in the same way, until they have few nodes and are treated as dense.
 //!
 //! Separators follow from two integer coordinates of a node, counted in elements: its distance from the fixed node
-//! (the number of its ring), and its distance from the axis less that from the surface (its position in the ring).
+//! (the number of its ring), and its position along the ring (elements to the axis minus elements to the surface).
 //! Within an element the first changes by at most 1, the second by at most 2. So the nodes of one ring, or of two
 //! successive positions, are a separator in any mesh.
 

@@ -42,7 +42,7 @@ pub(crate) struct WaveRadiation {
     total: f64,
     /// Lag τ, s.
     lag: f64,
-    /// Coefficients of y and F before a step in y after it; `now` is that of F after the step.
+    /// Coefficients of a step, y_{n+1} = `before[0]` y_n + `before[1]` F_n + `now` F_{n+1}.
     before: [f64; 2],
     now: f64,
     /// Decrease γ (1 − now)/τ of the compliance, m/N.

@@ -17,8 +17,8 @@ use super::MovedInterface;
 use super::common_refinement::GAUSS;
 
 impl MovedInterface {
-    /// Adds dashpots of an impedance c ≥ 0, Pa s/m. It should be a few tenths of the critical 2√(k ½ρh): the
-    /// stiffness bound relies on it to dissipate what springs gain by opening and closing.
+    /// Adds dashpots of an impedance c ≥ 0, Pa s/m. The stiffness bound relies on them to dissipate the energy that springs
+    /// gain by opening and closing, which takes an impedance of a few tenths of the critical one, 2√(k ½ρh).
     #[must_use]
     pub fn with_damping(mut self, impedance: f64) -> Self {
         self.impedance = impedance;

@@ -18,7 +18,7 @@ fn radii(mesh: &SphereMesh) -> Vec<f64> {
     mesh.surface().iter().map(|&node| mesh.nodes()[node as usize][0]).collect()
 }
 
-/// ∫ N 2πr dr of the hat of node k, from Simpson's rule, which is exact for it.
+/// Returns the tributary area ∫ N_k 2πr dr of node k with its linear shape function N_k; Simpson's rule is exact.
 fn hat_area(radii: &[f64], k: usize) -> f64 {
     let piece = |from: f64, to: f64| {
         let middle = 0.5 * (from + to);

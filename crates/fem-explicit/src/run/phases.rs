@@ -8,8 +8,8 @@ use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 use crate::time::{StepControl, add_impulse};
 
-/// Computes the forces in the present configuration: of the stress, on the nodes, of the contact, and of what holds a
-/// body.
+/// Computes the forces in the present configuration: internal forces, node forces, contact forces, and the reactions of held
+/// bodies.
 ///
 /// # Errors
 /// An element has collapsed: there are no forces.
@@ -39,9 +39,8 @@ pub(crate) fn update_forces(
     Ok(contact)
 }
 
-/// Controls the time step, where the stiffness of the model changes: checks the strain rate or bounds the critical step
-/// when that is due, with the present forces in `scratch`. Returns the time (s) by which half a step becomes shorter,
-/// if the step changes.
+/// Controls the time step of a model whose stiffness changes: checks the strain rate or bounds the critical step when that
+/// is due, with the present forces in `scratch`. Returns half the decrease of the time step (s) if it changes.
 ///
 /// # Errors
 /// No step is short enough.

@@ -1,7 +1,7 @@
-//! The port of the stress: the traits that a step calls.
+//! The traits by which a step calls the stress of a body: [`Stress`], [`SmallStrainStress`] and [`FiniteStrainStress`].
 //!
-//! No method has a default: a new one does not compile until every stress has answered it, also one that is made of
-//! others ([`PartlyFinite`](super::partly_finite)).
+//! No method has a default, so every stress implements all of them, also the one that is made of others
+//! ([`PartlyFinite`](super::partly_finite)).
 
 use fem_element::{ElementMatrix, QuadGeometry};
 
@@ -86,7 +86,7 @@ pub(crate) trait Stress: Part {
         forces: &mut Field,
     ) -> Result<(), Collapse>;
 
-    /// Takes the history to the end of a step, whose motion is given.
+    /// Advances the history over a step with this motion.
     fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]);
 
     /// Adds the energy that the body stores and the power that it dissipates.

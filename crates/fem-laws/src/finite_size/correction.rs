@@ -1,4 +1,4 @@
-//! From the whole approach δ to Hertz' approach u, where finite size and its creep lie between.
+//! Converts the total approach δ into Hertz' approach u; the difference is the compliance of finite size and its creep.
 //!
 //! In units of a length, with w = u^(3/2) and the fading memory M_k = ∫ e^(−p_k(t−s)) dw,
 //!

@@ -25,10 +25,10 @@ use crate::numerics::secular_equation::{Pole, merged};
 /// Equilibrium weights above this are inside the interpolation, to keep its nodes apart.
 const HIGHEST_NODE: f64 = 0.9;
 
-/// The part at R = a of c, and its slope in ln(R/a).
+/// The compliance c at R = a, and its derivative dc/d ln(R/a).
 pub(crate) type Parts = [f64; 2];
 
-/// A relaxing part that is smaller is the rounding of none.
+/// Relaxing parts below this are rounding errors of zero.
 const ROUNDING: f64 = 1e-13;
 
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,8 @@
 //!
 //! Between two instants the approach is the polynomial of degree 5 with their δ, δ̇ and δ̈ = −F/m*; the
 //! rate is its derivative. Work and energies are cubic with their known rates Fδ̇; a law's force and strain
-//! energy follow from the motion. Force, a² and p₀² of the other models, known at the instants only, are
-//! cubic with the slopes of parabolas through three instants. After the last instant the bodies fly freely.
+//! energy follow from the motion. For Hertz and Ting, force, a² and p₀² are known at the instants only;
+//! they are cubic, with the slopes of parabolas through three instants. After the last instant the bodies fly freely.
 //! Gravity adds its acceleration to δ̈.
 
 use crate::impact::{Impact, ImpactInstant};

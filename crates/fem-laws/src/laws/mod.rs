@@ -23,7 +23,7 @@ pub use tsuji::{tsuji, tsuji_coefficient, tsuji_values, zhang_whiten_coefficient
 ///
 /// - the law's variant, its name, the type of its table in a case file and what serde expects there;
 /// - `formula`: the [`ContactLaw`] from the pair and the parameters, in the order of the keys;
-/// - `given by`: the sets of keys that determine the law, any one of them, each key with its
+/// - `given by`: alternative sets of keys, of which a case gives exactly one, each key with its
 ///   [`crate::KeyNeed`] unless it is required; `values` names the function that turns keys into
 ///   parameters where they are not the parameters themselves;
 /// - `ends at`: the [`EndRule`], where it is part of the law;

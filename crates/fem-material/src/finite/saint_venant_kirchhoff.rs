@@ -6,7 +6,7 @@
 //! ```
 //!
 //! (Ogden 1984, Non-linear Elastic Deformations; Ciarlet 1988, Mathematical Elasticity I, sections
-//! 3.9 and 4.10). It is what a program computes that puts Hooke's moduli into large rotations.
+//! 3.9 and 4.10). Programs that use Hooke's moduli with large rotations implement this law.
 //!
 //! Limits: it softens in compression and does not resist inversion. Under uniform pressure the
 //! resistance to shear, S + G λ², is gone at λ² = 1/(1 + 2G/3K), where the pressure is G λ: at

@@ -46,7 +46,7 @@ pub fn role_of_all(key: &str) -> String {
     role(last)
 }
 
-/// Returns the symbol of a key, or its last part.
+/// Returns the symbol of a key; the last part of the key if it has no symbol.
 pub fn key_symbol(key: &str) -> String {
     let last = key.rsplit('.').next().unwrap_or(key);
     let role = ROLES.iter().find(|(known, _)| *known == last).map(|(_, role)| *role);

@@ -11,7 +11,7 @@ use fem::results::{PROGRAM, SUMMARY_FILE};
 use fem::{CheckpointHead, checkpoint_head};
 use fem_report::report::REPORT_FILE;
 
-/// Files that identify a result folder: one of a run, the others of the commands of the same names.
+/// Files that identify a result folder: a run writes summary.json, the command of the same name each other file.
 const IDENTIFYING_FILES: [&str; 6] =
     [SUMMARY_FILE, "fit.json", "calibrate.json", "export.json", "cradle.json", "accuracy.json"];
 /// The restart file in a result folder.

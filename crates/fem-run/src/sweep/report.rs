@@ -47,7 +47,7 @@ pub fn announce(
     };
     let _ = writeln!(
         stderr(),
-        "{name}: {n_members} members{shard}; {} done before, {n_left} to run{time}{kept}",
+        "{name}: {n_members} members{shard}; {} already done, {n_left} to run{time}{kept}",
         n_own - n_left
     );
     if let Some(advice) = checked.advice {
@@ -104,7 +104,7 @@ fn result_cells(row: &Row) -> [String; 5] {
     ]
 }
 
-/// Returns success, or which members failed, or how to continue.
+/// Concludes a sweep: an error lists the failed members, or says how to continue an interrupted sweep.
 pub fn conclude(
     collected: &SweepOutcome,
     n_own: usize,
@@ -125,7 +125,7 @@ pub fn conclude(
     }
     Err(Failure::failed(format!("{n_failed} of {n_own} members failed")).with_help(format!(
         "{lines}\nthe others are done. Run a failed one alone with --set to see the cause and the remedy, or \
-         change its value and repeat the command, which then computes the new members"
+         correct its value in the sweep file and repeat the command; finished members are kept"
     )))
 }
 
@@ -145,7 +145,7 @@ pub fn warning_lines<'t>(
         let (text, first) = (&kind.first, sweep.describe(kind.place));
         one_line(&match kind.count {
             1 => format!("{text} (1 member: {first})"),
-            n => format!("{text} ({n} members; numbers of the first: {first})"),
+            n => format!("{text} (in {n} members, first in {first})"),
         })
     };
     let mut lines: Vec<String> = kinds.iter().take(MOST_KINDS).map(line).collect();

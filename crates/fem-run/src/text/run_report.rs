@@ -184,7 +184,10 @@ fn balances(summary: &Summary) -> String {
         let text = format!(
             "averaged over 1/64 of the contact time (unaveraged force: {}); radius and pressure are {}",
             show(force, "N"),
-            summary.radius_and_pressure,
+            match summary.radius_and_pressure {
+                "true" => "on the deformed surface",
+                _ => "on the undeformed surface",
+            },
         );
         ["peaks".to_string(), text]
     });

@@ -204,7 +204,7 @@ fn a_sweep_runs_over_models() {
     assert!(restitution(3).starts_with("0.927"));
     assert_eq!((restitution(7), &rows[7][column("complete")]), (String::new(), "false"));
     assert_eq!(&rows[3][column("elements")], "");
-    place.run("sweep sweep.toml --out out").tells("8 done before, 0 to run");
+    place.run("sweep sweep.toml --out out").tells("8 already done, 0 to run");
 }
 
 /// The condensed model writes the same files and keys as finite elements, its cost, and its error estimates.

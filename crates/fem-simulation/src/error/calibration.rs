@@ -55,8 +55,8 @@ pub(super) const RADIUS_PER_SCATTER: f64 = 0.55;
 /// Least relative error if the contact is narrower than an element.
 pub(super) const UNRESOLVED_ERROR: f64 = 0.5;
 
-/// An early pressure peak: the contact radius then over the largest one, below which the contact is still small. Bodies
-/// that keep half of their moduli have the largest pressure at more than 0.8.
+/// Below this ratio of the contact radius at the largest pressure to the largest contact radius the pressure peak counts as
+/// early. Bodies that keep half of their moduli have a ratio above 0.8.
 pub(super) const EARLY: f64 = 0.5;
 /// Elements across the contact at an early pressure peak below which it is not resolved.
 pub(super) const FEW_AT_PRESSURE: f64 = 4.0;

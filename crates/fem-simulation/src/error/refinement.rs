@@ -225,7 +225,8 @@ impl ErrorEstimator {
         Some(misses(simulation, |quantity| errors[quantity as usize]).into_iter().next())
     }
 
-    /// Returns the case on a finer mesh, after a collision or before it, or the reason why there is none.
+    /// Returns the case on a finer mesh, or the reason why there is none; `met` is the collision on the present mesh, `None`
+    /// before the run.
     fn finer(
         &mut self,
         simulation: &Simulation,
@@ -289,7 +290,8 @@ impl ErrorEstimator {
         }
     }
 
-    /// Returns the setting of the case whose error exceeds the tolerance on any mesh, after a collision or before it.
+    /// Returns the setting of the case whose error exceeds the tolerance on any mesh; `met` is the collision on the present
+    /// mesh, `None` before the run.
     fn faulty_setting(
         &mut self,
         simulation: &Simulation,

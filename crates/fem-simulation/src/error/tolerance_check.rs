@@ -77,7 +77,7 @@ impl ToleranceMiss {
         };
         let of_any_mesh = match self.is_of_mesh() {
             true => String::new(),
-            false => format!(" ({} of it on any mesh)", self.printed(self.scatter())),
+            false => format!(" (of which {} remains on any mesh)", self.printed(self.scatter())),
         };
         format!("{name} by {error}{tolerance}{of_any_mesh}")
     }

@@ -74,9 +74,9 @@ pub(crate) fn tolerance_warning(
     let mut cause = "the mesh";
     let remedy = match &errors.not_refined {
         Some(NotRefined::Scatter(scatter)) => {
-            let of_any_mesh = format!(", {} of it on any mesh", miss.printed(*scatter));
+            let of_any_mesh = format!(", of which {} remains on any mesh", miss.printed(*scatter));
             return Some(format!(
-                "{}{of_any_mesh}: allow more in accuracy.tolerance{}",
+                "{}{of_any_mesh}: raise accuracy.tolerance{}",
                 miss.described(),
                 others(&missed)
             ));
@@ -91,10 +91,10 @@ pub(crate) fn tolerance_warning(
         }
         Some(NotRefined::FromFile) => "use meshes that are finer at the contact, or ".to_string(),
         Some(NotRefined::Gravity) => {
-            format!("elements of contacts under gravity are not refined; {write}, or ")
+            format!("with gravity the mesh is not refined automatically; {write}, or ")
         }
         Some(NotRefined::TooExpensive { updates: Some(updates) }) => format!(
-            "a finer mesh would take {:.1e} element updates; write limits.element_updates = {:.0e}, or {write}, or ",
+            "a finer mesh would take {:.1e} element updates; write limits.element_updates = {:.0e} or {write}, or ",
             *updates as f64,
             rounded_up(*updates)
         ),
@@ -110,7 +110,7 @@ pub(crate) fn tolerance_warning(
         }
     };
     Some(format!(
-        "{} because of {cause}: {remedy}allow more in accuracy.tolerance{}",
+        "{} because of {cause}: {remedy}raise accuracy.tolerance{}",
         miss.described(),
         others(&missed)
     ))
@@ -155,7 +155,7 @@ fn not_estimated(
         && simulation.setup().elements.as_ref()?.plan.makes_meshes;
     let is_estimated = errors.discretisation(QuantityOfInterest::PeakForce).is_some();
     (should_be && !is_estimated).then(|| {
-        "the discretisation error is not estimated: on coarser meshes the collision does not come to its end; lower \
+        "the discretisation error is not estimated: the coarser reference runs did not finish; lower \
          body.N.approach_speed, or compare results of several mesh.contact_element_size"
             .to_string()
     })

@@ -257,7 +257,7 @@ impl Candidate {
         }
         let total = excess(&error, scene, estimate);
         let impossible = disobeyed(scene, estimate, is_fem, support)
-            .map(|name| format!("cannot obey the switch of {name}"))
+            .map(|name| format!("cannot do as [effects] says for {name}"))
             .or_else(|| {
                 (!has_fields && asks_for_fields(scene))
                     .then(|| "cannot write the requested snapshots or probes".to_string())

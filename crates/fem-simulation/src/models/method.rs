@@ -139,7 +139,7 @@ pub(crate) fn start_stepper(
 pub struct ModelSetup {
     /// Short description of the model.
     pub description: String,
-    /// Approach of the scene's bodies.
+    /// Initial velocities and gap of the bodies.
     pub approach: Approach,
     /// Output request of the run.
     pub request: OutputRequest,

@@ -95,9 +95,9 @@ impl<M: Model> Model for Mirrored<M> {
     }
 
     fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        let whole = state.met;
-        let met = half_of(&whole).map_err(|stop| Rejection::new("body", stop.to_string()))?;
-        let half = self.half.resume(RestartState { met, ..state })?;
+        let whole = state.approach;
+        let approach = half_of(&whole).map_err(|stop| Rejection::new("body", stop.to_string()))?;
+        let half = self.half.resume(RestartState { approach, ..state })?;
         Ok(Box::new(MirroredStepper { half, whole: Whole::of(&whole) }))
     }
 
@@ -143,7 +143,7 @@ impl Stepper for MirroredStepper {
     }
 
     fn restart_state(&self) -> Option<RestartState> {
-        Some(RestartState { met: self.whole.approach, ..self.half.restart_state()? })
+        Some(RestartState { approach: self.whole.approach, ..self.half.restart_state()? })
     }
 
     fn finish(self: Box<Self>) -> Collision {

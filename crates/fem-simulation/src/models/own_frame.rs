@@ -19,7 +19,7 @@ use fem_collision::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct OwnFrame {
     /// Approach in the case.
-    met: Approach,
+    approach: Approach,
     /// Approach in the frame of the mass centre, with first touch at time 0.
     own: Approach,
     /// Velocity of the mass centre along +y, m/s.
@@ -31,10 +31,10 @@ impl OwnFrame {
     ///
     /// # Errors
     /// Speeds that leave the range of f64.
-    pub fn of(met: &Approach, masses: [Option<f64>; 2]) -> Result<Self, ApproachError> {
+    pub fn of(approach: &Approach, masses: [Option<f64>; 2]) -> Result<Self, ApproachError> {
         let masses = masses.map(|mass| mass.unwrap_or(f64::INFINITY));
-        let (own, velocity) = met.in_frame_of_centre(masses)?;
-        Ok(Self { met: *met, own, velocity })
+        let (own, velocity) = approach.in_frame_of_centre(masses)?;
+        Ok(Self { approach: *approach, own, velocity })
     }
 
     /// Returns the approach in the frame of the mass centre.
@@ -43,8 +43,8 @@ impl OwnFrame {
     }
 
     /// Returns the approach in the case.
-    pub fn met(&self) -> &Approach {
-        &self.met
+    pub fn approach(&self) -> &Approach {
+        &self.approach
     }
 
     /// Returns the output request with times since first touch.
@@ -63,7 +63,7 @@ impl OwnFrame {
 
     /// Returns the collision in the frame of the case.
     pub fn collision(&self, own: Collision) -> Collision {
-        if self.met == self.own {
+        if self.approach == self.own {
             return own;
         }
         let masses = own.bodies.map(|body| body.mass);
@@ -77,7 +77,7 @@ impl OwnFrame {
         let last = own.history.last().map(|row| row.velocity);
         let last = last.unwrap_or([after[0].unwrap_or(lower), after[1].unwrap_or(upper)]);
         Collision {
-            approach: self.met,
+            approach: self.approach,
             ending: match own.ending {
                 Ending::Stopped(stop) => Ending::Stopped(stop.later_by(self.delay())),
                 ending => ending,
@@ -93,7 +93,7 @@ impl OwnFrame {
             energies: self.energies(own.energies, masses, last),
             momentum_residual_relative: own
                 .momentum_residual_relative
-                .map(|residual| residual * (scale(&self.own) / scale(&self.met))),
+                .map(|residual| residual * (scale(&self.own) / scale(&self.approach))),
             bodies: own.bodies.map(|body| BodyResult {
                 velocity_after: body.velocity_after.map(|v| v + self.velocity),
                 ..body
@@ -107,7 +107,7 @@ impl OwnFrame {
 
     /// Returns the time of first touch, s.
     fn delay(&self) -> f64 {
-        self.met.first_touch()
+        self.approach.first_touch()
     }
 
     /// Returns the additional kinetic energy in the frame of the case at velocities in this frame, J.
@@ -147,7 +147,7 @@ impl OwnFrame {
     }
 
     fn snapshot(&self, mut own: Snapshot) -> Snapshot {
-        let flown = self.met.velocities().map(|v| v * self.delay());
+        let flown = self.approach.velocities().map(|v| v * self.delay());
         for side in 0..2 {
             own.carried[side] += flown[side] + self.velocity * own.time;
             own.bodies[side].velocity.iter_mut().for_each(|v| v[1] += self.velocity);
@@ -171,9 +171,9 @@ mod tests {
     /// By hand: 2 kg at 3 m/s onto 1 kg at rest; the mass centre moves at 2 m/s.
     #[test]
     fn energies_of_both_frames_differ_by_the_motion_of_the_centre() {
-        let met = Approach::new([3.0, 0.0], 6.0).unwrap();
+        let approach = Approach::new([3.0, 0.0], 6.0).unwrap();
         let masses = [Some(2.0), Some(1.0)];
-        let frame = OwnFrame::of(&met, masses).unwrap();
+        let frame = OwnFrame::of(&approach, masses).unwrap();
         assert_eq!((frame.own().velocities(), frame.velocity), ([1.0, -2.0], 2.0));
         // ½·2·1 + ½·1·4 = 3 J there, ½·2·9 = 9 J here.
         assert_eq!(3.0 + frame.gained(masses, frame.own().velocities()), 9.0);
@@ -188,12 +188,12 @@ mod tests {
     /// A wall at 2 m/s throws a body of 1 kg at rest away at 4 m/s: 8 J.
     #[test]
     fn a_wall_that_moves_does_work() {
-        let met = Approach::new([2.0, 0.0], 0.0).unwrap();
+        let approach = Approach::new([2.0, 0.0], 0.0).unwrap();
         let masses = [None, Some(1.0)];
-        let frame = OwnFrame::of(&met, masses).unwrap();
+        let frame = OwnFrame::of(&approach, masses).unwrap();
         assert_eq!((frame.own().velocities(), frame.velocity), ([0.0, -2.0], 2.0));
         assert_eq!(frame.wall_work(masses, [0.0, 2.0]), 8.0);
         assert_eq!(2.0 + frame.gained(masses, [0.0, 2.0]), 8.0);
-        assert_eq!(momentum_scale(&met, masses), 2.0);
+        assert_eq!(momentum_scale(&approach, masses), 2.0);
     }
 }

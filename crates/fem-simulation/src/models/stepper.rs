@@ -75,11 +75,11 @@ pub struct RestartState {
     pub(crate) contact: fem_explicit::RestartState,
     /// Results of earlier contacts, for a ball that gravity brings back.
     pub(crate) bounces: Option<Box<Bounces>>,
-    /// Approach of the bodies in the present contact, which is computed in the frame of their mass centre.
-    pub(crate) met: Approach,
-    /// Refinement: elements per length over those of the first plan.
+    /// Approach of the bodies in the present contact, in the frame of the case.
+    pub(crate) approach: Approach,
+    /// Number of elements per length over that of the first plan.
     pub(crate) refinement: f64,
-    /// Coarser meshes of earlier computations of the collision.
+    /// Coarser meshes on which the collision was computed before.
     pub(crate) levels: Vec<RefinementLevel>,
 }
 

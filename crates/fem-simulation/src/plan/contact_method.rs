@@ -31,7 +31,7 @@ pub fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
     if is_at_finite_strain {
         let word = scene.contact_method()?.word();
         return Some(format!(
-            "contact.method = \"{word}\" has no effect at finite strain: springs between the deformed surfaces are used"
+            "contact.method = \"{word}\" has no effect at finite strain, where springs between the deformed surfaces are used"
         ));
     }
     let named = scene.contact_method().filter(|named| *named != contact_method(scene))?;

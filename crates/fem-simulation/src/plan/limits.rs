@@ -47,7 +47,7 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
     state_memory(plan, elements).saturating_add(fields)
 }
 
-/// Refuses meshes that are too large before they are generated.
+/// Checks the size of meshes before they are generated.
 ///
 /// # Errors
 /// More elements or memory than the limits allow; a mesh that cannot be generated.
@@ -85,17 +85,17 @@ fn state_memory(plan: &Plan, elements: u64) -> u64 {
     (elements * BYTES_PER_STATE).saturating_mul(n_states(&plan.snapshots) as u64)
 }
 
-/// Refuses more elements than the limit.
+/// Checks the number of elements.
 ///
 /// # Errors
-/// Names the element size, or the limit.
+/// More elements than the limit; the error points at mesh.contact_element_size or limits.elements.
 pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Result<(), Rejection> {
     if elements <= plan.max_elements {
         return Ok(());
     }
     let key = blamed(scene, "limits.elements", scene.limits().elements);
     let found = format!(
-        "the meshes would have {elements} elements, {} long at the contact",
+        "the meshes would have {elements} elements, whose edges at the contact are {} long",
         show(plan.contact_element_size, "m")
     );
     let refusal = Rejection::new(key, found).with_help(format!(
@@ -105,10 +105,10 @@ pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Resul
     Err(blame_growth(scene, refusal))
 }
 
-/// Refuses more memory (bytes) than the limit.
+/// Checks the memory of a run (bytes).
 ///
 /// # Errors
-/// Names the snapshots, the element size, or the limit.
+/// More memory than the limit; the error points at output.snapshots, mesh.contact_element_size or limits.memory.
 pub(crate) fn check_memory(
     scene: &Scene,
     plan: &Plan,
@@ -137,10 +137,11 @@ pub(crate) fn check_memory(
     )))
 }
 
-/// Refuses more element updates than the limit.
+/// Checks the number of element updates.
 ///
 /// # Errors
-/// Names the element size, or the limit.
+/// More element updates than the limit; the error points at mesh.contact_element_size or limits.element_updates, or at the
+/// key that makes the steps many.
 pub(crate) fn check_updates(
     scene: &Scene,
     plan: &Plan,
@@ -188,12 +189,12 @@ fn unusual_step(scene: &Scene) -> Option<(&'static str, &'static str)> {
         value.is_some_and(|value| !usual.contains(&value))
     };
     if is_unusual(scene.step_factor(), USUAL_STEPS) {
-        let help = "steps are far shorter than they need to be; leave out time.step_factor";
+        let help = "time.step_factor makes the steps far shorter than needed; leave it out";
         return Some(("time.step_factor", help));
     }
     is_unusual(scene.penalty_factor(), USUAL_SPRINGS).then_some((
         "contact.penalty_factor",
-        "springs are far from those that elements need; leave out contact.penalty_factor",
+        "contact.penalty_factor is far from its default and makes the time step very short; leave it out",
     ))
 }
 

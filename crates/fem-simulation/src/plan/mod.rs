@@ -86,7 +86,7 @@ pub struct Plan {
     pub max_elements: u64,
     /// Elements times steps above which a run is refused.
     pub max_element_updates: u64,
-    /// Elastic contact times after which a run stops.
+    /// Longest run, in elastic contact times; a run that takes longer stops with [`NoSeparation`](fem_collision::Stop::NoSeparation).
     pub give_up_after: f64,
     /// Memory above which a run is refused, bytes.
     pub max_memory: u64,
@@ -270,9 +270,9 @@ pub fn divided_radius(estimate: &Estimate) -> f64 {
     radius_of_elements(estimate).min(0.5 * estimate.smallest_radius)
 }
 
-/// Returns that radius without the limit by the body. Relaxing bodies have the mesh of elastic ones up to twice the contact
-/// radius with fully relaxed moduli, an upper bound that the contact does not reach; from four times on that radius
-/// counts.
+/// Returns the contact radius (m) that sizes the elements, without the limit by the body. It is the elastic radius if
+/// relaxation widens the contact at most twofold, the radius with fully relaxed moduli (an upper bound) if it widens the
+/// contact fourfold or more, and a quadratic blend in between.
 fn radius_of_elements(estimate: &Estimate) -> f64 {
     let elastic = estimate.hertz.max_contact_radius();
     let wider = 0.5 * estimate.contact_radius / elastic;

@@ -69,8 +69,8 @@ pub(super) fn in_history<'l>(
 mod tests {
     use super::*;
 
-    /// Shows the contact's account only if it is filled, as an effect's account.
-    fn made_up(account: Account) -> ShownIn {
+    /// Stands in for [`Account::shown`]: the contact's account is shown only if it is filled.
+    fn contact_where_filled(account: Account) -> ShownIn {
         if account == Account::Contact { ShownIn::WhereFilled } else { account.shown() }
     }
 
@@ -78,13 +78,15 @@ mod tests {
     fn an_effect_that_is_off_has_no_key() {
         let off = EnergyLedger::EMPTY.with(Account::Kinetic, 1.0);
         let on = off.with(Account::Contact, 0.0);
-        let has = |book| in_summary(book, made_up).any(|account| account == Account::Contact);
+        let has = |book| {
+            in_summary(book, contact_where_filled).any(|account| account == Account::Contact)
+        };
         assert!(!has(&off) && has(&on));
         // Accounts that every summary shows are there, filled or not.
         let n_always = |shown: fn(Account) -> ShownIn| {
             Account::all().filter(|account| shown(*account) != ShownIn::WhereFilled).count()
         };
-        assert_eq!(in_summary(&off, made_up).count(), n_always(made_up));
+        assert_eq!(in_summary(&off, contact_where_filled).count(), n_always(contact_where_filled));
         assert_eq!(in_summary(&off, Account::shown).count(), n_always(Account::shown));
     }
 
@@ -94,7 +96,8 @@ mod tests {
         let off = EnergyLedger::EMPTY.with(Account::Kinetic, 1.0);
         let on = off.with(Account::Contact, 0.5);
         let every = vec![Account::Kinetic, Account::Strain, Account::ViscousDissipation];
-        let columns = |books: [&EnergyLedger; 2]| in_history(books.into_iter(), made_up);
+        let columns =
+            |books: [&EnergyLedger; 2]| in_history(books.into_iter(), contact_where_filled);
         assert_eq!(columns([&off, &off]), [every.clone(), Vec::new()]);
         assert_eq!(columns([&off, &on]), [every, vec![Account::Contact]]);
     }

@@ -19,9 +19,9 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
             "the contact opens and closes faster than the time step resolves, an imported mesh has \
              elements that are far too distorted, or a material at finite strain loses stability under \
              load, as St Venant and Kirchhoff's does in compression",
-            "write contact.method = \"massless\" if it is another, or contact.penalty_factor = 1 if it is \
-             larger; if the error remains, set time.step_factor = 0.5 and time.mass_scaling = 0, name another \
-             material.NAME.hyperelastic, or send us the case: the step is meant to be stable",
+            "leave out contact.method and contact.penalty_factor; if the run still fails, set time.step_factor = 0.5 and \
+             time.mass_scaling = 0, or name another material.NAME.hyperelastic; if it fails even so, please report the case: \
+             the step should be stable",
         ),
         Stop::StabilityLost { .. } => (
             "the law loses ellipticity at this strain: deformation localises in a band that depends on the mesh, so a \
@@ -63,13 +63,13 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
              their units: the weights' sum below 1 leaves a lasting stiffness",
         ),
         Stop::NoContact { .. } => (
-            "the contact is narrower than the first element, and its springs stand beside it",
+            "the contact is narrower than the first element, so no spring lies inside it",
             "use a smaller mesh.contact_element_size, or meshes that are finer at the contact \
              (body.N.sphere.mesh)",
         ),
         Stop::TooManyUpdates { .. } => (
-            "the limit is close to the estimated cost, or the bodies separate or come to rest later than closed forms \
-             predict, as strongly relaxing ones do",
+            "the limit is close to the estimated cost, or the bodies relax strongly and separate or come to rest later than \
+             closed forms predict",
             "raise limits.element_updates, use a larger mesh.contact_element_size, or use model.condensed",
         ),
         Stop::EnergyImbalance { .. } => (

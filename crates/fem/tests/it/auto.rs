@@ -135,7 +135,7 @@ fn table() -> Vec<Row> {
             scene(GLASS, ["10 mm", "10 mm"], "20 m/s"),
             &["effects.bulk_viscosity='on'"],
             "fem = {}",
-            "cannot obey the switch of bulk viscosity",
+            "cannot do as [effects] says for bulk viscosity",
             0.02,
         ),
         // Strain that is not small.

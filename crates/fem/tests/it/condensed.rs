@@ -162,7 +162,7 @@ fn cases_share_a_pair() {
 const COARSE: [&str; 3] =
     ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.4 mm'", CONDENSED];
 
-/// Two speeds of nine pairings, the speed running slowest, or fastest.
+/// Returns nine pairings at two speeds; the speed is the outer loop or the inner one.
 fn nine_pairings(speed_is_slow: bool) -> Vec<Case> {
     let case = |speed: usize, pairing: usize| {
         let [first, second] = [pairing / 3, pairing % 3];

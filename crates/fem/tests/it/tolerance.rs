@@ -180,7 +180,7 @@ fn no_mesh_is_advised_for_an_impossible_tolerance() {
     let (simulation, collision) = computed(GLASS, &set);
     let warnings = simulation.warnings(&collision);
     let told = warnings.iter().find(|warning| warning.contains("accuracy.tolerance")).unwrap();
-    assert!(told.contains("on any mesh: allow more") && !told.contains("write"), "{told}");
+    assert!(told.contains("on any mesh: raise") && !told.contains("write"), "{told}");
     let simulation = self::simulation(GLASS, &[FEM, "accuracy.tolerance=1e-9"]);
     let warnings = simulation.warnings_before();
     let told = warnings.iter().find(|warning| warning.contains("cannot be met")).unwrap();

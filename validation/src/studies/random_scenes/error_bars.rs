@@ -21,10 +21,11 @@ use super::{
 };
 use crate::{Findings, Laboratory, StudyError};
 
-/// Mass scaling of the explicit elements that a limit is computed from.
+/// Mass scaling of the explicit elements that give a limit.
 const LITTLE_MASS: f64 = 2e-4;
-/// Elements across the contact of these, and of the condensed bodies that a limit is computed from.
+/// Elements across the contact of the explicit elements that give a limit.
 const EXPLICIT: [f64; 2] = [8.0, 11.0];
+/// Elements across the contact of the condensed bodies that give a limit.
 const CONDENSED: [f64; 5] = [8.0, 11.0, 16.0, 23.0, 32.0];
 /// Number of scenes in each table.
 const N_SHOWN: usize = 8;

@@ -11,11 +11,12 @@
 //! limit the time step, however stiff they are. The force of the boundary on the other nodes is the gradient of a
 //! convex potential (`body/critical_time_step.rs`), so the contact neither gains nor loses energy.
 //!
-//! In a step the massless nodes first keep their velocity. From the forces R that are then missing to their balance,
-//! and from the gaps, follows their further displacement x: a linear system but for the springs that close
-//! ([`ActiveSet`]). The matrix is the stiffness of the elements against a displacement at the end of a step, in which
-//! the history has a share (`SmallStrainStress::stiffness_of_step`). Springs of slipping surfaces turn, and the system
-//! is solved in passes ([`SlippingSprings`]). Masses are moved inward (`body/massless_boundary_mass.rs`).
+//! A step has a predictor, in which the massless nodes keep their velocity, and a corrector, which solves
+//! (K_b + springs) x = R for their further displacement x, with the residual forces R of the predictor. The system is
+//! linear except for the springs that close ([`ActiveSet`]). K_b is the stiffness of the elements against a displacement at
+//! the end of a step, which includes their history (`SmallStrainStress::stiffness_of_step`). Springs of slipping surfaces
+//! turn, so the system is solved in passes ([`SlippingSprings`]). Masses are moved inward
+//! (`body/massless_boundary_mass.rs`).
 
 mod active_set;
 mod boundary;
@@ -36,8 +37,7 @@ use boundary::Boundary;
 use skyline::Skyline;
 use slipping_springs::SlippingSprings;
 
-/// A contact counts as the last one if it would lose more than this share of its force in a step in which massless
-/// nodes keep their velocity.
+/// An instant counts as the last contact if the force falls by more than this share in the next predictor.
 const LAST_LOSS: f64 = 0.25;
 
 /// The massless boundaries of the deformable bodies, and the springs between them.

@@ -1,4 +1,4 @@
-//! Two kinds of elements are one body.
+//! A body with elements at small and at finite strain equals a body of a single kind where strains are small.
 
 use fem_collision::Account;
 use fem_material::ActsOn;

@@ -1,4 +1,4 @@
-//! Branches of the default law, whose shape's stress is linear in b̄_e:
+//! Maxwell branches (one per Prony term) of the default law, whose deviatoric stress is linear in b̄_e:
 //!
 //! ```math
 //! \tau = G J^{-2/3}\, \mathrm{dev}\Bigl[F\Bigl(g_\infty 1 + \sum_k g_k \bar C_{v,k}^{-1}\Bigr) F^T\Bigr]

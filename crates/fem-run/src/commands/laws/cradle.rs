@@ -157,8 +157,8 @@ fn single(cradle: &Cradle, arguments: &Arguments) -> Result<(Trial, Swing), Fail
 fn cradle(arguments: &Arguments) -> Result<Cradle, Failure> {
     let pair = |values: &[Measured], option: &str| match values {
         [first, second] => Ok([*first, *second]),
-        _ => Err(Failure::bad_input(format!("{option} gives one ball"))
-            .with_help(format!("give both, the first and the second: {option} A,B"))),
+        _ => Err(Failure::bad_input(format!("{option} needs two values, one per ball"))
+            .with_help(format!("write {option} A,B"))),
     };
     let masses = if arguments.diameters.is_empty() {
         pair(&arguments.masses, "--masses")?

@@ -20,7 +20,7 @@ pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
             snippet.code.to_string(),
             snippet.model.to_string(),
             entries.collect::<Vec<_>>().join(", "),
-            snippet.restitution.map_or("falls with v".to_string(), |e| format!("{e:.4}")),
+            snippet.restitution.map_or("depends on v".to_string(), |e| format!("{e:.4}")),
             valid_speeds(Some(from).filter(|from| *from <= to), Some(to)),
             format!("{worst:.4}"),
             snippet.name.to_string(),

@@ -19,7 +19,7 @@ fn failed_run_states_cause_and_fix_and_keeps_its_results() {
     assert!(summary["bodies"][0]["velocity_after_m_s"].is_null());
     assert!(summary["peak_force_n"].as_f64().unwrap() > 0.0);
     let warnings = summary["warnings"].to_string();
-    assert!(warnings.contains("not complete"), "{warnings}");
+    assert!(warnings.contains("stopped early"), "{warnings}");
     let history = place.text("runs/case/history.csv");
     assert!(history.lines().count() > 3);
     // The last valid state is in the collection and in a picture.

@@ -338,7 +338,7 @@ fn cradle_of_one_trial_and_of_a_file() {
         ("30", "1 g,1 g", "write '30 deg' for degrees"),
         ("95 deg", "1 g,1 g", "threads go slack"),
         ("20 g", "1 g,1 g", "is not an angle"),
-        ("20 deg", "1 g", "gives one ball"),
+        ("20 deg", "1 g", "needs two values"),
     ] {
         refused(&format!("--alpha '{angle}' --beta '20 deg' --masses '{masses}'"), expected);
     }

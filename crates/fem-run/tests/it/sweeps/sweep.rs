@@ -108,11 +108,11 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
 #[test]
 fn a_dry_run_counts_and_writes_nothing() {
     let place = place(SWEEP);
-    place.succeed("sweep sweep.toml --dry-run").tells("6 members; 0 done before, 6 to run");
+    place.succeed("sweep sweep.toml --dry-run").tells("6 members; 0 already done, 6 to run");
     assert_eq!(place.list("."), ["case.toml", "sweep.toml"]);
     place.succeed("sweep sweep.toml --shard 1/3 --quiet");
     let table = place.read("runs/sweep/sweep.csv");
-    place.succeed("sweep sweep.toml --dry-run").tells("6 members; 2 done before, 4 to run");
+    place.succeed("sweep sweep.toml --dry-run").tells("6 members; 2 already done, 4 to run");
     assert_eq!(place.read("runs/sweep/sweep.csv"), table);
     // A member that would be rejected is rejected here.
     place.write("sweep.toml", "case = 'case.toml'\n[vary]\nbody.0.approach_speed = [0.3, -1.0]\n");
@@ -262,16 +262,16 @@ fn killed_sweep_resumes_with_the_members_left() {
     assert!((1..12).contains(&n_kept), "{n_kept}");
     let again = [&["sweep", "sweep.toml", "--out", "killed"][..], &FINE].concat();
     let ran = place.succeed(&again);
-    let expected = format!("12 members; {n_kept} done before, {} to run", 12 - n_kept);
+    let expected = format!("12 members; {n_kept} already done, {} to run", 12 - n_kept);
     ran.tells(&expected);
     place.succeed(("sweep sweep.toml --out whole", FINE));
     for name in ["sweep.csv", "sweep.svg"] {
         assert!(place.read(format!("killed/{name}")) == place.read(format!("whole/{name}")));
     }
     // A finished sweep has nothing to do; a changed list reuses what it can.
-    place.succeed(&again).tells("12 done before, 0 to run");
+    place.succeed(&again).tells("12 already done, 0 to run");
     place.write("sweep.toml", &LONG.replace("0.30, 0.31,", "0.29,").replace("0.35", "'35 cm/s'"));
-    place.succeed(&again).tells("11 members; 10 done before, 1 to run");
+    place.succeed(&again).tells("11 members; 10 already done, 1 to run");
     assert_eq!(rows(&place, "killed/sweep.csv").len(), 12);
 }
 

@@ -49,14 +49,14 @@ fn a_packed_sweep_has_one_file_the_same_table_and_survives_a_kill() {
     let kept: Vec<&str> = text.split_inclusive('\n').take(12).collect();
     fs::write(place.path(&pack), &kept.concat()[..kept.concat().len() - 40]).unwrap();
     let said = sweep(&place, "packed.toml --out packed");
-    assert!(said.contains("30 members; 11 done before, 19 to run"), "{said}");
+    assert!(said.contains("30 members; 11 already done, 19 to run"), "{said}");
     assert_eq!(place.list("packed/members").len(), 2);
     same_table(&place);
     // Results in folders are used too, and the other way round.
     for file in ["packed.toml", "folders.toml"] {
         for out in ["packed", "folders"] {
             let said = sweep(&place, [file, "--out", out]);
-            assert!(said.contains("30 done before, 0 to run"), "{said}");
+            assert!(said.contains("30 already done, 0 to run"), "{said}");
         }
     }
 }
@@ -76,9 +76,9 @@ fn shards_have_a_file_each() {
     // The first process has written a sweep.json with what it knows.
     assert!(left(" 0"), "{done}");
     let said = sweep(&place, "packed.toml --out packed --shard 1/2");
-    assert!(said.contains("15 in this shard; 10 done before, 5 to run"), "{said}");
+    assert!(said.contains("15 in this shard; 10 already done, 5 to run"), "{said}");
     let said = sweep(&place, "packed.toml --out packed --no-merge --shard 2/2");
-    assert!(said.contains("15 in this shard; 10 done before, 5 to run"), "{said}");
+    assert!(said.contains("15 in this shard; 10 already done, 5 to run"), "{said}");
     sweep(&place, "packed.toml --out packed --merge");
     same_table(&place);
 }

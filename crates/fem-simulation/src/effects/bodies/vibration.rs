@@ -123,16 +123,15 @@ impl Vibration {
         // Modes help unless there are waves that they do not resolve.
         if Self::needs_modes(estimate, n_asked) && Self::beyond_modes(estimate).is_none() {
             warnings.push(format!(
-                "{} the inertia of the bodies matters: set model.condensed.vibration_modes = \
+                "{}, where the inertia of the bodies matters: set model.condensed.vibration_modes = \
                  {ENOUGH_MODES}, or use model fem",
                 above(estimate, QUASI_STATIC_LIMIT)
             ));
         }
         if estimate.effective_ringing > QUASI_STATIC_LIMIT {
             warnings.push(format!(
-                "bulk waves are slow in a body of negative Poisson's ratio: it rings, and few modes do not resolve the \
-                 short contact. About {} of the restitution, {} of the contact time and {} of the peak force are \
-                 missing; use model fem",
+                "Poisson's ratio is negative: bulk waves are slow and the body rings, which this model neglects: about {} of \
+                 the restitution, {} of the contact time and {} of the peak force; use model fem",
                 percent(RINGING_LOSS * estimate.effective_ringing),
                 percent(RINGING_LENGTHENING * estimate.effective_ringing),
                 percent(RINGING_WEAKENING * estimate.effective_ringing)
@@ -140,7 +139,7 @@ impl Vibration {
         }
         if estimate.effective_mach > MACH_LIMIT {
             warnings.push(format!(
-                "{} steep fronts form that no mode of vibration resolves: use model fem",
+                "{}, where steep fronts form that no mode of vibration resolves: use model fem",
                 above(estimate, MACH_LIMIT)
             ));
         }
@@ -179,7 +178,7 @@ impl Vibration {
     pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Support {
         let warning = (estimate.effective_mach > MACH_LIMIT).then(|| {
             format!(
-                "{} the bodies vibrate, which this model leaves out",
+                "{}, where the bodies vibrate, which this model neglects",
                 above(estimate, MACH_LIMIT)
             )
         });

@@ -11,7 +11,7 @@ pub struct Relevance {
     pub is_called_for: bool,
     /// The deciding number, as text.
     pub number: String,
-    /// The consequence if the scene does not call for it, as text.
+    /// The text after the number if the scene does not need the effect.
     pub if_not_needed: String,
     /// The remaining uncertainty in a model that lacks the effect, as text.
     pub open_error: String,
@@ -47,7 +47,7 @@ pub(in crate::effects) fn number(estimate: &Estimate) -> String {
 /// Compares the approach speed, as a share of the shear wave speed, with a limit.
 pub(in crate::effects) fn above(estimate: &Estimate, limit: f64) -> String {
     format!(
-        "the approach speed is {} of the shear wave speed; above {}",
+        "the approach speed is {} of the shear wave speed, above {}",
         percent(estimate.effective_mach),
         percent(limit)
     )

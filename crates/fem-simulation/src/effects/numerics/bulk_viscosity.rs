@@ -69,7 +69,7 @@ impl Effect for BulkViscosity {
         };
         let warning = is_called_for.then(|| {
             let speed = above(estimate, MACH_LIMIT);
-            format!("{speed} steep fronts ring in the mesh, mostly in pressure")
+            format!("{speed}, where steep fronts ring in the mesh, mostly in pressure")
         });
         Some(Relevance {
             is_called_for,

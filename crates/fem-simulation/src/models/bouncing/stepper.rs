@@ -33,16 +33,16 @@ impl Bounces {
     }
 
     /// Returns whether the state can belong to this ball in this contact.
-    fn fits(&self, ball: &Ball, contact: &fem_explicit::RestartState, met: &Approach) -> bool {
+    fn fits(&self, ball: &Ball, contact: &fem_explicit::RestartState, approach: &Approach) -> bool {
         let (speed, time, _) = ball.fall(&self.approach);
         let is_first = self.so_far.n_contacts() == 0;
         self.request.check().is_ok()
             && self.so_far.is_consistent(&ball.gravity)
             && self.so_far.snapshots().iter().all(|one| has_sizes(one, ball.first.meshes()))
             && self.so_far.first_touch() == time
-            && (!is_first || met.speed() == speed)
-            && met.velocities()[0] == 0.0
-            && met.gap() == 0.0
+            && (!is_first || approach.speed() == speed)
+            && approach.velocities()[0] == 0.0
+            && approach.gap() == 0.0
             && *contact.request() == self.request(ball)
     }
 }
@@ -77,7 +77,7 @@ impl BouncingStepper {
     pub fn resume(ball: &Arc<Ball>, state: RestartState) -> Result<Self, Rejection> {
         let another = || Rejection::new("gravity", ModelError::ForeignRestartState.to_string());
         let known = state.bounces.clone().ok_or_else(another)?;
-        if !known.fits(ball, &state.contact, &state.met) {
+        if !known.fits(ball, &state.contact, &state.approach) {
             return Err(another());
         }
         let present: Arc<dyn Model> = match known.made_at {

@@ -268,7 +268,7 @@ impl Model for Explicit {
 
     fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         let refused = |error: ModelError| Rejection::new("model.fem", error.to_string());
-        let RestartState { contact: run, bounces, met, .. } = state;
+        let RestartState { contact: run, bounces, approach: met, .. } = state;
         let frame = self.made.own_frame(&met).map_err(refused)?;
         let (approach, expected) = (*run.approach(), run.expected());
         if bounces.is_some() || approach != *frame.own() {
@@ -327,8 +327,8 @@ impl Stepper for ExplicitStepper {
 
     fn restart_state(&self) -> Option<RestartState> {
         let contact = self.run.restart_state().clone();
-        let (met, refinement, levels) = (*self.frame.met(), 1.0, Vec::new());
-        Some(RestartState { contact, bounces: None, met, refinement, levels })
+        let (approach, refinement, levels) = (*self.frame.approach(), 1.0, Vec::new());
+        Some(RestartState { contact, bounces: None, approach, refinement, levels })
     }
 
     fn finish(self: Box<Self>) -> Collision {
