@@ -94,7 +94,7 @@ pub(crate) fn tolerance_warning(
             format!("with gravity the mesh is not refined automatically; {write}, or ")
         }
         Some(NotRefined::TooExpensive { updates: Some(updates) }) => format!(
-            "a finer mesh would take {:.1e} element updates; write limits.element_updates = {:.0e} or {write}, or ",
+            "a finer mesh would take {:.1e} element updates; write limits.element_updates = {:.0e}, or {write}, or ",
             *updates as f64,
             rounded_up(*updates)
         ),

@@ -94,8 +94,8 @@ impl Simulation {
         let longer = softness(&elements.plan)?;
         (longer > self.case().scene().accuracy().contact_time).then(|| {
             format!(
-                "contact.penalty_factor = {} makes the springs so soft that the contact lasts about {:.0} % longer; write \
-                 contact.penalty_factor = {PENALTY_FACTOR}, or leave it out",
+                "contact.penalty_factor = {} makes the springs so soft that the contact lasts about {:.0} % longer; leave \
+                 contact.penalty_factor out",
                 elements.plan.penalty_factor,
                 100.0 * longer
             )
