@@ -128,7 +128,7 @@ impl Plan {
                 "springs of contact.penalty_factor = {penalty_factor:e} have {per_area:e} Pa/m"
             );
             return Err(Rejection::new("contact.penalty_factor", found).with_help(
-                "this stiffness must be positive and finite; leave contact.penalty_factor out",
+                "this stiffness must be positive and finite; leave it out for the default",
             ));
         }
         let makes_meshes = scene.bodies().iter().any(is_generated);

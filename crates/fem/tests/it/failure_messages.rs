@@ -158,13 +158,13 @@ fn an_energy_residual_is_reported_with_its_time() {
     let (simulation, mut collision) = run(GLASS, &[COARSE, "contact.method='penalty'"]);
     let about_energy = |collision: &Collision| {
         let messages = diagnose(&simulation, collision, &simulation.estimate_errors(collision));
-        messages.into_iter().find(|text| text.contains("add up"))
+        messages.into_iter().find(|text| text.contains("energy balance"))
     };
     assert_eq!(about_energy(&collision), None);
     let since = StepInstant { time: 20e-6, step: 1000 };
     (collision.residual_relative, collision.residual_since) = (Some(2e-3), Some(since));
     let message = about_energy(&collision).unwrap();
-    assert!(message.contains(&format!("2.0e-3 of the initial, above 1e-3 since {since}")));
+    assert!(message.contains(&format!("2.0e-3 of the initial energy since {since} (limit 1e-3)")));
     assert_eq!(written(&message), "contact.method=\"massless\"");
 }
 
@@ -231,8 +231,7 @@ fn an_extreme_setting_is_named() {
         );
         let error = fem::Simulation::new(case.unwrap()).unwrap_err().to_string();
         assert!(error.contains(key), "{key}={value}: {error}");
-        let is_to_go = ["leave it out".to_string(), format!("leave out {key}")];
-        assert!(is_to_go.iter().any(|words| error.contains(words)), "{key}={value}: {error}");
+        assert!(error.contains("leave it out"), "{key}={value}: {error}");
     }
 }
 

@@ -212,7 +212,9 @@ fn follow_advice<'a>(rows: impl Iterator<Item = &'a Row>) {
         for way in ways {
             let (_, after) = computed_warnings(case, &way);
             let still = after.iter().find(|text| kinds.all()[0].is_of(text));
-            let is_better = |still: &String| match warning.contains("resolves") {
+            let is_better = |still: &String| match warning.contains("resolves")
+                || warning.contains("spans only")
+            {
                 true => number(still) > number(warning),
                 false => number(still) < 0.7 * number(warning),
             };
@@ -230,7 +232,7 @@ fn follow_advised_element_size(sizes: &[&str]) {
             let of_mesh: Vec<_> =
                 before.iter().filter(|text| text.contains("mesh.contact_element_size")).collect();
             let last = of_mesh.last().unwrap_or_else(|| panic!("{size}: {before:#?}"));
-            let others = of_mesh.iter().filter(|text| !text.contains("resolve"));
+            let others = of_mesh.iter().filter(|text| !text.contains("spans only"));
             assert!(others.count() <= 1, "{size}: {of_mesh:#?}");
             let way = remedies(last, &simulation, &[&size, model]).remove(0);
             let (_, after) = computed_warnings(GLASS, &way);
