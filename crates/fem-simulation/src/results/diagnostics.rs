@@ -197,7 +197,7 @@ fn energy_residual(collision: &Collision, remedy: &str) -> Option<String> {
     }
     let residual = unbalanced_energy(collision)?;
     Some(format!(
-        "the energy balance is off by {residual:.1e} of the initial energy{} (limit {LARGEST_RESIDUAL:e}); {remedy}",
+        "the energy balance has an error of {residual:.1e} of the initial energy{} (limit {LARGEST_RESIDUAL:e}); {remedy}",
         collision.residual_since.map_or(String::new(), |since| format!(" since {since}"))
     ))
 }

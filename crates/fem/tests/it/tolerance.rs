@@ -196,7 +196,7 @@ fn settings_that_refinement_does_not_improve_are_named() {
         (
             "contact.penalty_factor",
             "0.02",
-            "above 1 % of the approach, write contact.penalty_factor",
+            "(limit 1 % of the approach); write contact.penalty_factor",
         ),
     ] {
         let set = format!("{key}={value}");

@@ -87,7 +87,7 @@ const ROWS: [Row; 30] = [
         "energy balance",
         1,
     ),
-    row(SOFT, &[RUBBER], "elastic law matters", 1),
+    row(SOFT, &[RUBBER], "names no elastic law", 1),
     row(SOFT, &["material.rubber.hyperelastic='saint-venant-kirchhoff'"], "lose its stability", 1),
     row(
         GLASS,

@@ -338,12 +338,9 @@ impl Effect for FiniteStrain {
         // A contact that does not end has no contact time.
         let has_end = collision.contact_time.is_some();
         let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
-            format!(
-                "strains are beyond Hooke's law, where the elastic law matters by {} {} of the contact time, and the \
-                 case does not name one: set material.NAME.hyperelastic",
-                if is_beyond(scene, &found) { "more than" } else { "up to" },
-                percent(spread)
-            )
+            "strains are beyond Hooke's law, and the case names no elastic law: the choice changes the contact time by more than \
+             the tolerance, as the effect finite strain estimates; set material.NAME.hyperelastic"
+                .to_string()
         });
         strain_warning.into_iter().chain(law).collect()
     }
