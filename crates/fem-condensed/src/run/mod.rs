@@ -389,5 +389,3 @@ impl<'a> ImpactRun<'a> {
 }
 
 mod account;
-#[cfg(test)]
-mod tests;

@@ -3,6 +3,7 @@
 use crate::common::{
     CONVERGED, CONVERGED_RESTITUTIONS, GLASS, POLYMER, STEEL, Scene, assert_balance, assert_close,
     assert_pulse, assert_restitution, collide, glass, hertz_pulse, material, ting_pulse,
+    unlike_scenes,
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{All, Shear};
@@ -130,7 +131,13 @@ fn small_relaxing_contact_equals_ting() {
 /// Unequal, unlike, wall, multi-term: Ting with the finite size of the spheres.
 #[test]
 fn six_scenes_are_ting_with_finite_size() {
-    for (name, scene) in scenes() {
+    let terms = material(GLASS, Shear, &[(0.3, 1e3), (0.2, 2e4), (0.3, 1e5)]);
+    let soft = (15.9e-3, material(POLYMER, All, &[(0.2, 1e3), (0.2, 1e4)]));
+    let more = [
+        ("many terms, elastic bulk", Scene::paper(terms.clone(), terms)),
+        ("soft on a hard wall", Scene { bodies: [Some(soft), None], speed: 0.1 }),
+    ];
+    for (name, scene) in unlike_scenes().into_iter().chain(more) {
         let run = scene.collide(&scene.condensed(12.0));
         let ting = scene.ting(true);
         // The correction is exact to first order in a/R: of its size, some per cent of δ, the next
@@ -141,34 +148,6 @@ fn six_scenes_are_ting_with_finite_size() {
         assert_pulse(&run, ting_pulse(&ting), [2e-3, 3e-3, 2e-3]);
         assert_balance(name, &run, 1e-4);
     }
-}
-
-fn scenes() -> [(&'static str, Scene); 6] {
-    let sphere = |diameter, material| Some((diameter, material));
-    let two = |lower, upper, speed| Scene { bodies: [lower, upper], speed };
-    let steel = sphere(20e-3, material(STEEL, All, &[]));
-    let polymer = sphere(12e-3, material(POLYMER, Shear, &[(0.5, 2e3)]));
-    let soft = sphere(15.9e-3, material(POLYMER, All, &[(0.2, 1e3), (0.2, 1e4)]));
-    [
-        ("unequal", two(sphere(22.2e-3, glass()), sphere(10e-3, glass()), 0.3)),
-        ("unlike", two(steel, polymer, 0.2)),
-        ("wall", two(None, sphere(15.9e-3, material(GLASS, All, &[(0.8, 5e3)])), 0.5)),
-        (
-            "many terms, elastic bulk",
-            Scene::paper(
-                material(GLASS, Shear, &[(0.3, 1e3), (0.2, 2e4), (0.3, 1e5)]),
-                material(GLASS, Shear, &[(0.3, 1e3), (0.2, 2e4), (0.3, 1e5)]),
-            ),
-        ),
-        (
-            "one of each kind",
-            Scene::paper(
-                material(GLASS, All, &[(0.5, 3e3), (0.1, 1e6)]),
-                material(GLASS, Shear, &[(0.7, 1e4)]),
-            ),
-        ),
-        ("soft on a hard wall", two(soft, None, 0.1)),
-    ]
 }
 
 /// A wall is the mirror of a twin, to rounding.

@@ -1,7 +1,9 @@
 //! The quantities of a collision do not depend on whether its history is kept.
 
 use crate::common::{GLASS, Scene, glass, material};
-use fem_collision::{Approach, Collision, Frame, OutputRequest, SnapshotInstant, SnapshotRequest};
+use fem_collision::{
+    Approach, Collision, Frame, OutputRequest, SnapshotInstant, SnapshotRequest, did_not_occur,
+};
 use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 use fem_material::Material;
@@ -56,7 +58,10 @@ fn quantities_are_those_of_a_run_with_a_history() {
             }
             assert!(none.force_scatter.is_some_and(|scatter| scatter.is_finite()), "{name}");
             // Bodies that stay together have neither mid-separation nor last contact.
-            assert_eq!(none.snapshots.len(), if k == 3 { 2 } else { 4 }, "{name}");
+            let labels: Vec<_> = none.snapshots.iter().filter_map(|one| one.label).collect();
+            assert_eq!(labels, SnapshotInstant::ALL[..if k == 3 { 2 } else { 4 }], "{name}");
+            let missing = did_not_occur(SnapshotInstant::LastContact);
+            assert_eq!(none.warnings.contains(&missing), k == 3, "{name}");
         }
     }
 }

@@ -2,14 +2,11 @@
 
 use crate::common::{
     GLASS, Scene, assert_balance, assert_close, assert_pulse, assert_restitution, collide,
-    collide_in, glass, hertz_pulse, material, ting_pulse,
+    collide_in, explicit, glass, hertz_pulse, material, ting_pulse,
 };
-use fem_collision::{
-    Approach, BodyInput, Collision, Expectation, Frame, OutputRequest, SnapshotRequest,
-};
+use fem_collision::{BodyInput, Collision, Frame, OutputRequest, SnapshotRequest};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_contact::ContactError;
-use fem_explicit::{ExplicitBodies, Settings};
 use fem_laws::{FiniteSize, HertzImpact, Pair, PairRelaxation, Partner, Ting, sphere_mass};
 use fem_material::ActsOn::{All, Shear};
 use fem_material::Material;
@@ -161,19 +158,7 @@ fn condensed_rigid_partner_equals_the_explicit_one() {
     let candidate_radius = 1.5 * hertz.max_contact_radius();
     for rigid in 0..2 {
         let inputs = condensed(&soft, rigid, 0.5, 5.0).inputs().clone();
-        let settings = Settings {
-            contact_stiffness: stiffness,
-            candidate_radius,
-            step_factor: 0.9,
-            mass_scaling: 3e-5,
-            mass_times: [1.0; 2],
-        };
-        let model =
-            ExplicitBodies::new(inputs.clone(), Approach::at(0.5).unwrap(), &settings).unwrap();
-        let expected =
-            Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-        let explicit =
-            fem_explicit::collide(&model, expected, &OutputRequest::quantities(), &mut ());
+        let explicit = explicit(inputs.clone(), &hertz, stiffness, &OutputRequest::quantities());
         let contact = ContactModel::Springs(stiffness);
         let settings =
             PairSettings { contact, vibration_modes: 12, ..PairSettings::new(candidate_radius) };

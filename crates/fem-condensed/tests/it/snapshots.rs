@@ -1,9 +1,9 @@
 //! Fields at an instant.
 
-use crate::common::{GLASS, Scene, glass, material};
+use crate::common::{GLASS, Scene, explicit, glass, material};
 use fem_collision::{
-    Approach, BodyInput, Collision, Expectation, Frame, OutputRequest, SnapshotInstant,
-    SnapshotRequest, StressField,
+    Approach, BodyInput, Collision, Frame, OutputRequest, SnapshotInstant, SnapshotRequest,
+    StressField,
 };
 use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{self, All, Shear};
@@ -245,26 +245,9 @@ fn fields_are_the_explicit_ones() {
     let scene = Scene::paper(relaxing(Shear), relaxing(All));
     let stiffness = 5.0 * scene.pair().contact_modulus();
     let hertz = scene.hertz();
-    let bodies = scene.inputs(5.0);
-    let settings = fem_explicit::Settings {
-        contact_stiffness: stiffness,
-        candidate_radius: 1.5 * hertz.max_contact_radius(),
-        step_factor: 0.9,
-        mass_scaling: 3e-5,
-        mass_times: [1.0; 2],
-    };
-    let model =
-        fem_explicit::ExplicitBodies::new(bodies, Approach::at(0.5).unwrap(), &settings).unwrap();
     let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
-    let expected =
-        Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let request = OutputRequest {
-        history_rows: 100,
-        snapshots: snapshots.clone(),
-        give_up_after: 20.0,
-        ..OutputRequest::history()
-    };
-    let reference = fem_explicit::collide(&model, expected, &request, &mut ());
+    let request = OutputRequest { snapshots: snapshots.clone(), ..OutputRequest::history() };
+    let reference = explicit(scene.inputs(5.0), &hertz, stiffness, &request);
     let settings = PairSettings {
         contact: ContactModel::Springs(stiffness),
         vibration_modes: 12,

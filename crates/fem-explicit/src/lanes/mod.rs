@@ -148,7 +148,7 @@ fn has_avx2() -> bool {
         && std::arch::is_x86_feature_detected!("fma")
 }
 
-/// Lanes as an array, for any machine.
+/// Lanes as an array, for any machine. Builds for tests do not inline them, which halves the time of compiling the kernels.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plain<const N: usize = LANES>([f64; N]);
 
@@ -164,7 +164,7 @@ macro_rules! plain_operator {
         impl<const N: usize> $operator for Plain<N> {
             type Output = Self;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Self) -> Self {
                 Self(std::array::from_fn(|lane| self.0[lane].$method(other.0[lane])))
             }
@@ -178,43 +178,43 @@ plain_operator!(Mul, mul);
 plain_operator!(Div, div);
 
 impl<const N: usize> Number for Plain<N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn splat(value: f64) -> Self {
         Self([value; N])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn plus_product(self, x: Self, y: Self) -> Self {
         Self(std::array::from_fn(|lane| fused(x.0[lane], y.0[lane], self.0[lane])))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn minus_product(self, x: Self, y: Self) -> Self {
         Self(std::array::from_fn(|lane| fused(-x.0[lane], y.0[lane], self.0[lane])))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn inverse_cube_root_estimate(self) -> Self {
         Self(self.0.map(inverse_cube_root_estimate))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn power_of_two(self) -> (Self, Self) {
         let both = self.0.map(power_of_two);
         (Self(both.map(|(power, _)| power)), Self(both.map(|(_, inverse)| inverse)))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn all_within(self, bound: f64) -> bool {
         self.0.iter().all(|x| x.all_within(bound))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn choose_within(self, bound: f64, inside: Self, outside: Self) -> Self {
         let choose =
             |lane: usize| self.0[lane].choose_within(bound, inside.0[lane], outside.0[lane]);
@@ -223,38 +223,38 @@ impl<const N: usize> Number for Plain<N> {
 }
 
 impl<const N: usize> Lanes<N> for Plain<N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn max(self, other: Self) -> Self {
         let larger =
             |lane: usize| if self.0[lane] > other.0[lane] { self.0[lane] } else { other.0[lane] };
         Self(std::array::from_fn(larger))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn min(self, other: Self) -> Self {
         let smaller =
             |lane: usize| if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] };
         Self(std::array::from_fn(smaller))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load(values: &[f64; N]) -> Self {
         Self(*values)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn to_array(self) -> [f64; N] {
         self.0
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; N]) -> (Self, Self) {
         // SAFETY: the caller's promise.
         let pairs = nodes.map(|node| unsafe { *field.get_unchecked(node as usize) });
         (Self(pairs.map(|pair| pair[0])), Self(pairs.map(|pair| pair[1])))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; N]) {
         for lane in 0..N {
             // SAFETY: the caller's promise.

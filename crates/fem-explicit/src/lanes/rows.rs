@@ -45,14 +45,14 @@ impl RowLanes for Plain<WIDE> {
         [0.0; 2]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     unsafe fn load_row(field: &[[f64; 2]], first: usize) -> (Self, Self) {
         // SAFETY: the caller's promise.
         let pairs = ROW_PLACES.map(|place| unsafe { *field.get_unchecked(first + place) });
         (Self(pairs.map(|pair| pair[0])), Self(pairs.map(|pair| pair[1])))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     unsafe fn subtract_row(
         field: &mut [[f64; 2]],
         first: usize,

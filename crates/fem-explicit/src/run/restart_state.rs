@@ -134,6 +134,3 @@ impl RestartState {
             && self.stability.fits(model, state)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -278,3 +278,23 @@ fn a_contact_that_adds_energy_is_seen_in_the_step() {
     assert!(ledger.worst_residual > 10.0 * worst_before + 1e-6, "{:e}", ledger.worst_residual);
     assert!(ledger.growth > 1e-6 && ledger.growth <= ledger.worst_residual);
 }
+
+/// Values that no file can hold.
+#[test]
+fn a_restart_state_with_nan_or_another_approach_is_refused() {
+    let model = model();
+    let mut run = Run::new(&model, EXPECTED, &request(COUNT));
+    run.advance(100);
+    type Damage = (&'static str, fn(&mut RestartState));
+    let damages: [Damage; 4] = [
+        ("nothing", |_| ()),
+        ("time", |state| state.state.time = f64::NAN),
+        ("first contact", |state| state.log.first_contact = Some(f64::NAN)),
+        ("last row", |state| state.sampled.last.as_mut().unwrap().time = f64::NAN),
+    ];
+    for (what, damage) in damages {
+        let mut state = run.restart_state.clone();
+        damage(&mut state);
+        assert_eq!(state.fits(&model), what == "nothing", "{what}");
+    }
+}

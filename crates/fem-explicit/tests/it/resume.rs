@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::common::{CONTACT_MODULUS, Pair, quantities, stored};
 use fem_collision::{
-    BodyInput, Collision, Ending, Monitor, OutputRequest, Progress, SnapshotInstant,
+    BodyInput, Collision, Ending, HistoryRow, Monitor, OutputRequest, Progress, SnapshotInstant,
     SnapshotRequest, StepInstant, Stop,
 };
 use fem_explicit::{ExplicitBodies, ModelError, Run, Settings, collide};
@@ -311,4 +311,26 @@ fn run_owning_its_model_moves_to_another_thread() {
     let run = begun(&Pair::small());
     let elsewhere = std::thread::spawn(|| finished(run)).join().unwrap();
     assert_eq!(elsewhere, Pair::small().run());
+}
+
+/// The restart state contains what a restart needs and nothing else: no buffers, and no rows that are not requested.
+#[test]
+fn a_restart_state_grows_by_the_requested_output() {
+    let pair = Pair::small();
+    let model = pair.model();
+    let n_nodes: usize = model.bodies().iter().map(|body| body.n_nodes()).sum();
+    let run = |history_rows: usize, snapshots: SnapshotRequest, n_steps: u64| {
+        let request = OutputRequest { history_rows, snapshots, ..pair.request() };
+        let mut run = Run::new(&model, pair.expected(), &request);
+        run.advance(n_steps);
+        let n_bytes = postcard::to_stdvec(run.restart_state()).unwrap().len();
+        (n_bytes, run.finish().history.len() * size_of::<HistoryRow>())
+    };
+    let [start, end] = [0, u64::MAX].map(|n_steps| run(0, SnapshotRequest::none(), n_steps).0);
+    // Numbers of the state that differ in length, a row, and the pulse: four numbers an instant observed.
+    assert!(end < start + 500 + 32 * 2 * OutputRequest::ROWS, "{start} {end}");
+    // One state: two fields of each body.
+    let label = SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]);
+    let (ended, rows) = run(20, label, u64::MAX);
+    assert!(ended < end + 3 * 16 * n_nodes + rows + 1000, "{ended} {end} {n_nodes} {rows}");
 }

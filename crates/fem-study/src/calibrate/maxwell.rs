@@ -108,33 +108,3 @@ impl Maxwell {
 fn term(relaxation_time: f64) -> PronyTerm {
     PronyTerm { weight: 1.0, relaxation_time }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// 1 − e = 1/(1 + τ): for each mean one τ.
-    fn restitutions(terms: &[PronyTerm]) -> Result<Vec<f64>, FitError> {
-        let lost = 1.0 / (1.0 + terms[0].relaxation_time);
-        Ok(vec![1.0 - 1.5 * lost, 1.0 - 0.5 * lost])
-    }
-
-    #[test]
-    fn the_term_has_the_measured_mean_or_an_end_of_the_search() {
-        let found =
-            |wanted: [f64; 2]| Maxwell::of_mean(&restitutions, &wanted, (0.1, 0.1)).unwrap();
-        let one = found([0.7, 0.9]);
-        // Means within 1e-6 are the same, and dτ = (1 + τ)² de.
-        assert!((one.time - 4.0).abs() < 1e-4 && one.beyond.is_none(), "{one:?}");
-        assert!(one.rms < 1e-6);
-        assert_eq!(found([1.0, 1.0]).beyond, Some(Beyond::Slower));
-        assert_eq!(found([0.0, 0.0]).beyond, Some(Beyond::Faster));
-    }
-
-    #[test]
-    fn a_failed_collision_is_an_error() {
-        let failed = || FitError::Collision { reason: "none".to_string() };
-        let never = |_: &[PronyTerm]| Err(failed());
-        assert_eq!(Maxwell::of_mean(&never, &[0.9], (0.1, 0.1)), Err(failed()));
-    }
-}

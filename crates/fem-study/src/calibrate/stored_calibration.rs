@@ -135,15 +135,3 @@ fn toml_key(name: &str) -> String {
         false => serde_json::Value::from(name).to_string(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn other_names_than_bare_keys_are_quoted() {
-        assert_eq!(toml_key("soda-lime_1"), "soda-lime_1");
-        assert_eq!(toml_key("a \"b\""), "\"a \\\"b\\\"\"");
-        assert_eq!(toml_key(""), "\"\"");
-    }
-}

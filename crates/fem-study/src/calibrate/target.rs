@@ -50,39 +50,3 @@ impl Target {
         Ok(Self { material: material.to_string(), acts_on, sides })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use fem_case::CaseFile;
-    use fem_case::schema::{BodyTable, MaterialTable};
-
-    use super::*;
-
-    fn case(lower: &str, upper: &str) -> Case {
-        let material =
-            || MaterialTable::from_youngs_modulus_poissons_ratio(2390.0, "63 GPa", 0.244);
-        let ball = |name, of| BodyTable::sphere(name, "1 cm", of).approaching("1 m/s");
-        let file = CaseFile::of_bodies(ball("lower", lower), ball("upper", upper));
-        Case::of(file.with_material("glass", material()).with_material("ice", material())).unwrap()
-    }
-
-    #[test]
-    fn the_only_material_needs_no_name() {
-        let target = Target::of(&case("glass", "glass"), None, None).unwrap();
-        assert_eq!((target.material.as_str(), target.sides), ("glass", [true, true]));
-        assert_eq!(target.acts_on, ActsOn::All);
-    }
-
-    #[test]
-    fn one_of_two_materials_is_named() {
-        let case = case("glass", "ice");
-        let target = Target::of(&case, Some("ice"), Some(schema::ActsOn::Shear)).unwrap();
-        assert_eq!((target.sides, target.acts_on), ([false, true], ActsOn::Shear));
-        let materials = vec!["glass".to_string(), "ice".to_string()];
-        let refused = Target::of(&case, None, None);
-        assert_eq!(refused, Err(CalibrationFault::TwoMaterials { materials: materials.clone() }));
-        let refused = Target::of(&case, Some("steel"), None);
-        let name = "steel".to_string();
-        assert_eq!(refused, Err(CalibrationFault::OtherMaterial { name, materials }));
-    }
-}

@@ -242,33 +242,3 @@ impl Model {
         Ok(scaled)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The spring, integrated without its dashpot, takes as long as Hertz'; the integration is good to 1e-10.
-    #[test]
-    fn the_stiffness_of_hertz_makes_his_contact_time() {
-        use fem_material::ElasticModuli;
-
-        let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
-        let glass = Material::new(2390.0, moduli, None).unwrap();
-        let sphere = fem_laws::Partner::solid_sphere(15.9e-3, &glass);
-        let pair = Pair::new(sphere, sphere).unwrap();
-        for (family, mut values) in [
-            (LawFamily::Linear, vec![1.0, 0.0]),
-            (LawFamily::MishraMurty, vec![1.0, 0.0]),
-            (LawFamily::Power, vec![1.0, 1.5, 0.0, 0.5]),
-            (LawFamily::Power, vec![1.0, 3.0, 0.0, 0.5]),
-        ] {
-            let model = Model::new(&pair, [None, None], family, EndRule::ZeroForce).unwrap();
-            for speed in [0.01, 2.0] {
-                values[0] = model.stiffness_of_hertz(&values, speed).unwrap();
-                let time = model.outcome(&values, speed).unwrap().contact_time.unwrap();
-                let hertz = HertzImpact::new(&pair, speed).unwrap().contact_time();
-                assert!((time / hertz - 1.0).abs() < 1e-8, "{family:?}: {time} {hertz}");
-            }
-        }
-    }
-}

@@ -139,29 +139,3 @@ pub fn check_value(parameter: &LawParameter, value: f64) -> Result<(), Parameter
     };
     Err(ParameterError::OutOfRange { key, value, allowed })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parameters_are_found_and_their_values_are_checked() {
-        let family = LawFamily::BordbarHyppanen;
-        assert_eq!(find_parameter(family, " n "), Ok(1));
-        let error = find_parameter(family, "b").unwrap_err();
-        assert_eq!(error.help().unwrap(), "its parameters are a, n");
-        assert_eq!(loss_parameter(family), Ok(0));
-        let error = loss_parameter(LawFamily::Hertz).unwrap_err();
-        assert_eq!(error.to_string(), "hertz loses nothing: it has no parameter to find");
-        let [a, n] = family.parameters() else { panic!("two parameters") };
-        assert_eq!(parse_value(n, "'0.65'"), Ok(0.65));
-        for (parameter, value, allowed) in [
-            (a, 0.0, "it must be greater than 0"),
-            (a, f64::INFINITY, "it must be greater than 0"),
-            (n, 7.0, "it must be from 0 to 3"),
-            (n, f64::NAN, "it must be from 0 to 3"),
-        ] {
-            assert_eq!(check_value(parameter, value).unwrap_err().help().unwrap(), allowed);
-        }
-    }
-}

@@ -91,17 +91,3 @@ pub(super) fn column_names() -> Vec<&'static str> {
         [&SPEEDS, &RESTITUTIONS, &UNCERTAINTIES, &CONTACT_TIMES, &diameters, &ANGLES];
     all.concat()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_end_in_their_units() {
-        assert_eq!(ending_of("speed_cm_s"), Some(ending("_cm_s", 1e-2, [1, 0, -1])));
-        assert_eq!(ending_of("speed"), None);
-        assert_eq!(bare("contact_time_us"), "contact_time");
-        assert_eq!(bare("e"), "e");
-        assert_eq!(readings("v_m_s").collect::<Vec<_>>(), ["v_m_s", "v", "v_m"]);
-    }
-}

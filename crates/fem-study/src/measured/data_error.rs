@@ -59,15 +59,3 @@ impl DataError {
 pub(super) fn one_line(text: &str) -> String {
     text.replace(char::is_control, "\u{fffd}")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn data_error_has_its_line_and_no_control_characters() {
-        let error = DataError::new("e.csv", "speed is \"\u{1b}[2J\"");
-        assert_eq!(error.to_string(), "e.csv: speed is \"\u{fffd}[2J\"");
-        assert_eq!(error.in_line(3).to_string(), "e.csv:3: speed is \"\u{fffd}[2J\"");
-    }
-}

@@ -80,20 +80,3 @@ impl MeasuredPairs {
         self.pairs.iter().position(|pair| pair.points.contains(&point)).unwrap_or(0)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn points_are_sorted_by_pairs_and_repeats_are_found() {
-        let data = Restitutions::of("e", &[(0.1, 0.9), (0.1, 0.8), (0.1, 0.91), (0.2, 0.9)]);
-        let sizes = [[Some(0.01), None], [Some(0.02), None]];
-        let measured = MeasuredPairs::sorted(data, |point| sizes[point % 2]);
-        assert_eq!(measured.pairs[0].points, [0, 2]);
-        assert_eq!(measured.pairs[1].points, [1, 3]);
-        assert_eq!([0, 1, 2, 3].map(|point| measured.pair_of(point)), [0, 1, 0, 1]);
-        assert_eq!(measured.collisions(), [0, 1, 0, 3]);
-        assert_eq!(measured.uncertainties(), None);
-    }
-}

@@ -122,21 +122,3 @@ impl Restitutions {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_uncertainty_is_set_once_and_within_its_range() {
-        let mut measured = Restitutions::of("e", &[(0.5, 0.9)]);
-        for bad in [0.0, -1.0, 1.1, f64::NAN] {
-            let refused = measured.set_uncertainty(bad);
-            assert!(matches!(refused, Err(UncertaintyError::OutOfRange(_))), "{bad}");
-        }
-        assert_eq!(measured.set_uncertainty(1.0), Ok(()));
-        assert_eq!(measured.points[0].restitution_uncertainty, Some(1.0));
-        let again = measured.set_uncertainty(0.1);
-        assert_eq!(again, Err(UncertaintyError::Known("e".to_string())));
-    }
-}

@@ -66,16 +66,12 @@ pub struct Columns {
 
 impl Default for Columns {
     fn default() -> Self {
-        Self::shown(Account::shown)
+        let optional = Account::all().filter(|account| account.shown() == ShownIn::WhereFilled);
+        Self { absent: optional.map(energy_key).collect() }
     }
 }
 
 impl Columns {
-    fn shown(shown: fn(Account) -> ShownIn) -> Self {
-        let optional = Account::all().filter(|account| shown(*account) == ShownIn::WhereFilled);
-        Self { absent: optional.map(energy_key).collect() }
-    }
-
     /// Takes the next summary, given as JSON.
     pub fn see(&mut self, summary: &Value) {
         self.absent.retain(|key| summary["energy"].get(key).is_none());
@@ -150,34 +146,4 @@ pub fn column_words(column: &str) -> String {
 
 fn ending(column: &str) -> Option<(&'static str, &'static str)> {
     ENDINGS.into_iter().find(|(ending, _)| column.ends_with(ending))
-}
-
-#[cfg(test)]
-mod tests {
-    use serde_json::json;
-
-    use super::*;
-
-    /// An effect that stores what the springs of a contact do.
-    fn made_up(account: Account) -> ShownIn {
-        if account == Account::Contact { ShownIn::WhereFilled } else { account.shown() }
-    }
-
-    #[test]
-    fn an_energy_that_no_row_has_gets_no_column() {
-        let off = json!({ "energy": { "kinetic_j": 1.0 } });
-        let on = json!({ "energy": { "kinetic_j": 1.0, "contact_j": 0.5 } });
-        let shown = |summaries: &[Value]| {
-            let mut columns = Columns::shown(made_up);
-            summaries.iter().for_each(|summary| columns.see(summary));
-            columns.names()
-        };
-        let has = |summaries: &[Value]| shown(summaries).contains(&"energy_contact_j");
-        let both = [off, on];
-        assert!(!has(&[]) && !has(&both[..1]) && has(&both));
-        let n_optional =
-            Account::all().filter(|account| made_up(*account) == ShownIn::WhereFilled).count();
-        assert_eq!(shown(&both[..1]).len(), COLUMNS.len() - n_optional);
-        assert_eq!(Columns::default().names().len(), COLUMNS.len() - (n_optional - 1));
-    }
 }

@@ -116,14 +116,3 @@ impl Members for [Case] {
 pub fn load(path: &std::path::Path, overrides: &[String]) -> Result<Sweep, CaseError> {
     Sweep::load(path, overrides, &crate::measured::rows_below)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A sweep may keep a million members.
-    #[test]
-    fn sweep_member_has_16_bytes() {
-        assert_eq!(size_of::<Member>(), 16);
-    }
-}

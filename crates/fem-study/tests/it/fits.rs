@@ -1,7 +1,7 @@
 //! Fits compared with published numbers, exact data and closed forms of linear statistics, and their errors.
 
 use crate::common::{bridges, glass_model, ice_model};
-use fem_laws::{EndRule, LawFamily};
+use fem_laws::{EndRule, HertzImpact, LawFamily};
 use fem_study::fit::{FitError, Model, Point, Problem};
 
 /// Returns restitutions and contact times that a model makes.
@@ -230,5 +230,24 @@ fn a_best_value_at_a_bound_is_found() {
         let problem = Problem::new(&model, &points, &["e"]).unwrap();
         let residuals = problem.residuals(&values).unwrap();
         assert!(residuals.iter().map(|r| r * r).sum::<f64>() > fit.sum_of_squares, "{values:?}");
+    }
+}
+
+/// The spring, integrated without its dashpot, takes as long as Hertz'; the integration is good to 1e-10.
+#[test]
+fn the_stiffness_of_hertz_makes_his_contact_time() {
+    for (family, mut values) in [
+        (LawFamily::Linear, vec![1.0, 0.0]),
+        (LawFamily::MishraMurty, vec![1.0, 0.0]),
+        (LawFamily::Power, vec![1.0, 1.5, 0.0, 0.5]),
+        (LawFamily::Power, vec![1.0, 3.0, 0.0, 0.5]),
+    ] {
+        let model = glass_model(family, None);
+        for speed in [0.01, 2.0] {
+            values[0] = model.stiffness_of_hertz(&values, speed).unwrap();
+            let time = model.outcome(&values, speed).unwrap().contact_time.unwrap();
+            let hertz = HertzImpact::new(model.pair(), speed).unwrap().contact_time();
+            assert!((time / hertz - 1.0).abs() < 1e-8, "{family:?}: {time} {hertz}");
+        }
     }
 }

@@ -4,6 +4,7 @@ use crate::common::{glass, glass_model};
 use fem_laws::{EndRule, LawFamily};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_study::fit::{FitError, Model, Point, Problem, invert};
+use fem_study::laws::{check_value, find_parameter, loss_parameter, parse_value};
 
 /// A restitution of 0.92 at 0.5 m/s needs β = 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus (the
 /// project's reference calculation, by another program).
@@ -91,4 +92,25 @@ fn impossible_restitutions_are_rejected() {
     let pair = *model.pair();
     let elastic = Model::new(&pair, [Some(glass(None)), None], LawFamily::Ting, EndRule::ZeroForce);
     assert_eq!(elastic.unwrap_err(), FitError::NoRelaxation);
+}
+
+#[test]
+fn parameters_are_found_and_their_values_are_checked() {
+    let family = LawFamily::BordbarHyppanen;
+    assert_eq!(find_parameter(family, " n "), Ok(1));
+    let error = find_parameter(family, "b").unwrap_err();
+    assert_eq!(error.help().unwrap(), "its parameters are a, n");
+    assert_eq!(loss_parameter(family), Ok(0));
+    let error = loss_parameter(LawFamily::Hertz).unwrap_err();
+    assert_eq!(error.to_string(), "hertz loses nothing: it has no parameter to find");
+    let [a, n] = family.parameters() else { panic!("two parameters") };
+    assert_eq!(parse_value(n, "'0.65'"), Ok(0.65));
+    for (parameter, value, allowed) in [
+        (a, 0.0, "it must be greater than 0"),
+        (a, f64::INFINITY, "it must be greater than 0"),
+        (n, 7.0, "it must be from 0 to 3"),
+        (n, f64::NAN, "it must be from 0 to 3"),
+    ] {
+        assert_eq!(check_value(parameter, value).unwrap_err().help().unwrap(), allowed);
+    }
 }

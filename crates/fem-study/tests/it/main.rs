@@ -1,9 +1,11 @@
 //! Tests of the public interface of fem-study.
 
 mod accuracy;
+mod calibrate;
 mod common;
 mod cradle;
 mod dem;
 mod fits;
 mod inverse;
+mod measured;
 mod spectrum;

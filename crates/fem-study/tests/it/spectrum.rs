@@ -4,7 +4,9 @@
 use fem_laws::{Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_study::fit::FitError;
-use fem_study::fit::spectrum::{SpectrumFit, SpectrumProblem};
+use fem_study::fit::spectrum::{
+    SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, speed_exponent,
+};
 
 /// Speeds over two decades, which span a factor of 2.5 in contact time.
 const SPEEDS: [f64; 6] = [0.02, 0.05, 0.12, 0.3, 0.8, 2.0];
@@ -170,4 +172,43 @@ fn uncertain_weights_are_not_determined() {
     assert!(sharp.n_determined() > of(0.2).n_determined());
     assert_eq!(of(0.9).n_determined(), 0);
     assert!(!sharp.combinations[0].may_be_zero() && of(0.9).combinations[0].may_be_zero());
+}
+
+/// Repeats of a collision scatter about their own mean; with enough of them the misfit is relative to that scatter.
+#[test]
+fn repeats_give_the_pure_error() {
+    let model =
+        |weights: &[f64]| Ok([1.0, 1.0, 0.5, 0.2].map(|share| 1.0 - share * weights[0]).to_vec());
+    let problem = |collisions: &[usize]| {
+        let measured = &[0.90, 0.92, 0.70, 0.50];
+        SpectrumProblem {
+            restitutions: &model,
+            measured,
+            collisions,
+            uncertainties: None,
+            times: &[1e-4],
+            regularisation: 0.0,
+        }
+        .fit(0.95)
+        .unwrap()
+    };
+    assert_eq!(problem(&[0, 1, 2, 3]).pure_error, None);
+    let found = problem(&[0, 0, 1, 2]);
+    // ±0.01 about the mean, with one degree of freedom, which is too few for a misfit.
+    let pure = found.pure_error.unwrap();
+    assert!((pure.error - 0.02f64 / 2f64.sqrt()).abs() < 1e-15);
+    assert_eq!((pure.degrees_of_freedom, found.misfit), (1, None));
+}
+
+#[test]
+fn powers_of_several_pairs_are_found() {
+    let point = |pair: usize, speed: f64| SpeedPoint {
+        pair,
+        speed,
+        restitution: 1.0 - 0.1 * (pair as f64 + 1.0) * speed.powf(0.3),
+    };
+    let points: Vec<_> = (0..6).map(|k| point(k % 2, 0.1 * (k as f64 + 1.0))).collect();
+    let found = speed_exponent(&points).unwrap();
+    assert!((found.value - 0.3).abs() < 1e-12 && found.is_above(SpeedExponent::LIMIT));
+    assert_eq!(speed_exponent(&points[..1]), None);
 }

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use fastrand::Rng;
+use fem::effects::NeglectError;
 use fem::{BalanceSide, Case, Collision, Cost, Simulation};
 
 /// A material in SI; terms of weight and rate over a guess of the inverse contact time.
@@ -218,11 +219,26 @@ fn check_of_extreme_sizes_gives_finite_estimates_or_a_key() {
                 assert!(message.contains("any.toml") && message.len() > 20, "{message}")
             }
             Ok(simulation) => {
-                let hertz = &simulation.setup().estimate.hertz;
+                let setup = simulation.setup();
+                let hertz = &setup.estimate.hertz;
                 assert!(hertz.contact_time() > 0.0 && hertz.contact_time().is_finite());
                 assert!(hertz.peak_force() > 0.0 && hertz.peak_force().is_finite());
-                if let Cost::Steps { seconds, time_step, .. } = simulation.setup().cost {
+                if let Cost::Steps { seconds, time_step, .. } = setup.cost {
                     assert!(seconds.is_finite() && time_step > 0.0);
+                }
+                for plan in setup.elements.iter().map(|elements| &elements.plan) {
+                    assert!(plan.contact_element_size > 0.0 && plan.candidate_radius > 0.0);
+                    assert!((plan.contact_element_size + plan.candidate_radius).is_finite());
+                }
+                let neglected = setup.decisions.all.iter();
+                for error in
+                    neglected.filter_map(|one| simulation.neglect_error(one, &setup.estimate))
+                {
+                    let NeglectError { restitution, contact_time_s, peak_force_n } = error;
+                    let is_number = |change: &f64| change.is_finite() && *change >= 0.0;
+                    let told = [restitution, contact_time_s, peak_force_n];
+                    assert!(told.iter().flatten().all(is_number), "{text}: {error:?}");
+                    assert!(restitution.is_none_or(|change| change <= 1.0), "{text}: {error:?}");
                 }
             }
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fem::{Approach, Case, Collision, METHODS, OutputRequest, Simulation, SnapshotRequest, Stop};
 
-use crate::coarse_mesh::simulation;
+use crate::scene::coarse_glass as simulation;
 
 /// Returns an approach so fast that the contact outgrows its first candidate region.
 fn fast() -> Approach {
@@ -14,25 +14,6 @@ fn fast() -> Approach {
 /// Returns a collision without its fields.
 fn plain(collision: &Collision) -> Collision {
     Collision { snapshots: Vec::new(), ..collision.clone() }
-}
-
-#[test]
-fn collisions_of_one_model_are_independent_of_order() {
-    for method in METHODS {
-        let simulation = simulation(method.name(), &[]);
-        let model = simulation.model();
-        let (own, request) = (simulation.setup().approach, OutputRequest::history());
-        let collide = |approach: &Approach| plain(&model.collide(approach, &request, &mut ()));
-        let first = collide(&own);
-        let between = collide(&fast());
-        assert_eq!((first.approach, between.approach), (own, fast()));
-        if let (Some(small), Some(large)) = (first.candidate_region, between.candidate_region) {
-            assert!(large.radius > 1.4 * small.radius, "{}", method.name());
-        }
-        assert!(first.is_complete() && between.is_complete(), "{}", method.name());
-        assert_eq!(collide(&own), first, "{}", method.name());
-        assert_eq!(collide(&fast()), between, "{}", method.name());
-    }
 }
 
 /// The summary of a collision at another approach belongs to that approach, and its resolved case gives the same

@@ -5,7 +5,7 @@ use std::path::Path;
 use fem::effects::{Effect, EffectStatus, FiniteSizeEffect};
 use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
-use crate::coarse_mesh::simulation_of as simulation;
+use crate::scene::simulation_of as simulation;
 
 /// Returns the case of two spheres, the first of which strikes the second.
 fn scene(material: &str, diameters: [&str; 2], speed: &str) -> String {

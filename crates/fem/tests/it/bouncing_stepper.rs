@@ -2,9 +2,8 @@
 
 use fem::{Collision, RestartState, Simulation};
 
-use crate::coarse_mesh::simulation_of;
+use crate::scene::{RUBBER_BALL as BALL, simulation_of};
 
-const BALL: &str = include_str!("rubber_ball.toml");
 /// Three elements across the first contact.
 const COARSE: &str = "mesh={contact_element_size='0.6 mm', refined_radius='1.8 mm'}";
 const FEM: &str = "model.fem={}";
@@ -34,47 +33,36 @@ fn in_pieces(overrides: &[&str], n_pieces: usize) -> (Collision, Vec<usize>) {
     }
 }
 
-/// A ball that is stopped and continued in each contact gives the same rows, snapshots, bounces and energies to the bit.
+/// A ball that is stopped and continued in each contact gives the same rows, snapshots, bounces and energies to the bit:
+/// also through the model of a transformed scene, and where the mesh of a late contact was refined.
 #[test]
 fn a_ball_continues_from_its_restart_state() {
-    for more in [
-        "output.snapshots=['maximum', 'last-contact']",
-        "output.snapshots=['101 ms', '102.5 ms', '1 s']",
-        "body.0={name='floor', sphere={diameter='40 mm'}, material='rubber', held=true}",
-    ] {
-        let overrides = [FEM, COARSE, more];
-        let whole = simulation(&overrides).run(&mut ());
-        assert_eq!(whole.bounces.len(), 3, "{more}");
-        let (resumed, n_stops) = in_pieces(&overrides, 3);
-        assert_eq!(resumed, whole, "{more}");
-        assert!(n_stops[..3].iter().all(|&n| n > 1), "{n_stops:?}");
-    }
-}
-
-/// The restart state passes through the model of a transformed scene under gravity.
-#[test]
-fn a_ball_on_a_rigid_partner_continues_from_its_restart_state() {
     let steel = "material.steel={density=7850, youngs_modulus=210e9, poissons_ratio=0.3}";
-    let floor = "body.0={name='floor', sphere={diameter='40 mm'}, material='steel', held=true}";
-    let overrides = [FEM, COARSE, steel, floor, "effects.rigid_partner='on'"];
-    let whole = simulation(&overrides).run(&mut ());
-    assert_eq!(whole.bodies[0].elements, Some(0));
-    assert_eq!(in_pieces(&overrides, 11).0, whole);
-}
-
-/// The mesh of a late contact that was refined is refined again on restart.
-#[test]
-fn a_ball_with_a_refined_mesh_continues_from_its_restart_state() {
+    let on_steel = "body.0={name='floor', sphere={diameter='40 mm'}, material='steel', held=true}";
+    let on_rubber =
+        "body.0={name='floor', sphere={diameter='40 mm'}, material='rubber', held=true}";
     let lossy = "material.rubber.relaxation={acts_on='all', \
                  terms=[{weight=0.6, relaxation_time='0.3 ms'}]}";
-    let overrides = [FEM, lossy, "mesh.growth=1.35", "accuracy.tolerance='0.3 %'"];
-    let whole = simulation(&overrides).run(&mut ());
-    let speed = |k: usize| whole.bounces[k].speed_before;
-    // The radius goes with v^(2/5): three quarters of it.
-    assert!(speed(2) < 0.75_f64.powf(2.5) * speed(0), "{:?}", whole.bounces);
-    let (resumed, n_stops) = in_pieces(&overrides, 15);
-    assert_eq!(resumed, whole);
-    assert!(n_stops[..3].iter().all(|&n| n > 0), "{n_stops:?}");
+    for (more, n_pieces) in [
+        (&[COARSE, "output.snapshots=['maximum', 'last-contact']"][..], 3),
+        (&[COARSE, "output.snapshots=['101 ms', '102.5 ms', '1 s']"], 3),
+        (&[COARSE, on_rubber], 3),
+        (&[COARSE, steel, on_steel, "effects.rigid_partner='on'"], 3),
+        (&[lossy, "mesh.growth=1.35", "accuracy.tolerance='0.3 %'"], 15),
+    ] {
+        let overrides = [&[FEM], more].concat();
+        let whole = simulation(&overrides).run(&mut ());
+        assert_eq!(whole.bounces.len(), 3, "{more:?}");
+        assert_eq!(whole.bodies[0].elements.is_some_and(|n| n > 0), more.contains(&on_rubber));
+        let (resumed, n_stops) = in_pieces(&overrides, n_pieces);
+        assert_eq!(resumed, whole, "{more:?}");
+        assert!(n_stops[..3].iter().all(|&n| n > 0), "{n_stops:?}");
+        if more[0] == lossy {
+            // The radius goes with v^(2/5): three quarters of it.
+            let speed = |k: usize| whole.bounces[k].speed_before;
+            assert!(speed(2) < 0.75_f64.powf(2.5) * speed(0), "{:?}", whole.bounces);
+        }
+    }
 }
 
 /// A restart state of another ball, of other bounces, of a scene without gravity, or with missing parts is rejected.

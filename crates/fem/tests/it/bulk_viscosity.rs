@@ -3,7 +3,7 @@
 use fem::{Approach, OutputRequest, Simulation};
 use fem_collision::Account;
 
-use crate::coarse_mesh::simulation;
+use crate::scene::{coarse_glass as simulation, decision_on};
 
 /// 65 m/s is the limit, a fiftieth of the shear wave speed.
 const SLOW: &str = "body.0.approach_speed='60 m/s'";
@@ -22,13 +22,6 @@ fn fem(overrides: &[&str]) -> Simulation {
     simulation("fem", &[&[MESH, PENALTY], overrides, &[SMALL]].concat())
 }
 
-/// Returns whether bulk viscosity is on, and the reason.
-fn decision_on(simulation: &Simulation) -> (bool, String) {
-    let decisions = &simulation.setup().decisions.all;
-    let own = decisions.iter().find(|decision| decision.name == "bulk viscosity").unwrap();
-    (own.active, own.reason.clone())
-}
-
 /// Returns the work of bulk viscosity, J; `None` if the run has none.
 fn work(simulation: &Simulation) -> Option<f64> {
     simulation.run(&mut ()).energies.get(Account::BulkViscosity)
@@ -44,9 +37,9 @@ fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
     ] {
         for bodies in ["start={}", TWINS] {
             let simulation = fem(&[speed, switch, bodies]);
-            let (active, said) = decision_on(&simulation);
-            assert_eq!(active, expected, "{speed} {switch} {bodies}: {said}");
-            assert!(said.contains(reason), "{said}");
+            let decision = decision_on(&simulation, "bulk viscosity");
+            assert_eq!(decision.active, expected, "{speed} {switch} {bodies}: {decision:?}");
+            assert!(decision.reason.contains(reason), "{decision:?}");
             let warnings = simulation.setup().warnings();
             let warned = warnings.iter().any(|warning| warning.contains("steep fronts ring"));
             assert_eq!(warned, (speed, switch) == (FAST, OFF), "{warnings:?}");

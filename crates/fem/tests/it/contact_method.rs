@@ -1,10 +1,10 @@
 //! `contact.method`: the choice of the case, and scenes that need another method.
 
-use fem::{Case, Collision, Simulation};
+use fem::{Collision, Simulation};
 use fem_case::ContactMethod;
 use fem_collision::Account;
 
-use crate::coarse_mesh::simulation;
+use crate::scene::{coarse_glass as simulation, resolved};
 
 const MASSLESS: &str = "contact.method='massless'";
 const PENALTY: &str = "contact.method='penalty'";
@@ -31,12 +31,6 @@ fn fast(overrides: &[&str]) -> Simulation {
 
 fn planned(simulation: &Simulation) -> ContactMethod {
     simulation.setup().elements.as_ref().unwrap().plan.contact_method
-}
-
-fn resolved(simulation: &Simulation) -> Simulation {
-    let text = simulation.resolved().to_toml().unwrap();
-    let case = Case::parse("resolved.toml", &text, std::path::Path::new("."), &[]).unwrap();
-    Simulation::new(case).unwrap()
 }
 
 fn run(overrides: &[&str]) -> Collision {
@@ -121,19 +115,6 @@ fn a_remedy_is_advised_for_ringing_springs() {
     assert!(!told.is_empty());
     assert!(told.iter().all(|text| text.contains("contact.method = \"massless\"")), "{told:?}");
     assert_eq!(warnings(MASSLESS), [""; 0]);
-}
-
-/// Half of a collision of like bodies gives the same results as the whole.
-#[test]
-fn mirrored_massless_pair_equals_full_pair_at_half_the_updates() {
-    let whole = run(&[TWINS, MASSLESS, "effects.mirror_symmetry='off'"]);
-    let mirrored = run(&[TWINS, MASSLESS]);
-    assert_eq!(mirrored.element_updates.map(|n| 2 * n), whole.element_updates);
-    let numbers = |run: &Collision| [run.restitution, run.contact_time, run.peak_force];
-    for (half, whole) in numbers(&mirrored).into_iter().zip(numbers(&whole)) {
-        // Both differ by rounding.
-        assert!((half.unwrap() / whole.unwrap() - 1.0).abs() < 1e-9, "{half:?} {whole:?}");
-    }
 }
 
 /// Bounces of a ball gain no energy.

@@ -1,11 +1,9 @@
 //! The contact profiles of snapshots, from every model and contact method.
 
-use std::path::Path;
-
 use fem::results::contact_csv;
-use fem::{Case, Collision, ContactProfilePoint, Simulation, Snapshot, SnapshotInstant};
+use fem::{Collision, ContactProfilePoint, Simulation, Snapshot, SnapshotInstant};
 
-const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+use crate::scene::{ELASTIC_GLASS, simulation_of};
 
 /// Six elements across the contact radius.
 const MESH: &str = "mesh.contact_element_size='40 um'";
@@ -17,9 +15,7 @@ const MOVES: &str = "body.1.approach_speed='0.5 m/s'";
 const CONDENSED: &str = "model.condensed={}";
 
 fn run(set: &[&str]) -> (Simulation, Collision) {
-    let set: Vec<String> = [MESH, INSTANT].iter().chain(set).map(ToString::to_string).collect();
-    let case = Case::parse("glass.toml", ELASTIC, Path::new("."), &set).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    let simulation = simulation_of(ELASTIC_GLASS, &[&[MESH, INSTANT], set].concat());
     let collision = simulation.run(&mut ());
     (simulation, collision)
 }

@@ -1,13 +1,11 @@
 //! `[effects]`: forced effects, the keys of switches, and the support of every model.
 
-use std::path::Path;
-
 use fem::Simulation;
 use fem::effects::EFFECTS;
-use fem_case::{Case, EffectsTable, Switch};
+use fem_case::{EffectsTable, Switch};
 use serde_json::json;
 
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+use crate::scene::{GLASS, case_of, refused_of, simulation_of};
 
 #[test]
 fn a_forced_effect_that_the_model_lacks_is_rejected() {
@@ -15,8 +13,7 @@ fn a_forced_effect_that_the_model_lacks_is_rejected() {
         for effect in ["finite_strain", "bulk_viscosity"] {
             let switched = |switch: &str| {
                 let text = format!("{GLASS}\n[effects]\n{effect} = \"{switch}\"\n");
-                let set = [format!("model.{model}")];
-                (Case::parse("glass.toml", &text, Path::new("."), &set).unwrap(), text)
+                (case_of(&text, &[format!("model.{model}")]), text)
             };
             let (forced, text) = switched("on");
             let error = Simulation::new(forced).unwrap_err();
@@ -31,6 +28,24 @@ fn a_forced_effect_that_the_model_lacks_is_rejected() {
                 Simulation::new(switched(switch).0).unwrap();
             }
         }
+    }
+}
+
+/// A switch that a model cannot obey is rejected with its reason.
+#[test]
+fn a_switch_that_a_model_cannot_obey_is_rejected() {
+    for (model, effect, switch, reason) in [
+        ("fem", "hourglass_control", "off", "stiffness"),
+        ("hertz", "hourglass_control", "on", "hertz"),
+        ("hertz", "partner_waves", "on", ""),
+        ("fem", "partner_waves", "off", ""),
+    ] {
+        let block = "body.0.sphere.diameter='3 m'".to_string();
+        let set =
+            [format!("model={{{model}={{}}}}"), format!("effects.{effect}='{switch}'"), block];
+        let error = refused_of(GLASS, &set);
+        assert_eq!(error.key(), Some(format!("effects.{effect}").as_str()), "{error}");
+        assert!(error.message().contains(reason), "{error}");
     }
 }
 
@@ -123,9 +138,7 @@ fn every_model_supports_or_excludes_every_effect() {
         ("ting={}", &reduced, NO_ELEMENTS),
         ("law.falcon.c=300", &reduced, NO_ELEMENTS),
     ] {
-        let set = [format!("model.{model}")];
-        let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
-        let simulation = Simulation::new(case).unwrap();
+        let simulation = simulation_of(GLASS, &[format!("model.{model}")]);
         let decisions = simulation.setup().decisions.all.iter();
         let found: Vec<&str> = decisions.map(|decision| decision.name).collect();
         assert_eq!(found, answered, "{model}");

@@ -2,7 +2,7 @@
 
 use fem::Simulation;
 
-use crate::coarse_mesh::simulation_of;
+use crate::scene::simulation_of;
 
 /// A soft ball that relaxes, struck by steel.
 const SOFT: &str = "

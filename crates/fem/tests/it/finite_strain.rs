@@ -1,9 +1,9 @@
 //! Finite strain: the decision for each body, its warnings, and runs that fail.
 
-use std::path::Path;
-
 use fem::effects::{Effect, EffectDecision, EffectStatus, FiniteStrain, NeglectError};
-use fem::{Case, QuantityOfInterest, Simulation};
+use fem::{QuantityOfInterest, Simulation};
+
+use crate::scene::{GLASS, case_of, simulation_of};
 
 /// A rubber ball on a wall with a contact radius of about half of its own.
 const RUBBER: &str = r#"
@@ -47,13 +47,11 @@ const UNNAMED: &str =
 const STIFF: &str = "material.rubber.poissons_ratio=0.49995";
 
 fn simulation(set: &[&str]) -> Result<Simulation, fem::CaseError> {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("rubber.toml", RUBBER, Path::new("."), &set).unwrap())
+    Simulation::new(case_of(RUBBER, set))
 }
 
 fn decision_on(simulation: &Simulation) -> EffectDecision {
-    let decisions = &simulation.setup().decisions.all;
-    decisions.iter().find(|decision| decision.name == "finite strain").unwrap().clone()
+    crate::scene::decision_on(simulation, "finite strain").clone()
 }
 
 #[test]
@@ -82,16 +80,12 @@ fn finite_strain_is_on_if_its_change_exceeds_the_tolerance() {
 /// of the force and 0.4 % of the pressure, and other laws up to 0.6 % of the time.
 #[test]
 fn the_spread_of_unnamed_laws_switches_nothing_on() {
-    const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
     for (tolerance, active) in [("1 %", false), ("0.2 %", false), ("0.1 %", true)] {
-        let set = [format!("accuracy.tolerance='{tolerance}'")];
-        let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
-        let decision = decision_on(&Simulation::new(case).unwrap());
+        let simulation = simulation_of(GLASS, &[format!("accuracy.tolerance='{tolerance}'")]);
+        let decision = decision_on(&simulation);
         assert_eq!(decision.active, active, "{tolerance}: {decision:?}");
-        assert!(
-            decision.reason.contains("laws change the contact time by up to 0.58 %"),
-            "{decision:?}"
-        );
+        let words = "laws change the contact time by up to 0.58 %";
+        assert!(decision.reason.contains(words), "{decision:?}");
     }
 }
 
@@ -114,9 +108,7 @@ fn the_run_agrees_with_the_decision() {
 #[test]
 fn a_case_without_a_law_is_warned_of_the_spread_of_laws() {
     let unnamed = RUBBER.replace("hyperelastic = \"hencky\"\n", "");
-    let set = ["mesh.contact_element_size='2 mm'".to_string()];
-    let case = Case::parse("rubber.toml", &unnamed, Path::new("."), &set).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    let simulation = simulation_of(&unnamed, &["mesh.contact_element_size='2 mm'"]);
     let reason = decision_on(&simulation).reason;
     assert!(reason.contains("neo-hooke") && reason.contains("other laws"), "{reason}");
     let warnings = simulation.warnings(&simulation.run(&mut ())).join("\n");
@@ -267,13 +259,9 @@ fn errors_beyond_the_flattest_computed_collision_are_unknown() {
         let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
         let is_lacking = !decision_on(&simulation).active;
         let neglect_error = FiniteStrain.neglect_error(scene, estimate);
-        let error = FiniteStrain.model_form_error(
-            scene,
-            estimate,
-            &EffectStatus { is_lacking, neglect_error },
-        );
-        let is_known =
-            neglect_error.is_some_and(|neglect_error| neglect_error != NeglectError::default());
+        let status = EffectStatus { is_lacking, neglect_error };
+        let error = FiniteStrain.model_form_error(scene, estimate, &status);
+        let is_known = neglect_error.is_some_and(|error| error != NeglectError::default());
         [is_known, QuantityOfInterest::ALL.iter().all(|quantity| error.size(*quantity).is_some())]
     };
     // a/R of 0.81 and 0.87.
@@ -290,7 +278,6 @@ fn errors_beyond_the_flattest_computed_collision_are_unknown() {
     let decision = decision_on(&simulation(&[flatter, coarse]).unwrap());
     assert!(
         decision.active && decision.reason.contains("too wide for an estimate"),
-        "{}",
-        decision.reason
+        "{decision:?}"
     );
 }

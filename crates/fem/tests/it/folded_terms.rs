@@ -1,9 +1,8 @@
 //! Folded relaxation terms: terms much faster or slower than the contact are not integrated.
 
-use fem::effects::EffectDecision;
 use fem::{Collision, Simulation};
 
-use crate::coarse_mesh::simulation_of as simulation;
+use crate::scene::{decision_on, simulation_of as simulation};
 
 /// Ten terms over as many decades, like the fit of a polymer's master curve.
 const POLYMER: &str = r#"
@@ -41,11 +40,6 @@ approach_speed = "0.5 m/s"
 snapshots = []
 "#;
 
-fn decision_on(simulation: &Simulation) -> &EffectDecision {
-    let decisions = &simulation.setup().decisions.all;
-    decisions.iter().find(|decision| decision.name == "viscoelasticity").unwrap()
-}
-
 fn changes(a: &Collision, b: &Collision) -> [f64; 3] {
     let relative = |a: Option<f64>, b: Option<f64>| a.unwrap() / b.unwrap() - 1.0;
     [
@@ -61,14 +55,10 @@ fn folded_terms_change_less_than_their_stated_error() {
     let mesh = "mesh.contact_element_size='10 um'";
     for model in ["model.ting={}", "model.condensed={}"] {
         let folded = simulation(POLYMER, &[model, mesh]);
-        let decision = decision_on(&folded);
-        assert!(
-            decision.active && decision.reason.contains("of 10 terms are integrated"),
-            "{}",
-            decision.reason
-        );
+        let decision = decision_on(&folded, "viscoelasticity");
+        assert!(decision.active && decision.reason.contains("of 10 terms are integrated"));
         let all = simulation(POLYMER, &[model, mesh, "effects.viscoelasticity='on'"]);
-        assert!(!decision_on(&all).reason.contains("integrated"), "{}", decision_on(&all).reason);
+        assert!(!decision_on(&all, "viscoelasticity").reason.contains("integrated"));
         for change in changes(&folded.run(&mut ()), &all.run(&mut ())) {
             assert!(change.abs() < 1.5e-4, "{model}: {change:e}");
         }

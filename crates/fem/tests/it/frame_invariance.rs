@@ -2,7 +2,7 @@
 
 use fem::{Approach, Collision, METHODS, OutputRequest, QuantityOfInterest};
 
-use crate::coarse_mesh::simulation;
+use crate::scene::coarse_glass as simulation;
 
 fn quantities(collision: &Collision) -> [Option<f64>; 6] {
     QuantityOfInterest::ALL.map(|quantity| quantity.of(collision))

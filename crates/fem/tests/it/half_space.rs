@@ -1,10 +1,8 @@
 //! A ball on a half-space.
 
-use std::path::Path;
+use fem::{Collision, Simulation};
 
-use fem::{Case, Collision, Simulation};
-
-use crate::coarse_mesh::simulation_of;
+use crate::scene::{collision_of, resolved, simulation_of};
 
 const BALL: &str = r#"
 [material.steel]
@@ -36,7 +34,7 @@ fn simulation(set: &[&str]) -> Simulation {
 }
 
 fn run(set: &[&str]) -> Collision {
-    simulation(set).run(&mut ())
+    collision_of(BALL, set)
 }
 
 /// Hertz by hand: R* is the ball's radius, m* its mass, 1/E* = 0.91/210 GPa + 0.84/3 GPa.
@@ -57,12 +55,10 @@ fn the_contact_time_is_that_of_hertz() {
 /// A sphere a hundred thousand times larger equals a half-space, also with finite size.
 #[test]
 fn a_very_large_sphere_is_a_half_space() {
-    let sphere = ["body.0.sphere.diameter='1 km'"];
     let without = BALL.replace("half_space = {}\n", "");
     for model in ["model.hertz={}", "model.ting.finite_size=true"] {
-        let set: Vec<String> = [model, sphere[0]].map(str::to_string).to_vec();
-        let case = Case::parse("ball.toml", &without, Path::new("."), &set).unwrap();
-        let large = Simulation::new(case).unwrap().run(&mut ()).contact_time.unwrap();
+        let sphere = "body.0.sphere.diameter='1 km'";
+        let large = collision_of(&without, &[model, sphere]).contact_time.unwrap();
         let block = run(&[model]).contact_time.unwrap();
         assert!((large / block - 1.0).abs() < 1e-4, "{model}: {large:e} {block:e}");
     }
@@ -83,8 +79,7 @@ fn the_contact_time_of_elements_is_that_of_hertz() {
         assert!(found.bodies[0].elements.unwrap() > 300, "{model}");
         let [block, _] = simulation.model().meshes();
         assert_eq!(found.snapshots[0].bodies[0].displacement.len(), block.unwrap().nodes().len());
-        let again = Simulation::new(Case::of(simulation.resolved().clone()).unwrap()).unwrap();
-        assert_eq!(again.run(&mut ()), found, "{model}");
+        assert_eq!(resolved(&simulation).run(&mut ()), found, "{model}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use fem::effects::{Effect, NeglectError, Vibration};
 
-use crate::coarse_mesh::simulation_of as simulation;
+use crate::scene::simulation_of as simulation;
 
 /// A ball with its Young's modulus (Pa), Poisson's ratio, density (kg/m³), diameter (m) and speed (m/s).
 #[derive(Clone, Copy)]

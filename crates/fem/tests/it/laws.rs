@@ -34,7 +34,7 @@ fn made(dissipation_time: f64, speeds: &[f64]) -> Restitutions {
 
 #[test]
 fn a_fit_recovers_the_law_of_the_data() {
-    let (case, data) = (ball(None), made(1e-6, &[0.02, 0.05, 0.1, 0.2, 0.5]));
+    let (case, data) = (ball(None), made(1e-6, &[0.02, 0.04, 0.08, 0.1, 0.2, 0.5]));
     let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[], None).unwrap();
     let problem = law.problem(&data.points, &["a", "n"]).unwrap();
     let exponent = problem.free[1];
@@ -53,6 +53,12 @@ fn a_fit_recovers_the_law_of_the_data() {
     );
     assert_eq!(numbers["profile"]["key"], "n");
     assert_eq!(numbers["parameters"][1]["free"], true);
+    let profile = &fit.profile.as_ref().unwrap().points;
+    assert_eq!((profile[0].value, profile[profile.len() - 1].value), (0.4, 1.1));
+    // A law with another exponent leaves a trend in the residuals.
+    let other = ChosenLaw::of(&case, LawFamily::KuwabaraKono, &[], None).unwrap();
+    let other = LawFit::of(&data, other.problem(&data.points, &["a"]).unwrap(), 0.95).unwrap();
+    assert!(other.warnings().iter().any(|warning| warning.contains("have a trend")));
 }
 
 #[test]
@@ -183,6 +189,8 @@ fn laws_are_ranked_by_their_evidence() {
     };
     let mut data =
         Restitutions::of("made", &speeds.iter().zip(scatter).map(point).collect::<Vec<_>>());
+    let own = LawFit::of(&data, law.problem(&data.points, &["a"]).unwrap(), 0.95).unwrap();
+    assert_eq!(own.warnings(), [""; 0], "scatter is no trend");
     for is_weighted in [false, true] {
         if is_weighted {
             data.set_uncertainty(0.003).unwrap();

@@ -7,7 +7,6 @@ mod auto;
 mod bouncing_stepper;
 mod bulk_viscosity;
 mod calibrate;
-mod coarse_mesh;
 mod condensed;
 mod contact_method;
 mod contact_profile;

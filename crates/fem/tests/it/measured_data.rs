@@ -14,29 +14,6 @@ fn spheres() -> Case {
     case(BodyTable::sphere("striker", "22.2 mm", "glass"))
 }
 
-#[test]
-fn units_and_columns_of_sweeps_are_read() {
-    for text in [
-        "speed_m_s,restitution\n0.5,0.95\n0.75,0.92\n",
-        "# a comment\nSpeed_cm_s, e\n50, 0.95\n75, 0.92\n",
-        "v,restitution_percent\n50 cm/s,95\n0.75 m/s,92\n",
-        "speed,restitution,\nmm/s,-,\n500,0.95,\n750,0.92,\n",
-        // The other body moves at 0.25 m/s.
-        "body.0.approach_speed,restitution,complete\n0.25,0.95,true\n0.5,0.92,true\n1,,false\n",
-    ] {
-        let table = Table::parse("e.csv", text).unwrap();
-        let read = Restitutions::read(&table, spheres().scene()).unwrap();
-        assert_eq!(read.points.len(), 2);
-        for (point, (speed, restitution)) in read.points.iter().zip([(0.5, 0.95), (0.75, 0.92)]) {
-            // Conversion of units rounds.
-            let is_it = point.speed == speed && (point.restitution - restitution).abs() < 1e-15;
-            assert!(is_it, "{text}: {point:?}");
-        }
-        assert_eq!(read.n_left_out, usize::from(text.contains("false")));
-        assert_eq!(read.speeds(), (0.5, 0.75));
-    }
-}
-
 /// An unknown unit is a fault and not a missing value; empty columns are ignored.
 #[test]
 fn an_unknown_unit_is_a_fault() {
@@ -115,6 +92,15 @@ fn all_common_formats_are_read() {
         ("Impact velocity [cm/s];Restitution coefficient;sigma\n50;0,95;0,01\n75;0,92;0,02\n", &[]),
         ("v,e,u\n0.5,0.95,0.01\nnan,0.9,0.1\n0.6,,0.1\n0.75,0.92,0.02\n,,\n", &names[2..]),
         ("v,e,u\n0.5,0.95,0.01\n1,n/a,\n1,-,\n1,NaN,\n0.75,0.92,0.02\n", &names[2..]),
+        ("# v  COR\nv  COR  u\n\n 0,5   0,95  0,01\n 0,75  0,92  0,02\n", &names),
+        ("# a comment\nSpeed_cm_s, e,sigma\n50, 0.95,0.01\n75, 0.92,0.02\n", &[]),
+        ("v,restitution_percent,u\n50 cm/s,95,0.01\n0.75 m/s,92,0.02\n", &names[2..]),
+        ("speed,restitution,u,\nmm/s,-,-,\n500,0.95,0.01,\n750,0.92,0.02,\n", &names[2..]),
+        // The other body moves at 0.25 m/s.
+        (
+            "body.0.approach_speed,restitution,complete,u\n0.25,0.95,true,0.01\n0.5,0.92,true,0.02\n1,,false,\n",
+            &names[2..],
+        ),
     ] {
         let table = Table::parse("e.csv", text).unwrap().renamed(names).unwrap();
         let read = Restitutions::read(&table, spheres().scene()).unwrap();
@@ -127,8 +113,9 @@ fn all_common_formats_are_read() {
             let expected = [speed, restitution, uncertainty];
             assert!(found.into_iter().zip(expected).all(is_near), "{text}: {point:?}");
         }
+        assert_eq!(read.speeds(), (0.5, 0.75));
         let n_missing = if text.contains("nan") || text.contains("NaN") { 3 } else { 0 };
-        assert_eq!(read.n_left_out, n_missing, "{text}");
+        assert_eq!(read.n_left_out, n_missing + usize::from(text.contains("false")), "{text}");
         assert_eq!(read.warnings().iter().any(|text| text.starts_with("3 rows")), n_missing > 0);
     }
     // Line numbers are those of the file.

@@ -1,12 +1,9 @@
 //! Mirror symmetry: identical bodies are computed as one, with the results of both.
 
-use std::path::Path;
-
 use fem::Simulation;
-use fem_case::Case;
 use fem_collision::{Account, Collision};
 
-use crate::scene::case_of;
+use crate::scene::{decision_on, refused_of, simulation_of};
 
 const TWINS: &str = r#"
 [material.glass]
@@ -36,19 +33,14 @@ gap = "2 um"
 const RELAXING: &str =
     "material.glass.relaxation={acts_on='shear', terms=[{weight=0.8, decay_rate=5e3}]}";
 
-fn case(overrides: &[&str]) -> Case {
-    case_of(TWINS, overrides)
-}
-
 fn run(overrides: &[&str]) -> (Simulation, Collision) {
-    let simulation = Simulation::new(case(overrides)).unwrap();
+    let simulation = simulation_of(TWINS, overrides);
     let collision = simulation.run(&mut ());
     (simulation, collision)
 }
 
 fn is_on(simulation: &Simulation) -> bool {
-    let effects = &simulation.setup().decisions.all;
-    effects.iter().find(|decision| decision.name == "mirror symmetry").unwrap().active
+    decision_on(simulation, "mirror symmetry").active
 }
 
 #[track_caller]
@@ -147,22 +139,12 @@ fn only_identical_bodies_are_mirrored() {
         "body.1.material='ice'",
     ] {
         let ice = "material.ice={density=917, youngs_modulus=9.3e9, poissons_ratio=0.33}";
-        assert!(!is_on(&Simulation::new(case(&[ice, difference])).unwrap()), "{difference}");
+        assert!(!is_on(&simulation_of(TWINS, &[ice, difference])), "{difference}");
         for model in ["model.fem={}", "model.condensed={}", "model.ting={}"] {
-            let forced = case(&[ice, difference, "effects.mirror_symmetry='on'", model]);
-            let error = Simulation::new(forced).unwrap_err();
+            let forced = [ice, difference, "effects.mirror_symmetry='on'", model];
+            let error = refused_of(TWINS, &forced);
             assert_eq!(error.key(), Some("effects.mirror_symmetry"), "{error}");
         }
     }
-    assert!(is_on(&Simulation::new(case(&["effects.mirror_symmetry='on'"])).unwrap()));
-}
-
-/// A resolved case is mirrored too, with the same bits.
-#[test]
-fn resolved_mirrored_case_gives_the_same_bits() {
-    let (first, expected) = run(&[]);
-    let text = first.resolved().to_toml().unwrap();
-    let again = Case::parse("again.toml", &text, Path::new("."), &[]).unwrap();
-    let again = Simulation::new(again).unwrap();
-    assert_eq!(again.run(&mut ()).history, expected.history);
+    assert!(is_on(&simulation_of(TWINS, &["effects.mirror_symmetry='on'"])));
 }

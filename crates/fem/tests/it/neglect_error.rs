@@ -1,27 +1,16 @@
 //! What the plan foretells of leaving an effect out, held against collisions with it and without it.
 
-use std::path::Path;
-
 use fem::effects::NeglectError;
-use fem::{Case, Collision, Simulation};
 
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
-
-fn simulation(text: &str, set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(Case::parse("scene.toml", text, Path::new("."), &set).unwrap()).unwrap()
-}
-
-fn run(text: &str, set: &[&str]) -> Collision {
-    simulation(text, set).run(&mut ())
-}
+use crate::scene::{
+    GLASS, collision_of as run, decision_on, resolved, simulation_of as simulation,
+};
 
 fn foretold(text: &str, set: &[&str], effect: &str) -> NeglectError {
     let simulation = simulation(text, set);
-    let setup = simulation.setup();
-    let decision = setup.decisions.all.iter().find(|decision| decision.name == effect).unwrap();
+    let decision = decision_on(&simulation, effect);
     assert!(decision.active, "{}", decision.reason);
-    simulation.neglect_error(decision, &setup.estimate).unwrap()
+    simulation.neglect_error(decision, &simulation.setup().estimate).unwrap()
 }
 
 /// Within a factor of three, where it is more than another error of the same number, and where closed
@@ -187,40 +176,6 @@ fn switches_change_what_is_foretold(slow: bool) {
     }
 }
 
-/// Numbers, or none, however extreme a scene is.
-#[test]
-fn neglect_errors_of_extreme_scenes_are_finite_or_none() {
-    for model in [TING, "model.hertz={}"] {
-        for size in ["1 um", "1 km"] {
-            for modulus in ["1 mPa", "1e21 Pa"] {
-                for speed in ["1e-9 m/s", "100 m/s"] {
-                    let set = [
-                        model.to_string(),
-                        format!("body.1.sphere.diameter='{size}'"),
-                        format!("material.hard.youngs_modulus='{modulus}'"),
-                        format!("body.1.approach_speed='{speed}'"),
-                    ];
-                    let set = set.each_ref().map(String::as_str);
-                    let simulation = simulation(BALL, &set);
-                    let setup = simulation.setup();
-                    for decision in &setup.decisions.all {
-                        let neglect_error = simulation.neglect_error(decision, &setup.estimate);
-                        let NeglectError { restitution, contact_time_s, peak_force_n } =
-                            neglect_error.unwrap_or_default();
-                        let told = [restitution, contact_time_s, peak_force_n];
-                        let is_number = |change: &f64| change.is_finite() && *change >= 0.0;
-                        assert!(told.iter().flatten().all(is_number), "{set:?} {decision:?}");
-                        assert!(
-                            restitution.is_none_or(|change| change <= 1.0),
-                            "{set:?} {decision:?}"
-                        );
-                    }
-                }
-            }
-        }
-    }
-}
-
 /// From relaxation that hardly begins within the contact to one that is over in a twentieth of it, of
 /// glass and of rubber, of both moduli and of the shear modulus, in every model that has it.
 #[test]
@@ -253,22 +208,6 @@ fn relaxation_switched_off_is_the_elastic_case() {
         assert!(warnings.contains("viscoelasticity is needed, but switched off"), "{warnings}");
         assert!(warnings.contains("neglects about 0.07"), "{warnings}");
         // It is what the resolved case says again.
-        let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();
-        assert_eq!(again.run(&mut ()), off.run(&mut ()), "{model}");
-    }
-}
-
-/// A model rejects switching off an effect that it cannot switch off.
-#[test]
-fn switching_off_an_unswitchable_effect_is_rejected() {
-    for (set, key, why) in [
-        (["model.fem={}", "effects.hourglass_control=\"off\""], "hourglass_control", "stiffness"),
-        (["model.hertz={}", "effects.hourglass_control=\"on\""], "hourglass_control", "hertz"),
-    ] {
-        let set = set.map(str::to_string);
-        let case = Case::parse("scene.toml", GLASS, Path::new("."), &set).unwrap();
-        let error = Simulation::new(case).unwrap_err();
-        assert_eq!(error.key(), Some(format!("effects.{key}").as_str()), "{error}");
-        assert!(error.message().contains(why), "{error}");
+        assert_eq!(resolved(&off).run(&mut ()), off.run(&mut ()), "{model}");
     }
 }

@@ -1,11 +1,9 @@
 //! Bodies that relax completely stay together in every model.
 
-use fem::{Case, Cost, Ending, OutputRequest, Simulation, SnapshotInstant, Stop};
+use fem::{Case, Cost, Ending, OutputRequest, Simulation, SnapshotInstant};
 use fem_collision::STAY_TOGETHER;
 
-use crate::scene::case_of;
-
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+use crate::scene::{GLASS, case_of};
 
 fn simulation(model: &str, acts_on: &str, weight: f64, time: &str) -> Simulation {
     Simulation::new(case(model, acts_on, weight, time)).unwrap()
@@ -91,26 +89,6 @@ fn runs_wait_for_the_predicted_duration() {
     let times = ["0.2 us", "0.05 us"].map(|time| simulation("condensed", "all", 1.0, time));
     let [early, late] = times.each_ref().map(|simulation| simulation.request().give_up_after);
     assert!(early > OutputRequest::GIVE_UP_AFTER && late > early, "{early} {late}");
-}
-
-/// The limit of element updates stops a run.
-#[test]
-fn a_run_stops_at_its_limit() {
-    let mut simulation = simulation("fem", "all", 1.0, "0.1 us");
-    let Cost::Steps { element_updates: expected, .. } = simulation.setup().cost else { panic!() };
-    let limit = expected / 10;
-    simulation
-        .ask_for(OutputRequest { most_element_updates: limit, ..simulation.request().clone() })
-        .unwrap();
-    let collision = simulation.run(&mut ());
-    assert!(
-        matches!(collision.stop(), Some(Stop::TooManyUpdates { .. })),
-        "{:?}",
-        collision.ending
-    );
-    let (taken, elements) = (collision.element_updates.unwrap(), collision.bodies[0].elements);
-    assert!(taken >= limit && taken < limit + 2 * elements.unwrap() as u64 + 1000);
-    assert!(!simulation.summary(&collision).complete);
 }
 
 /// The number of steps is predicted for bodies that separate late and for those that stay together: within a half, and

@@ -2,10 +2,10 @@
 
 use fem::{Collision, Explicit, QuantityOfInterest, Simulation};
 
-use crate::scene::{case_of, simulation_of};
+use crate::scene::{
+    ELASTIC_GLASS as ELASTIC, GLASS as RELAXING, case_of, decision_on, simulation_of,
+};
 
-const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
-const RELAXING: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 /// Settings with four elements across the contact, and the tolerance of eight.
 const AT_A_THOUSANDTH: [&str; 3] =
     ["accuracy.tolerance='0.1 %'", "mesh.contact_element_size='56 um'", "output.snapshots=[]"];
@@ -13,8 +13,7 @@ const EVERYWHERE: &str = "effects.finite_strain='on'";
 const NOWHERE: &str = "effects.finite_strain='off'";
 
 fn simulation(case: &str, set: &[&str]) -> Simulation {
-    let set: Vec<String> = AT_A_THOUSANDTH.iter().chain(set).map(ToString::to_string).collect();
-    simulation_of(case, &set)
+    simulation_of(case, &[&AT_A_THOUSANDTH, set].concat())
 }
 
 /// Returns the differences of two collisions: the restitution's absolute, others relative.
@@ -53,9 +52,7 @@ fn small_strain_away_from_the_contact_is_negligible() {
 #[test]
 fn a_third_of_the_elements_is_at_finite_strain() {
     let share = |set: &[&str]| {
-        let set: Vec<String> =
-            ["accuracy.tolerance='0.1 %'"].iter().chain(set).map(ToString::to_string).collect();
-        let case = case_of(RELAXING, &set);
+        let case = case_of(RELAXING, &[&AT_A_THOUSANDTH[..1], set].concat());
         let model = Explicit::new(case.scene()).unwrap();
         let bodies = model.bodies();
         let n_finite: usize = bodies.bodies().iter().map(|body| body.n_finite_elements()).sum();
@@ -71,17 +68,12 @@ fn a_third_of_the_elements_is_at_finite_strain() {
 /// The effect's reason reports the distance from the contact within which elements are at finite strain.
 #[test]
 fn the_reason_reports_the_distance() {
-    let reason = |set: &[&str]| {
-        let simulation = simulation(ELASTIC, set);
-        let decisions = &simulation.setup().decisions.all;
-        decisions.iter().find(|decision| decision.name == "finite strain").unwrap().reason.clone()
-    };
+    let reason =
+        |set: &[&str]| decision_on(&simulation(ELASTIC, set), "finite strain").reason.clone();
     let near = reason(&[]);
-    assert!(
-        near.contains("elements within 8") && near.contains(" µm of first touch, 3."),
-        "{near}"
-    );
-    assert!(near.contains("stay at small strain"), "{near}");
+    for words in ["elements within 8", " µm of first touch, 3.", "stay at small strain"] {
+        assert!(near.contains(words), "{near}");
+    }
     for set in [EVERYWHERE, NOWHERE, "accuracy.tolerance='1 %'"] {
         let reason = reason(&[set]);
         assert!(!reason.contains("first touch"), "{set}: {reason}");

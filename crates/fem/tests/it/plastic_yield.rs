@@ -2,7 +2,7 @@
 
 use fem::effects::EffectDecision;
 
-use crate::scene::simulation_of;
+use crate::scene::{ELASTIC_GLASS, simulation_of};
 
 /// Steel spheres of 5 mm at 5 m/s; real steel yields at some cm/s.
 const STEEL: &str = r#"
@@ -33,10 +33,8 @@ const MODELS: [&str; 5] = [
 
 fn decision_on(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
     let simulation = simulation_of(text, overrides);
-    let setup = simulation.setup();
-    let decision =
-        setup.decisions.all.iter().find(|decision| decision.name == "plastic yield").unwrap();
-    (decision.clone(), setup.warnings().join("\n"))
+    let decision = crate::scene::decision_on(&simulation, "plastic yield").clone();
+    (decision, simulation.setup().warnings().join("\n"))
 }
 
 #[test]
@@ -64,9 +62,8 @@ fn a_yield_strength_gives_the_speed_and_the_range() {
 
 #[test]
 fn no_warning_without_yield() {
-    let glass = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
     for overrides in [&[][..], &["material.glass.yield_strength='3 GPa'"]] {
-        let (decision, warnings) = decision_on(glass, overrides);
+        let (decision, warnings) = decision_on(ELASTIC_GLASS, overrides);
         assert_eq!(warnings, "");
         assert!(!decision.active);
     }

@@ -3,9 +3,8 @@
 use fem::schema::{BodyTable, MaterialTable, MeshTable, ModelTable};
 use fem::{Case, CaseFile, Collision, Simulation, Snapshot, SnapshotInstant};
 
-use crate::scene::{case_of, simulation_of};
+use crate::scene::{GLASS, collision_of, refused_of, simulation_of};
 
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const COARSE: &str = "mesh.contact_element_size='60 um'";
 /// Probes at the contact pole of the target, below it off the axis, and at the centre of the striker.
 const PROBES: &str = "output.probe=[{body='target', r=0, y=0}, \
@@ -16,7 +15,7 @@ fn simulation(overrides: &[&str]) -> Simulation {
 }
 
 fn run(overrides: &[&str]) -> Collision {
-    simulation(overrides).run(&mut ())
+    collision_of(GLASS, overrides)
 }
 
 /// Returns the sample with the largest approach.
@@ -120,10 +119,7 @@ fn samples_are_part_of_the_restart_state() {
 
 #[test]
 fn a_probe_outside_the_mesh_is_refused() {
-    let refusal = |overrides: &[&str]| {
-        let case = case_of(GLASS, overrides);
-        Simulation::new(case).unwrap_err()
-    };
+    let refusal = |overrides: &[&str]| refused_of(GLASS, overrides);
     let block = "body.0={name='block', half_space={}, material='glass'}";
     let far = "output.probe=[{body='block', r='1 m', y='-1 m'}]";
     let error = refusal(&[block, "body.1.approach_speed=0.5", far, COARSE]);

@@ -7,15 +7,9 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt::Debug;
 
-use crate::scene::simulation_of;
+use crate::scene::{GLASS, RUBBER_BALL as BALL, simulation_of as simulation};
 
-const BALL: &str = include_str!("rubber_ball.toml");
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const COARSE: &str = "mesh.contact_element_size='0.2 mm'";
-
-fn simulation(text: &str, overrides: &[&str]) -> Simulation {
-    simulation_of(text, overrides)
-}
 
 /// Returns scenes that together have everything that a restart state can hold.
 fn simulations() -> Vec<(&'static str, Simulation)> {
@@ -143,7 +137,7 @@ fn a_resumed_pair_with_one_body_at_finite_strain_writes_the_same_files() {
         effects.rigid_partner = 'off'
         mesh.contact_element_size = '0.8 mm'
         output.snapshots = 6";
-    let simulation = simulation(PAIR, &[]);
+    let simulation = simulation::<&str>(PAIR, &[]);
     let explicit = Explicit::new(simulation.case().scene()).unwrap();
     let is_finite = explicit.bodies().bodies().each_ref().map(|body| body.n_finite_elements() > 0);
     assert_eq!(is_finite, [false, true]);
@@ -171,4 +165,98 @@ fn a_resumed_pair_with_one_body_at_finite_strain_writes_the_same_files() {
         files
     };
     assert_eq!(files(&resumed), files(&whole));
+}
+
+/// Calls with the place of every value, of long lists with those of the first and the last.
+fn visit(value: &Value, place: &str, look: &mut dyn FnMut(&str, &Value)) {
+    look(place, value);
+    match value {
+        Value::Array(list) => {
+            for (k, one) in list.iter().enumerate() {
+                if k == 0 || k + 1 == list.len() {
+                    visit(one, &format!("{place}/{k}"), look);
+                }
+            }
+        }
+        Value::Object(fields) => {
+            fields.iter().for_each(|(key, one)| visit(one, &format!("{place}/{key}"), look));
+        }
+        _ => {}
+    }
+}
+
+/// Values to which a number could be damaged.
+fn damages(value: &Value) -> Vec<Value> {
+    match value {
+        Value::Array(list) => {
+            let without_last = &list[..list.len().saturating_sub(1)];
+            let twice: Vec<_> = list.iter().chain(list).cloned().collect();
+            vec![Value::Array(Vec::new()), without_last.into(), twice.into()]
+        }
+        Value::Number(number) if number.is_f64() => {
+            vec![0.0.into(), (-1.0).into(), 1e300.into()]
+        }
+        Value::Number(_) => vec![0.into(), 1.into(), u64::MAX.into(), (u64::MAX / 2).into()],
+        Value::Bool(is) => vec![Value::Bool(!is)],
+        Value::Null => vec![],
+        Value::String(_) | Value::Object(_) => vec![Value::Null],
+    }
+}
+
+/// A run of relaxing bodies on few elements, with an output.
+fn few_elements(snapshots: &str) -> Simulation {
+    let few = "mesh={contact_element_size='0.4 mm', refined_radius='0.4 mm'}";
+    simulation(GLASS, &[few, &format!("output.snapshots={snapshots}")])
+}
+
+/// Every array truncated, emptied or doubled, every number another, one by one.
+#[test]
+fn a_damaged_restart_state_is_refused_or_runs() {
+    let (mut n_refused, mut n_run) = (0, 0);
+    for (snapshots, fraction) in [("['maximum']", 0.5), ("3", 1.0)] {
+        let simulation = few_elements(snapshots);
+        let whole = serde_json::to_value(&states(&simulation, &[fraction])[0]).unwrap();
+        let mut damaged = Vec::new();
+        visit(&whole, "", &mut |place, value| {
+            damaged.extend(damages(value).into_iter().map(|other| (place.to_string(), other)));
+        });
+        for (place, other) in damaged {
+            let mut state = whole.clone();
+            *state.pointer_mut(&place).unwrap() = other;
+            let Ok(read) = serde_json::from_value(state) else { continue };
+            let Ok(mut stepper) = simulation.resume(read) else {
+                n_refused += 1;
+                continue;
+            };
+            stepper.advance(&mut ());
+            stepper.finish();
+            n_run += 1;
+        }
+    }
+    // Both happen, many times; an error in the walk over the values is seen here.
+    assert!(n_refused > 100 && n_run > 100, "{n_refused} {n_run}");
+}
+
+/// Entries that are stored twice or follow from the model: a contradiction is found.
+#[test]
+fn parts_that_contradict_each_other_are_refused() {
+    let simulation = few_elements("['30 us', '10 us']");
+    let whole = serde_json::to_value(&states(&simulation, &[0.3])[0]).unwrap();
+    let resume = |state: &Value| simulation.resume(serde_json::from_value(state.clone()).unwrap());
+    assert!(resume(&whole).is_ok());
+    for (end, other) in [
+        ("/sampled/standstill/speed", 0.02.into()),
+        ("/sampled/standstill/reduced_mass", 1.0.into()),
+        ("/request/history_rows", 0.into()),
+        ("/recorder/request/Times/0", 2.5e-5.into()),
+        ("/approach/gap", 1.0.into()),
+    ] {
+        let mut damaged = whole.clone();
+        visit(&whole, "", &mut |place, _| {
+            if place.ends_with(end) {
+                *damaged.pointer_mut(place).unwrap() = Value::clone(&other);
+            }
+        });
+        assert!(damaged != whole && resume(&damaged).is_err(), "{end}");
+    }
 }

@@ -3,7 +3,7 @@
 use fem::effects::EffectDecision;
 use fem::{CaseError, Collision, Simulation};
 
-use crate::scene::case_of;
+use crate::scene::{case_of, collision_of};
 
 /// A soft relaxing ball and a steel one, with a ratio of stiffness of 1 to 4e4.
 const SOFT: &str = r#"
@@ -36,17 +36,15 @@ snapshots = []
 const MODELS: [&str; 3] = ["model.fem={}", "model.condensed={}", "model.ting={}"];
 
 fn simulation(set: &[&str]) -> Result<Simulation, CaseError> {
-    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    Simulation::new(case_of(SOFT, &set))
+    Simulation::new(case_of(SOFT, set))
 }
 
 fn run(set: &[&str]) -> Collision {
-    simulation(set).unwrap().run(&mut ())
+    collision_of(SOFT, set)
 }
 
 fn decision_on(simulation: &Simulation) -> &EffectDecision {
-    let decisions = &simulation.setup().decisions.all;
-    decisions.iter().find(|decision| decision.name == "rigid partner").unwrap()
+    crate::scene::decision_on(simulation, "rigid partner")
 }
 
 /// The compliance of the partner is 2.4e-5 of the whole, which changes the contact time by 1e-5: the results stay.

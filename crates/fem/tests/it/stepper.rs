@@ -1,8 +1,8 @@
 //! A collision in pieces equals the collision in one call.
 
-use fem::{Approach, Collision, Ending, METHODS, OutputRequest, RestartState, Simulation, Stop};
+use fem::{Approach, Ending, METHODS, OutputRequest, RestartState, Stop};
 
-use crate::coarse_mesh::simulation;
+use crate::scene::coarse_glass as simulation;
 
 #[test]
 fn stepped_collision_equals_the_whole_run() {
@@ -35,60 +35,45 @@ fn a_stepper_that_is_finished_early_is_interrupted() {
     }
 }
 
-/// Computes a collision that is stopped after some pieces, stored as text and continued.
-fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Collision {
-    let (model, request) = (simulation.model(), OutputRequest::history());
-    let mut stepper = model.start(approach, &request).unwrap();
-    for _ in 0..n_pieces {
-        stepper.advance(&mut ());
-    }
-    let text = serde_json::to_string(&stepper.restart_state().unwrap()).unwrap();
-    let state: RestartState = serde_json::from_str(&text).unwrap();
-    let mut resumed = model.resume(state).unwrap();
-    while resumed.advance(&mut ()) {}
-    resumed.finish()
-}
+const RELAXING: &str =
+    "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, decay_rate=2e4}]}";
 
-/// A continued collision has the same bits, also if the contact outgrows its candidate region before or after the stop.
+/// A collision that is stopped after some pieces, stored as text and continued has the same bits, also if the contact
+/// outgrows its candidate region before or after the stop, and if half of identical bodies is computed.
 #[test]
 fn a_collision_continues_from_its_restart_state() {
-    let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
-                    decay_rate=2e4}]}";
-    let simulation = simulation("fem", &[relaxing]);
-    for approach in [Approach::at(0.5), Approach::new([4.0, -2.0], 1e-6)] {
-        let approach = approach.unwrap();
-        let whole = simulation.model().collide(&approach, &OutputRequest::history(), &mut ());
-        for n_pieces in [0, 1, 12, 40, 1000] {
-            assert_eq!(in_two(&simulation, &approach, n_pieces), whole, "{n_pieces}");
+    let twins = ["body.1.sphere.diameter='22.2 mm'", "body.1.approach_speed=0.2"];
+    for (more, approach, pieces) in [
+        (&[RELAXING][..], Approach::at(0.5), &[0, 1, 12, 1000][..]),
+        (&[RELAXING], Approach::new([4.0, -2.0], 1e-6), &[1, 12, 40]),
+        (&twins, Approach::at(0.3), &[10]),
+    ] {
+        let (simulation, approach) = (simulation("fem", more), approach.unwrap());
+        let (model, request) = (simulation.model(), OutputRequest::history());
+        let whole = model.collide(&approach, &request, &mut ());
+        let is_half = whole.bodies[0].elements == whole.bodies[1].elements;
+        assert_eq!(is_half, more.len() == twins.len());
+        for n_pieces in pieces {
+            let mut stepper = model.start(&approach, &request).unwrap();
+            (0..*n_pieces).for_each(|_| _ = stepper.advance(&mut ()));
+            let text = serde_json::to_string(&stepper.restart_state().unwrap()).unwrap();
+            let state: RestartState = serde_json::from_str(&text).unwrap();
+            let mut resumed = model.resume(state).unwrap();
+            while resumed.advance(&mut ()) {}
+            assert_eq!(resumed.finish(), whole, "{more:?} {n_pieces}");
         }
     }
 }
 
 #[test]
 fn a_restart_state_of_another_case_is_rejected() {
-    let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
-                    decay_rate=2e4}]}";
     let state = simulation("fem", &[]).start().restart_state().unwrap();
     for other in [
         simulation("fem", &["mesh.contact_element_size='0.12 mm'"]),
-        simulation("fem", &[relaxing]),
+        simulation("fem", &[RELAXING]),
         simulation("condensed", &[]),
     ] {
         let refused = other.resume(state.clone()).map(|_| ()).unwrap_err();
         assert!(refused.message().contains("restart state"), "{refused}");
     }
-}
-
-/// A collision of identical bodies, of which half is computed, continues from its restart state.
-#[test]
-fn half_of_a_scene_continues_from_its_restart_state() {
-    let twins = ["body.1.sphere.diameter='22.2 mm'", "body.1.approach_speed=0.2"];
-    let simulation = simulation("fem", &twins);
-    let whole = simulation.run(&mut ());
-    assert_eq!(whole.bodies[0].elements, whole.bodies[1].elements);
-    let mut stepper = simulation.start();
-    assert!((0..10).all(|_| stepper.advance(&mut ())));
-    let mut resumed = simulation.resume(stepper.restart_state().unwrap()).unwrap();
-    while resumed.advance(&mut ()) {}
-    assert_eq!(resumed.finish(), whole);
 }

@@ -1,10 +1,9 @@
 //! Surface slip of unlike bodies: the scenes that need it, and the change that it makes.
 
 use fem::effects::{Effect, EffectDecision, EffectStatus, SurfaceSlip};
-use fem::{Case, Collision, QuantityOfInterest, Simulation};
+use fem::{Collision, QuantityOfInterest, Simulation};
 
-use crate::coarse_mesh;
-use crate::scene::simulation_of;
+use crate::scene::{coarse_glass, collision_of, resolved, simulation_of};
 
 /// A steel ball on a soft sphere ten times as large; the contact radius becomes 0.073 of the ball's radius.
 const STEEL_ON_SOFT: &str = r#"
@@ -47,12 +46,11 @@ fn simulation(set: &[&str]) -> Simulation {
 }
 
 fn run(set: &[&str]) -> Collision {
-    simulation(set).run(&mut ())
+    collision_of(STEEL_ON_SOFT, set)
 }
 
-fn decision_on(simulation: &Simulation) -> EffectDecision {
-    let decisions = &simulation.setup().decisions.all;
-    decisions.iter().find(|decision| decision.name == "surface slip").unwrap().clone()
+fn decision_on(simulation: &Simulation) -> &EffectDecision {
+    crate::scene::decision_on(simulation, "surface slip")
 }
 
 /// Returns the relative changes of contact time, peak force, approach, contact radius and pressure.
@@ -100,18 +98,15 @@ fn unlike_bodies_need_slip_and_a_switch_is_obeyed() {
         assert!(!decision_on(&off).active);
         assert!(words(&off).contains("surface slip is needed, but switched off"));
         // The resolved case has the same decision.
-        let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();
-        assert!(!decision_on(&again).active);
+        assert!(!decision_on(&resolved(&off)).active);
     }
     // Models without slip report the neglected change.
     for model in ["model.hertz={}", "model.hertz.finite_size=true", LAW] {
         let (plain, off) = (simulation(&[model]), simulation(&[model, OFF]));
         assert!(!decision_on(&plain).active);
         let words = words(&plain);
-        assert!(
-            words.contains("contact time by about 0.63 % and the peak force by 0.84 %"),
-            "{words}"
-        );
+        let change = "contact time by about 0.63 % and the peak force by 0.84 %";
+        assert!(words.contains(change), "{words}");
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
     }
 }
@@ -120,15 +115,13 @@ fn unlike_bodies_need_slip_and_a_switch_is_obeyed() {
 #[test]
 fn like_bodies_do_not_slip() {
     for model in ["fem", "condensed", "ting"] {
-        let [plain, off] =
-            ["effects={}", OFF].map(|switch| coarse_mesh::simulation(model, &[switch]));
+        let [plain, off] = ["effects={}", OFF].map(|switch| coarse_glass(model, &[switch]));
         let own = decision_on(&plain);
         assert!(!own.active && own.reason.contains("do not slip"), "{}", own.reason);
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
         let wall = "body.0={ name = 'block', wall = {} }";
-        let [plain, off] = [ON, OFF].map(|switch| {
-            coarse_mesh::simulation(model, &[switch, wall, "body.1.approach_speed='0.5 m/s'"])
-        });
+        let [plain, off] = [ON, OFF]
+            .map(|switch| coarse_glass(model, &[switch, wall, "body.1.approach_speed='0.5 m/s'"]));
         assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
     }
 }
@@ -138,7 +131,7 @@ fn like_bodies_do_not_slip() {
 #[test]
 fn forced_slip_between_like_bodies_changes_nothing() {
     for (model, allowed) in [("fem", 1e-3), ("condensed", 1e-7), ("ting", 1e-7)] {
-        let [on, off] = [ON, OFF].map(|switch| coarse_mesh::simulation(model, &[switch, PENALTY]));
+        let [on, off] = [ON, OFF].map(|switch| coarse_glass(model, &[switch, PENALTY]));
         assert!(decision_on(&on).active, "{model}");
         let change = change(&on.run(&mut ()), &off.run(&mut ()));
         assert!(change[2].abs() < 1e-2 * allowed, "{model}: {change:?}");
@@ -194,11 +187,8 @@ fn the_second_order_is_a_model_form_error() {
             let simulation = simulation(&set);
             let (scene, estimate) = (simulation.case().scene(), &simulation.setup().estimate);
             let neglect_error = SurfaceSlip.neglect_error(scene, estimate);
-            let error = SurfaceSlip.model_form_error(
-                scene,
-                estimate,
-                &EffectStatus { is_lacking, neglect_error },
-            );
+            let status = EffectStatus { is_lacking, neglect_error };
+            let error = SurfaceSlip.model_form_error(scene, estimate, &status);
             let hertz = &estimate.hertz;
             let scales = [hertz.contact_time(), hertz.peak_force(), hertz.max_approach()];
             let numbers = [

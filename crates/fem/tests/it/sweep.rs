@@ -1,5 +1,6 @@
 //! The sweep engine of the library: members from a file and from code, their order, observers and results.
 
+use serde_json::json;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -114,6 +115,8 @@ fn the_identity_of_a_member_depends_on_its_values() {
     let edited = |change: fn(&mut CaseFile)| identity(&case.edited(change).unwrap());
     let own = identity(&case);
     assert_eq!(own.len(), 16);
+    // A sweep may keep a million members.
+    assert_eq!(size_of::<Member>(), 16);
     // Another spelling and a default value have the same identity.
     assert_eq!(edited(|file| file.body[0].approach_speed = Some("50 cm/s".into())), own);
     let default = |file: &mut CaseFile| {
@@ -311,4 +314,11 @@ fn columns_have_words_and_units() {
         (column_words("restitution"), column_unit("restitution")),
         ("restitution".into(), "")
     );
+    // An energy that no row has gets no column.
+    let mut columns = Columns::default();
+    let has_own = |columns: &Columns| columns.names().contains(&"energy_bulk_viscosity_j");
+    columns.see(&json!({ "energy": { "kinetic_j": 1.0 } }));
+    assert!(!has_own(&columns) && columns.names().contains(&"energy_kinetic_j"));
+    columns.see(&json!({ "energy": { "bulk_viscosity_j": 0.5 } }));
+    assert!(has_own(&columns));
 }

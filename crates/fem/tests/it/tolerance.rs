@@ -1,13 +1,10 @@
 //! Refinement until the estimated errors are within the tolerance of the case, or a warning that they are not.
 
 use fem::results::Summary;
-use fem::{Case, Collision, QuantityOfInterest, Simulation};
+use fem::{Collision, QuantityOfInterest, Simulation};
 
-use crate::scene::simulation_of;
+use crate::scene::{ELASTIC_GLASS, GLASS, SOFT_SPHERE, resolved, simulation_of};
 
-const SOFT_SPHERE: &str = include_str!("../../../../cases/soft_sphere.toml");
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
-const ELASTIC_GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const RUBBER: &str =
     "material.rubber = { density = 1100, youngs_modulus = '1 MPa', poissons_ratio = 0.45, hyperelastic = 'neo-hooke' }
     body = [{ name = 'wall', wall = {} },
@@ -24,8 +21,7 @@ const FAST: &str = "body.1.approach_speed='3 m/s'";
 const FINE: &str = "mesh.contact_element_size='0.35 mm'";
 
 fn simulation(text: &str, set: &[&str]) -> Simulation {
-    let set: Vec<String> = set.iter().chain([&NO_SNAPSHOTS]).map(ToString::to_string).collect();
-    simulation_of(text, &set)
+    simulation_of(text, &[set, &[NO_SNAPSHOTS]].concat())
 }
 
 fn computed(text: &str, set: &[&str]) -> (Simulation, Collision) {
@@ -69,8 +65,7 @@ fn an_insufficient_mesh_is_refined() {
     assert!(sizes.is_sorted_by(|a, b| 1.24 * b < *a), "{sizes:?}");
     assert!(levels.iter().all(|level| level.error > level.tolerance));
     // The resolved case has the refined mesh and gives the same result.
-    let resolved = Case::of(summary.case.clone()).unwrap();
-    let again = Simulation::new(resolved).unwrap().run_within_tolerance(&mut ());
+    let again = resolved(&simulation).run_within_tolerance(&mut ());
     assert_eq!(again.simulation.levels(), []);
     assert_eq!(again.collision, collision);
     // A run that is stopped on the refined mesh resumes there with the same bits.

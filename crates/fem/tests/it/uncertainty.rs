@@ -3,10 +3,8 @@
 use fem::QuantityOfInterest;
 use fem::results::{Parts, Quantities, Summary, UncertaintySummary};
 
-use crate::scene::simulation_of;
+use crate::scene::{GLASS, RUBBER_BALL as RUBBER, summary_of as summary};
 
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
-const RUBBER: &str = include_str!("rubber_ball.toml");
 const NAMED: &str = "material.glass.hyperelastic='hencky'";
 const SOFTENING: &str = "material.glass.hyperelastic='saint-venant-kirchhoff'";
 const ELASTIC: &str = "material.glass.relaxation.terms.0.weight=0";
@@ -19,12 +17,6 @@ const NO_SNAPSHOTS: &str = "output.snapshots=[]";
 const FINE: &str = "accuracy.tolerance='0.1 %'";
 const BLOCK: &str = "body.0={ name = 'striker', half_space = {}, material = 'glass' }";
 const BALL: &str = "body.1.approach_speed='5 m/s'";
-
-fn summary(text: &str, set: &[&str]) -> Summary {
-    let simulation = simulation_of(text, set);
-    let collision = simulation.run(&mut ());
-    simulation.summary(&collision)
-}
 
 fn numbers(quantities: &Quantities) -> [Option<f64>; 6] {
     QuantityOfInterest::ALL.map(|quantity| quantities.number(quantity))
@@ -141,7 +133,7 @@ fn missing_quantities_have_no_error() {
     assert!(summary.collision.max_approach_m.is_some());
     // The strain is twice that of all computed collisions.
     let flat = ["effects.finite_strain='off'", "body.1.approach_speed='60 m/s'", NO_SNAPSHOTS];
-    let flat = self::summary(RUBBER, &[&flat[..], &["model.hertz={}"]].concat());
+    let flat = crate::scene::summary_of(RUBBER, &[&flat[..], &["model.hertz={}"]].concat());
     assert!(parts(&flat.uncertainty).iter().all(|parts| parts.model.is_none()));
 }
 

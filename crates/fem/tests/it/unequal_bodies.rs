@@ -47,8 +47,7 @@ const SCENES: [&[&str]; 4] = [
 ];
 
 fn run(set: &[&[&str]]) -> (Simulation, Collision) {
-    let set: Vec<String> = set.concat().into_iter().map(String::from).collect();
-    let simulation = simulation_of(BALL, &set);
+    let simulation = simulation_of(BALL, &set.concat());
     let collision = simulation.run(&mut ());
     (simulation, collision)
 }

@@ -5,9 +5,8 @@ use std::path::Path;
 use fem::{Collision, QuantityOfInterest, Simulation};
 use fem_mesh::HalfDisc;
 
-use crate::scene::{case_of, simulation_of};
+use crate::scene::{ELASTIC_GLASS as GLASS, simulation_of};
 
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 /// Largest contact radius of the pair, m.
 const CONTACT_RADIUS: f64 = 0.2231e-3;
 /// Radii of the spheres, m.
@@ -94,10 +93,7 @@ fn resolution_warning_counts_the_coarser_body() {
 /// A nearly incompressible material makes explicit steps short, and the condensed model is suggested.
 #[test]
 fn a_cheaper_model_is_suggested_for_a_long_run() {
-    let hint = |overrides: &[&str]| {
-        let case = case_of(GLASS, overrides);
-        Simulation::new(case).unwrap().cheaper()
-    };
+    let hint = |overrides: &[&str]| simulation_of(GLASS, overrides).cheaper();
     let stiff = "material.glass.poissons_ratio=0.499999";
     let found = hint(&[stiff]).expect("a hint");
     assert!(found.contains("model.condensed = {}") && found.contains("hundredths"), "{found}");

@@ -2,8 +2,7 @@
 
 use fem::{Collision, QuantityOfInterest, Simulation, diagnose};
 
-use crate::coarse_mesh::{refused, simulation};
-use crate::scene::simulation_of;
+use crate::scene::{ELASTIC_GLASS, coarse_glass as simulation, refused, simulation_of};
 
 fn warnings(simulation: &Simulation) -> Vec<String> {
     simulation.warnings(&simulation.run(&mut ()))
@@ -73,8 +72,6 @@ fn a_time_step_out_of_range_is_refused() {
     assert!(message.contains("element updates") && !message.contains("18446744"), "{message}");
 }
 
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
-
 /// Runs the glass pair with about seven elements across the contact.
 fn run(poissons_ratio: f64, model: &str) -> (Simulation, Collision) {
     let tolerance = if model.starts_with("fem") { "0.5 %" } else { "0.15 %" };
@@ -83,7 +80,7 @@ fn run(poissons_ratio: f64, model: &str) -> (Simulation, Collision) {
         format!("model={{{model}}}"),
         format!("accuracy.tolerance='{tolerance}'"),
     ];
-    let simulation = simulation_of(GLASS, &overrides);
+    let simulation = simulation_of(ELASTIC_GLASS, &overrides);
     let collision = simulation.run(&mut ());
     (simulation, collision)
 }

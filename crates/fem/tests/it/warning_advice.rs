@@ -3,12 +3,9 @@
 //!
 //! Advice after stops and rejections is tested in `stop_advice.rs`, on an energy residual and on limits in `failure_messages.rs`.
 
-use std::path::Path;
+use fem::{Simulation, WarningKinds};
 
-use fem::{Case, Simulation, WarningKinds};
-
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
-const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
+use crate::scene::{ELASTIC_GLASS as GLASS, SOFT_SPHERE as SOFT, simulation_of};
 
 const CONDENSED: &str = "model={condensed={}}";
 const RUBBER: &str =
@@ -20,27 +17,11 @@ const FALLING: &str = "gravity={acceleration=9.81}";
 const HELD: &str =
     "body.0={name='floor', sphere={diameter='22.2 mm'}, material='glass', held=true}";
 
-/// A scene with a warning.
-struct Row {
-    case: &'static str,
-    set: &'static [&'static str],
-    /// Words of the warning.
-    words: &'static str,
-    /// Number of changes that the warning advises.
-    n_remedies: usize,
-}
-
-const fn row(
-    case: &'static str,
-    set: &'static [&'static str],
-    words: &'static str,
-    n_remedies: usize,
-) -> Row {
-    Row { case, set, words, n_remedies }
-}
+/// A case, its overrides, words of the warning, and the number of changes that the warning advises.
+type Row = (&'static str, &'static [&'static str], &'static str, usize);
 
 const ROWS: [Row; 30] = [
-    row(
+    (
         GLASS,
         &[
             "contact.method='penalty'",
@@ -50,55 +31,55 @@ const ROWS: [Row; 30] = [
         "scatters",
         1,
     ),
-    row(GLASS, &["contact.penalty_factor=0.02", "mesh.contact_element_size='60 um'"], "overlap", 1),
-    row(
+    (GLASS, &["contact.penalty_factor=0.02", "mesh.contact_element_size='60 um'"], "overlap", 1),
+    (
         GLASS,
         &["contact.penalty_factor=0.02", "model={condensed={penalty_springs=true}}"],
         "overlap",
         1,
     ),
-    row(SOFT, &["contact.penalty_factor=30"], "scatters", 1),
-    row(SOFT, &["contact.penalty_factor=0.02"], "overlap", 1),
-    row(GLASS, &["mesh.growth=2"], "because of the mesh away", 2),
-    row(GLASS, &["mesh.growth=2", CONDENSED], "because of the mesh away", 2),
-    row(GLASS, &["mesh.refined_radius=1e-9", CONDENSED], "because of the mesh away", 2),
-    row(GLASS, &["mesh.contact_element_size='90 um'"], "because of the mesh", 2),
-    row(GLASS, &["mesh.contact_element_size='90 um'", CONDENSED], "because of the mesh", 2),
-    row(GLASS, &["mesh.contact_element_size='1 mm'"], "spans only", 2),
-    row(GLASS, &["mesh.contact_element_size='1 mm'", CONDENSED], "spans only", 2),
-    row(GLASS, &["mesh.contact_element_size='55 um'"], "because of the mesh", 2),
-    row(GLASS, &["time.mass_scaling=0.1"], "mass scaling moves", 1),
-    row(GLASS, &["time.mass_scaling=0.1"], "because of mass scaling", 2),
-    row(GLASS, &["accuracy.tolerance=1e-5", CONDENSED], "cannot be met", 1),
-    row(
+    (SOFT, &["contact.penalty_factor=30"], "scatters", 1),
+    (SOFT, &["contact.penalty_factor=0.02"], "overlap", 1),
+    (GLASS, &["mesh.growth=2"], "because of the mesh away", 2),
+    (GLASS, &["mesh.growth=2", CONDENSED], "because of the mesh away", 2),
+    (GLASS, &["mesh.refined_radius=1e-9", CONDENSED], "because of the mesh away", 2),
+    (GLASS, &["mesh.contact_element_size='90 um'"], "because of the mesh", 2),
+    (GLASS, &["mesh.contact_element_size='90 um'", CONDENSED], "because of the mesh", 2),
+    (GLASS, &["mesh.contact_element_size='1 mm'"], "spans only", 2),
+    (GLASS, &["mesh.contact_element_size='1 mm'", CONDENSED], "spans only", 2),
+    (GLASS, &["mesh.contact_element_size='55 um'"], "because of the mesh", 2),
+    (GLASS, &["time.mass_scaling=0.1"], "mass scaling moves", 1),
+    (GLASS, &["time.mass_scaling=0.1"], "because of mass scaling", 2),
+    (GLASS, &["accuracy.tolerance=1e-5", CONDENSED], "cannot be met", 1),
+    (
         GLASS,
         &["accuracy.tolerance=1e-5", "mesh.contact_element_size='30 um'", CONDENSED],
         "on any mesh",
         1,
     ),
-    row(GLASS, &[CONDENSED, "body.0.approach_speed=20"], "inertia", 2),
-    row(GLASS, &[CONDENSED, "body.0.approach_speed=100"], "steep fronts", 1),
-    row(GLASS, &["model={condensed={vibration_modes=100}}"], "modes of vibration asked", 1),
-    row(GLASS, &[CONDENSED, "material.glass.poissons_ratio=-0.99"], "the body rings", 1),
-    row(GLASS, &["model={ting={}}", "body.0.approach_speed=200"], "own compliance", 1),
-    row(
+    (GLASS, &[CONDENSED, "body.0.approach_speed=20"], "inertia", 2),
+    (GLASS, &[CONDENSED, "body.0.approach_speed=100"], "steep fronts", 1),
+    (GLASS, &["model={condensed={vibration_modes=100}}"], "modes of vibration asked", 1),
+    (GLASS, &[CONDENSED, "material.glass.poissons_ratio=-0.99"], "the body rings", 1),
+    (GLASS, &["model={ting={}}", "body.0.approach_speed=200"], "own compliance", 1),
+    (
         GLASS,
         &["model={hertz={finite_size=true}}", "material.glass.poissons_ratio=-0.9999"],
         "energy balance",
         1,
     ),
-    row(SOFT, &[RUBBER], "names no elastic law", 1),
-    row(SOFT, &["material.rubber.hyperelastic='saint-venant-kirchhoff'"], "lose its stability", 1),
-    row(
+    (SOFT, &[RUBBER], "names no elastic law", 1),
+    (SOFT, &["material.rubber.hyperelastic='saint-venant-kirchhoff'"], "lose its stability", 1),
+    (
         GLASS,
         &["contact.penalty_factor=1e-3", "mesh.contact_element_size='60 um'"],
         "so soft that the contact lasts",
         1,
     ),
-    row(GLASS, &[EARLY, CONDENSED], "largest early", 1),
-    row(GLASS, &[CONDENSED, "body.0.approach_speed=5"], "without plastic flow", 1),
-    row(SOFT, &["limits.element_updates=4e6"], "because of the mesh", 2),
-    row(
+    (GLASS, &[EARLY, CONDENSED], "largest early", 1),
+    (GLASS, &[CONDENSED, "body.0.approach_speed=5"], "without plastic flow", 1),
+    (SOFT, &["limits.element_updates=4e6"], "because of the mesh", 2),
+    (
         GLASS,
         &[FALLING, HELD, "body.1.approach_speed='0.5 m/s'", "mesh.contact_element_size='90 um'"],
         "because of the mesh",
@@ -106,13 +87,9 @@ const ROWS: [Row; 30] = [
     ),
 ];
 
-fn parse(case: &str, set: &[String]) -> Case {
-    Case::parse("case.toml", case, Path::new("."), set).unwrap_or_else(|error| panic!("{error}"))
-}
-
 /// Returns the simulation on the last mesh and all warnings, before and after the run.
 fn computed_warnings(case: &str, set: &[String]) -> (Simulation, Vec<String>) {
-    let mut simulation = Simulation::new(parse(case, set)).unwrap();
+    let mut simulation = simulation_of(case, set);
     simulation.skip_snapshots();
     let mut all = simulation.warnings_before();
     let computed = simulation.run_within_tolerance(&mut ());
@@ -127,6 +104,7 @@ fn remedies(warning: &str, simulation: &Simulation, set: &[&str]) -> Vec<Vec<Str
     let with = |more: String| own().chain([more]).collect::<Vec<_>>();
     let first = warning.split("; also missed").next().unwrap();
     let advice = first.rsplit([';', ':']).next().unwrap();
+
     let value = |text: &str| {
         let text = text.split(" to see").next().unwrap().split(" or less").next().unwrap();
         text.split(" or more").next().unwrap().trim().to_string()
@@ -200,7 +178,7 @@ fn advice_of_every_warning_silences_it() {
 }
 
 fn follow_advice<'a>(rows: impl Iterator<Item = &'a Row>) {
-    for Row { case, set, words, n_remedies } in rows {
+    for (case, set, words, n_remedies) in rows {
         let own: Vec<String> = set.iter().map(ToString::to_string).collect();
         let (simulation, before) = computed_warnings(case, &own);
         let warning = before.iter().find(|text| text.contains(words));

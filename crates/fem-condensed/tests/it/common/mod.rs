@@ -2,8 +2,9 @@
 
 #![allow(dead_code)]
 
-use fem_collision::{BodyInput, Collision};
+use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest};
 use fem_condensed::{CondensedPair, PairSettings};
+use fem_explicit::{ExplicitBodies, Settings};
 use fem_laws::{FiniteSize, HertzImpact, Impact, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
@@ -101,6 +102,45 @@ impl Scene {
     pub fn collide(&self, pair: &CondensedPair) -> Collision {
         collide(pair, self.speed)
     }
+}
+
+/// Returns scenes of unequal and unlike bodies, of a wall, and of bodies that relax in different ways.
+pub fn unlike_scenes() -> [(&'static str, Scene); 4] {
+    let sphere = |diameter, material| Some((diameter, material));
+    let two = |lower, upper, speed| Scene { bodies: [lower, upper], speed };
+    let steel = sphere(20e-3, material(STEEL, ActsOn::All, &[]));
+    let polymer = sphere(12e-3, material(POLYMER, ActsOn::Shear, &[(0.5, 2e3)]));
+    let relaxing = sphere(15.9e-3, material(GLASS, ActsOn::All, &[(0.8, 5e3)]));
+    let both = material(GLASS, ActsOn::All, &[(0.5, 3e3), (0.1, 1e6)]);
+    [
+        ("unequal", two(sphere(22.2e-3, glass()), sphere(10e-3, glass()), 0.3)),
+        ("unlike", two(steel, polymer, 0.2)),
+        ("wall", two(None, relaxing, 0.5)),
+        ("one of each kind", Scene::paper(both, material(GLASS, ActsOn::Shear, &[(0.7, 1e4)]))),
+    ]
+}
+
+/// Runs explicit elements with penalty springs of a stiffness, Pa.
+pub fn explicit(
+    inputs: [BodyInput; 2],
+    hertz: &HertzImpact,
+    contact_stiffness: f64,
+    request: &OutputRequest,
+) -> Collision {
+    let settings = Settings {
+        contact_stiffness,
+        candidate_radius: 1.5 * hertz.max_contact_radius(),
+        step_factor: 0.9,
+        // 3e-5 of the mass moves T by as much.
+        mass_scaling: 3e-5,
+        mass_times: [1.0; 2],
+    };
+    let approach = Approach::at(hertz.approach_speed()).unwrap();
+    let model = ExplicitBodies::new(inputs, approach, &settings).unwrap();
+    let expected =
+        Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
+    let request = OutputRequest { give_up_after: 20.0, ..request.clone() };
+    fem_explicit::collide(&model, expected, &request, &mut ())
 }
 
 /// Computes the collision with the relaxations of the bodies' own materials.

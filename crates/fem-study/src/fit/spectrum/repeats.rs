@@ -46,22 +46,3 @@ pub(super) fn n_distinct(collisions: &[usize]) -> usize {
     known.dedup();
     known.len()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn repeats_scatter_about_their_own_means() {
-        let measured = [0.90, 0.92, 0.70, 0.50];
-        assert_eq!(PureError::of(&measured, &[0, 1, 2, 3]), None);
-        let found = PureError::of(&measured, &[0, 0, 1, 2]).unwrap();
-        // ±0.01 about the mean, one degree of freedom.
-        assert!((found.error - 0.02f64 / 2f64.sqrt()).abs() < 1e-15);
-        assert_eq!(found.degrees_of_freedom, 1);
-        assert_eq!(found.misfit(1.0, 2), None);
-        let many = PureError { error: 0.1, degrees_of_freedom: 4 };
-        // A sum of 0.04 is that of the repeats; the rest over one degree of freedom is twice the error.
-        assert!((many.misfit(0.08, 1).unwrap() - 2.0).abs() < 1e-12);
-    }
-}

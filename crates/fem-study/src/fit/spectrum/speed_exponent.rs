@@ -71,21 +71,3 @@ pub fn speed_exponent(points: &[SpeedPoint]) -> Option<SpeedExponent> {
     let speeds = (speeds.clone().fold(f64::INFINITY, f64::min), speeds.fold(0.0, f64::max));
     Some(SpeedExponent { value, standard_error, speeds })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn powers_of_several_pairs_are_found() {
-        let point = |pair: usize, speed: f64| SpeedPoint {
-            pair,
-            speed,
-            restitution: 1.0 - 0.1 * (pair as f64 + 1.0) * speed.powf(0.3),
-        };
-        let points: Vec<_> = (0..6).map(|k| point(k % 2, 0.1 * (k as f64 + 1.0))).collect();
-        let found = speed_exponent(&points).unwrap();
-        assert!((found.value - 0.3).abs() < 1e-12 && found.is_above(SpeedExponent::LIMIT));
-        assert_eq!(speed_exponent(&points[..1]), None);
-    }
-}
