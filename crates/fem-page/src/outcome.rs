@@ -41,7 +41,7 @@ impl From<Cost> for CostEstimate {
             Cost::Factors { elements, steps, .. } => {
                 Self { elements: Some(elements), steps: Some(steps), element_updates: None }
             }
-            Cost::Little { .. } => Self::default(),
+            Cost::ClosedForm { .. } => Self::default(),
         }
     }
 }

@@ -72,7 +72,7 @@ impl Session {
         let request =
             OutputRequest { history_rows: ask.rows, snapshots, ..simulation.request().clone() };
         let too_much = |error: OutputRequestError| CaseError::new(SOURCE, error.to_string());
-        simulation.ask_for(request).map_err(too_much)?;
+        simulation.set_output_request(request).map_err(too_much)?;
         let setup = simulation.setup();
         let begun = RunStart {
             case: simulation.case().file().clone(),
@@ -122,7 +122,10 @@ impl Session {
         let case = simulation.case().edited(|file| file.model = Some(ModelTable::hertz())).ok()?;
         let mut hertz = Simulation::sharing(case, &self.shared).ok()?;
         hertz
-            .ask_for(OutputRequest { history_rows: self.ask?.rows, ..OutputRequest::history() })
+            .set_output_request(OutputRequest {
+                history_rows: self.ask?.rows,
+                ..OutputRequest::history()
+            })
             .ok()?;
         let mut rows = hertz.run(&mut ()).history;
         let end = collision.history.last()?.time;

@@ -127,7 +127,7 @@ fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
             Some(longer * timed.max(seconds))
         }
         Cost::Factors { .. } => Some(of_condensed(simulation, making)),
-        Cost::Little { .. } => None,
+        Cost::ClosedForm { .. } => None,
     }
 }
 

@@ -33,7 +33,7 @@ pub use models::{
     LawMethod, METHODS, ModelCandidate, Reduced, TingMethod, chosen, method_of, model_of,
 };
 pub use plan::body_source::build_meshes;
-pub use plan::contact_method::{ContactNoiseAdvice, contact_method, unread};
+pub use plan::contact_method::{ContactNoiseAdvice, contact_method, ignored_method_warning};
 pub use plan::element_size::MeshRule;
 pub use plan::pair_cache::PairCache;
 pub use plan::{Plan, divided_radius};

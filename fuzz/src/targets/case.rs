@@ -88,7 +88,7 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     look_at(&simulation)?;
     let is_cheap = match simulation.setup().cost {
         Cost::Steps { element_updates, .. } => element_updates < DEAREST,
-        Cost::Factors { .. } | Cost::Little { .. } => true,
+        Cost::Factors { .. } | Cost::ClosedForm { .. } => true,
     };
     if !is_cheap {
         return Ok(Taken::Accepted);

@@ -15,9 +15,9 @@ pub const POST_CONTACT_FRACTION: f64 = 0.2;
 /// use fem_collision::{OutputRequest, OutputRequestError};
 ///
 /// assert_eq!(OutputRequest::history().check(), Ok(()));
-/// let endless = OutputRequest { give_up_after: f64::INFINITY, ..OutputRequest::history() };
+/// let endless = OutputRequest { max_contact_times: f64::INFINITY, ..OutputRequest::history() };
 /// assert_eq!(endless.check(), Ok(()));
-/// let none = OutputRequest { give_up_after: 0.0, ..OutputRequest::history() };
+/// let none = OutputRequest { max_contact_times: 0.0, ..OutputRequest::history() };
 /// assert_eq!(none.check(), Err(OutputRequestError::GiveUpAfter(0.0)));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,7 +29,7 @@ pub struct OutputRequest {
     /// Points whose fields are recorded over time.
     pub probes: Vec<ProbeRequest>,
     /// Number of expected contact times after which the run stops.
-    pub give_up_after: f64,
+    pub max_contact_times: f64,
     /// Largest number of elements times steps, for a model that computes each element at each step.
     pub most_element_updates: u64,
 }
@@ -55,7 +55,7 @@ impl OutputRequest {
     /// Default number of rows over the contact, enough for smooth curves.
     pub const ROWS: usize = 1000;
     /// Default number of expected contact times; relaxing bodies have separated by then or never do.
-    pub const GIVE_UP_AFTER: f64 = 50.0;
+    pub const MAX_CONTACT_TIMES: f64 = 50.0;
     /// Largest number of rows.
     pub const MOST_ROWS: usize = 1_000_000;
     /// Largest number of snapshots.
@@ -67,7 +67,7 @@ impl OutputRequest {
             history_rows: Self::ROWS,
             snapshots: SnapshotRequest::none(),
             probes: Vec::new(),
-            give_up_after: Self::GIVE_UP_AFTER,
+            max_contact_times: Self::MAX_CONTACT_TIMES,
             most_element_updates: u64::MAX,
         }
     }
@@ -81,7 +81,7 @@ impl OutputRequest {
     ///
     /// # Errors
     /// There are more than [`OutputRequest::MOST_ROWS`] rows or [`OutputRequest::MOST_SNAPSHOTS`] snapshots, the time of a
-    /// snapshot is negative or not finite, or `give_up_after` is not positive; it may be infinite.
+    /// snapshot is negative or not finite, or `max_contact_times` is not positive; it may be infinite.
     pub fn check(&self) -> Result<(), OutputRequestError> {
         if self.history_rows > Self::MOST_ROWS {
             return Err(OutputRequestError::HistoryRows(self.history_rows));
@@ -95,10 +95,10 @@ impl OutputRequest {
         {
             return Err(OutputRequestError::SnapshotTime(time));
         }
-        if self.give_up_after > 0.0 {
+        if self.max_contact_times > 0.0 {
             Ok(())
         } else {
-            Err(OutputRequestError::GiveUpAfter(self.give_up_after))
+            Err(OutputRequestError::GiveUpAfter(self.max_contact_times))
         }
     }
 }
@@ -150,7 +150,7 @@ mod tests {
             assert!(error.to_string().contains(&wrong.to_string()), "{error}");
         }
         for wrong in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let error = OutputRequest { give_up_after: wrong, ..OutputRequest::history() }
+            let error = OutputRequest { max_contact_times: wrong, ..OutputRequest::history() }
                 .check()
                 .unwrap_err();
             assert!(matches!(error, OutputRequestError::GiveUpAfter(_)), "{error:?}");

@@ -103,7 +103,7 @@ impl<'a> ImpactRun<'a> {
         let instants = request.history_rows.max(FEWEST_SAMPLES) as f64;
         let per_step = (instants / steps).round().clamp(1.0, MOST_WITHIN_STEP) as u64;
         Self {
-            give_up: request.give_up_after * elastic_contact_time,
+            give_up: request.max_contact_times * elastic_contact_time,
             expected_end: (1.0 + POST_CONTACT_FRACTION) * elastic_contact_time,
             initial_energy: frame.initial(),
             pair,

@@ -71,7 +71,8 @@ fn stopped_run_keeps_its_results_so_far() {
     // Five rows a step of two hundred.
     assert!(run.steps == Some(step) && run.history.len() as u64 == 5 * step + 1);
     assert!(run.max_approach.unwrap() > 9e-6 && run.restitution.is_none());
-    let brief = collide(&OutputRequest { give_up_after: 0.4, ..OutputRequest::history() }, &mut ());
+    let brief =
+        collide(&OutputRequest { max_contact_times: 0.4, ..OutputRequest::history() }, &mut ());
     assert!(matches!(brief.stop(), Some(Stop::NoSeparation { .. })), "{:?}", brief.ending);
 }
 

@@ -106,7 +106,7 @@ impl RestartState {
 
     /// Returns the time after first touch at which the run gives up, s.
     pub(crate) fn max_time(&self) -> f64 {
-        self.request.give_up_after * self.expected.contact_time
+        self.request.max_contact_times * self.expected.contact_time
     }
 
     /// Returns whether it can belong to a run of a model: approach, candidate region, fingerprint and sizes of all

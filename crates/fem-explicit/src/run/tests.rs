@@ -25,7 +25,7 @@ fn request(snapshots: SnapshotRequest) -> OutputRequest {
     OutputRequest {
         history_rows: 100,
         snapshots,
-        give_up_after: 100.0 / EXPECTED.contact_time,
+        max_contact_times: 100.0 / EXPECTED.contact_time,
         ..OutputRequest::history()
     }
 }

@@ -53,7 +53,7 @@ fn quantities_of_stopped_and_overlong_runs_need_no_history() {
         let model = pair.model();
         let expected = Expectation { contact_time, ..pair.expected() };
         let request = OutputRequest {
-            give_up_after: pair.max_time / contact_time,
+            max_contact_times: pair.max_time / contact_time,
             ..OutputRequest::history()
         };
         let whole = run_for(&model, expected, request.clone(), 1000);

@@ -61,7 +61,7 @@ impl Row {
         ];
         let case = Case::parse("glass.toml", self.scene.text, Path::new("."), &overrides);
         let mut simulation = Simulation::new(case.expect("a case")).expect("a scene");
-        simulation.ask_for(OutputRequest::quantities()).expect("a run");
+        simulation.set_output_request(OutputRequest::quantities()).expect("a run");
         simulation
     }
 

@@ -159,7 +159,7 @@ impl Side {
     /// Returns the simulation of the run.
     pub fn simulation(&self) -> Simulation {
         let mut simulation = Simulation::new(self.case()).expect("a scene");
-        simulation.ask_for(self.request()).expect("a run");
+        simulation.set_output_request(self.request()).expect("a run");
         simulation
     }
 

@@ -96,7 +96,7 @@ fn expect(
             let chosen = by_tolerance(simulation);
             format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
         }
-        Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
+        Cost::ClosedForm { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
     format!(
         "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the changes without them\n\
@@ -231,7 +231,7 @@ fn costs(
                 row("factors", estimated(factor_bytes as f64, "B"));
             }
         }
-        Cost::Little { .. } => {}
+        Cost::ClosedForm { .. } => {}
     }
     if let Some(bytes) = peak_memory_with(simulation, estimator) {
         row("memory", format!("about {}", estimated(bytes as f64, "B")));

@@ -192,7 +192,7 @@ fn announce(
     }
     let _ = writeln!(stderr(), "{}", one_line(&line));
     standard_output::warn(simulation.case().scene().implausible_numbers());
-    if let Some(hint) = simulation.cheaper() {
+    if let Some(hint) = simulation.cheaper_model_hint() {
         let _ = writeln!(stderr(), "hint: {}", one_line(&hint));
     }
 }
@@ -233,7 +233,7 @@ fn price(
             },
             time(seconds)
         ),
-        Cost::Little { .. } => format!("{}, milliseconds", simulation.setup().description),
+        Cost::ClosedForm { .. } => format!("{}, milliseconds", simulation.setup().description),
     }
 }
 

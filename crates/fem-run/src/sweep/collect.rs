@@ -150,7 +150,7 @@ impl SweepOutcome {
         if is_own {
             let warnings = row.summary["warnings"].as_array().into_iter().flatten();
             for warning in warnings.filter_map(|warning| warning.as_str()) {
-                self.warnings.see(row.index, warning);
+                self.warnings.add(row.index, warning);
             }
         }
         if self.shown.len() < MOST_SHOWN {

@@ -142,7 +142,7 @@ pub fn warning_lines<'t>(
     let mut kinds: Vec<&WarningKind> = warnings.all().iter().filter(is_new).collect();
     kinds.sort_by_key(|kind| std::cmp::Reverse(kind.count));
     let line = |kind: &&WarningKind| {
-        let (text, first) = (&kind.first, sweep.describe(kind.place));
+        let (text, first) = (&kind.first, sweep.describe(kind.run));
         one_line(&match kind.count {
             1 => format!("{text} (1 member: {first})"),
             n => format!("{text} (in {n} members, first in {first})"),

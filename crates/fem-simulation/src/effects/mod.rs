@@ -34,7 +34,7 @@ pub use effect::{
     Gravity, HourglassControl, MassScaling, MirrorSymmetry, NamedEffect, PartnerWaves,
     PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
-pub(crate) use effect::{effect_named, is_called_for};
+pub(crate) use effect::{effect_named, is_needed};
 
 /// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -97,7 +97,7 @@ pub fn decide(
         let Some(answer) = answer else { continue };
         let relevance = effect.relevance(scene, estimate).unwrap_or_default();
         let obeys = answer.obeys();
-        let (is_called_for, note) = (relevance.is_called_for, relevance.warning.clone());
+        let (is_needed, note) = (relevance.is_needed, relevance.warning.clone());
         let is_inherent = matches!(answer, Support::Inherent { .. });
         let (active, reason, warnings) = answer.of(relevance, switch);
         if switch == Some(Switch::Off) && active {
@@ -106,14 +106,14 @@ pub fn decide(
         let is_lacking = !active && !is_inherent;
         decisions.all.push(EffectDecision { name: effect.name(), active, reason, is_lacking });
         decisions.warnings.extend(warnings);
-        if switch == Some(Switch::On) && obeys && !is_called_for {
+        if switch == Some(Switch::On) && obeys && !is_needed {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let name = effect.name();
             decisions.warnings.push(format!(
                 "{name} is switched on although the scene does not need it, which changes {neglect_error}"
             ));
         }
-        if switch == Some(Switch::Off) && obeys && is_called_for {
+        if switch == Some(Switch::Off) && obeys && is_needed {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let mut warning = neglect_error.warning(effect.name());
             if let Some(note) = note {

@@ -153,7 +153,7 @@ impl ErrorEstimator {
                 Some((memory, reference_memory.filter(|_| !is_known)))
             }
             Cost::Factors { memory, .. } => Some((memory, None)),
-            Cost::Little { .. } => None,
+            Cost::ClosedForm { .. } => None,
         }
     }
 }

@@ -267,7 +267,7 @@ fn collide(
         if let (FarMesh::SelectedModel, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
             (mesh.growth, mesh.refined_radius) = (None, None);
             // The selected mesh depends on the speed.
-            *file = simulation.meeting(file.clone(), approach);
+            *file = simulation.with_approach(file.clone(), approach);
         }
         if settings.iter().any(|it| matches!(it, Setting::ElementSize(_))) {
             let spheres = file.body.iter_mut().filter_map(|body| body.sphere.as_mut());

@@ -35,7 +35,7 @@ impl Simulation {
             Cost::Factors { elements, .. } => {
                 (elements, MOST_ELEMENTS, GROWTH_OF_ELEMENTS, TIME_POWER_OF_ELEMENTS)
             }
-            Cost::Little { .. } => return None,
+            Cost::ClosedForm { .. } => return None,
         };
         let left = MOST_LEVELS.saturating_sub(self.levels().len());
         let of_levels = |n| of_levels(n, most as f64 / one as f64, growth, power);
@@ -103,7 +103,7 @@ mod tests {
                     match finer.unwrap().setup().cost {
                         Cost::Steps { element_updates, .. } => element_updates as f64,
                         Cost::Factors { elements, .. } => elements as f64,
-                        Cost::Little { .. } => unreachable!(),
+                        Cost::ClosedForm { .. } => unreachable!(),
                     }
                 };
                 for first in [1.0, 1.25, 1.6] {

@@ -86,13 +86,13 @@ fn flows(scene: &Scene, estimate: &Estimate) -> bool {
 }
 
 /// Returns the multiple of the elastic contact time after which a finite-element run stops.
-pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
+pub(crate) fn max_contact_times(scene: &Scene, estimate: &Estimate) -> f64 {
     if !relaxes(scene, estimate) {
-        return OutputRequest::GIVE_UP_AFTER;
+        return OutputRequest::MAX_CONTACT_TIMES;
     }
     let duration = approach_of(scene).map(|met| expected_duration(scene, estimate, &met));
     let contact_times = duration.unwrap_or(0.0) / estimate.hertz.contact_time();
-    OutputRequest::GIVE_UP_AFTER.max(DURATION_OVER_PREDICTED * contact_times)
+    OutputRequest::MAX_CONTACT_TIMES.max(DURATION_OVER_PREDICTED * contact_times)
 }
 
 /// Times of a contact over those of elastic bodies.

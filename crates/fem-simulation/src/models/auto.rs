@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::method_of;
 use crate::effects::{
     EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, PartnerWaves, Support,
-    Vibration, Viscoelasticity, is_called_for,
+    Vibration, Viscoelasticity, is_needed,
 };
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
@@ -39,9 +39,9 @@ impl Method for AutoMethod {
         None
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
+    fn element_updates(&self, scene: &Scene) -> Result<u64, Rejection> {
         let chosen = with_chosen_model(scene)?;
-        method_of(&chosen).price(&chosen)
+        method_of(&chosen).element_updates(&chosen)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
@@ -324,7 +324,7 @@ fn error_without(
 ) -> Option<QuantityErrors> {
     let neglect_error = effect.neglect_error(scene, estimate);
     let error = match &neglect_error {
-        None if is_called_for(effect, scene, estimate) => return None,
+        None if is_needed(effect, scene, estimate) => return None,
         None => return Some(QuantityErrors::ZERO),
         // The spread over possible laws is the same in all models.
         Some(neglect_error) if effect.name() == FiniteStrain::NAME => {
@@ -364,7 +364,7 @@ fn disobeyed(
                 // Elements have the waves in any case.
                 Some(Support::Inherent { .. }) => {
                     is_fem && effect.name() == PartnerWaves::NAME
-                        || is_called_for(*effect, scene, estimate)
+                        || is_needed(*effect, scene, estimate)
                 }
                 _ => false,
             },

@@ -38,7 +38,7 @@ pub trait Method: Sync {
     ///
     /// # Errors
     /// As [`Method::build`], but for faults that only factors show.
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
+    fn element_updates(&self, scene: &Scene) -> Result<u64, Rejection> {
         match self.build(scene, &SharedModels::default())?.setup().cost {
             Cost::Steps { element_updates, .. } => Ok(element_updates),
             _ => Ok(0),
@@ -49,7 +49,7 @@ pub trait Method: Sync {
     /// method does not read stay as they are.
     ///
     /// # Errors
-    /// As [`Method::price`].
+    /// As [`Method::element_updates`].
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection>;
 }
 
@@ -148,7 +148,7 @@ pub struct ModelSetup {
     /// Decisions on the effects, with their reasons.
     pub decisions: EffectDecisions,
     /// Warnings about keys that the case sets and the model does not read.
-    pub unread: Vec<String>,
+    pub unread_key_warnings: Vec<String>,
     /// Cost of the run.
     pub cost: Cost,
     /// Setup of the elements, for a model with meshes.
@@ -158,7 +158,7 @@ pub struct ModelSetup {
 impl ModelSetup {
     /// Returns the warnings before the run.
     pub fn warnings(&self) -> Vec<String> {
-        self.decisions.warnings.iter().chain(&self.unread).cloned().collect()
+        self.decisions.warnings.iter().chain(&self.unread_key_warnings).cloned().collect()
     }
 }
 
@@ -213,7 +213,7 @@ pub enum Cost {
         memory: u64,
     },
     /// The run has no mesh and takes milliseconds.
-    Little {
+    ClosedForm {
         /// The force law, if it is a function of the overlap and its rate.
         force: Option<ForceLaw>,
     },

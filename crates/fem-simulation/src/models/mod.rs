@@ -71,12 +71,12 @@ pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
     }
 }
 
-/// Returns the number of element updates of all contacts ([`Method::price`]).
+/// Returns the number of element updates of all contacts ([`Method::element_updates`]).
 ///
 /// # Errors
-/// As [`Method::price`].
-pub(crate) fn price_of(scene: &Scene) -> Result<u64, Rejection> {
-    let one = method_of(scene).price(&ComputedScene::of(scene)?.scene)?;
+/// As [`Method::element_updates`].
+pub(crate) fn element_updates_of(scene: &Scene) -> Result<u64, Rejection> {
+    let one = method_of(scene).element_updates(&ComputedScene::of(scene)?.scene)?;
     let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
     Ok(one.saturating_mul(contacts))
 }

@@ -27,7 +27,7 @@ fn massless_is_possible(scene: &Scene) -> bool {
 }
 
 /// Returns a warning if the case names a method that the scene does not allow.
-pub fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
+pub fn ignored_method_warning(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
     if is_at_finite_strain {
         let word = scene.contact_method()?.word();
         return Some(format!(

@@ -87,7 +87,7 @@ pub struct Plan {
     /// Elements times steps above which a run is refused.
     pub max_element_updates: u64,
     /// Longest run, in elastic contact times; a run that takes longer stops with [`NoSeparation`](fem_collision::Stop::NoSeparation).
-    pub give_up_after: f64,
+    pub max_contact_times: f64,
     /// Memory above which a run is refused, bytes.
     pub max_memory: u64,
     /// Warnings about unread keys and a tolerance that cannot be met.
@@ -165,7 +165,7 @@ impl Plan {
             snapshots: request(scene.snapshots()),
             max_elements: limits.elements.unwrap_or(defaults::MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(defaults::MAX_ELEMENT_UPDATES),
-            give_up_after: viscous_flow::give_up_after(scene, &estimate),
+            max_contact_times: viscous_flow::max_contact_times(scene, &estimate),
             max_memory: limits.memory.unwrap_or(defaults::MAX_MEMORY),
             warnings,
             estimate,
@@ -206,7 +206,7 @@ impl Plan {
         OutputRequest {
             snapshots: self.snapshots.clone(),
             most_element_updates: self.max_element_updates,
-            give_up_after: self.give_up_after,
+            max_contact_times: self.max_contact_times,
             ..OutputRequest::history()
         }
     }

@@ -48,7 +48,7 @@ impl Simulation {
             .chain(self.setup().warnings())
             .chain(self.mesh_warning())
             .chain(self.springs_warning())
-            .chain(self.cheaper())
+            .chain(self.cheaper_model_hint())
             .collect()
     }
 
@@ -59,7 +59,7 @@ impl Simulation {
             .chain(scene.unpublished_loss())
             .chain(self.choice_warning())
             .chain(self.decisions(collision).warnings)
-            .chain(self.setup().unread.iter().cloned())
+            .chain(self.setup().unread_key_warnings.iter().cloned())
             .chain(diagnose(self, collision, errors))
             .chain(collision.warnings.iter().cloned())
             .collect()
@@ -103,7 +103,7 @@ impl Simulation {
     }
 
     /// Suggests the condensed model for a long run, if it is expected to meet the tolerance too.
-    pub fn cheaper(&self) -> Option<String> {
+    pub fn cheaper_model_hint(&self) -> Option<String> {
         let Cost::Steps { seconds, .. } = self.setup().cost else { return None };
         let scene = self.case().scene();
         if seconds < SECONDS_OF_LONG_RUN || *scene.model() != ModelChoice::Fem {

@@ -10,7 +10,7 @@ pub struct WarningKind {
     /// The first warning of this kind.
     pub first: String,
     /// Index of the run that gave the first warning.
-    pub place: usize,
+    pub run: usize,
     /// Number of warnings of this kind.
     pub count: usize,
 }
@@ -19,8 +19,8 @@ pub struct WarningKind {
 ///
 /// ```
 /// let mut kinds = fem_simulation::WarningKinds::default();
-/// kinds.see(0, "a step of 12.3 µm is 4 % too long");
-/// kinds.see(1, "a step of 1.1 mm is 12 % too long");
+/// kinds.add(0, "a step of 12.3 µm is 4 % too long");
+/// kinds.add(1, "a step of 1.1 mm is 12 % too long");
 /// assert_eq!((kinds.all().len(), kinds.all()[0].count), (1, 2));
 /// ```
 #[derive(Clone, Debug, Default)]
@@ -38,13 +38,13 @@ impl WarningKind {
 
 impl WarningKinds {
     /// Adds a warning of the run with this index.
-    pub fn see(&mut self, place: usize, warning: &str) {
+    pub fn add(&mut self, run: usize, warning: &str) {
         let kind = without_numbers(warning);
         if let Some(known) = self.kinds.iter_mut().find(|known| known.kind == kind) {
             known.count += 1;
         } else if self.kinds.len() < MOST_KINDS {
             let first = warning.to_string();
-            self.kinds.push(WarningKind { kind, first, place, count: 1 });
+            self.kinds.push(WarningKind { kind, first, run, count: 1 });
         } else {
             self.n_others += 1;
         }
@@ -91,7 +91,7 @@ mod tests {
         let mut kinds = WarningKinds::default();
         for k in 0..MOST_KINDS + 5 {
             let letters: String = format!("{k}").chars().map(|c| (c as u8 + 49) as char).collect();
-            kinds.see(k, &format!("a kind {letters}"));
+            kinds.add(k, &format!("a kind {letters}"));
         }
         assert_eq!((kinds.all().len(), kinds.n_others()), (MOST_KINDS, 5));
         assert!(kinds.all()[0].is_of("a kind a 7") && !kinds.all()[1].is_of("a kind a"));

@@ -84,7 +84,7 @@ impl Summary {
             program: PROGRAM,
             version: env!("CARGO_PKG_VERSION"),
             numerics: NUMERICS,
-            made_from: simulation.made_from(&collision.approach),
+            made_from: simulation.input_digest(&collision.approach),
             files,
             case: simulation.resolved_at(&collision.approach),
             warnings: warnings.into_iter().chain(numbers.warning()).collect(),

@@ -67,7 +67,7 @@ pub struct Summary {
     pub version: &'static str,
     /// Identity of the build's numerics ([`NUMERICS`](crate::NUMERICS)).
     pub numerics: &'static str,
-    /// Identity of the case ([`Simulation::made_from`](crate::Simulation::made_from)).
+    /// Identity of the case ([`Simulation::input_digest`](crate::Simulation::input_digest)).
     pub made_from: String,
     /// Names of the files in the result folder.
     pub files: Vec<String>,

@@ -19,7 +19,9 @@ use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, start_stepper};
 use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
-use crate::models::{ModelCandidate, SelectedModel, chosen, model_of, price_of, resolved};
+use crate::models::{
+    ModelCandidate, SelectedModel, chosen, element_updates_of, model_of, resolved,
+};
 use crate::plan::body_source::probes_of;
 use crate::rejection::Rejection;
 use crate::simulation::identity::identity_of;
@@ -53,11 +55,11 @@ impl Simulation {
     /// # Errors
     /// Those of [`Simulation::new`].
     pub fn sharing(case: Case, shared: &SharedModels) -> Result<Self, CaseError> {
-        Self::at(case, shared, 1.0, Vec::new())
+        Self::with_refinement(case, shared, 1.0, Vec::new())
     }
 
     /// Builds the model with this refinement of the planned mesh, after these coarser meshes.
-    fn at(
+    fn with_refinement(
         case: Case,
         shared: &SharedModels,
         refinement: f64,
@@ -88,7 +90,7 @@ impl Simulation {
         refinement: f64,
         levels: Vec<RefinementLevel>,
     ) -> Result<Self, CaseError> {
-        let mut finer = Self::at(self.case.clone(), &self.shared, refinement, levels)?;
+        let mut finer = Self::with_refinement(self.case.clone(), &self.shared, refinement, levels)?;
         let probes = std::mem::take(&mut finer.request.probes);
         finer.request = self.request.clone();
         if !self.request.probes.is_empty() {
@@ -126,8 +128,8 @@ impl Simulation {
     ///
     /// # Errors
     /// A case that the method rejects.
-    pub fn price(case: &Case) -> Result<u64, CaseError> {
-        price_of(case.scene()).map_err(|refusal| refusal.in_case(case))
+    pub fn element_updates_of(case: &Case) -> Result<u64, CaseError> {
+        element_updates_of(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
     /// Returns the case.
@@ -174,7 +176,7 @@ impl Simulation {
     ///
     /// # Errors
     /// More rows or snapshots than a run keeps, or invalid times.
-    pub fn ask_for(&mut self, request: OutputRequest) -> Result<(), OutputRequestError> {
+    pub fn set_output_request(&mut self, request: OutputRequest) -> Result<(), OutputRequestError> {
         request.check()?;
         self.request = request;
         Ok(())
@@ -182,16 +184,16 @@ impl Simulation {
 
     /// Returns the resolved case with another approach.
     pub fn resolved_at(&self, approach: &Approach) -> CaseFile {
-        self.meeting(self.resolved.clone(), approach)
+        self.with_approach(self.resolved.clone(), approach)
     }
 
     /// Returns the identity of the case ([`case_identity`](crate::case_identity)) with this approach.
-    pub fn made_from(&self, approach: &Approach) -> String {
-        identity_of(&self.meeting(self.case.file().clone(), approach))
+    pub fn input_digest(&self, approach: &Approach) -> String {
+        identity_of(&self.with_approach(self.case.file().clone(), approach))
     }
 
     /// Returns a case file with this approach.
-    pub(crate) fn meeting(&self, mut file: CaseFile, approach: &Approach) -> CaseFile {
+    pub(crate) fn with_approach(&self, mut file: CaseFile, approach: &Approach) -> CaseFile {
         if *approach != self.setup().approach {
             let [lower, upper] = approach.velocities();
             // A speed is toward the other body; a body at rest has 0, never -0.

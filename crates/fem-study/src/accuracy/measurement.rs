@@ -43,13 +43,13 @@ impl Measurement {
         let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
         let request = OutputRequest { snapshots, ..simulation.request().clone() };
         // One snapshot is within every limit.
-        let _ = simulation.ask_for(request);
+        let _ = simulation.set_output_request(request);
         let collision = simulation.run(monitor);
         let (elements, memory) = match simulation.setup().cost {
             Cost::Steps { elements, memory, .. } | Cost::Factors { elements, memory, .. } => {
                 (elements, Some(memory))
             }
-            Cost::Little { .. } => (0, None),
+            Cost::ClosedForm { .. } => (0, None),
         };
         let complete = collision.is_complete().then_some(&collision);
         let value =

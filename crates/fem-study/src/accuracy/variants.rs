@@ -5,7 +5,7 @@ use fem_simulation::effects::FiniteStrain;
 use fem_simulation::error::{Setting, first_contact};
 use fem_simulation::{
     ErrorEstimator, Estimate, MeshRule, Plan, RefinedBeforeRun, Simulation, chosen, contact_method,
-    divided_radius, unread,
+    divided_radius, ignored_method_warning,
 };
 
 use super::series::{COMMON, LARGE_MASS_SCALING, PRESETS, Preset, Series, Varied};
@@ -157,7 +157,7 @@ impl Base {
                     return false;
                 };
                 let (usual, named) = (usual.scene(), named.scene());
-                unread(named, is_finite(named)).is_none()
+                ignored_method_warning(named, is_finite(named)).is_none()
                     && contact_method(named) != contact_method(usual)
             }
             Series::FiniteStrain => {
@@ -225,7 +225,7 @@ impl Base {
         value: Option<f64>,
         case: Case,
     ) -> Result<Variant, CaseError> {
-        let price = Simulation::price(&case)?;
+        let price = Simulation::element_updates_of(&case)?;
         let size = settings.iter().find_map(|setting| match setting {
             Setting::ElementSize(size) => Some(*size),
             _ => None,

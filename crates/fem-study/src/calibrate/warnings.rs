@@ -52,7 +52,7 @@ impl Calibration {
     fn of_pairs(&self) -> Vec<String> {
         let mut kinds = WarningKinds::default();
         for (place, experiment) in self.experiments.iter().enumerate() {
-            experiment.warnings.iter().for_each(|warning| kinds.see(place, warning));
+            experiment.warnings.iter().for_each(|warning| kinds.add(place, warning));
         }
         let told = |kind: &WarningKind| match kind.count {
             1 => kind.first.clone(),

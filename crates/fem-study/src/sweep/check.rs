@@ -72,7 +72,7 @@ pub fn check_some(
     let look = |index: usize, case: &Case| {
         let (member, resolved) = Member::resolved(index, case)?;
         let is_left = is_own(index) && !is_done(&member);
-        let price = is_left.then(|| Simulation::price(case)).transpose()?;
+        let price = is_left.then(|| Simulation::element_updates_of(case)).transpose()?;
         Ok(Seen { member, case: resolved, price, oddities: case.scene().implausible_numbers() })
     };
     let mut checked = Checked { members: Vec::with_capacity(places.len()), ..Checked::default() };

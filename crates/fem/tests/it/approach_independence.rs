@@ -30,7 +30,7 @@ fn a_summary_belongs_to_its_approach() {
             let resolved = slow.resolved_at(&approach).to_toml().unwrap();
             let case = Case::parse("again.toml", &resolved, Path::new("."), &[]).unwrap();
             let mut again = Simulation::new(case).unwrap();
-            again.ask_for(OutputRequest::history()).unwrap();
+            again.set_output_request(OutputRequest::history()).unwrap();
             let expected = again.run(&mut ());
             assert_eq!(plain(&collision), plain(&expected), "{name}");
             let values = |simulation: &Simulation, collision: &Collision| {
@@ -70,7 +70,7 @@ fn an_impossible_request_is_rejected() {
             let approach = simulation.setup().approach;
             let collision = simulation.model().collide(&approach, &request, &mut ());
             assert!(matches!(collision.stop(), Some(Stop::NotMade(_))), "{}", method.name());
-            assert!(simulation.ask_for(request).is_err());
+            assert!(simulation.set_output_request(request).is_err());
         }
     }
 }

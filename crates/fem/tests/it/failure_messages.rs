@@ -191,7 +191,9 @@ fn a_raised_limit_lets_the_run_complete() {
     let mesh = ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.6 mm'", fluid];
     let mut simulation = run(GLASS, &mesh).0;
     let request = simulation.request().clone();
-    simulation.ask_for(fem::OutputRequest { most_element_updates: 100_000, ..request }).unwrap();
+    simulation
+        .set_output_request(fem::OutputRequest { most_element_updates: 100_000, ..request })
+        .unwrap();
     let collision = simulation.run(&mut ());
     let stop = collision.stop().expect("a stop");
     assert!(matches!(stop, Stop::TooManyUpdates { .. }), "{stop}");

@@ -85,10 +85,10 @@ fn flowing_bodies_have_the_same_result_in_all_models() {
 #[test]
 fn runs_wait_for_the_predicted_duration() {
     let elastic = simulation("condensed", "all", 1e-3, "1 ms");
-    assert_eq!(elastic.request().give_up_after, OutputRequest::GIVE_UP_AFTER);
+    assert_eq!(elastic.request().max_contact_times, OutputRequest::MAX_CONTACT_TIMES);
     let times = ["0.2 us", "0.05 us"].map(|time| simulation("condensed", "all", 1.0, time));
-    let [early, late] = times.each_ref().map(|simulation| simulation.request().give_up_after);
-    assert!(early > OutputRequest::GIVE_UP_AFTER && late > early, "{early} {late}");
+    let [early, late] = times.each_ref().map(|simulation| simulation.request().max_contact_times);
+    assert!(early > OutputRequest::MAX_CONTACT_TIMES && late > early, "{early} {late}");
 }
 
 /// The number of steps is predicted for bodies that separate late and for those that stay together: within a half, and

@@ -62,7 +62,7 @@ fn a_case_is_built_run_and_read() -> Result<(), CaseError> {
         ..OutputRequest::history()
     };
     assert_eq!(simulation.request().snapshots, request.snapshots);
-    simulation.ask_for(request).unwrap();
+    simulation.set_output_request(request).unwrap();
 
     let mut panel = Panel { phases: Vec::new(), reports_left: u64::MAX };
     let collision: Collision = simulation.run(&mut panel);

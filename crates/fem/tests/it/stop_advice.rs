@@ -132,7 +132,11 @@ const ROWS: [Row; 13] = [
 ];
 
 /// Runs a case without snapshots; returns the message and the advice if it is stopped or rejected.
-fn failure(case: &str, overrides: &[&str], give_up_after: Option<f64>) -> Option<(String, String)> {
+fn failure(
+    case: &str,
+    overrides: &[&str],
+    max_contact_times: Option<f64>,
+) -> Option<(String, String)> {
     let case = case_of(case, overrides);
     let mut simulation = match Simulation::new(case) {
         Ok(simulation) => simulation,
@@ -141,9 +145,9 @@ fn failure(case: &str, overrides: &[&str], give_up_after: Option<f64>) -> Option
         }
     };
     simulation.skip_snapshots();
-    if let Some(give_up_after) = give_up_after {
-        let request = OutputRequest { give_up_after, ..simulation.request().clone() };
-        simulation.ask_for(request).unwrap();
+    if let Some(max_contact_times) = max_contact_times {
+        let request = OutputRequest { max_contact_times, ..simulation.request().clone() };
+        simulation.set_output_request(request).unwrap();
     }
     let collision = simulation.run(&mut ());
     let stop = collision.stop()?;

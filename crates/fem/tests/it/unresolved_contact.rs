@@ -93,7 +93,7 @@ fn resolution_warning_counts_the_coarser_body() {
 /// A nearly incompressible material makes explicit steps short, and the condensed model is suggested.
 #[test]
 fn a_cheaper_model_is_suggested_for_a_long_run() {
-    let hint = |overrides: &[&str]| simulation_of(GLASS, overrides).cheaper();
+    let hint = |overrides: &[&str]| simulation_of(GLASS, overrides).cheaper_model_hint();
     let stiff = "material.glass.poissons_ratio=0.499999";
     let found = hint(&[stiff]).expect("a hint");
     assert!(found.contains("model.condensed = {}") && found.contains("hundredths"), "{found}");

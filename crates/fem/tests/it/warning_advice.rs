@@ -186,7 +186,7 @@ fn follow_advice<'a>(rows: impl Iterator<Item = &'a Row>) {
         let ways = remedies(warning, &simulation, set);
         assert_eq!(ways.len(), *n_remedies, "{warning}: {ways:?}");
         let mut kinds = WarningKinds::default();
-        kinds.see(0, warning);
+        kinds.add(0, warning);
         for way in ways {
             let (_, after) = computed_warnings(case, &way);
             let still = after.iter().find(|text| kinds.all()[0].is_of(text));

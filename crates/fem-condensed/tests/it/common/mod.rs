@@ -139,7 +139,7 @@ pub fn explicit(
     let model = ExplicitBodies::new(inputs, approach, &settings).unwrap();
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let request = OutputRequest { give_up_after: 20.0, ..request.clone() };
+    let request = OutputRequest { max_contact_times: 20.0, ..request.clone() };
     fem_explicit::collide(&model, expected, &request, &mut ())
 }
 

@@ -142,7 +142,7 @@ impl Pair {
         OutputRequest {
             history_rows: self.history_rows,
             snapshots: self.snapshots.clone(),
-            give_up_after: self.max_time / HERTZ_TIME,
+            max_contact_times: self.max_time / HERTZ_TIME,
             ..OutputRequest::history()
         }
     }

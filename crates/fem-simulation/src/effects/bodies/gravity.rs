@@ -44,7 +44,7 @@ impl Effect for Gravity {
         if weight.max(fall * fall) < NEGLIGIBLE_GRAVITY {
             number += "; it acts in flight and does not change the contact";
         }
-        Some(Relevance { is_called_for: true, number, ..Relevance::default() })
+        Some(Relevance { is_needed: true, number, ..Relevance::default() })
     }
 
     /// Applies to the first contact; without gravity there is no other.

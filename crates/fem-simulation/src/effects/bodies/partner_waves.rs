@@ -163,7 +163,7 @@ impl Effect for PartnerWaves {
             )
         });
         Some(Relevance {
-            is_called_for: least < RETURN_LIMIT,
+            is_needed: least < RETURN_LIMIT,
             number: format!("shear waves cross {name} {least:.2} times during the contact"),
             if_not_needed: "no energy is radiated".to_string(),
             open_error: format!("radiated waves take {} of the restitution", number(lost, 2)),

@@ -40,7 +40,7 @@ impl Effect for SurfaceSlip {
             )
         });
         Some(Relevance {
-            is_called_for: materials_mismatch(scene),
+            is_needed: materials_mismatch(scene),
             number: format!(
                 "slope of the interface × mismatch of the materials = {}",
                 number(slope, 2)

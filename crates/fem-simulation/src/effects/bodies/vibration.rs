@@ -41,8 +41,7 @@ const RINGING_WEAKENING: f64 = 0.25;
 impl Effect for Vibration {
     fn relevance(&self, _: &Scene, estimate: &Estimate) -> Option<Relevance> {
         Some(Relevance {
-            is_called_for: estimate.effective_mach.max(estimate.effective_ringing)
-                > QUASI_STATIC_LIMIT,
+            is_needed: estimate.effective_mach.max(estimate.effective_ringing) > QUASI_STATIC_LIMIT,
             number: match estimate.effective_ringing > estimate.effective_mach {
                 true => "bulk waves are slow, Poisson's ratio is negative".to_string(),
                 false => number(estimate),

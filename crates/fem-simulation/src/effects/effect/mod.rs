@@ -144,7 +144,7 @@ pub trait Effect: NamedEffect {
         }
         match &status.neglect_error {
             Some(neglect_error) => neglect_error.of_all_quantities(estimate),
-            None if is_called_for(self, scene, estimate) => QuantityErrors::default(),
+            None if is_needed(self, scene, estimate) => QuantityErrors::default(),
             None => QuantityErrors::ZERO,
         }
     }
@@ -162,10 +162,10 @@ pub trait Effect: NamedEffect {
 }
 
 /// Returns whether a scene calls for an effect.
-pub(crate) fn is_called_for<E: Effect + ?Sized>(
+pub(crate) fn is_needed<E: Effect + ?Sized>(
     effect: &E,
     scene: &Scene,
     estimate: &Estimate,
 ) -> bool {
-    effect.relevance(scene, estimate).is_some_and(|relevance| relevance.is_called_for)
+    effect.relevance(scene, estimate).is_some_and(|relevance| relevance.is_needed)
 }

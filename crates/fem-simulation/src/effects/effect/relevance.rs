@@ -8,7 +8,7 @@ use crate::estimate::Estimate;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Relevance {
     /// Whether the scene calls for it.
-    pub is_called_for: bool,
+    pub is_needed: bool,
     /// The deciding number, as text.
     pub number: String,
     /// The text after the number if the scene does not need the effect.

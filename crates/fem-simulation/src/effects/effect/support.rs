@@ -56,23 +56,21 @@ impl Support {
         relevance: Relevance,
         switch: Option<Switch>,
     ) -> (bool, String, Vec<String>) {
-        let Relevance { is_called_for, number, if_not_needed, open_error, warning } = relevance;
+        let Relevance { is_needed, number, if_not_needed, open_error, warning } = relevance;
         let none = Vec::new;
         match self {
             Self::Is { active, reason, warnings } => (active, reason, warnings),
-            Self::Computes { .. } if is_called_for && switch == Some(Switch::Off) => {
+            Self::Computes { .. } if is_needed && switch == Some(Switch::Off) => {
                 (false, joined([&number, "needed, but switched off", &open_error]), none())
             }
-            Self::Computes { .. } | Self::Inherent { .. } if is_called_for => {
-                (true, number, none())
-            }
+            Self::Computes { .. } | Self::Inherent { .. } if is_needed => (true, number, none()),
             Self::Computes { .. } if switch == Some(Switch::On) => {
                 (true, joined([&number, &if_not_needed, "forced on"]), none())
             }
             Self::Computes { idle } | Self::Inherent { idle } => {
                 (false, joined([&number, &if_not_needed, idle]), none())
             }
-            Self::Lacks if is_called_for => {
+            Self::Lacks if is_needed => {
                 let lacking = "needed, but this model lacks it";
                 let warnings = warning.into_iter().collect();
                 (false, joined([&number, lacking, &open_error]), warnings)
@@ -94,9 +92,9 @@ fn joined(parts: [&str; 3]) -> String {
 mod tests {
     use super::*;
 
-    fn relevance(is_called_for: bool) -> Relevance {
+    fn relevance(is_needed: bool) -> Relevance {
         Relevance {
-            is_called_for,
+            is_needed,
             number: "x = 1".into(),
             if_not_needed: "small".into(),
             open_error: "all of it is open".into(),
@@ -126,8 +124,8 @@ mod tests {
 
     #[test]
     fn a_computed_effect_obeys_its_switch() {
-        let of = |is_called_for, switch| {
-            Support::Computes { idle: "" }.of(relevance(is_called_for), Some(switch))
+        let of = |is_needed, switch| {
+            Support::Computes { idle: "" }.of(relevance(is_needed), Some(switch))
         };
         let (active, reason, warnings) = of(false, Switch::On);
         assert!(active && reason.contains("forced on") && warnings.is_empty());

@@ -49,9 +49,9 @@ fn first_yield<'a>(body: &'a Body, estimate: &Estimate) -> Option<(&'a Body, Fir
 
 fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevance {
     let (ratio, name) = (first.ratio(), body.name());
-    let is_called_for = ratio > 1.0;
+    let is_needed = ratio > 1.0;
     let (low, high) = first.restitutions();
-    let warning = is_called_for.then(|| {
+    let warning = is_needed.then(|| {
         format!(
             "{name} yields from {} on, and the impact is at {}: no model computes plastic flow; closed forms give a \
              restitution from {low:.2} to {high:.2}",
@@ -60,7 +60,7 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevanc
         )
     });
     Relevance {
-        is_called_for,
+        is_needed,
         number: format!("peak pressure / pressure of first yield of {name} = {ratio:.2}"),
         if_not_needed: format!("it yields from {} on", show(first.speed, "m/s")),
         open_error: format!("closed forms give a restitution from {low:.2} to {high:.2}"),
@@ -97,7 +97,7 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
         )
     });
     Relevance {
-        is_called_for: false,
+        is_needed: false,
         number: format!("peak pressure / contact modulus = {share:.3}"),
         if_not_needed: match reached.is_empty() {
             true => "bodies that are rubber-like, hyperelastic or far stiffer than their partner do not yield"

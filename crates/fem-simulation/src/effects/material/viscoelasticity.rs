@@ -42,7 +42,7 @@ impl Effect for Viscoelasticity {
             if relaxing.len() == 1 { "es" } else { "" },
             percent(estimate.relaxed),
         );
-        Some(Relevance { is_called_for: true, number, ..Relevance::default() })
+        Some(Relevance { is_needed: true, number, ..Relevance::default() })
     }
 
     /// Makes the materials elastic if the effect is switched off, and folds the terms that do not matter within the contact

@@ -44,12 +44,12 @@ impl BulkViscosity {
         match scene.effects().bulk_viscosity {
             Some(Switch::On) => true,
             Some(Switch::Off) => false,
-            None | Some(Switch::Auto) => is_called_for(scene, mach, is_finite),
+            None | Some(Switch::Auto) => is_needed(scene, mach, is_finite),
         }
     }
 }
 
-fn is_called_for(scene: &Scene, mach: f64, is_finite: bool) -> bool {
+fn is_needed(scene: &Scene, mach: f64, is_finite: bool) -> bool {
     mach > MACH_LIMIT && rings(scene, is_finite)
 }
 
@@ -62,17 +62,17 @@ fn rings(scene: &Scene, is_finite: bool) -> bool {
 impl Effect for BulkViscosity {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let is_finite = FiniteStrain::is_on(scene, estimate);
-        let is_called_for = is_called_for(scene, estimate.mach, is_finite);
+        let is_needed = is_needed(scene, estimate.mach, is_finite);
         let if_not_needed = match estimate.mach > MACH_LIMIT {
             true => "a contact without mass does not ring behind steep fronts",
             false => "no steep fronts to spread",
         };
-        let warning = is_called_for.then(|| {
+        let warning = is_needed.then(|| {
             let speed = above(estimate, MACH_LIMIT);
             format!("{speed}, where steep fronts ring in the mesh, mostly in pressure")
         });
         Some(Relevance {
-            is_called_for,
+            is_needed,
             number: number(estimate),
             if_not_needed: if_not_needed.to_string(),
             open_error: String::new(),

@@ -70,7 +70,7 @@ impl Method for CondensedMethod {
         effects::support(effect, scene, estimate, None)
     }
 
-    fn price(&self, scene: &Scene) -> Result<u64, Rejection> {
+    fn element_updates(&self, scene: &Scene) -> Result<u64, Rejection> {
         let plan = Plan::of(scene)?;
         check_memory(&plan, &BodySource::of_scene(scene, &plan)?).map(|()| 0)
     }
@@ -137,8 +137,8 @@ impl Condensed {
         let estimate = &plan.estimate;
         let support = |effect: &dyn Effect| effects::support(effect, scene, estimate, Some(&pair));
         let decisions = decide(scene, estimate, support)?;
-        let mut unread = plan.warnings.clone();
-        unread.extend(effects::unread_keys(scene, options));
+        let mut unread_key_warnings = plan.warnings.clone();
+        unread_key_warnings.extend(effects::unread_keys(scene, options));
         let approach = approach_of(scene)?;
         let slower = slower(scene, estimate, &approach);
         let per_contact = n_steps(options, slower, estimate.relaxed) as f64;
@@ -149,7 +149,7 @@ impl Condensed {
             request: plan.request(),
             estimate: plan.estimate,
             decisions,
-            unread,
+            unread_key_warnings,
             cost: cost_of(scene, &pair, n_steps as u64),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,

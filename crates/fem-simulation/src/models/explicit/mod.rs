@@ -31,7 +31,7 @@ use crate::models::method::{ElementSetup, Method, Model, ModelSetup, SharedModel
 use crate::models::stepper::{RestartState, Stepper, stopped, to_the_end};
 use crate::plan::body_source::BodySource;
 use crate::plan::contact_method::ContactNoiseAdvice;
-use crate::plan::contact_method::unread;
+use crate::plan::contact_method::ignored_method_warning;
 use crate::plan::{Plan, candidate_radius};
 use crate::rejection::Rejection;
 
@@ -76,7 +76,7 @@ impl Method for ExplicitMethod {
 #[derive(Clone, Debug)]
 pub struct Explicit {
     setup: ModelSetup,
-    made: Arc<Made>,
+    made: Arc<RebuildData>,
     /// Frame in which the scene's bodies are computed.
     frame: OwnFrame,
     /// Bodies and contact at the approach of the scene.
@@ -85,7 +85,7 @@ pub struct Explicit {
 
 /// Sources of the bodies.
 #[derive(Clone, Debug)]
-struct Made {
+struct RebuildData {
     scene: Scene,
     settings: Settings,
     /// Element size at the contact, m.
@@ -118,7 +118,7 @@ impl Explicit {
         }
         FiniteStrain::check(scene, &plan.estimate)?;
         let approach = approach_of(scene)?;
-        let made = Made {
+        let made = RebuildData {
             scene: scene.clone(),
             settings: settings(scene, &plan),
             contact_element_size: plan.contact_element_size,
@@ -138,8 +138,8 @@ impl Explicit {
             request: plan.request(),
             estimate: plan.estimate,
             decisions,
-            unread: {
-                let said = unread(scene, bodies.changes_stiffness());
+            unread_key_warnings: {
+                let said = ignored_method_warning(scene, bodies.changes_stiffness());
                 plan.warnings.iter().cloned().chain(said).collect()
             },
             cost,
@@ -211,7 +211,7 @@ impl Explicit {
     }
 }
 
-impl Made {
+impl RebuildData {
     /// Returns the frame in which bodies with this approach are computed.
     fn own_frame(&self, approach: &Approach) -> Result<OwnFrame, ModelError> {
         let masses = frame_of(&self.scene, approach, 0.0).masses;
@@ -296,7 +296,7 @@ impl Model for Explicit {
 
 /// A collision of explicit elements under way: a run that restarts if the contact outgrows the candidate region.
 struct ExplicitStepper {
-    made: Arc<Made>,
+    made: Arc<RebuildData>,
     frame: OwnFrame,
     expected: Expectation,
     /// Time of the run, in seconds.

@@ -62,12 +62,12 @@ fn relaxation(scene: &Scene, estimate: &Estimate) -> Support {
     let reason = relevance.number;
     let has_slow_limit =
         matches!(scene.model(), ModelChoice::Law { law, .. } if law.is_slow_limit());
-    if has_slow_limit && relevance.is_called_for {
+    if has_slow_limit && relevance.is_needed {
         let reason =
             format!("{reason}; the law has its slow limit, relaxed moduli and viscosities");
         return Support::decided(true, reason).warning(slowness(scene, estimate));
     }
-    if !relevance.is_called_for {
+    if !relevance.is_needed {
         return Support::decided(false, reason);
     }
     if scene.effects().viscoelasticity == Some(Switch::On) {

@@ -84,8 +84,8 @@ impl Reduced {
             request: OutputRequest::history(),
             estimate,
             decisions,
-            unread: effects::unread_keys(scene),
-            cost: Cost::Little { force },
+            unread_key_warnings: effects::unread_keys(scene),
+            cost: Cost::ClosedForm { force },
             elements: None,
         };
         Ok(Self { setup, scene: scene.clone(), motion, pair })

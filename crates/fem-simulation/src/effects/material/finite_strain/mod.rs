@@ -66,12 +66,12 @@ const LEAST_RADIUS_OVER_CONTACT: f64 = 3.0;
 impl FiniteStrain {
     /// Returns the laws of both bodies at the strains of an estimate; `None` for a body that is computed at small strain.
     pub fn laws(scene: &Scene, estimate: &Estimate) -> [Option<HyperelasticLaw>; 2] {
-        let is_called_for = is_called_for(scene, estimate);
+        let is_needed = is_needed(scene, estimate);
         let is_finite = |strained: &Strained| match scene.effects().finite_strain {
             Some(Switch::On) => true,
             Some(Switch::Off) => false,
             None | Some(Switch::Auto) => {
-                is_called_for && strained.is_supported() && strained.matters(scene)
+                is_needed && strained.is_supported() && strained.matters(scene)
             }
         };
         let of_both = Strained::of_both(scene, estimate);
@@ -114,7 +114,7 @@ impl FiniteStrain {
         let mut unsupported =
             strained.filter(|strained| !strained.is_supported() && strained.matters(scene));
         let is_open = scene.effects().finite_strain.is_none_or(|switch| switch == Switch::Auto);
-        let is_asked = is_open && is_called_for(scene, estimate);
+        let is_asked = is_open && is_needed(scene, estimate);
         let Some(strained) = unsupported.next().filter(|_| is_asked) else {
             let answer = Self::of_stability(scene, estimate);
             let answer = answer.or_else(|| Self::of_nearness(scene, estimate));
@@ -152,7 +152,7 @@ impl FiniteStrain {
     /// Returns the text for a scene whose laws are expected to lose stability.
     fn of_stability(scene: &Scene, estimate: &Estimate) -> Option<Support> {
         let computed = Self::laws(scene, estimate);
-        if !is_called_for(scene, estimate) || computed == [None; 2] {
+        if !is_needed(scene, estimate) || computed == [None; 2] {
             return None;
         }
         let pressure = estimate.hertz.peak_pressure();
@@ -202,7 +202,7 @@ fn is_forced_on(scene: &Scene) -> bool {
 }
 
 /// Returns whether neglecting it would exceed the case's tolerance, or cannot be estimated.
-fn is_called_for(scene: &Scene, estimate: &Estimate) -> bool {
+fn is_needed(scene: &Scene, estimate: &Estimate) -> bool {
     is_beyond(scene, estimate) || departure(scene, estimate).over(&scene.accuracy()) > 1.0
 }
 
@@ -240,8 +240,8 @@ fn laws_text(scene: &Scene, estimate: &Estimate) -> String {
 impl Effect for FiniteStrain {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let open = error_text(scene, estimate);
-        let is_called_for = is_called_for(scene, estimate);
-        let warning = is_called_for.then(|| {
+        let is_needed = is_needed(scene, estimate);
+        let warning = is_needed.then(|| {
             format!(
                 "the contact radius is {} of the effective radius, where small strain is off by \
                  {open}; explicit elements (model.fem) have finite strain",
@@ -249,7 +249,7 @@ impl Effect for FiniteStrain {
             )
         });
         Some(Relevance {
-            is_called_for,
+            is_needed,
             number: format!(
                 "contact radius / effective radius = {:.3}, law {}{}",
                 estimate.strain,
@@ -320,7 +320,7 @@ impl Effect for FiniteStrain {
         let radius = estimate.hertz.pair().effective_radius();
         let strain = collision.max_contact_radius.unwrap_or_default() / radius;
         let found = Estimate { strain, ..*estimate };
-        let is_larger = !is_called_for(scene, estimate) && is_called_for(scene, &found);
+        let is_larger = !is_needed(scene, estimate) && is_needed(scene, &found);
         let is_small = !Self::is_on(scene, estimate);
         let advice = match scene.model() {
             ModelChoice::Fem => "force finite strain on (effects.finite_strain)",
