@@ -22,7 +22,6 @@
 //! along +y.
 
 mod error;
-mod evaluate;
 mod interface;
 mod moved;
 mod nodal;
@@ -31,10 +30,10 @@ mod pressure;
 mod pressure_recovery;
 mod profile;
 mod slip;
+mod straight_forces;
 mod surface;
 
 pub use error::ContactError;
-pub use evaluate::{ContactForces, SurfaceFold};
 pub use interface::{ContactInterface, ContactPoint};
 pub use moved::MovedInterface;
 pub use nodal::NodalContact;
@@ -43,4 +42,5 @@ pub use pressure_recovery::{
 };
 pub use profile::{Profile, ProfilePoint, facing};
 pub use slip::{Displacement, SlippingGap, SlippingInterface};
+pub use straight_forces::{ContactForces, SurfaceFold};
 pub use surface::{Surface, SurfaceProjection};

@@ -17,8 +17,8 @@
 //! without slip. Areas are those of the undeformed surfaces. Limits: first order in the slope, and slopes of the
 //! arcs up to 1.
 
-use crate::evaluate::ContactForces;
 use crate::interface::{ContactInterface, ContactPoint};
+use crate::straight_forces::ContactForces;
 use crate::surface::SurfaceProjection;
 
 /// Displacement (u_r, u_y) of a node, m.

@@ -388,4 +388,4 @@ impl<'a> ImpactRun<'a> {
     }
 }
 
-mod account;
+mod step_integrals;

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::MovedInterface;
 use super::segment::{Segment, SurfacePoint};
-use crate::evaluate::SurfaceFold;
 use crate::interface::mean_length;
+use crate::straight_forces::SurfaceFold;
 
 /// Gauss points of an interval: offsets from its middle over the half length, and weights.
 pub(super) const GAUSS: [[f64; 2]; 3] =

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::MovedInterface;
 use super::common_refinement::{GAUSS, GaussPoint, Interval};
-use crate::evaluate::ContactForces;
+use crate::straight_forces::ContactForces;
 
 impl MovedInterface {
     /// Adds the contact forces (N) of displacements `u` (m) to `f`; both are given for the lower and

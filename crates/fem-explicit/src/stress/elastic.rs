@@ -11,7 +11,7 @@ use fem_element::{
 
 use super::elements::PackedElements;
 use super::kernel::{Moduli, strain_energy, subtract_internal_forces};
-use super::port::{Collapse, LumpedElement, SmallStrainStress, StrainMeasure, Stress};
+use super::traits::{Collapse, LumpedElement, SmallStrainStress, StrainMeasure, Stress};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// The elements of a body and their moduli. Relaxing bodies build on it.

@@ -1,7 +1,7 @@
 //! The stress of a body, from its motion.
 //!
 //! ```text
-//! port           what a step asks of a stress
+//! traits         what a step asks of a stress
 //! elastic        Hooke's law at small strain
 //! prony          linear viscoelasticity at small strain, one nodal field per term
 //! kernel         element loops of small strain: forces and strain energy
@@ -16,9 +16,9 @@ mod elements;
 mod finite;
 mod kernel;
 mod partly_finite;
-mod port;
 mod prony;
 mod rows;
+mod traits;
 
 use fem_element::QuadGeometry;
 use fem_material::finite::HyperelasticLaw;
@@ -31,11 +31,11 @@ use elements::PackedElements;
 pub use finite::MOST_FINITE_STRAIN_TERMS;
 pub(crate) use kernel::Moduli;
 use partly_finite::finite_strain_within;
-pub use port::Collapse;
-pub(crate) use port::{
+use prony::{AllModuliRelax, LinearViscoelastic, ShearRelaxes};
+pub use traits::Collapse;
+pub(crate) use traits::{
     FiniteStrainStress, LumpedElement, SmallStrainStress, StrainMeasure, Stress, UnstableElement,
 };
-use prony::{AllModuliRelax, LinearViscoelastic, ShearRelaxes};
 
 /// The law of a body at finite strain.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -19,11 +19,11 @@ use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
 use super::finite::finite_strain;
-use super::port::{
+use super::small_strain;
+use super::traits::{
     Collapse, FiniteStrainStress, LumpedElement, SmallStrainStress, StrainMeasure, Stress,
     UnstableElement,
 };
-use super::small_strain;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// The stress of a body of which some elements are at finite strain. Its history is that of the near elements, of

@@ -26,7 +26,7 @@ use super::elastic::Elastic;
 use super::kernel::{
     Moduli, strain_energy, subtract_internal_forces, subtract_split_internal_forces,
 };
-use super::port::{Collapse, LumpedElement, SmallStrainStress, StrainMeasure, Stress};
+use super::traits::{Collapse, LumpedElement, SmallStrainStress, StrainMeasure, Stress};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// The part of the stress that relaxes.

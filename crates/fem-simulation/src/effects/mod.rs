@@ -12,7 +12,7 @@
 //! restored, so methods with meshes call it themselves. [`EFFECTS`] lists all effects.
 
 mod bodies;
-mod effect;
+mod decision;
 mod material;
 mod numerics;
 pub(crate) mod ting_prediction;
@@ -24,17 +24,17 @@ use serde::Serialize;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
-pub(crate) use effect::computed_scene::ComputedScene;
-pub use effect::computed_scene::TransformedScene;
-pub use effect::neglect_error::{EffectStatus, NeglectError};
-pub use effect::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
-pub use effect::support::Support;
-pub use effect::{
+pub(crate) use decision::computed_scene::ComputedScene;
+pub use decision::computed_scene::TransformedScene;
+pub use decision::neglect_error::{EffectStatus, NeglectError};
+pub use decision::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
+pub use decision::support::Support;
+pub use decision::{
     BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, FiniteSizeEffect, FiniteStrain,
     Gravity, HourglassControl, MassScaling, MirrorSymmetry, NamedEffect, PartnerWaves,
     PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
-pub(crate) use effect::{effect_named, is_needed};
+pub(crate) use decision::{effect_named, is_needed};
 
 /// The decision on one effect, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -3,9 +3,9 @@
 use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use crate::effects::effect::computed_scene::ComputedScene;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::{NamedEffect, PartnerWaves};
+use crate::effects::decision::computed_scene::ComputedScene;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::{NamedEffect, PartnerWaves};
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, surfaces_slip, ting_of};
 use crate::estimate::semi_infinite_partner::radiating_impact;

@@ -6,7 +6,7 @@ use fem_element::QuadGeometry;
 use fem_material::finite::AxisymmetricTensor;
 use fem_mesh::SphereMesh;
 
-use super::super::port::Collapse;
+use super::super::traits::Collapse;
 use crate::lanes::{Lanes, WIDE};
 use crate::part::Field;
 

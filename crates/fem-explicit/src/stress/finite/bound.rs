@@ -14,7 +14,7 @@
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
 
-use super::super::port::LumpedElement;
+use super::super::traits::LumpedElement;
 use super::block::{Block, Blocks, Numbers, place};
 use super::internal_variables::{self, InternalVariables};
 use super::kernel::{Conjugate, Deformation};

@@ -49,7 +49,7 @@ use fem_material::finite::{
 };
 use fem_mesh::SphereMesh;
 
-use super::port::{
+use super::traits::{
     Collapse, FiniteStrainStress, LumpedElement, StrainMeasure, Stress, UnstableElement,
 };
 use crate::part::{Accounts, Field, Motion, NodalField, Part};

@@ -3,7 +3,7 @@
 
 use fem_material::finite::{AxisymmetricTensor, Inverted, least_acoustic_stiffness};
 
-use super::super::port::UnstableElement;
+use super::super::traits::UnstableElement;
 use super::ElementResponse;
 use super::block::Blocks;
 use crate::part::{Field, NodalField};

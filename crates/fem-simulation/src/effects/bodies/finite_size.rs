@@ -3,12 +3,12 @@
 use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
 
-use crate::effects::effect::computed_scene::ComputedScene;
-use crate::effects::effect::neglect_error::EffectStatus;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::percent;
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, FiniteSizeEffect, Vibration};
+use crate::effects::decision::computed_scene::ComputedScene;
+use crate::effects::decision::neglect_error::EffectStatus;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::percent;
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, FiniteSizeEffect, Vibration};
 use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;

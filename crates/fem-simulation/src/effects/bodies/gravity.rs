@@ -14,9 +14,9 @@
 use fem_case::Scene;
 use fem_case::engineering::number;
 
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::Relevance;
-use crate::effects::effect::{Effect, Gravity};
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::{Effect, Gravity};
 use crate::estimate::Estimate;
 
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.

@@ -10,12 +10,12 @@ use fem_laws::{HertzImpact, Ting, radiated_share};
 use fem_material::Material;
 
 use crate::effects::bodies::vibration::ENOUGH_MODES;
-use crate::effects::effect::computed_scene::ComputedScene;
-use crate::effects::effect::neglect_error::EffectStatus;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::{Relevance, percent};
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, NamedEffect, PartnerWaves};
+use crate::effects::decision::computed_scene::ComputedScene;
+use crate::effects::decision::neglect_error::EffectStatus;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, NamedEffect, PartnerWaves};
 use crate::effects::ting_prediction::{TingPrediction, relaxes};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{EffectiveModuli, left_at};

@@ -8,12 +8,12 @@
 use fem_case::engineering;
 use fem_case::{Body, Scene, Switch};
 
-use crate::effects::effect::computed_scene::TransformedScene;
-use crate::effects::effect::neglect_error::EffectStatus;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::Relevance;
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, NamedEffect, RigidPartner};
+use crate::effects::decision::computed_scene::TransformedScene;
+use crate::effects::decision::neglect_error::EffectStatus;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, NamedEffect, RigidPartner};
 use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;

@@ -12,10 +12,10 @@ use fem_case::engineering::number;
 use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{RelativeError, SlipSurface, SurfaceSlip as Slip};
 
-use crate::effects::effect::neglect_error::EffectStatus;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::{Relevance, percent};
-use crate::effects::effect::{Effect, NamedEffect, SurfaceSlip};
+use crate::effects::decision::neglect_error::EffectStatus;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::{Effect, NamedEffect, SurfaceSlip};
 use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;

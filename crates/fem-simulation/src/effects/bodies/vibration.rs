@@ -5,11 +5,11 @@
 use fem_case::{Body, Scene};
 use fem_collision::Collision;
 
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
-use crate::effects::effect::relevance::{Relevance, percent};
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, PartnerWaves, Vibration};
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
+use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, PartnerWaves, Vibration};
 use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::left_at;

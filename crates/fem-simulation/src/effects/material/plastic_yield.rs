@@ -8,9 +8,9 @@ use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::{Relevance, percent};
-use crate::effects::effect::{Effect, PlasticYield};
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::{Effect, PlasticYield};
 use crate::estimate::Estimate;
 
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do not yield: 1/32 for

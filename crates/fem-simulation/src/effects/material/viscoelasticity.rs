@@ -7,11 +7,11 @@ use fem_case::{Body, Scene, Switch};
 use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
-use crate::effects::effect::computed_scene::TransformedScene;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::{Relevance, percent};
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, NamedEffect, Viscoelasticity};
+use crate::effects::decision::computed_scene::TransformedScene;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, NamedEffect, Viscoelasticity};
 use crate::effects::ting_prediction::change_between;
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};

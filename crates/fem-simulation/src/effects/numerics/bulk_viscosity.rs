@@ -20,11 +20,11 @@
 use fem_case::{Body, ContactMethod, Scene, Switch, defaults};
 use fem_material::Material;
 
-use crate::effects::effect::neglect_error::EffectStatus;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::Relevance;
-use crate::effects::effect::relevance::{MACH_LIMIT, above, number};
-use crate::effects::effect::{BulkViscosity, Effect, FiniteStrain};
+use crate::effects::decision::neglect_error::EffectStatus;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::relevance::{MACH_LIMIT, above, number};
+use crate::effects::decision::{BulkViscosity, Effect, FiniteStrain};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 

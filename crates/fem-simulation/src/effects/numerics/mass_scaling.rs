@@ -10,9 +10,9 @@ use fem_case::{Body, Scene};
 use fem_collision::Collision;
 use fem_material::{Material, PronySeries};
 
-use crate::effects::effect::relevance::percent;
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, MassScaling};
+use crate::effects::decision::relevance::percent;
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, MassScaling};
 use crate::estimate::Estimate;
 
 /// Largest moved mass over the lighter body's mass; at 1 % the error of the peak force is up to half of that.

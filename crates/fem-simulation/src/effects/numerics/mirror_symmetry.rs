@@ -12,10 +12,10 @@
 
 use fem_case::{Scene, Switch};
 
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::Relevance;
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, MirrorSymmetry};
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, MirrorSymmetry};
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 

@@ -8,9 +8,9 @@ use fem_case::Scene;
 use fem_case::engineering::show;
 use fem_collision::{CandidateRegion, Collision};
 
-use super::effect::neglect_error::NeglectError;
-use super::effect::support::Support;
-use super::effect::{ContactSearch, DashpotEffect, Effect, HourglassControl, PenaltySprings};
+use super::decision::neglect_error::NeglectError;
+use super::decision::support::Support;
+use super::decision::{ContactSearch, DashpotEffect, Effect, HourglassControl, PenaltySprings};
 use crate::estimate::Estimate;
 
 impl Effect for DashpotEffect {}

@@ -6,7 +6,7 @@ use std::ops::{Add, Mul};
 use fem_case::Accuracy;
 use fem_material::finite::HyperelasticLaw;
 
-use crate::effects::effect::relevance::percent;
+use crate::effects::decision::relevance::percent;
 
 use super::measured::{CHANGES, POISSONS_RATIOS, STRAINS};
 

@@ -30,11 +30,11 @@ use fem_material::finite::HyperelasticLaw;
 
 use self::departure::Departure;
 use self::strained::Strained;
-use crate::effects::effect::neglect_error::EffectStatus;
-use crate::effects::effect::neglect_error::NeglectError;
-use crate::effects::effect::relevance::{Relevance, percent};
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{Effect, FiniteStrain, PartnerWaves};
+use crate::effects::decision::neglect_error::EffectStatus;
+use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, FiniteStrain, PartnerWaves};
 use crate::effects::ting_prediction::relaxed_loss;
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;

@@ -2,8 +2,8 @@
 
 use fem_case::Scene;
 
-use crate::effects::effect::support::Support;
-use crate::effects::effect::{EFFECTS, effect_named};
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{EFFECTS, effect_named};
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 

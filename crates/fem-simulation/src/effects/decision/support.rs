@@ -2,7 +2,7 @@
 
 use fem_case::Switch;
 
-use crate::effects::effect::relevance::Relevance;
+use crate::effects::decision::relevance::Relevance;
 
 /// A model's support for an effect.
 #[derive(Clone, Debug, PartialEq)]
