@@ -10,28 +10,6 @@ const ELEMENTS: f64 = 5.0;
 const PENALTY: f64 = 5.0;
 const MODES: usize = 12;
 
-<<<<<<< HEAD
-=======
-fn run_explicit(scene: &Scene) -> Collision {
-    let hertz = scene.hertz();
-    let settings = Settings {
-        contact_stiffness: PENALTY * scene.pair().contact_modulus(),
-        candidate_radius: 1.5 * hertz.max_contact_radius(),
-        step_factor: 0.9,
-        // 3e-5 of the mass moves T by as much.
-        mass_scaling: 3e-5,
-        mass_times: [1.0; 2],
-    };
-    let model =
-        ExplicitBodies::new(scene.inputs(ELEMENTS), Approach::at(scene.speed).unwrap(), &settings)
-            .unwrap();
-    let expected =
-        Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let request = OutputRequest { max_contact_times: 20.0, ..OutputRequest::history() };
-    fem_explicit::collide(&model, expected, &request, &mut ())
-}
-
->>>>>>> f1fc711f (Output requests are set, costs are element updates, warnings are added: names that say what they do)
 /// Width of a pulse where the relative velocity passes half of its change on the way in and out:
 /// the velocity is an integral, and the width free of the noise at first and last touch.
 fn width(rows: impl Iterator<Item = (f64, f64)>, restitution: f64, speed: f64) -> f64 {
