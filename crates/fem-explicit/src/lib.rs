@@ -38,7 +38,7 @@
 //! ```
 //!
 //! A part declares the fields of history that it needs. The run keeps them beside displacement and velocity, in a
-//! [`RestartState`]. A part adds the energies that it stores, gives and dissipates to [`Accounts`], which the ledger
+//! [`RunState`]. A part adds the energies that it stores, gives and dissipates to [`Accounts`], which the ledger
 //! balances. A part that is switched off is absent: an elastic body has no history, and an empty list costs nothing.
 //!
 //! A rigid sphere is a body of one node that carries its mass, without stress and elements: the contact adds its forces
@@ -91,7 +91,7 @@ pub use free_motion::FreeMotion;
 pub use lanes::limit_lanes;
 pub use model::{ExplicitBodies, Parts};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
-pub use run::{RestartState, Run, collide};
+pub use run::{Run, RunState, collide};
 pub use settings::Settings;
 pub use snapshots::n_states;
 pub use stress::{Collapse, MOST_FINITE_STRAIN_TERMS};

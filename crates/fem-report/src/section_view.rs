@@ -19,9 +19,10 @@ const DEPTH: f64 = 0.85;
 const DEPTH_BESIDE_RIGID: f64 = 1.1;
 /// Depth to which a rigid body is drawn.
 const DEPTH_OF_RIGID: f64 = 0.15;
-/// A body narrower than this many half widths is shown whole, with this room around it.
-pub(crate) const WHOLE: f64 = 1.7;
-const ROOM: f64 = 1.06;
+/// A body narrower than this many half widths is shown whole, with this margin around it.
+pub(crate) const HALF_WIDTHS_OF_WHOLE_BODY: f64 = 1.7;
+/// Half widths over the radius of a body that is shown whole.
+const MARGIN_FACTOR: f64 = 1.06;
 /// Largest height of a window over its width.
 const TALLEST: f64 = 1.25;
 /// Largest distance of an outline from the curve that it stands for, over the width of the window.
@@ -52,10 +53,12 @@ impl SectionWindow {
         };
         let [lower, upper] = [0, 1].map(|side: usize| {
             let width = largest(side, 0);
-            (width > 0.0).then(|| (width, (width < WHOLE * near).then(|| largest(side, 1))))
+            (width > 0.0).then(|| {
+                (width, (width < HALF_WIDTHS_OF_WHOLE_BODY * near).then(|| largest(side, 1)))
+            })
         });
         let widths = [lower, upper].into_iter().flatten().map(|(width, whole)| match whole {
-            Some(_) => ROOM * width,
+            Some(_) => MARGIN_FACTOR * width,
             None => near,
         });
         let half_width = widths.fold(0.0, f64::max);
@@ -63,7 +66,7 @@ impl SectionWindow {
         let depth = if is_beside_rigid { DEPTH_BESIDE_RIGID } else { DEPTH };
         let depths = [lower, upper].map(|body| match body {
             None => DEPTH_OF_RIGID * half_width,
-            Some((_, Some(height))) => ROOM * height,
+            Some((_, Some(height))) => MARGIN_FACTOR * height,
             Some((_, None)) => depth * half_width,
         });
         let tall = (depths[0] + depths[1]) / (2.0 * TALLEST);

@@ -10,13 +10,13 @@ use fem_collision::{Monitor, OutputRequest, Phase, Progress};
 use indicatif::HumanCount;
 
 /// Least time for which steps are timed.
-const PATIENCE: Duration = Duration::from_millis(1);
-/// Least number of reports for which they are timed, within [`PATIENCE_WITH_REPORTS`].
-const REPORTS: u32 = 5;
+const LEAST_TIMING: Duration = Duration::from_millis(1);
+/// Least number of reports for which they are timed, within [`LONGEST_TIMING`].
+const LEAST_REPORTS: u32 = 5;
 /// Longest time for which they are timed.
-const PATIENCE_WITH_REPORTS: Duration = Duration::from_millis(50);
+const LONGEST_TIMING: Duration = Duration::from_millis(50);
 /// Longest time for which steps of condensed bodies are timed.
-const PATIENCE_WITH_CONDENSED: Duration = Duration::from_millis(20);
+const LONGEST_TIMING_OF_CONDENSED: Duration = Duration::from_millis(20);
 /// Share of the collision after which their timing ends.
 const SHARE_OF_CONDENSED: f64 = 0.2;
 /// Time to compute the fields of a snapshot over the time to make condensed bodies: 0.08 for elastic ones,
@@ -139,7 +139,7 @@ fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
     let (mut fewest, mut before) = (None, (Duration::ZERO, 0));
     let mut n_reports = 0;
     let goes_on = |spent: Duration, n_reports: u32| {
-        spent < PATIENCE || (n_reports < REPORTS && spent < PATIENCE_WITH_REPORTS)
+        spent < LEAST_TIMING || (n_reports < LEAST_REPORTS && spent < LONGEST_TIMING)
     };
     while goes_on(begin.elapsed(), n_reports) && stepper.advance(&mut ()) {
         let now = (begin.elapsed(), stepper.progress().step);
@@ -195,7 +195,8 @@ impl Monitor for Patient {
         let spent = self.begin.elapsed();
         self.seen = (spent.as_secs_f64(), progress.fraction);
         let is_enough = progress.fraction >= SHARE_OF_CONDENSED;
-        self.is_over = is_enough || (spent > PATIENCE_WITH_CONDENSED && progress.fraction > 0.0);
+        self.is_over =
+            is_enough || (spent > LONGEST_TIMING_OF_CONDENSED && progress.fraction > 0.0);
         !self.is_over
     }
 }

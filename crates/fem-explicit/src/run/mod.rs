@@ -40,7 +40,7 @@ pub(crate) use current_critical_step::step_demand;
 use outcome::outcome;
 #[cfg(test)]
 pub(crate) use phases::{advance, update_forces, update_time_step};
-pub use restart_state::RestartState;
+pub use restart_state::RunState;
 use step::{record_stop, step};
 
 /// Runs a model from first touch until the force has been zero for a fifth of the contact time and the bodies recede.
@@ -58,7 +58,7 @@ pub fn collide(
     run.finish()
 }
 
-/// A run under way. Between two calls of [`Run::advance`] its [`RestartState`] is all that the rest of the run depends on.
+/// A run under way. Between two calls of [`Run::advance`] its [`RunState`] is all that the rest of the run depends on.
 ///
 /// It borrows or shares its model: `M` is `&ExplicitBodies` or `Arc<ExplicitBodies>`.
 ///
@@ -102,7 +102,7 @@ pub fn collide(
 #[derive(Debug)]
 pub struct Run<M> {
     model: M,
-    pub(crate) restart_state: RestartState,
+    pub(crate) restart_state: RunState,
     scratch: Scratch,
     probing: Probing,
 }
@@ -110,7 +110,7 @@ pub struct Run<M> {
 impl<M: Deref<Target = ExplicitBodies>> Run<M> {
     /// Starts a run at first touch.
     pub fn new(model: M, expected: Expectation, request: &OutputRequest) -> Self {
-        let restart_state = RestartState::new(&model, expected, request);
+        let restart_state = RunState::new(&model, expected, request);
         let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, request));
         Self { model, restart_state, scratch, probing }
     }
@@ -120,7 +120,7 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
     /// # Errors
     /// The restart state belongs to another model or version (other meshes, masses, materials, forces, contact, approach or
     /// time step), or its parts contradict each other.
-    pub fn resume(model: M, restart_state: RestartState) -> Result<Self, ModelError> {
+    pub fn resume(model: M, restart_state: RunState) -> Result<Self, ModelError> {
         if !restart_state.fits(&model) {
             return Err(ModelError::ForeignRestartState);
         }
@@ -135,13 +135,13 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
     }
 
     /// Returns all that a restart needs.
-    pub fn restart_state(&self) -> &RestartState {
+    pub fn restart_state(&self) -> &RunState {
         &self.restart_state
     }
 
     /// Returns the progress of the run.
     pub fn progress(&self) -> Progress {
-        let RestartState { state, log, expected, .. } = &self.restart_state;
+        let RunState { state, log, expected, .. } = &self.restart_state;
         let length = (1.0 + POST_CONTACT_FRACTION) * expected.contact_time;
         let elapsed = state.time - self.model.approach().first_touch();
         Progress {
@@ -175,7 +175,7 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
 
 /// Takes up to `n_steps` steps of a run that has not ended; compiled once for all holders of a model.
 fn advance_run(
-    run: &mut RestartState,
+    run: &mut RunState,
     model: &ExplicitBodies,
     scratch: &mut Scratch,
     probing: &mut Probing,

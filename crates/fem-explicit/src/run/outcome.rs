@@ -6,13 +6,13 @@ use fem_collision::{
 use fem_material::Material;
 use fem_material::engineering::show;
 
-use super::restart_state::RestartState;
+use super::restart_state::RunState;
 use crate::body::Body;
 use crate::model::ExplicitBodies;
 
 /// Returns the collision of a run with its ending.
-pub(super) fn outcome(model: &ExplicitBodies, run: RestartState, ending: Ending) -> Collision {
-    let RestartState {
+pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> Collision {
+    let RunState {
         state,
         log,
         ledger,

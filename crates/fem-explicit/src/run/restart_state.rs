@@ -13,7 +13,7 @@ use crate::state::State;
 
 /// The state of a run between two steps, for a restart. A run that is resumed from it gives the same bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RestartState {
+pub struct RunState {
     pub(crate) state: State,
     pub(crate) log: ContactLog,
     pub(crate) ledger: Ledger,
@@ -40,7 +40,7 @@ pub struct RestartState {
     candidate_radius: f64,
 }
 
-impl RestartState {
+impl RunState {
     /// Returns the state at first touch.
     pub(crate) fn new(
         model: &ExplicitBodies,

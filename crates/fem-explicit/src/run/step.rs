@@ -4,7 +4,7 @@ use fem_collision::{Ending, RowKind, StepInstant, Stop};
 use fem_contact::ContactForces;
 
 use super::phases::{advance, is_closed_next, update_forces, update_time_step};
-use super::restart_state::RestartState;
+use super::restart_state::RunState;
 use super::stops::{Fault, stop_of_growth, stop_of_turn};
 use crate::energy::held_by;
 use crate::model::ExplicitBodies;
@@ -17,7 +17,7 @@ use crate::state::Scratch;
 /// # Errors
 /// The run has to stop.
 pub(super) fn step(
-    run: &mut RestartState,
+    run: &mut RunState,
     model: &ExplicitBodies,
     scratch: &mut Scratch,
     probing: &mut Probing,
@@ -39,7 +39,7 @@ pub(super) fn step(
 }
 
 /// Returns the stop of a run that cannot take a step: a material instability, if a collapse follows from one.
-fn stop_of_fault(run: &mut RestartState, model: &ExplicitBodies, fault: Fault) -> Stop {
+fn stop_of_fault(run: &mut RunState, model: &ExplicitBodies, fault: Fault) -> Stop {
     let unstable = matches!(fault, Fault::Collapsed(_))
         .then(|| run.stability.stop_of_collapse(model, &run.state));
     unstable.flatten().unwrap_or_else(|| fault.stop(model, &run.state))
@@ -47,7 +47,7 @@ fn stop_of_fault(run: &mut RestartState, model: &ExplicitBodies, fault: Fault) -
 
 /// Changes the time step where that is due; impulses up to half a step before t_n change with it.
 fn control_time_step(
-    run: &mut RestartState,
+    run: &mut RunState,
     model: &ExplicitBodies,
     scratch: &mut Scratch,
     force: f64,
@@ -64,12 +64,12 @@ fn control_time_step(
 
 /// Enters the contact into the log. Returns what the next phases need of this instant.
 fn observe_contact(
-    run: &mut RestartState,
+    run: &mut RunState,
     model: &ExplicitBodies,
     scratch: &Scratch,
     contact: &ContactForces,
 ) -> Instant {
-    let RestartState { state, log, sampled, .. } = run;
+    let RunState { state, log, sampled, .. } = run;
     let is_closed = contact.n_closed > 0;
     let is_first_contact = is_closed && log.first_contact.is_none();
     let is_last_contact = is_closed
@@ -93,7 +93,7 @@ fn observe_contact(
 /// Balances the energy of sampled instants, feeds all that is derived from them, and writes a row of the history where
 /// one is due. Finds out whether the bodies stay together.
 fn sample(
-    run: &mut RestartState,
+    run: &mut RunState,
     model: &ExplicitBodies,
     scratch: &Scratch,
     probing: &mut Probing,
@@ -102,7 +102,7 @@ fn sample(
 ) -> Result<(), Stop> {
     let kind = row_kind(contact, *instant);
     let is_landmark = kind != RowKind::Regular;
-    let RestartState { state, ledger, sampled, history, probes, last_valid, stability, .. } = run;
+    let RunState { state, ledger, sampled, history, probes, last_valid, stability, .. } = run;
     let step = state.step;
     let mut history = history.as_mut().filter(|history| is_landmark || history.is_due(step));
     if is_landmark || sampled.is_due(step) {
@@ -147,7 +147,7 @@ fn row_kind(contact: &ContactForces, instant: Instant) -> RowKind {
 /// # Errors
 /// The run has to stop.
 fn ending(
-    run: &RestartState,
+    run: &RunState,
     model: &ExplicitBodies,
     contact: &ContactForces,
     instant: Instant,
@@ -181,12 +181,12 @@ fn ending(
 
 /// Moves the bodies to the next instant, and counts the impulses of the step.
 fn move_on(
-    run: &mut RestartState,
+    run: &mut RunState,
     model: &ExplicitBodies,
     scratch: &mut Scratch,
     contact: &ContactForces,
 ) {
-    let RestartState { state, log, ledger, .. } = run;
+    let RunState { state, log, ledger, .. } = run;
     let time_step = state.time_step(model);
     ledger.push(model, scratch, contact.force, time_step);
     log.advance(model, scratch, time_step);
@@ -197,8 +197,8 @@ fn move_on(
 
 /// Records the state in which a run has stopped: it ends the samples and the history, and is the last valid state if
 /// its energy adds up.
-pub(super) fn record_stop(run: &mut RestartState, model: &ExplicitBodies, scratch: &mut Scratch) {
-    let RestartState { state, log, ledger, sampled, history, last_valid, .. } = run;
+pub(super) fn record_stop(run: &mut RunState, model: &ExplicitBodies, scratch: &mut Scratch) {
+    let RunState { state, log, ledger, sampled, history, last_valid, .. } = run;
     if let Ok(contact) = update_forces(model, state, scratch) {
         if sampled.last.is_none_or(|row| row.time < state.time) {
             let row = ledger.balance(model, state, scratch, &contact);

@@ -285,7 +285,7 @@ fn a_restart_state_with_nan_or_another_approach_is_refused() {
     let model = model();
     let mut run = Run::new(&model, EXPECTED, &request(COUNT));
     run.advance(100);
-    type Damage = (&'static str, fn(&mut RestartState));
+    type Damage = (&'static str, fn(&mut RunState));
     let damages: [Damage; 4] = [
         ("nothing", |_| ()),
         ("time", |state| state.state.time = f64::NAN),

@@ -4,8 +4,8 @@ use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, StepInstant, Stop,
 };
 use fem_explicit::{
-    Contact, ExplicitBodies, FreeMotion, ModelError, MovedContact, Parts, RestartState, Run,
-    Settings, collide,
+    Contact, ExplicitBodies, FreeMotion, ModelError, MovedContact, Parts, Run, RunState, Settings,
+    collide,
 };
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -217,7 +217,7 @@ fn time_step_follows_the_critical_step_and_resumes_to_the_bit() {
     let mut steps = Vec::new();
     let resumed = loop {
         let bytes = postcard::to_stdvec(&saved).unwrap();
-        let stored: RestartState = postcard::from_bytes(&bytes).unwrap();
+        let stored: RunState = postcard::from_bytes(&bytes).unwrap();
         let mut run = Run::resume(&model, stored).unwrap();
         let has_ended = run.advance(20).is_some();
         steps.push((run.restart_state().time() - saved.time()) / 20.0 / model.time_step());

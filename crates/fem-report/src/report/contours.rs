@@ -8,7 +8,9 @@ use fem_vtk::{Numbers, VtuFile};
 
 use super::pressure_chart::instant_name;
 use super::stored_result::{FieldFile, StoredResult};
-use crate::section_view::{SectionWindow, WHOLE, centre, contour_of_frames, half_width};
+use crate::section_view::{
+    HALF_WIDTHS_OF_WHOLE_BODY, SectionWindow, centre, contour_of_frames, half_width,
+};
 
 /// Distance from the axis and from the pole up to which elements are kept, over the window's half width.
 const KEPT: f64 = 2.5;
@@ -61,10 +63,10 @@ pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Co
 
 /// Returns the names of the bodies, shortened to the room beside an axis.
 fn short_names(result: &StoredResult) -> Vec<String> {
-    const MOST: usize = 14;
+    const MOST_LETTERS: usize = 14;
     let short = |name: String| match name.chars().count() {
-        0..=MOST => name,
-        _ => name.chars().take(MOST - 1).chain(['\u{2026}']).collect(),
+        0..=MOST_LETTERS => name,
+        _ => name.chars().take(MOST_LETTERS - 1).chain(['\u{2026}']).collect(),
     };
     result.body_names().into_iter().map(short).collect()
 }
@@ -127,7 +129,7 @@ fn bodies(file: &VtuFile, near: f64) -> Option<[BodyPart; 2]> {
         let heights = quads.iter().flat_map(|quad| quad.iter()).map(|p| sign * place(*p)[1]);
         let pole = heights.fold(f64::NEG_INFINITY, f64::max);
         let width = quads.iter().flat_map(|quad| quad.iter()).map(|p| place(*p)[0]);
-        let is_whole = width.fold(0.0, f64::max) < WHOLE * near;
+        let is_whole = width.fold(0.0, f64::max) < HALF_WIDTHS_OF_WHOLE_BODY * near;
         let is_near = |quad: &&[u32; 4]| {
             quad.iter().any(|point| {
                 let [r, y] = place(*point);

@@ -9,7 +9,7 @@ use super::curves::SweepCurve;
 use crate::quantity_axis::QuantityAxis;
 
 /// Smaller errors are rounding and noise; they are drawn here.
-const LEAST: f64 = 1e-6;
+const LEAST_DRAWN_ERROR: f64 = 1e-6;
 /// Smallest ratio of errors that an axis spans.
 const LEAST_RATIO: f64 = 10.0;
 /// Most orders that a title lists one by one.
@@ -76,7 +76,7 @@ impl ConvergingCurve {
         // The finest level is the reference and has no error.
         let estimated = levels.iter().filter(|(h, _)| found.is_extrapolated || *h > sizes[0]);
         let error = |(h, q): &(f64, f64)| {
-            (resolution.of_value(*h), ((q - found.limit).abs() / scale).max(LEAST))
+            (resolution.of_value(*h), ((q - found.limit).abs() / scale).max(LEAST_DRAWN_ERROR))
         };
         let mut errors: Vec<(f64, f64)> = estimated.map(error).collect();
         errors.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -94,7 +94,7 @@ impl ConvergingCurve {
         let reference = if self.found.is_extrapolated { 0.0 } else { finest };
         let error = |x: f64| (power(x) - reference) / self.scale;
         let places = self.errors.iter().map(|(x, _)| (*x, error(*x)));
-        places.filter(|(_, error)| *error >= LEAST).collect()
+        places.filter(|(_, error)| *error >= LEAST_DRAWN_ERROR).collect()
     }
 
     /// Returns the extrapolated limit over the key's values; empty if the limit is the finest member itself.
@@ -115,9 +115,13 @@ pub fn convergence_chart(
     coloured: &dyn Fn(Line, usize) -> Line,
 ) -> Chart {
     let all = || converging.iter().flatten();
-    let largest = all().flat_map(|one| &one.errors).map(|(_, error)| *error).fold(LEAST, f64::max);
+    let largest = all()
+        .flat_map(|one| &one.errors)
+        .map(|(_, error)| *error)
+        .fold(LEAST_DRAWN_ERROR, f64::max);
     let smallest = all().flat_map(|one| &one.errors).map(|(_, error)| *error);
-    let smallest = smallest.fold(f64::INFINITY, f64::min).min(largest / LEAST_RATIO).max(LEAST);
+    let smallest =
+        smallest.fold(f64::INFINITY, f64::min).min(largest / LEAST_RATIO).max(LEAST_DRAWN_ERROR);
     let words = column_words(column);
     let against = if all().any(|one| one.found.is_extrapolated) { "limit" } else { "finest" };
     let label = match column {
@@ -151,8 +155,8 @@ pub fn convergence_chart(
 /// Returns the title of a panel: the quantity and its observed orders.
 fn title(words: &str, converging: &[Option<ConvergingCurve>]) -> String {
     let all = || converging.iter().flatten();
-    if all().all(|one| one.errors.iter().all(|(_, error)| *error <= LEAST)) {
-        return format!("{words}: all within {LEAST:e}");
+    if all().all(|one| one.errors.iter().all(|(_, error)| *error <= LEAST_DRAWN_ERROR)) {
+        return format!("{words}: all within {LEAST_DRAWN_ERROR:e}");
     }
     let mut orders: Vec<ObservedOrder> = all().filter_map(|one| one.found.order).collect();
     orders.sort_by(|a, b| a.order.total_cmp(&b.order));

@@ -11,7 +11,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use crate::forecast::Forecast;
 
 /// Time for reference runs that find the mesh of a member.
-const PATIENCE: Duration = Duration::from_millis(500);
+const TIME_FOR_REFERENCE_RUNS: Duration = Duration::from_millis(500);
 
 /// Members that are forecast, spread from the most expensive to the cheapest of those left.
 const N_SAMPLES: usize = 12;
@@ -86,7 +86,7 @@ fn seconds_of(case: Case, are_shared: bool) -> Option<[f64; 2]> {
     let making = begin.elapsed().as_secs_f64();
     let mut estimator = ErrorEstimator::default();
     let RefinedBeforeRun { simulation, is_open } =
-        estimator.refine_before_run(simulation, || begin.elapsed() < PATIENCE);
+        estimator.refine_before_run(simulation, || begin.elapsed() < TIME_FOR_REFERENCE_RUNS);
     let setup = begin.elapsed().as_secs_f64();
     let is_made_before = are_shared && matches!(simulation.setup().cost, Cost::Factors { .. });
     let (making, setup) = if is_made_before { (0.0, 0.0) } else { (making, setup) };

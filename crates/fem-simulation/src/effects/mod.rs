@@ -24,10 +24,10 @@ use serde::Serialize;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
-pub(crate) use decision::computed_scene::ComputedScene;
-pub use decision::computed_scene::TransformedScene;
 pub use decision::neglect_error::{EffectStatus, NeglectError};
 pub use decision::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
+pub(crate) use decision::simplified_scene::SimplifiedScene;
+pub use decision::simplified_scene::TransformedScene;
 pub use decision::support::Support;
 pub use decision::{
     BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, FiniteSizeEffect, FiniteStrain,

@@ -3,8 +3,8 @@
 use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use crate::effects::decision::computed_scene::ComputedScene;
 use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::{NamedEffect, PartnerWaves};
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, surfaces_slip, ting_of};
@@ -70,7 +70,7 @@ impl TingPrediction {
 /// Returns the difference between two scenes at the same approach speed (m/s), after all transformations. Waves are
 /// left out where they are more than a correction; all is `None` where Ting's model has no solution.
 pub(super) fn change_between(with: &Scene, without: &Scene, speed: f64) -> NeglectError {
-    let [with, without] = [with, without].map(ComputedScene::quiet);
+    let [with, without] = [with, without].map(SimplifiedScene::quiet);
     let Some((with, without)) = with.zip(without) else { return NeglectError::default() };
     let change = |with: &Scene, without: &Scene, size: bool| {
         let [with, without] = [with, without].map(|scene| TingPrediction::of(scene, speed, size));

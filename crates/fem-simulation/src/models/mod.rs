@@ -14,7 +14,7 @@ pub(crate) mod stepper;
 use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
-use crate::effects::ComputedScene;
+use crate::effects::SimplifiedScene;
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
@@ -47,7 +47,7 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
 /// # Errors
 /// A scene that an effect or the method rejects.
 pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-    let ComputedScene { scene: computed, supports } = ComputedScene::of(scene)?;
+    let SimplifiedScene { scene: computed, supports } = SimplifiedScene::of(scene)?;
     let computed = SelectedModel::of(&computed)?.scene;
     let model = method_of(&computed).build(&computed, shared)?;
     let model = match scene.gravity() {
@@ -66,7 +66,7 @@ pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, 
 /// A scene that an effect rejects, or whose closed-form estimates are not finite.
 pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
     match scene.model() {
-        ModelChoice::Auto => SelectedModel::of(&ComputedScene::of(scene)?.scene).map(Some),
+        ModelChoice::Auto => SelectedModel::of(&SimplifiedScene::of(scene)?.scene).map(Some),
         _ => Ok(None),
     }
 }
@@ -76,7 +76,7 @@ pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
 /// # Errors
 /// As [`Method::element_updates`].
 pub(crate) fn element_updates_of(scene: &Scene) -> Result<u64, Rejection> {
-    let one = method_of(scene).element_updates(&ComputedScene::of(scene)?.scene)?;
+    let one = method_of(scene).element_updates(&SimplifiedScene::of(scene)?.scene)?;
     let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
     Ok(one.saturating_mul(contacts))
 }
@@ -86,7 +86,7 @@ pub(crate) fn element_updates_of(scene: &Scene) -> Result<u64, Rejection> {
 /// # Errors
 /// As [`Method::resolve`].
 pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-    let mut file = method_of(scene).resolve(&ComputedScene::of(scene)?.scene, file)?;
+    let mut file = method_of(scene).resolve(&SimplifiedScene::of(scene)?.scene, file)?;
     if let Some(gravity) = scene.gravity() {
         let bounces = Quantity::from_si(gravity.bounces as f64);
         file.stop = Some(StopTable { bounces: Some(bounces) });

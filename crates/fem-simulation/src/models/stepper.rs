@@ -72,7 +72,7 @@ impl<F: Fn(&mut dyn Monitor) -> Collision> Stepper for SingleStep<F> {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RestartState {
     /// State of the present contact, by explicit elements.
-    pub(crate) contact: fem_explicit::RestartState,
+    pub(crate) contact: fem_explicit::RunState,
     /// Results of earlier contacts, for a ball that gravity brings back.
     pub(crate) bounces: Option<Box<Bounces>>,
     /// Approach of the bodies in the present contact, in the frame of the case.
@@ -85,7 +85,7 @@ pub struct RestartState {
 
 impl RestartState {
     /// Returns the state of the present contact.
-    pub fn contact(&self) -> &fem_explicit::RestartState {
+    pub fn contact(&self) -> &fem_explicit::RunState {
         &self.contact
     }
 

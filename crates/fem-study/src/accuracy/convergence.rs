@@ -125,7 +125,7 @@ const ROUNDING: f64 = 1e-6;
 const SEARCHED_ORDERS: (f64, f64) = (0.1, 8.0);
 const DERIVATIVE_STEP: f64 = 1e-5;
 /// Fewest levels beside the finest that determine an order.
-const FEWEST: usize = 3;
+const FEWEST_LEVELS: usize = 3;
 /// Largest standard error of an order.
 const LARGEST_STANDARD_ERROR: f64 = 0.75;
 /// Relative uncertainty of the remaining distance to the limit.
@@ -205,7 +205,7 @@ impl ObservedOrder {
         let differences = others.iter().map(|(h, q)| (h / finest, (q - of_finest).abs()));
         let points: Vec<(f64, f64)> =
             differences.filter(|(_, difference)| *difference > least).collect();
-        if points.len() < FEWEST {
+        if points.len() < FEWEST_LEVELS {
             return None;
         }
         let n = points.len() as f64;

@@ -18,7 +18,7 @@ use crate::measured::{DataError, MeasuredPairs};
 
 /// Factor by which the relaxation times reach beyond the contact times. A term that is ten times slower or faster
 /// loses a tenth; one beyond differs from it in its weight only.
-const REACH: f64 = 10.0;
+const RELAXATION_OVER_CONTACT_TIMES: f64 = 10.0;
 /// The regularisation λ of data without uncertainties.
 const REGULARISATION: f64 = 1e-3;
 /// Keys of a case's condensed model that a calibration replaces.
@@ -111,7 +111,10 @@ impl Calibration {
             .map(|pair| Experiment::new(case, &measured, pair, &target, settings.model))
             .collect::<Result<Vec<_>, _>>()?;
         let contacts = ends(experiments.iter().flat_map(|experiment| &experiment.contact_times));
-        let window = settings.times.unwrap_or((contacts.0 / REACH, contacts.1 * REACH));
+        let window = settings.times.unwrap_or((
+            contacts.0 / RELAXATION_OVER_CONTACT_TIMES,
+            contacts.1 * RELAXATION_OVER_CONTACT_TIMES,
+        ));
         let times = spaced(window, settings.n_terms);
         let wanted = measured.restitutions();
         let of_terms = |terms: &[PronyTerm]| restitutions(&experiments, terms, wanted.len());

@@ -13,7 +13,7 @@ use super::target::Target;
 use fem_simulation::Condensed;
 
 /// Steps per elastic contact time: restitutions are within 2e-5 of those with 1000 steps.
-pub(super) const STEPS: usize = 300;
+pub(super) const STEPS_PER_CONTACT_TIME: usize = 300;
 /// Accuracy of Ting's restitutions, far below that of measurements. Ranges are within 1 % of those at
 /// 1e-7, in a third of the time; weights that the data do not determine change by about 3 % of their range.
 const TOLERANCE: f64 = 1e-5;
@@ -72,7 +72,7 @@ impl PairModel {
         let relaxations = [relaxation(0), relaxation(1)];
         match &self.evaluator {
             Evaluator::Condensed(condensed) => {
-                match condensed.restitution(speed, relaxations, STEPS) {
+                match condensed.restitution(speed, relaxations, STEPS_PER_CONTACT_TIME) {
                     Err(Stop::NoSeparation { .. }) => Ok(0.0),
                     result => result.map_err(failed),
                 }

@@ -4,7 +4,7 @@ use crate::fit::spectrum::{SpectrumFit, SpeedExponent};
 use fem_case::engineering::show;
 
 use super::calibration::{Calibration, UNUSED_STEPS};
-use super::pair_model::STEPS;
+use super::pair_model::STEPS_PER_CONTACT_TIME;
 use super::settings::SettingNames;
 use fem_simulation::effects::QUASI_STATIC_LIMIT;
 use fem_simulation::{WarningKind, WarningKinds};
@@ -127,7 +127,7 @@ impl Calibration {
     fn unused(&self, names: &SettingNames) -> Option<String> {
         let key = self.unused_key.as_deref()?;
         Some(match key {
-            UNUSED_STEPS => format!("{key} is ignored: calibrate takes {STEPS}"),
+            UNUSED_STEPS => format!("{key} is ignored: calibrate takes {STEPS_PER_CONTACT_TIME}"),
             _ => format!(
                 "{key} is ignored: {} chooses the model, here {}",
                 names.model,

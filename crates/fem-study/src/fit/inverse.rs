@@ -25,9 +25,9 @@ const DECADES: f64 = 8.0;
 const DECADES_OF_A_RATE: f64 = 5.0;
 const STEPS_PER_DECADE: f64 = 4.0;
 /// Smaller restitutions count as 0.
-const NOTHING: f64 = 1e-7;
+const LEAST_RESTITUTION: f64 = 1e-7;
 /// Number of steps over the limits of a plain number.
-const STEPS: f64 = 60.0;
+const SEARCH_STEPS: f64 = 60.0;
 
 /// Returns all values of the parameter of an index that give `restitution` at `speed`, m/s. The other
 /// parameters have the given `values`.
@@ -59,7 +59,7 @@ pub fn invert(
         all[index] = value_at(theta);
         model.outcome(&all, speed).map(|outcome| outcome.restitution - restitution)
     };
-    let n_steps = if is_number { STEPS } else { ((high - low) * STEPS_PER_DECADE).round() };
+    let n_steps = if is_number { SEARCH_STEPS } else { ((high - low) * STEPS_PER_DECADE).round() };
     let mut solutions = Vec::new();
     let mut reach = (f64::INFINITY, f64::NEG_INFINITY);
     let mut previous: Option<(f64, f64)> = None;
@@ -80,7 +80,7 @@ pub fn invert(
         }
         previous = Some((theta, here));
         // More damping leaves a smaller restitution, and its creep takes long to compute.
-        if parameter.role == ParameterRole::Damping && here + restitution < NOTHING {
+        if parameter.role == ParameterRole::Damping && here + restitution < LEAST_RESTITUTION {
             break;
         }
     }

@@ -134,7 +134,7 @@ const TIME: [i32; 3] = [0, 0, 1];
 const LENGTH: [i32; 3] = [1, 0, 0];
 const NUMBER: [i32; 3] = [0; 3];
 /// Larger restitutions are not the scatter of a measurement.
-const LARGEST: f64 = 1.2;
+const LARGEST_RESTITUTION: f64 = 1.2;
 
 /// The columns that are read in addition to speeds and restitutions.
 #[derive(Clone, Copy, Debug, Default)]
@@ -216,7 +216,7 @@ impl Columns {
                 .with_help("it must be greater than 0"));
         }
         let restitution = table.number(row, self.restitution, NUMBER)?;
-        if !(0.0..=LARGEST).contains(&restitution) {
+        if !(0.0..=LARGEST_RESTITUTION).contains(&restitution) {
             return Err(table
                 .fault(row, format!("the restitution is {restitution:?}"))
                 .in_column(&table.header()[self.restitution])

@@ -5,9 +5,7 @@
 use std::sync::LazyLock;
 
 use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
-use fem_explicit::{
-    ExplicitBodies, Parts, RestartState, Run, Settings, SmallStrainContact, collide,
-};
+use fem_explicit::{ExplicitBodies, Parts, Run, RunState, Settings, SmallStrainContact, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
@@ -166,7 +164,7 @@ impl Pair {
 }
 
 /// Returns a restart state as another process would read it.
-pub fn stored(state: &RestartState) -> RestartState {
+pub fn stored(state: &RunState) -> RunState {
     let read = postcard::from_bytes(&postcard::to_stdvec(state).unwrap()).unwrap();
     assert_eq!(&read, state);
     read

@@ -3,10 +3,10 @@
 use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
 
-use crate::effects::decision::computed_scene::ComputedScene;
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::percent;
+use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, FiniteSizeEffect, Vibration};
 use crate::effects::ting_prediction::{TingPrediction, relaxed_loss};
@@ -81,7 +81,7 @@ impl FiniteSizeEffect {
 
 impl Effect for FiniteSizeEffect {
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let scene = ComputedScene::quiet(scene)?;
+        let scene = SimplifiedScene::quiet(scene)?;
         let speed = estimate.hertz.approach_speed();
         let [with, without] =
             [true, false].map(|size| TingPrediction::of(&scene, speed, size).ok());

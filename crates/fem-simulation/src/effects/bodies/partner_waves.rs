@@ -10,10 +10,10 @@ use fem_laws::{HertzImpact, Ting, radiated_share};
 use fem_material::Material;
 
 use crate::effects::bodies::vibration::ENOUGH_MODES;
-use crate::effects::decision::computed_scene::ComputedScene;
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, PartnerWaves};
 use crate::effects::ting_prediction::{TingPrediction, relaxes};
@@ -175,7 +175,7 @@ impl Effect for PartnerWaves {
     /// correction, it is the loss of restitution by a half-space.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
-        let with = ComputedScene::quiet(&self.switched(scene, switch))?;
+        let with = SimplifiedScene::quiet(&self.switched(scene, switch))?;
         let without = self.switched(&with, Some(Switch::Off));
         let speed = estimate.hertz.approach_speed();
         let estimate = Estimate::at(&with, speed).ok()?;

@@ -8,10 +8,10 @@
 use fem_case::engineering;
 use fem_case::{Body, Scene, Switch};
 
-use crate::effects::decision::computed_scene::TransformedScene;
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::simplified_scene::TransformedScene;
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, RigidPartner};
 use crate::effects::ting_prediction::change_between;

@@ -1,17 +1,17 @@
 //! The effects, and the trait that each implements: its relevance to a scene, its transformation of the scene,
 //! and the error of neglecting it.
 
-pub(super) mod computed_scene;
 pub(super) mod neglect_error;
 pub(super) mod relevance;
+pub(super) mod simplified_scene;
 pub(super) mod support;
 
 use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
-use self::computed_scene::TransformedScene;
 use self::neglect_error::{EffectStatus, NeglectError};
 use self::relevance::Relevance;
+use self::simplified_scene::TransformedScene;
 use self::support::Support;
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;

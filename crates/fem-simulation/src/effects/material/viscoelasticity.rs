@@ -7,9 +7,9 @@ use fem_case::{Body, Scene, Switch};
 use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
-use crate::effects::decision::computed_scene::TransformedScene;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
+use crate::effects::decision::simplified_scene::TransformedScene;
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, Viscoelasticity};
 use crate::effects::ting_prediction::change_between;

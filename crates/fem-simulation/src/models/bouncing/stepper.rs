@@ -33,7 +33,7 @@ impl Bounces {
     }
 
     /// Returns whether the state can belong to this ball in this contact.
-    fn fits(&self, ball: &Ball, contact: &fem_explicit::RestartState, approach: &Approach) -> bool {
+    fn fits(&self, ball: &Ball, contact: &fem_explicit::RunState, approach: &Approach) -> bool {
         let (speed, time, _) = ball.fall(&self.approach);
         let is_first = self.so_far.n_contacts() == 0;
         self.request.check().is_ok()

@@ -18,14 +18,14 @@ pub struct TransformedScene {
 
 /// A scene transformed by all effects, with their supports.
 #[derive(Clone, Debug)]
-pub(crate) struct ComputedScene {
+pub(crate) struct SimplifiedScene {
     /// The transformed scene.
     pub scene: Scene,
     /// Names and supports of the effects that changed the scene; empty if none did.
     pub supports: Vec<(&'static str, Support)>,
 }
 
-impl ComputedScene {
+impl SimplifiedScene {
     /// Transforms a given scene.
     ///
     /// # Errors
