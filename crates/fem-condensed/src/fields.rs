@@ -67,9 +67,6 @@ struct Steps {
 impl CondensedPair {
     /// Returns the snapshots of a collision in the order of time, and messages about those that are not available.
     /// `trace` has every step of a run with this time step (s), speed, damping and ending.
-    ///
-    /// # Errors
-    /// The errors are those of [`CondensedPair::collide`].
     pub(crate) fn snapshots(
         &self,
         frame: &Frame,
@@ -152,9 +149,6 @@ impl CondensedPair {
 
     /// Returns the histories of probes at a few hundred instants from first touch to the `last` step. See
     /// [`CondensedPair::snapshots`].
-    ///
-    /// # Errors
-    /// The errors are those of [`CondensedPair::collide`].
     pub(crate) fn probed(
         &self,
         frame: &Frame,

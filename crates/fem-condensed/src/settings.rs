@@ -75,8 +75,6 @@ impl<'a> From<[Option<&'a PronySeries>; 2]> for Damping<'a> {
 }
 
 impl Damping<'_> {
-    /// # Errors
-    /// A radiation coefficient that is negative or not finite.
     pub(crate) fn check(&self) -> Result<(), CondensedError> {
         let is_wrong = |value: &f64| !(*value >= 0.0 && value.is_finite());
         match self.radiation.into_iter().flatten().find(is_wrong) {

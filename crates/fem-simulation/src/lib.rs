@@ -26,11 +26,11 @@ pub use error::{
 pub use estimate::Estimate;
 pub use estimate::approach::approach_of;
 pub use estimate::quasi_static::ting_impact;
-pub use models::method::{Cost, ElementSetup, ForceLaw, Method, Model, ModelSetup, SharedModels};
+pub use models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
 pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
-    AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, HertzMethod,
-    LawMethod, METHODS, ModelCandidate, Reduced, TingMethod, chosen, method_of, model_of,
+    AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, METHODS,
+    ModelCandidate, Reduced, ReducedMethod, chosen, method_of, model_of,
 };
 pub use plan::body_source::build_meshes;
 pub use plan::contact_method::{ContactNoiseAdvice, contact_method, ignored_method_warning};

@@ -16,12 +16,12 @@
 pub use fem_simulation::{
     AutoMethod, BodyStress, CheckpointError, CheckpointHead, ComputedCollision, Condensed,
     CondensedMethod, ContactNoiseAdvice, Cost, ElementSetup, ErrorEstimate, ErrorEstimator,
-    Estimate, ExpectedError, Explicit, ExplicitMethod, ForceLaw, HertzMethod, Identity, LawMethod,
-    METHODS, Method, Model, ModelCandidate, ModelSetup, NUMERICS, PairCache, Plan, QuantityErrors,
-    Reduced, RefinedBeforeRun, RefinementBound, RefinementLevel, Rejection, RestartState,
-    SharedModels, Simulation, Stepper, StopAdvice, Summary, TingMethod, WarningKind, WarningKinds,
-    approach_of, build_meshes, case_identity, checkpoint, checkpoint_head, collide, diagnose,
-    digest_of, effects, method_of, model_of, restart_state_of, results, stop_advice, ting_impact,
+    Estimate, ExpectedError, Explicit, ExplicitMethod, Identity, METHODS, Method, Model,
+    ModelCandidate, ModelSetup, NUMERICS, PairCache, Plan, QuantityErrors, Reduced, ReducedMethod,
+    RefinedBeforeRun, RefinementBound, RefinementLevel, Rejection, RestartState, SharedModels,
+    Simulation, Stepper, StopAdvice, Summary, WarningKind, WarningKinds, approach_of, build_meshes,
+    case_identity, checkpoint, checkpoint_head, collide, diagnose, digest_of, effects, method_of,
+    model_of, restart_state_of, results, stop_advice, ting_impact,
 };
 pub use fem_study::sweep::sweep;
 pub use fem_study::{accuracy, calibrate, fit, laws, measured, sweep};

@@ -24,9 +24,6 @@ pub(crate) struct NoContactState;
 
 /// Computes forces p ≥ 0 (N) with E p − b ≥ 0 and no force on an open point. `forces` gives the first guess of the
 /// closed points.
-///
-/// # Errors
-/// No state is found within rounding, because the matrix is nearly singular.
 pub(crate) fn solve(
     compliance: &Mat<f64>,
     overlap: &[f64],

@@ -14,9 +14,6 @@ impl CondensedPair {
     ///
     /// Radiated waves and slip move all points equally and are not in the fields. The gap is then shifted, so that the
     /// surfaces touch where the pressure is positive.
-    ///
-    /// # Errors
-    /// There are none for a pair that has been condensed.
     pub(crate) fn profile(
         &self,
         contact: &Contact,

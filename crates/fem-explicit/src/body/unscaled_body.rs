@@ -147,9 +147,6 @@ impl UnscaledMesh {
 
 impl RigidSphere {
     /// Takes a mass, kg.
-    ///
-    /// # Errors
-    /// The mass is not positive and finite.
     fn new(mass: f64, node_forces: Vec<Box<dyn NodeForce>>) -> Result<Self, ModelError> {
         // Its inverse has to be finite too.
         if !(mass > 0.0 && mass.is_normal()) {

@@ -10,9 +10,6 @@ use crate::time::{StepControl, add_impulse};
 
 /// Computes the forces in the present configuration: internal forces, node forces, contact forces, and the reactions of held
 /// bodies.
-///
-/// # Errors
-/// An element has collapsed: there are no forces.
 pub(crate) fn update_forces(
     model: &ExplicitBodies,
     state: &State,
@@ -41,9 +38,6 @@ pub(crate) fn update_forces(
 
 /// Controls the time step of a model whose stiffness changes: checks the strain rate or bounds the critical step when that
 /// is due, with the present forces in `scratch`. Returns half the decrease of the time step (s) if it changes.
-///
-/// # Errors
-/// No step is short enough.
 pub(crate) fn update_time_step(
     model: &ExplicitBodies,
     state: &mut State,

@@ -13,9 +13,6 @@ use crate::state::Scratch;
 
 /// Takes a step: forces of the present configuration, their energy, the time step, observation and records of this
 /// instant, and the motion to the next one. Returns the ending of a run that ends here instead.
-///
-/// # Errors
-/// The run has to stop.
 pub(super) fn step(
     run: &mut RunState,
     model: &ExplicitBodies,
@@ -143,9 +140,6 @@ fn row_kind(contact: &ContactForces, instant: Instant) -> RowKind {
 }
 
 /// Returns the ending of a run that ends at this instant.
-///
-/// # Errors
-/// The run has to stop.
 fn ending(
     run: &RunState,
     model: &ExplicitBodies,

@@ -47,9 +47,6 @@ pub(crate) struct FiniteStrainChoice {
 
 /// Makes the stress of a material on the integrated elements of a mesh: at small strain, or at finite strain where that is
 /// chosen.
-///
-/// # Errors
-/// The material has too many relaxation terms for finite strain.
 pub(crate) fn stress_of_body(
     mesh: &SphereMesh,
     geometries: &[QuadGeometry],

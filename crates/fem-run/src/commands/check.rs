@@ -4,11 +4,12 @@ use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::Left;
 use fem::effects::percent;
-use fem::{Cost, ErrorEstimator, ForceLaw, RefinedBeforeRun, Simulation};
+use fem::{Cost, ErrorEstimator, RefinedBeforeRun, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::{number, show};
 use fem_collision::QuantityOfInterest;
+use fem_laws::laws::ContactLaw;
 
 use crate::{
     arguments::case::{CaseArguments, ToleranceArguments},
@@ -96,7 +97,7 @@ fn expect(
             let chosen = by_tolerance(simulation);
             format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
         }
-        Cost::ClosedForm { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
+        Cost::ClosedForm { law } => one_degree_of_freedom(&setup.description, law.as_ref()),
     };
     format!(
         "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the changes without them\n\
@@ -241,11 +242,14 @@ fn costs(
 }
 
 /// Returns model and cost of a model with one degree of freedom.
-fn one_degree_of_freedom(description: &str, force: Option<&ForceLaw>) -> String {
-    let force = force.map(|law| {
+fn one_degree_of_freedom(description: &str, law: Option<&ContactLaw>) -> String {
+    let force = law.map(|law| {
         format!(
             "F = K x^{} + C x^{} dx/dt, K = {:.5e} and C = {:.5e} SI",
-            law.elastic_exponent, law.damping_exponent, law.stiffness, law.damping
+            law.elastic_exponent(),
+            law.damping_exponent(),
+            law.stiffness(),
+            law.damping()
         )
     });
     let mut rows = vec![["computes", description].map(String::from)];

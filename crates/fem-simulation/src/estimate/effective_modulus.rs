@@ -62,9 +62,6 @@ impl EffectiveModuli {
     }
 
     /// Returns the effective moduli of strongly relaxing bodies; `elastic` is the impact with instantaneous moduli.
-    ///
-    /// # Errors
-    /// A motion that Ting's model cannot compute.
     pub(crate) fn much(scene: &Scene, elastic: &HertzImpact) -> Result<Self, LawError> {
         let impact = predicted_on_half_spaces(scene, elastic.pair(), elastic.approach_speed())?;
         let met = impact.peak_force / elastic.force(impact.max_approach);

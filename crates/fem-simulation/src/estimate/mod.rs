@@ -178,9 +178,6 @@ fn ringing(scene: &Scene, contact_time: f64) -> f64 {
 }
 
 /// Returns the pair with the moduli at a time (s) after a sudden load, at least a share `least` of the instantaneous ones.
-///
-/// # Errors
-/// Parameters out of range.
 pub(crate) fn pair_at(scene: &Scene, time: f64, least: f64) -> Result<Pair, LawError> {
     let [first, second] = scene.bodies().each_ref().map(|body| match body.shape() {
         Shape::Sphere { diameter, material, .. } => {

@@ -23,9 +23,6 @@ pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impa
 const ESTIMATE_TOLERANCE: f64 = 1e-3;
 
 /// Predicts Ting's impact of an estimated scene between half-spaces at a speed (m/s).
-///
-/// # Errors
-/// Parameters that the law rejects.
 pub(crate) fn predicted_impact(
     scene: &Scene,
     estimate: &Estimate,
@@ -35,9 +32,6 @@ pub(crate) fn predicted_impact(
 }
 
 /// Predicts Ting's impact of a pair with instantaneous moduli between half-spaces at a speed (m/s).
-///
-/// # Errors
-/// Parameters that the law rejects.
 pub(crate) fn predicted_on_half_spaces(
     scene: &Scene,
     pair: &Pair,
@@ -63,9 +57,6 @@ thread_local! {
 
 /// Returns [`Ting::impact`] from the cache of the last ones, or computes it. The effects compare impacts that are mostly
 /// the same. A failed impact, which takes longest, is cached too.
-///
-/// # Errors
-/// Errors of [`Ting::impact`].
 pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawError> {
     let known = LAST.with_borrow(|last| {
         let same = last.iter().find(|(other, at, _)| *at == speed && *other == ting);
@@ -116,9 +107,6 @@ fn has_wall(scene: &Scene) -> bool {
 
 /// Returns Ting's model of a scene and its pair, with surface slip if the scene has it, and without relaxation if `relaxes`
 /// is false.
-///
-/// # Errors
-/// Parameters that the law rejects.
 pub(crate) fn ting_of(
     scene: &Scene,
     pair: &Pair,

@@ -20,9 +20,6 @@ use crate::estimate::quasi_static::{known_impact, ting_of};
 
 /// Returns Ting's impact at a speed (m/s) of a scene with radiating bodies, given by their materials; `finish` sets the
 /// accuracy.
-///
-/// # Errors
-/// Parameters that the law rejects; radiation that is more than a correction.
 pub(crate) fn radiating_impact(
     scene: &Scene,
     radiating: &[Option<Material>; 2],

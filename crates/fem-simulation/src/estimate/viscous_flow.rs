@@ -47,9 +47,6 @@ pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
 }
 
 /// Rejects bodies that flow into each other.
-///
-/// # Errors
-/// Names the materials.
 pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
     let impact = match impact(scene, estimate) {
         Some(Ok(impact)) => impact,

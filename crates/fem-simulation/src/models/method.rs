@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
+use fem_laws::laws::ContactLaw;
 use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, EffectDecisions, Support};
@@ -214,20 +215,7 @@ pub enum Cost {
     },
     /// The run has no mesh and takes milliseconds.
     ClosedForm {
-        /// The force law, if it is a function of the overlap and its rate.
-        force: Option<ForceLaw>,
+        /// The contact law, if the model has one.
+        law: Option<ContactLaw>,
     },
-}
-
-/// The force law F = K ξ^γ + C ξⁿ ξ̇ in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForceLaw {
-    /// Stiffness coefficient K.
-    pub stiffness: f64,
-    /// Exponent γ of the spring.
-    pub elastic_exponent: f64,
-    /// Damping coefficient C.
-    pub damping: f64,
-    /// Exponent n of the dashpot.
-    pub damping_exponent: f64,
 }

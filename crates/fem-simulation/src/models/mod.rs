@@ -24,18 +24,24 @@ use simplified::Simplified;
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
-pub use reduced::{HertzMethod, LawMethod, Reduced, TingMethod};
+pub use reduced::{Reduced, ReducedMethod};
 
 /// All methods, from the cheapest to the most expensive, and the one that selects among them.
-pub const METHODS: [&dyn Method; 6] =
-    [&HertzMethod, &LawMethod, &TingMethod, &CondensedMethod, &ExplicitMethod, &AutoMethod];
+pub const METHODS: [&dyn Method; 6] = [
+    &ReducedMethod::Hertz,
+    &ReducedMethod::Law,
+    &ReducedMethod::Ting,
+    &CondensedMethod,
+    &ExplicitMethod,
+    &AutoMethod,
+];
 
 /// Returns the method of a scene.
 pub fn method_of(scene: &Scene) -> &'static dyn Method {
     match scene.model() {
-        ModelChoice::Hertz { .. } => &HertzMethod,
-        ModelChoice::Law { .. } => &LawMethod,
-        ModelChoice::Ting { .. } => &TingMethod,
+        ModelChoice::Hertz { .. } => &ReducedMethod::Hertz,
+        ModelChoice::Law { .. } => &ReducedMethod::Law,
+        ModelChoice::Ting { .. } => &ReducedMethod::Ting,
         ModelChoice::Condensed(_) => &CondensedMethod,
         ModelChoice::Fem => &ExplicitMethod,
         ModelChoice::Auto => &AutoMethod,
@@ -72,9 +78,6 @@ pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
 }
 
 /// Returns the number of element updates of all contacts ([`Method::element_updates`]).
-///
-/// # Errors
-/// As [`Method::element_updates`].
 pub(crate) fn element_updates_of(scene: &Scene) -> Result<u64, Rejection> {
     let one = method_of(scene).element_updates(&SimplifiedScene::of(scene)?.scene)?;
     let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
@@ -82,9 +85,6 @@ pub(crate) fn element_updates_of(scene: &Scene) -> Result<u64, Rejection> {
 }
 
 /// Returns the case as written with every default of its method filled in.
-///
-/// # Errors
-/// As [`Method::resolve`].
 pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
     let mut file = method_of(scene).resolve(&SimplifiedScene::of(scene)?.scene, file)?;
     if let Some(gravity) = scene.gravity() {
@@ -92,22 +92,4 @@ pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Reject
         file.stop = Some(StopTable { bounces: Some(bounces) });
     }
     Ok(file)
-}
-
-impl Reduced {
-    /// Builds the reduced model that a scene chooses.
-    ///
-    /// # Errors
-    /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
-    /// contact too large for the finite-size correction; a law that cannot be made of this pair.
-    pub fn new(scene: &Scene) -> Result<Self, Rejection> {
-        match scene.model() {
-            ModelChoice::Hertz { .. } => reduced::hertz::build(scene),
-            ModelChoice::Law { .. } => reduced::law::build(scene),
-            ModelChoice::Ting { .. } => reduced::ting::build(scene),
-            ModelChoice::Condensed(_) | ModelChoice::Fem | ModelChoice::Auto => {
-                Err(Rejection::new("model", "finite elements are no reduced model"))
-            }
-        }
-    }
 }

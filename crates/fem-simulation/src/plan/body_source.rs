@@ -109,9 +109,6 @@ pub fn build_meshes(scene: &Scene, plan: &Plan) -> Result<[Option<SphereMesh>; 2
 }
 
 /// Returns the probe requests of a run; a model without meshes has none.
-///
-/// # Errors
-/// A place outside the mesh of its body, or a body without a mesh.
 pub(crate) fn probes_of(
     scene: &Scene,
     meshes: [Option<&SphereMesh>; 2],

@@ -48,9 +48,6 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
 }
 
 /// Checks the size of meshes before they are generated.
-///
-/// # Errors
-/// More elements or memory than the limits allow; a mesh that cannot be generated.
 pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
     let (mut elements, mut branches) = (0, 0);
     for (side, body) in scene.bodies().iter().enumerate() {

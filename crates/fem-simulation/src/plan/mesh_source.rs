@@ -81,9 +81,6 @@ pub(crate) fn mesh_refusal(error: &MeshError) -> Rejection {
 }
 
 /// Reads the mesh of a sphere of this diameter (m) from a file, for the lower body (0) or the upper one (1).
-///
-/// # Errors
-/// A file without such a mesh.
 pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Rejection> {
     read_sphere(diameter, path).map_err(|found| {
         let refusal = Rejection::new(format!("body.{k}.sphere.mesh"), format!("mesh {found}"));

@@ -65,9 +65,6 @@ impl PairCache {
     }
 
     /// Returns the kept pair of this key, or makes it by `make`.
-    ///
-    /// # Errors
-    /// Errors of `make`.
     pub(crate) fn pair<E>(
         &self,
         key: PairKey,

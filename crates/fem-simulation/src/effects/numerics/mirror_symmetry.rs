@@ -22,9 +22,6 @@ use crate::rejection::Rejection;
 impl MirrorSymmetry {
     /// Returns the lower half of a scene with identical bodies, a body against a rigid plane; `None` if the bodies differ or
     /// the case switches the symmetry off.
-    ///
-    /// # Errors
-    /// Bodies that differ, where the case forces the symmetry.
     pub(crate) fn half_of(scene: &Scene) -> Result<Option<Scene>, Rejection> {
         let switch = scene.effects().mirror_symmetry;
         match scene.half() {

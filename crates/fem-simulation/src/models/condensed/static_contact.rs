@@ -15,9 +15,6 @@ use crate::plan::pair_cache::PairKey;
 use crate::rejection::Rejection;
 
 /// Computes the static contact of a scene's bodies; `None` if they flow.
-///
-/// # Errors
-/// Closed forms that leave the range of f64; a mesh or factor that cannot be made; a contact as wide as the smaller body.
 pub(in crate::models) fn of_elements(
     scene: &Scene,
     force: f64,

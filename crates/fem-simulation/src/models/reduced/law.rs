@@ -1,54 +1,18 @@
 //! Contact laws: a spring and a dashpot of the overlap, integrated.
 
-use fem_case::schema::{End, LawTable, ModelTable};
-use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
+use fem_case::schema::LawTable;
+use fem_case::{Quantity, Scene};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{
     EndRule, Impact, LawContext, LawError, LawImpact, LawInput, LawInputError, Pair, PairRelaxation,
 };
 
-use super::effects::support;
-use super::{Motion, Reduced, refused, resolve_start};
-use crate::effects::{Effect, Support};
+use super::{Motion, Reduced, refused};
 use crate::estimate::Estimate;
-use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
-/// A contact law, `[model] law = { NAME = { … } }`.
-#[derive(Clone, Copy, Debug)]
-pub struct LawMethod;
-
-impl Method for LawMethod {
-    fn name(&self) -> &'static str {
-        "law"
-    }
-
-    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        Ok(Box::new(build(scene)?))
-    }
-
-    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
-        support(effect, scene, estimate, None)
-    }
-
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let ModelChoice::Law { end_rule, tolerance, .. } = *scene.model() else { return Ok(file) };
-        build(scene)?;
-        let mut file = resolve_start(scene, file);
-        let given = file.model.take().unwrap_or_default();
-        let end = match end_rule {
-            EndRule::ZeroForce => End::ZeroForce,
-            EndRule::ZeroOverlap => End::ZeroOverlap,
-        };
-        let law = given.law.unwrap_or_default().filled(end, tolerance);
-        let law = Some(with_speed(law, scene.approach_speed()));
-        file.model = Some(ModelTable { law, ..ModelTable::default() });
-        Ok(file)
-    }
-}
-
 /// Returns the law with Hunt and Crossley's speed (m/s) filled in, at which their restitution holds.
-fn with_speed(mut law: LawTable, speed: f64) -> LawTable {
+pub(super) fn with_speed(mut law: LawTable, speed: f64) -> LawTable {
     if let Some(keys) = &mut law.hunt_crossley {
         keys.v.get_or_insert(Quantity::from_si(speed));
     }
@@ -78,14 +42,12 @@ impl Motion for LawMotion {
 }
 
 /// Builds the model of a scene.
-///
-/// # Errors
-/// As [`Reduced::new`]; a scene that chose another model.
-pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
-    let ModelChoice::Law { law, end_rule, tolerance } = scene.model() else {
-        return Err(Rejection::chose_another(scene, "law"));
-    };
-    let (end_rule, tolerance) = (*end_rule, *tolerance);
+pub(super) fn build(
+    scene: &Scene,
+    law: &LawInput,
+    end_rule: EndRule,
+    tolerance: f64,
+) -> Result<Reduced, Rejection> {
     let estimate = Estimate::checked(scene)?;
     let refuse = |error: LawError| refused(scene, &error);
     let (numbers, pair) = law_numbers(scene, &estimate, law, end_rule)?;

@@ -1,31 +1,86 @@
 //! Models of one degree of freedom, the approach of the mass centres. Results follow from the relative motion and the
 //! conservation of momentum.
 
-pub(super) mod hertz;
-pub(super) mod law;
-pub(super) mod ting;
-
-pub use hertz::HertzMethod;
-pub use law::LawMethod;
-pub use ting::TingMethod;
-
 mod collision;
 mod effects;
+mod hertz;
+mod law;
+mod ting;
 
 use std::fmt;
 
-use fem_case::schema::StartTable;
-use fem_case::{CaseFile, Quantity, Scene};
+use fem_case::schema::{End, HertzTable, ModelTable, StartTable, TingTable};
+use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_laws::laws::ContactLaw;
-use fem_laws::{Impact, LawError, Pair, StaticHertz};
+use fem_laws::{EndRule, Impact, LawError, Pair, StaticHertz};
 
 use crate::effects::{Effect, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
-use crate::models::method::{Cost, ForceLaw, Model, ModelSetup};
+use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
 use crate::rejection::Rejection;
 use collision::HERTZ_EXPONENT;
+
+/// The reduced methods.
+#[derive(Clone, Copy, Debug)]
+pub enum ReducedMethod {
+    /// Hertz' model, `[model] hertz = {}`.
+    Hertz,
+    /// A contact law, `[model] law = { NAME = { … } }`.
+    Law,
+    /// Ting's model, `[model] ting = {}`.
+    Ting,
+}
+
+impl Method for ReducedMethod {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Hertz => "hertz",
+            Self::Law => "law",
+            Self::Ting => "ting",
+        }
+    }
+
+    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+        if scene.model().name() != self.name() {
+            return Err(Rejection::chose_another(scene, self.name()));
+        }
+        Ok(Box::new(Reduced::new(scene)?))
+    }
+
+    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
+        effects::support(effect, scene, estimate, None)
+    }
+
+    fn resolve(&self, scene: &Scene, mut file: CaseFile) -> Result<CaseFile, Rejection> {
+        let table = match *scene.model() {
+            ModelChoice::Hertz { finite_size } => {
+                HertzTable { finite_size: Some(finite_size) }.into()
+            }
+            ModelChoice::Ting { finite_size, tolerance } => {
+                let tolerance = Some(Quantity::from_si(tolerance));
+                TingTable { finite_size: Some(finite_size), tolerance }.into()
+            }
+            ModelChoice::Law { end_rule, tolerance, .. } => {
+                Reduced::new(scene)?;
+                let given = file.model.take().unwrap_or_default();
+                let end = match end_rule {
+                    EndRule::ZeroForce => End::ZeroForce,
+                    EndRule::ZeroOverlap => End::ZeroOverlap,
+                };
+                let law = given.law.unwrap_or_default().filled(end, tolerance);
+                let law = Some(law::with_speed(law, scene.approach_speed()));
+                ModelTable { law, ..ModelTable::default() }
+            }
+            _ => return Ok(file),
+        };
+        file.model = Some(table);
+        let gap = scene.gap().unwrap_or(fem_case::defaults::GAP);
+        file.start = Some(StartTable { gap: Some(Quantity::from_si(gap)) });
+        Ok(file)
+    }
+}
 
 /// A method that computes the relative motion.
 pub(super) trait Motion: fmt::Debug + Send + Sync {
@@ -58,10 +113,27 @@ pub struct Reduced {
 }
 
 impl Reduced {
-    /// Makes the model of a scene from its motion. The pair has relaxed moduli if the law is a slow limit.
+    /// Builds the reduced model that a scene chooses.
     ///
     /// # Errors
-    /// An effect that the case forces on and a reduced model lacks.
+    /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
+    /// contact too large for the finite-size correction; a law that cannot be made of this pair.
+    pub fn new(scene: &Scene) -> Result<Self, Rejection> {
+        match scene.model() {
+            ModelChoice::Hertz { finite_size } => hertz::build(scene, *finite_size),
+            ModelChoice::Ting { finite_size, tolerance } => {
+                ting::build(scene, *finite_size, *tolerance)
+            }
+            ModelChoice::Law { law, end_rule, tolerance } => {
+                law::build(scene, law, *end_rule, *tolerance)
+            }
+            ModelChoice::Condensed(_) | ModelChoice::Fem | ModelChoice::Auto => {
+                Err(Rejection::new("model", "finite elements are no reduced model"))
+            }
+        }
+    }
+
+    /// Makes the model of a scene from its motion. The pair has relaxed moduli if the law is a slow limit.
     pub(super) fn of(
         scene: &Scene,
         estimate: Estimate,
@@ -72,12 +144,6 @@ impl Reduced {
         let support =
             |effect: &dyn Effect| effects::support(effect, scene, &estimate, motion.law());
         let decisions = decide(scene, &estimate, support)?;
-        let force = motion.law().map(|law| ForceLaw {
-            stiffness: law.stiffness(),
-            elastic_exponent: law.elastic_exponent(),
-            damping: law.damping(),
-            damping_exponent: law.damping_exponent(),
-        });
         let setup = ModelSetup {
             description,
             approach: approach_of(scene)?,
@@ -85,7 +151,7 @@ impl Reduced {
             estimate,
             decisions,
             unread_key_warnings: effects::unread_keys(scene),
-            cost: Cost::ClosedForm { force },
+            cost: Cost::ClosedForm { law: motion.law().copied() },
             elements: None,
         };
         Ok(Self { setup, scene: scene.clone(), motion, pair })
@@ -193,11 +259,4 @@ fn stop_of(error: &LawError) -> Stop {
 /// Returns the rejection of a scene by its law.
 pub(super) fn refused(scene: &Scene, error: &LawError) -> Rejection {
     Rejection::new(scene.model().path(), error.to_string())
-}
-
-/// Returns the case with the start filled in, which all reduced models read.
-pub(super) fn resolve_start(scene: &Scene, mut file: CaseFile) -> CaseFile {
-    let gap = scene.gap().unwrap_or(fem_case::defaults::GAP);
-    file.start = Some(StartTable { gap: Some(Quantity::from_si(gap)) });
-    file
 }

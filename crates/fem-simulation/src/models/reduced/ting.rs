@@ -1,47 +1,15 @@
 //! Ting's quasi-static viscoelastic half-spaces, with the spheres' finite size if asked for.
 
-use fem_case::schema::{ModelTable, TingTable};
-use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
+use fem_case::Scene;
 use fem_laws::{Impact, LawError, Ting};
 
-use super::effects::support;
-use super::{Motion, Reduced, refused, resolve_start};
-use crate::effects::{Effect, PartnerWaves, Support};
+use super::{Motion, Reduced, refused};
+use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::ting_of;
 use crate::estimate::semi_infinite_partner::radiating_impact;
 use crate::estimate::viscous_flow;
-use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
-
-/// Ting's model, `[model] ting = {}`.
-#[derive(Clone, Copy, Debug)]
-pub struct TingMethod;
-
-impl Method for TingMethod {
-    fn name(&self) -> &'static str {
-        "ting"
-    }
-
-    fn build(&self, scene: &Scene, _: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-        Ok(Box::new(build(scene)?))
-    }
-
-    fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support> {
-        support(effect, scene, estimate, None)
-    }
-
-    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-        let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else { return Ok(file) };
-        let mut file = resolve_start(scene, file);
-        let table = TingTable {
-            finite_size: Some(finite_size),
-            tolerance: Some(Quantity::from_si(tolerance)),
-        };
-        file.model = Some(ModelTable { ting: Some(table), ..ModelTable::default() });
-        Ok(file)
-    }
-}
 
 impl Motion for Ting {
     fn impact(&self, speed: f64) -> Result<Impact, LawError> {
@@ -91,13 +59,11 @@ fn with_gravity(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
 }
 
 /// Builds the model of a scene.
-///
-/// # Errors
-/// As [`Reduced::new`]; a scene that chose another model.
-pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
-    let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else {
-        return Err(Rejection::chose_another(scene, "ting"));
-    };
+pub(super) fn build(
+    scene: &Scene,
+    finite_size: bool,
+    tolerance: f64,
+) -> Result<Reduced, Rejection> {
     let estimate = Estimate::checked(scene)?;
     viscous_flow::check(scene, &estimate)?;
     let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
@@ -107,9 +73,6 @@ pub(in crate::models) fn build(scene: &Scene) -> Result<Reduced, Rejection> {
 }
 
 /// Returns Ting's model of a scene; without relaxation its materials are elastic with the instantaneous moduli.
-///
-/// # Errors
-/// A contact too large for the correction of the spheres' size; numbers that the law refuses.
 pub(super) fn motion(
     scene: &Scene,
     estimate: &Estimate,

@@ -96,9 +96,6 @@ impl FiniteStrain {
     }
 
     /// Checks that elements can compute a scene at forced large strain.
-    ///
-    /// # Errors
-    /// A Poisson's ratio too near 1/2, or too many relaxation terms.
     pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
         let mut strained = Strained::of_both(scene, estimate).into_iter().flatten();
         let unsupported = strained.find(|strained| !strained.is_supported());
