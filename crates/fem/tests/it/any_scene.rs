@@ -137,13 +137,13 @@ fn numbers(simulation: &Simulation, collision: &Collision) -> Vec<f64> {
 const MODELS: [&str; 4] =
     ["ting]", "ting]\nfinite_size=true", "law]\nhertz={}", "law]\ntsuji={e=0.8}"];
 
-/// Computes 60 scenes with four models, in SI and in units that are powers of ten from it. Results agree within
+/// Computes 24 scenes with four models, in SI and in units that are powers of ten from it. Results agree within
 /// the tolerance of the models' solvers, since rounding of the scene's numbers moves their steps.
 #[test]
 fn units_do_not_matter_and_momentum_and_energy_are_conserved() {
     let mut random = Rng::with_seed(1);
     let mut n_computed = 0;
-    for pair in (0..60).map(|_| pair(&mut random)).collect::<Vec<_>>() {
+    for pair in (0..24).map(|_| pair(&mut random)).collect::<Vec<_>>() {
         let units = [(); 3].map(|()| 10f64.powi(random.i32(-6..6)));
         for model in MODELS {
             let ours = run(&pair.text(model, [1.0; 3]));
@@ -171,7 +171,7 @@ fn units_do_not_matter_and_momentum_and_energy_are_conserved() {
             }
         }
     }
-    assert!(n_computed > 180, "{n_computed}");
+    assert!(n_computed > 72, "{n_computed}");
 }
 
 /// Few scenes on coarse meshes, since each takes a tenth of a second.

@@ -105,7 +105,6 @@ fn the_cost_is_estimated() {
     assert!(simulation.levels().iter().all(|level| level.element_updates.is_none()));
     assert!(simulation.refined_because().unwrap().contains(": elements of"));
     compare_cost(&[], true);
-    compare_cost(ON_STEEL, false);
 }
 
 #[test]
@@ -114,6 +113,7 @@ fn the_cost_of_further_scenes_is_estimated() {
     for set in [SOFT_SPRINGS, SOFTEST_SPRINGS, FLUID] {
         compare_cost(set, true);
     }
+    compare_cost(ON_STEEL, false);
     compare_cost(FAST_RUBBER, false);
 }
 
@@ -163,7 +163,7 @@ fn soft_springs_cause_advice_and_no_mesh_refinement() {
     assert_eq!(computed.simulation.levels(), []);
     let before = computed.simulation.warnings_before();
     for (when, warnings) in [("before", before), ("after", computed.warnings())] {
-        let of_springs = |warning: &&String| warning.contains("write contact.penalty_factor = ");
+        let of_springs = |warning: &&String| warning.contains("contact.penalty_factor");
         assert_eq!(warnings.iter().filter(of_springs).count(), 1, "{when}: {warnings:#?}");
         assert!(!warnings.join("\n").contains("because of the mesh"), "{warnings:#?}");
     }
