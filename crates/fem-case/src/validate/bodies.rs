@@ -171,14 +171,15 @@ impl Check<'_> {
                     "write sphere = { diameter = \"22.2 mm\" }, wall = {} or half_space = {}",
                 )),
             [(first, _), .., (last, _)] => {
+                let names: Vec<&str> = given.iter().map(|(name, _)| *name).collect();
                 let keys = [join(path, last), join(path, "sphere.diameter"), join(path, first)];
                 Err(self
                     .conflict(
                         &keys[0],
                         &[&keys[1], &keys[2]],
-                        format!("\"{name}\" is both {first} and {last}"),
+                        format!("\"{name}\" has more than one shape: {}", listed(&names)),
                     )
-                    .with_help("keep one of the two"))
+                    .with_help("keep one of them"))
             }
         }
     }

@@ -145,9 +145,9 @@ macro_rules! contact_laws {
                 /// Normal damping C_n, ≥ 0; or `eta_1` and `eta_2`.
                 a: Time, NotNegative, Role::DAMPING;
                 /// Viscosity in shear, > 0; with `eta_2`.
-                eta_1: Viscosity, NotNegative;
+                eta_1: Viscosity, Positive;
                 /// Viscosity in compression, > 0.
-                eta_2: Viscosity, NotNegative;
+                eta_2: Viscosity, Positive;
             }
 
             /// Hertz' spring with a damping of the spring's own form.

@@ -80,7 +80,10 @@ fn every_model_and_law_is_read() {
         ("falcon = { c = 500 }", "Falcon c=5e2"),
         ("mishra_murty = { k = 1e10, c = 1 }", "MishraMurty k=1e10 c=1e0"),
         ("schwager_poeschel = { a = 1e-6 }", "SchwagerPoeschel a=1e-6"),
-        ("schwager_poeschel = { eta_1 = 1e3, eta_2 = 0 }", "SchwagerPoeschel eta_1=1e3 eta_2=0e0"),
+        (
+            "schwager_poeschel = { eta_1 = 1e3, eta_2 = 2e3 }",
+            "SchwagerPoeschel eta_1=1e3 eta_2=2e3",
+        ),
         (
             "morgado_oppenheim = { eta_1 = 1e4, eta_2 = 0.2 }",
             "MorgadoOppenheim eta_1=1e4 eta_2=2e-1",
