@@ -76,7 +76,7 @@ const HARD: &str =
 const SAID: [Said; 13] = [
     Said {
         page: "README.md",
-        words: "about 7 % of the relative velocity is lost",
+        words: "which takes about 7 % of the relative velocity",
         cases: &[GLASS],
         what: lost_speed,
         from_to: (0.065, 0.075),

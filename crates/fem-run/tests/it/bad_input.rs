@@ -125,7 +125,7 @@ fn meaningless_files_and_command_lines_are_rejected() {
         (&["case.toml", "--threads", "many"], "give a whole number, at least 1"),
         (&["case.toml", "--bogus"], "--bogus"),
         (&["case.toml", "case.toml"], "one case"),
-        (&["chek", "case.toml"], "did you mean fem-run check?"),
+        (&["chek", "case.toml"], "did you mean check?"),
         (&["nwe"], "did you mean fem-run new?"),
         (&["swep", "sweep.toml"], "did you mean sweep?"),
         (&["mateirals"], "did you mean fem-run materials?"),
