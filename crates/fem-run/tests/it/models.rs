@@ -1,6 +1,6 @@
 //! The same case with cheaper models: results, files, sweeps over models.
 
-use crate::common::Place;
+use crate::common::{Place, set};
 use serde_json::Value;
 
 fn number(value: &Value) -> f64 {
@@ -9,10 +9,7 @@ fn number(value: &Value) -> f64 {
 
 /// Runs the case with these overrides and returns its summary.
 fn summary(place: &Place, overrides: &[&str]) -> Value {
-    let set = overrides.iter().flat_map(|value| ["--set", *value]);
-    let arguments: Vec<&str> =
-        ["case.toml", "--out", "out", "--quiet", "--force"].into_iter().chain(set).collect();
-    place.succeed(&arguments);
+    place.succeed(("case.toml --out out --quiet --force", set(overrides)));
     place.json("out/summary.json")
 }
 

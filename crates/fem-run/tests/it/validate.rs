@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::Place;
+use crate::common::{FAILS, Place};
 
 const CHECK: &str = r#"
 [[check]]
@@ -36,10 +36,7 @@ fn a_claim_that_holds_is_shown_with_its_reference() {
     let ran = place.succeed("validate");
     ran.prints("Against the paper|mine|restitution|0.93|0.01|pass");
     ran.tells("[1/1] pass  mine");
-    assert_eq!(
-        place.list("runs/validation"),
-        ["checks.csv", "index.html", "summary.json"].map(String::from)
-    );
+    assert_eq!(place.list("runs/validation"), ["checks.csv", "index.html", "summary.json"]);
     assert_eq!(place.json("runs/validation/summary.json")["passed"], true);
     let page = place.text("runs/validation/index.html");
     for outside in ["<script", "<link", "@import", "src=\"http", "url("] {
@@ -65,8 +62,7 @@ fn a_claim_that_fails_ends_with_status_1_and_keeps_the_page() {
     let other = CHECK.replace("pair.restitution", "pair.colour");
     place.write("validation/mine/claim.toml", &claim(&other));
     place.fails(1, "validate").prints("not measured");
-    let sets: Vec<_> = crate::common::FAILS.iter().skip(1).step_by(2).collect();
-    let text = claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = {sets:?}\n"));
+    let text = claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = {FAILS:?}\n"));
     place.write("validation/mine/claim.toml", &text);
     place.fails(1, "validate").prints("mine|FAIL");
 }
@@ -99,8 +95,7 @@ fn bad_claims_are_refused_before_anything_runs() {
     ] {
         let place = place(checks);
         let ran = place.fails(2, "validate");
-        let position = line(&claim(checks), place_of);
-        ran.tells(&position);
+        ran.tells(line(&claim(checks), place_of));
         ran.tells(message);
         assert!(!place.path("runs").exists());
     }
@@ -118,9 +113,8 @@ fn bad_claims_are_refused_before_anything_runs() {
     }
     let sumary = claim(CHECK).replace("'summary'", "'sumary'");
     place.write("validation/mine/claim.toml", &sumary);
-    let ran = place.fails(2, "validate");
     let message = "claim.toml:1:1: there is no study `sumary`; the studies are balances, ";
-    ran.tells(message);
+    place.fails(2, "validate").tells(message);
     place.write("validation/mine/claim.toml", &claim(CHECK));
     place.write("case.toml", &crate::common::CASE.replace("density", "densty"));
     place.fails(2, "validate").tells("case.toml:4:1: ");

@@ -72,10 +72,11 @@ fn sweep(place: &Place) {
     assert_eq!(hidden(place), [""; 0]);
 }
 
-/// The process was killed before anything was finished.
+/// Processes that were killed before anything was finished, one before it had a lock.
 #[test]
 fn recovery_deletes_an_unfinished_result() {
     let place = Place::new();
+    fs::create_dir(place.path(".fem-run-b")).unwrap();
     let folder = abandon(&place, "a");
     place.write(&format!("{folder}/history.csv"), "time_s");
     sweep(&place);
@@ -125,14 +126,6 @@ fn recovery_deletes_the_old_result_after_its_replacement() {
     sweep(&place);
     assert_eq!(place.list("out"), ["history.csv", "notes.txt", "report.html", "summary.json"]);
     assert_eq!(place.read("out/summary.json"), new);
-}
-
-/// The process was killed before it had a lock.
-#[test]
-fn recovery_deletes_an_empty_hidden_folder() {
-    let place = Place::new();
-    fs::create_dir(place.path(".fem-run-a")).unwrap();
-    sweep(&place);
 }
 
 /// Without a lock file, a folder may belong to someone else.

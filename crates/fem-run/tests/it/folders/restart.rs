@@ -7,7 +7,7 @@ use std::process::{Child, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::common::Place;
+use crate::common::{Place, set};
 
 const RESTART_FILE: &str = "fem-run.restart";
 /// Options that write many restart files.
@@ -53,31 +53,30 @@ fn scenes() -> Vec<(&'static str, Place, Vec<&'static str>)> {
                  terms=[{weight=0.5, decay_rate=2e4}, {weight=0.3, relaxation_time=1e-5}]}";
     let twin = "body.1={name='twin', sphere={diameter='22.2 mm'}, material='glass'}";
     let size = "mesh.contact_element_size='40 um'";
-    let fast = ["body.0.approach_speed=150", "mesh.contact_element_size='0.5 mm'"];
+    let fast = [
+        "body.0.approach_speed=150",
+        "mesh.contact_element_size='0.5 mm'",
+        "effects.bulk_viscosity='on'",
+    ];
     let spread = "output.snapshots=7";
     // The soft pair, so coarse that finite strain takes a second.
     let soft = "material.glass={density=1100, youngs_modulus=4e6, poissons_ratio=0.45, \
                 hyperelastic='neo-hooke', relaxation={acts_on='shear', \
                 terms=[{weight=0.3, relaxation_time='0.5 ms'}]}}";
-    let slow = ["body.0.approach_speed=2", "mesh.contact_element_size='0.3 mm'"];
-    let probe = "output.probe=[{body='target', r=0, y='1 mm'}]";
+    let finite = [
+        soft,
+        "body.0.approach_speed=2",
+        "mesh.contact_element_size='0.3 mm'",
+        spread,
+        "output.probe=[{body='target', r=0, y='1 mm'}]",
+        "effects.finite_strain='on'",
+    ];
     vec![
-        (
-            "finite strain",
-            Place::new(),
-            [soft, slow[0], slow[1], spread, probe, "effects.finite_strain='on'"]
-                .into_iter()
-                .flat_map(|value| ["--set", value])
-                .collect(),
-        ),
-        ("relaxing", Place::new(), vec!["--set", size, "--set", spread]),
-        ("shear", Place::new(), vec!["--set", size, "--set", shear]),
-        (
-            "fast",
-            Place::new(),
-            vec!["--set", fast[0], "--set", fast[1], "--set", "effects.bulk_viscosity='on'"],
-        ),
-        ("twins", Place::new(), vec!["--set", size, "--set", twin]),
+        ("finite strain", Place::new(), set(&finite)),
+        ("relaxing", Place::new(), set(&[size, spread])),
+        ("shear", Place::new(), set(&[size, shear])),
+        ("fast", Place::new(), set(&fast)),
+        ("twins", Place::new(), set(&[size, twin])),
         ("ball", Place::with(BALL), vec![]),
     ]
 }

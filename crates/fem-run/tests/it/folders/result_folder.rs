@@ -1,6 +1,6 @@
 //! The files that a run writes, and those that it leaves alone.
 
-use crate::common::{FAILS, Place};
+use crate::common::{FAILS, Place, set};
 use fem_vtk::VtuFile;
 
 /// The quantities of interest, which `hertz` and `uncertainty` have too.
@@ -241,7 +241,7 @@ fn failed_run_writes_a_result_marked_incomplete() {
     place.fails(2, "case.toml --out out --set body.0.approach_speed=-1");
     assert_eq!((place.read("out/summary.json"), place.list(".").len()), (before, 2));
     for out in ["out/", "fresh"] {
-        place.fails(1, (["case.toml", "--out", out, "--force"], FAILS)).tells("marked incomplete");
+        place.fails(1, ("case.toml --force --out", [out], set(&FAILS))).tells("marked incomplete");
         let summary = place.json(&format!("{}/summary.json", out.trim_end_matches('/')));
         assert_eq!(summary["complete"], false);
         assert!(summary["stopped_because"].is_string());

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::common::{FAILS, Place};
+use crate::common::{FAILS, Place, set};
 
 #[test]
 fn failed_run_states_cause_and_fix_and_keeps_its_results() {
     let place = Place::new();
-    let ran = place.fails(1, ("case.toml", FAILS));
+    let ran = place.fails(1, ("case.toml", set(&FAILS)));
     ran.tells("error: |step|likely cause: |remedy: |runs/case");
     ran.prints("INCOMPLETE");
     let summary = place.json("runs/case/summary.json");
@@ -51,11 +51,7 @@ mod signals {
 
     /// Starts an endless run and waits for its first line.
     fn start(place: &Place, more: &[&str]) -> (Child, BufReader<impl Read + use<>>) {
-        start_with(place, &[&["case.toml"][..], &ENDLESS, more].concat())
-    }
-
-    fn start_with(place: &Place, arguments: &[&str]) -> (Child, BufReader<impl Read + use<>>) {
-        let mut command = place.command(arguments);
+        let mut command = place.command(("case.toml", ENDLESS, more));
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let mut stderr = BufReader::new(child.stderr.take().unwrap());
         let mut line = String::new();
@@ -64,75 +60,50 @@ mod signals {
         (child, stderr)
     }
 
-    fn send(child: &Child, signal: Signal) {
-        kill(Pid::from_raw(child.id() as i32), signal).unwrap();
-    }
-
-    /// Returns the summary of a run that a signal ended in an orderly way.
+    /// Sends signals, which end the run in an orderly way, and returns its summary.
     fn interrupted(
         place: &Place,
         (mut child, mut stderr): (Child, BufReader<impl Read>),
-        signal: Signal,
+        signals: &[Signal],
     ) -> serde_json::Value {
-        send(&child, signal);
+        for signal in signals {
+            kill(Pid::from_raw(child.id() as i32), *signal).unwrap();
+        }
         let mut message = String::new();
         stderr.read_to_string(&mut message).unwrap();
         assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
         assert!(message.contains("interrupted at"), "{message}");
+        assert_eq!(place.list("runs"), ["case"]);
         let summary = place.json("runs/case/summary.json");
         assert_eq!(summary["complete"], false);
         summary
     }
 
+    /// `timeout` and some shells send one signal to the process and one to its group: they count as one.
     #[test]
     fn interrupted_run_writes_its_results_so_far() {
-        for signal in [Signal::SIGINT, Signal::SIGTERM] {
+        let twice = &[Signal::SIGINT; 2][..];
+        for signals in [&[Signal::SIGINT][..], &[Signal::SIGTERM], twice, twice, twice] {
             let place = Place::new();
-            let summary = interrupted(&place, start(&place, &[]), signal);
+            let summary = interrupted(&place, start(&place, &[]), signals);
             assert!(summary["stopped_because"].as_str().unwrap().contains("interrupted"));
             let history = place.text("runs/case/history.csv");
             assert!(history.lines().count() >= 2, "{history}");
-            assert_eq!(place.list("runs"), ["case"]);
         }
     }
 
     #[test]
     fn condensed_bodies_are_interrupted_too() {
         let place = Place::new();
-        let slow = ["case.toml", "--set", "model.condensed={steps=100000, vibration_modes=30}"];
+        let slow = ["--set", "model.condensed={steps=100000, vibration_modes=30}"];
         let fine = ["--set", "mesh.contact_element_size=20e-6"];
-        let started = start_with(&place, &[&slow[..], &fine].concat());
-        let summary = interrupted(&place, started, Signal::SIGINT);
+        let started = start(&place, &[slow, fine].concat());
+        let summary = interrupted(&place, started, &[Signal::SIGINT]);
         assert!(summary["bodies"][0]["mass_kg"].as_f64().unwrap() > 0.0);
     }
 
-    /// `timeout` and some shells send one signal to the process and one to its group.
     #[test]
-    fn two_simultaneous_signals_count_as_one() {
-        for _ in 0..3 {
-            let place = Place::new();
-            let (mut child, _stderr) = start(&place, &[]);
-            send(&child, Signal::SIGINT);
-            send(&child, Signal::SIGINT);
-            assert_eq!(child.wait().unwrap().code(), Some(130));
-            assert_eq!(place.json("runs/case/summary.json")["complete"], false);
-            assert_eq!(place.list("runs"), ["case"]);
-        }
-    }
-
-    #[test]
-    fn interrupted_run_with_force_replaces_an_older_result() {
-        let place = Place::new();
-        place.succeed("case.toml --set model=ting");
-        let (mut child, _stderr) = start(&place, &["--force"]);
-        send(&child, Signal::SIGINT);
-        assert_eq!(child.wait().unwrap().code(), Some(130));
-        assert_eq!(place.json("runs/case/summary.json")["complete"], false);
-        assert_eq!(place.list("runs"), ["case"]);
-    }
-
-    #[test]
-    fn a_killed_run_leaves_an_older_result_alone() {
+    fn only_an_interrupted_run_with_force_replaces_an_older_result() {
         let place = Place::new();
         place.succeed("case.toml --set model=ting");
         let before = place.read("runs/case/summary.json");
@@ -141,5 +112,6 @@ mod signals {
         child.wait().unwrap();
         assert_eq!(place.read("runs/case/summary.json"), before);
         place.succeed("case.toml --set model=ting");
+        interrupted(&place, start(&place, &["--force"]), &[Signal::SIGINT]);
     }
 }

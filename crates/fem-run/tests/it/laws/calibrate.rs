@@ -1,7 +1,7 @@
 //! `fem-run calibrate` on the command line.
 
 use super::rejects_data;
-use crate::common::{CASE, Place};
+use crate::common::{CASE, Place, set};
 
 const ICE: &str = include_str!("../../../../../cases/ice_2cm.toml");
 const BRIDGES: &str = include_str!("../../../../../validation/data/bridges_ice.csv");
@@ -10,8 +10,7 @@ const PAIRINGS: &str = include_str!("../../../../../validation/data/synthetic_pa
 const GLASS: &str = include_str!("../../../../../cases/glass_0.5ms.toml");
 
 /// One element size for all speeds, for the data and for the fit.
-const MESH: [&str; 2] =
-    ["--set", "mesh={contact_element_size=\"40 um\", refined_radius=\"0.4 mm\"}"];
+const MESH: &str = "--set 'mesh={contact_element_size=4e-5, refined_radius=4e-4}'";
 
 fn number(value: &serde_json::Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
@@ -60,12 +59,10 @@ fn calibrate_reproduces_a_known_series() {
     );
     let series = "material.glass.relaxation.terms=[{weight=0.03, relaxation_time=\"20 us\"}, \
                   {weight=0.25, relaxation_time=\"300 us\"}]";
-    let model = ["--set", "model.condensed={}", "--set", series];
-    let sweep = [&["sweep", "sweep.toml", "--out", "made", "--quiet"], &MESH[..], &model].concat();
-    place.succeed(&sweep);
-    let calibrate = ["calibrate", "case.toml", "--data", "made/sweep.csv", "--out", "found"];
-    let weak = "--regularisation 1e-4";
-    let ran = place.succeed((calibrate, MESH, weak));
+    let model = set(&["model.condensed={}", series]);
+    place.succeed(("sweep sweep.toml --out made --quiet", MESH, model));
+    let calibrate = "calibrate case.toml --data made/sweep.csv --out found --regularisation 1e-4";
+    let ran = place.succeed((calibrate, MESH));
     let numbers = place.json("found/calibrate.json");
     let residuals = place.text("found/residuals.csv");
     assert_eq!(residuals.lines().count(), 5);
@@ -287,8 +284,7 @@ fn calibrate_rejects_data_and_meshes_that_do_not_fit() {
     ] {
         let place = Place::with(case);
         place.write("e.csv", data);
-        let words: Vec<&str> = set.split_whitespace().collect();
-        let ran = place.fails(2, ("calibrate case.toml --data e.csv", &words));
+        let ran = place.fails(2, ("calibrate case.toml --data e.csv", set));
         ran.tells(expected);
         assert_eq!(ran.stderr.contains("--set"), !set.is_empty(), "{}", ran.stderr);
     }

@@ -119,20 +119,6 @@ fn a_dry_run_counts_and_writes_nothing() {
     assert_eq!(place.run("sweep sweep.toml --dry-run").code, Some(2));
 }
 
-#[test]
-fn paired_lists_run_side_by_side() {
-    let place = place(
-        "case = 'case.toml'\ncombine = 'paired'\n[vary]\n'body.0.approach_speed' = [0.3, 0.5]\n\
-         'body.1.sphere.diameter' = ['16 mm', '18 mm']\n",
-    );
-    place.succeed("sweep sweep.toml --out out --quiet");
-    let rows = rows(&place, "out/sweep.csv");
-    assert_eq!(
-        rows[1..].iter().map(|row| &row[..2]).collect::<Vec<_>>(),
-        [["0.3", "16 mm"], ["0.5", "18 mm"]]
-    );
-}
-
 /// Equal spheres at speeds of equal ratios, and pairs from a table.
 #[test]
 fn ranges_links_and_tables_make_the_members_that_lists_make() {

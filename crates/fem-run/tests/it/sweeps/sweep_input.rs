@@ -210,25 +210,19 @@ fn warnings_of_sweep_members_are_printed_once() {
 }
 
 /// Ends of a range in two units of one quantity: the ends are as written, the others in the unit of the
-/// last.
+/// last; a bare number is SI.
 #[test]
 fn a_range_may_begin_in_another_unit() {
     let place = Place::new();
-    let range = "'body.0.approach_speed' = { from = '50 mm/s', to = '2 m/s', n = 3, log = true }";
-    place.write("sweep.toml", &vary(range));
-    place.succeed(["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
-    let table = place.text("runs/sweep/sweep.csv");
-    let texts: Vec<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
-    assert!(texts.len() == 3 && texts[0] == "50 mm/s" && texts[2] == "2 m/s", "{texts:?}");
-    // The geometric mean: √(0.05 · 2) m/s.
-    let middle: f64 = texts[1].strip_suffix(" m/s").unwrap().parse().unwrap();
-    assert!((middle - 0.1f64.sqrt()).abs() < 1e-15, "{middle}");
-    // A bare number is SI.
-    let range = "'body.0.approach_speed' = { from = '50 mm/s', to = 2, n = 3, log = true }";
-    place.write("sweep.toml", &vary(range));
-    place.succeed(["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
-    let table = place.text("runs/sweep/sweep.csv");
-    let texts: Vec<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
-    assert!(texts[0] == "50 mm/s" && texts[2] == "2.0", "{texts:?}");
-    assert!(texts[1].parse::<f64>().is_ok_and(|middle| (middle - 0.1f64.sqrt()).abs() < 1e-15));
+    for (to, last) in [("'2 m/s'", "2 m/s"), ("2", "2.0")] {
+        let range = format!("{{ from = '50 mm/s', to = {to}, n = 3, log = true }}");
+        place.write("sweep.toml", &vary(&format!("'body.0.approach_speed' = {range}")));
+        place.succeed("sweep sweep.toml --quiet --set model.hertz={}");
+        let table = place.text("runs/sweep/sweep.csv");
+        let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+        assert!(texts.len() == 3 && texts[0] == "50 mm/s" && texts[2] == last, "{texts:?}");
+        // The geometric mean: √(0.05 · 2) m/s.
+        let middle: f64 = texts[1].trim_end_matches(" m/s").parse().unwrap();
+        assert!((middle - 0.1f64.sqrt()).abs() < 1e-15, "{middle}");
+    }
 }

@@ -1,8 +1,9 @@
 //! Printed numbers are readable: no sixteen digits, no exponent without need, in any command.
 
+use std::ffi::OsString;
 use std::path::Path;
 
-use crate::common::{FAILS, Place};
+use crate::common::{FAILS, Place, Words, set};
 
 /// Returns a number that nobody would write; text for programs is left out.
 fn odd_number(text: &str) -> Option<&str> {
@@ -34,33 +35,30 @@ fn no_command_prints_odd_numbers() {
     let place = Place::new();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let data = root.join("validation/data/bridges_ice.csv");
-    let data = data.to_str().unwrap();
     place.write(
         "sweep.toml",
         "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = { from = '5 cm/s', to = '2 m/s', n = 4, log = true }\nmodel = ['ting']\n",
     );
-    let mut commands: Vec<Vec<&str>> = vec![
-        vec!["case.toml", "--set", "model=ting"],
-        vec!["case.toml", "--set", "model.ting.finite_size=true", "--out", "finite"],
-        vec!["check", "case.toml"],
-        vec!["check", "case.toml", "--set", "model=ting"],
-        vec!["fit", "case.toml", "--data", data, "--law", "all"],
-        vec!["export", "case.toml"],
-        vec!["export", "case.toml", "--diameters", "1 mm,1 in", "--out", "pairs"],
-        vec!["invert", "case.toml", "--restitution", "0.9"],
-        vec!["invert", "case.toml", "--restitution", "0.2", "--law", "hunt_crossley"],
-        vec!["materials", "pmma"],
-        vec!["sweep", "sweep.toml"],
+    let mut commands: Vec<Vec<OsString>> = vec![
+        "case.toml --set model=ting".words(),
+        "case.toml --set model.ting.finite_size=true --out finite".words(),
+        "check case.toml".words(),
+        "check case.toml --set model=ting".words(),
+        ("fit case.toml --law all --data", [data]).words(),
+        "export case.toml".words(),
+        "export case.toml --diameters '1 mm,1 in' --out pairs".words(),
+        "invert case.toml --restitution 0.9".words(),
+        "invert case.toml --restitution 0.2 --law hunt_crossley".words(),
+        "materials pmma".words(),
+        "sweep sweep.toml".words(),
+        ("case.toml --out failed", set(&FAILS)).words(),
     ];
-    commands.push([&["case.toml", "--out", "failed"][..], &FAILS].concat());
-    let cases: Vec<_> = std::fs::read_dir(root.join("cases")).unwrap().collect();
-    let names: Vec<String> =
-        cases.into_iter().map(|case| case.unwrap().path().display().to_string()).collect();
-    for name in names.iter().step_by(4) {
-        commands.push(vec!["check", name]);
-    }
-    for name in &names {
-        commands.push(vec![name, "--set", "model=hertz", "--out", "out", "--force"]);
+    let cases = std::fs::read_dir(root.join("cases")).unwrap();
+    for (k, case) in cases.map(|case| case.unwrap().path()).enumerate() {
+        if k % 4 == 0 {
+            commands.push(("check", [&case]).words());
+        }
+        commands.push(([case], "--set model=hertz --out out --force").words());
     }
     for command in commands {
         let ran = place.run(&command);

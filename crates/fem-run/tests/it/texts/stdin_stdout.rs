@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::process::Stdio;
 
-use crate::common::{CASE, Place, Ran};
+use crate::common::{CASE, FAILS, Place, Ran, set};
 
 /// Runs the command with a text on the standard input.
 fn fed(place: &Place, arguments: &[&str], text: &[u8]) -> Ran {
@@ -57,7 +57,7 @@ fn json_option_prints_only_the_summary() {
         let is_warning = |line: &str| line.starts_with("warning: ");
         assert_eq!(ran.stderr.lines().all(is_warning), !quiet.is_empty(), "{}", ran.stderr);
     }
-    let failed = place.fails(1, &[&["case.toml", "--json"][..], &crate::common::FAILS].concat());
+    let failed = place.fails(1, ("case.toml --json", set(&FAILS)));
     let summary: serde_json::Value = serde_json::from_str(&failed.stdout).unwrap();
     assert_eq!(summary["complete"], false);
 }
