@@ -18,7 +18,7 @@ pub struct Collision {
     pub approach: Approach,
     /// How the collision ended.
     pub ending: Ending,
-    /// Restitution ([`Ending::restitution`]).
+    /// Restitution of the collision ([`Ending::restitution`]).
     pub restitution: Option<f64>,
     /// Time from the first to the last contact force, including intervals in which the surfaces were open, s.
     pub contact_time: Option<f64>,

@@ -76,7 +76,7 @@ const HARD: &str =
 const SAID: [Said; 13] = [
     Said {
         page: "README.md",
-        words: "which takes about 7 % of the relative velocity",
+        words: "about 7 % of the relative velocity is lost",
         cases: &[GLASS],
         what: lost_speed,
         from_to: (0.065, 0.075),

@@ -56,9 +56,9 @@ fn faults_of_bodies_have_their_message_and_position() {
             "one body is a wall and the other a half-space",
         ),
         ("\"target\"", "«\"striker\"»", "both bodies have the name"),
-        ("\"target\"", "«\"the target\"»", "not a body's name"),
-        ("\"target\"", "«\"\"»", "not a body's name"),
-        ("\"target\"", "«'Kügel'»", "not a body's name"),
+        ("\"target\"", "«\"the target\"»", "not a valid body name"),
+        ("\"target\"", "«\"\"»", "not a valid body name"),
+        ("\"target\"", "«'Kügel'»", "not a valid body name"),
         (GLASS, "", "no material \"glass\""),
         ("diameter = 1", "diameter = 1, mesh = «''»", "mesh is an empty path"),
     ] {
