@@ -41,7 +41,7 @@ fn faults_of_bodies_have_their_message_and_position() {
         ("wall = {}", "wall = {}\napproach_speed = «-0.5»", "approach_speed is"),
         ("wall = {}", "wall = {}\nmaterial = «'glass'»", "has no material"),
         ("wall = {}", "wall = «{}»\nsphere.diameter = 1", "more than one shape: sphere and wall"),
-        ("wall = {}", "wall = {}\nhalf_space = «{}»", "both wall and half_space"),
+        ("wall = {}", "wall = {}\nhalf_space = «{}»", "more than one shape: wall and half_space"),
         (TARGET, "«[[body]]»\nname = \"target\"\nhalf_space = {}", "the key `material` is missing"),
         (
             "wall = {}",
