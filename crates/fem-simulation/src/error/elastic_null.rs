@@ -61,7 +61,9 @@ pub(super) fn elastic_null(
     for (named, body) in scene.bodies().iter().zip(&collision.bodies) {
         has_elements |= body.elements.is_some_and(|elements| elements > 0);
         let series = named.material().and_then(|material| material.relaxation());
-        let rate = series.map_or(0.0, fast_rate);
+        // −Ġ/G just after a sudden strain, 1/s.
+        let terms = series.into_iter().flat_map(PronySeries::terms);
+        let rate: f64 = terms.map(|term| term.weight / term.relaxation_time).sum();
         let relaxed = (RELAXATION_TIME_OVER_CONTACT_TIME * contact_time * rate).exp();
         let vibrations = body.vibration_energy.unwrap_or(0.0) * relaxed;
         is_gone |= relaxed > LARGEST_DECAY
@@ -100,9 +102,4 @@ fn elastic_run(
     runs.count(&elastic);
     let restitution = elastic.restitution.filter(|_| elastic.is_complete())?;
     Some((1.0 - restitution).max(0.0))
-}
-
-/// Returns −Ġ/G just after a sudden strain, 1/s.
-fn fast_rate(series: &PronySeries) -> f64 {
-    series.terms().iter().map(|term| term.weight / term.relaxation_time).sum()
 }

@@ -18,7 +18,7 @@ use std::convert::Infallible;
 
 use fem_case::defaults::PENALTY_FACTOR;
 use fem_case::{Body, Case, CaseError, Shape};
-use fem_collision::{Collision, Monitor, QuantityOfInterest, Stop};
+use fem_collision::{Collision, Monitor, QuantityOfInterest};
 use fem_material::engineering::Unit;
 
 use super::calibration::MOVED_MASS;
@@ -190,7 +190,7 @@ impl ErrorEstimator {
             match self.refined(&simulation, &collision, &errors) {
                 Ok(Some(finer)) => {
                     let next = compute(self, &finer)?;
-                    if let Some(stop) = next.stop().filter(|stop| !is_interrupt(stop)) {
+                    if let Some(stop) = next.stop().filter(|_| !next.is_interrupted()) {
                         errors.not_refined = Some(NotRefined::Stopped(stop.to_string()));
                         break errors;
                     }
@@ -347,10 +347,6 @@ pub(super) fn may_be_refined(simulation: &Simulation) -> bool {
 fn has_mesh_file(simulation: &Simulation) -> bool {
     let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
     simulation.case().scene().bodies().iter().any(is_file)
-}
-
-fn is_interrupt(stop: &Stop) -> bool {
-    matches!(stop, Stop::Interrupted { .. })
 }
 
 /// Prints an element size with three digits, as a case takes it.

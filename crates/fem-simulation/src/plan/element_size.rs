@@ -103,7 +103,8 @@ impl MeshRule {
             }
         };
         let asked_for = (error / (TOLERANCE_SHARE_OF_MESH * tolerance)).sqrt() / later;
-        let asked_for = scene.refinement() * for_waves(estimate.mach) * asked_for.max(fewest);
+        let for_waves = (estimate.mach / MACH_OF_SLOW_IMPACTS).cbrt().max(1.0);
+        let asked_for = scene.refinement() * for_waves * asked_for.max(fewest);
         let across = asked_for.min(MOST_ACROSS);
         let across = match is_staggered || at_nodes {
             true => across,
@@ -129,11 +130,6 @@ impl MeshRule {
 /// Returns whether the bodies touch exactly, at their nodes.
 pub(crate) fn touches_at_nodes(model: &ModelChoice) -> bool {
     matches!(model, ModelChoice::Condensed(CondensedOptions { penalty_springs: false, .. }))
-}
-
-/// Returns the factor on the number of elements for an impact at this speed over the shear wave speed.
-fn for_waves(mach: f64) -> f64 {
-    (mach / MACH_OF_SLOW_IMPACTS).cbrt().max(1.0)
 }
 
 /// Returns the tolerance of the peak force at which all tolerances are met.

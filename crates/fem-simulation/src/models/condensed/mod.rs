@@ -126,7 +126,8 @@ impl Condensed {
         let asks_for_fields = !plan.snapshots.is_empty() || !scene.probes().is_empty();
         let settings = PairSettings {
             keeps_factors: (asks_for_fields && !shared.is_of_reference_runs)
-                || needs_factors(scene, options),
+                || options.vibration_modes > 0
+                || scene.bodies().iter().any(relaxes_in_shear),
             ..settings(scene, &plan, options)
         };
         let key = PairKey { bodies, settings };
@@ -400,11 +401,6 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
         }),
         ..PairSettings::new(candidate_radius(plan, &plan.estimate))
     }
-}
-
-/// Returns whether a collision needs the factors of the bodies even without fields.
-fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
-    options.vibration_modes > 0 || scene.bodies().iter().any(relaxes_in_shear)
 }
 
 fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Rejection> {

@@ -53,11 +53,6 @@ impl<'a> Strained<'a> {
         self.deformation.flatness > FLATTEST
     }
 
-    /// Returns whether the material may follow another law than the computed one.
-    pub fn may_differ_from(&self, computed: Option<HyperelasticLaw>) -> bool {
-        self.possible_laws().into_iter().any(|law| Some(law) != computed)
-    }
-
     /// Returns the spread of the contact time over the possible laws, as a share.
     pub fn spread(&self) -> f64 {
         let nu = self.material.instantaneous().poissons_ratio();
