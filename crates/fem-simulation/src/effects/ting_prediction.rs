@@ -28,7 +28,7 @@ impl TingPrediction {
     /// waves; between half-spaces, or with the spheres' finite size.
     ///
     /// # Errors
-    /// Numbers that the law refuses.
+    /// Numbers that the law rejects.
     pub fn of(scene: &Scene, speed: f64, finite_size: bool) -> Result<Self, LawError> {
         let estimate = Estimate::at(scene, speed)?;
         let is_condensed = matches!(scene.model(), ModelChoice::Condensed(_));

@@ -56,7 +56,7 @@ impl Estimate {
     /// # Errors
     /// Those of [`Estimate::of`], as a fault of the scene; masses out of the range of f64.
     pub fn checked(scene: &Scene) -> Result<Self, Rejection> {
-        let refused = |why: String| {
+        let rejected = |why: String| {
             Rejection::new("body", format!("the collision cannot be estimated: {why}"))
                 .with_help("check sizes, densities, moduli and speeds, and their units")
         };
@@ -77,15 +77,15 @@ impl Estimate {
                     format!("diameter is {} m", number(diameter.unwrap_or(0.0), 4)),
                 ),
             };
-            let mut refusal = refused(format!(
+            let mut rejection = rejected(format!(
                 "the mass of {} is {} kg, since its {of}; its square must be a number",
                 body.name(),
                 number(mass, 4)
             ));
-            refusal.key = format!("body.{k}.{part}");
-            return Err(refusal);
+            rejection.key = format!("body.{k}.{part}");
+            return Err(rejection);
         }
-        Self::of(scene).map_err(|error| refused(error.to_string()))
+        Self::of(scene).map_err(|error| rejected(error.to_string()))
     }
 
     /// Returns the expected contact time and approach for the run.

@@ -51,7 +51,7 @@ pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection>
     let impact = match impact(scene, estimate) {
         Some(Ok(impact)) => impact,
         Some(Err(LawError::NotFinished { .. })) if flows(scene, estimate) => {
-            return Err(refused("the contact would grow beyond all bounds".to_string()));
+            return Err(rejected("the contact would grow beyond all bounds".to_string()));
         }
         _ => return Ok(()),
     };
@@ -61,14 +61,14 @@ pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection>
     if impact.contact_time.is_some() || share <= WIDEST_CONTACT_OVER_RADIUS || !is_widened {
         return Ok(());
     }
-    Err(refused(format!(
+    Err(rejected(format!(
         "the contact would grow to {share:.2} of the smallest radius, {:.0} times as wide as that of elastic \
          bodies",
         radius / estimate.hertz.max_contact_radius()
     )))
 }
 
-fn refused(how: String) -> Rejection {
+fn rejected(how: String) -> Rejection {
     let found = format!("the bodies relax so fast that they flow into each other: {how}");
     Rejection::new("material", found).with_help(format!(
         "at most {WIDEST_CONTACT_OVER_RADIUS} are allowed; check the relaxation times, decay rates and weights of \

@@ -115,7 +115,7 @@ impl SelectedModel {
         let estimate = Estimate::checked(scene)?;
         viscous_flow::check(scene, &estimate)?;
         let judged = CANDIDATES.each_ref().map(|candidate| candidate.judge(scene, &estimate));
-        let serves = judged.iter().position(|judged| judged.unfit.is_none());
+        let serves = judged.iter().position(|judged| judged.rejection_reason.is_none());
         let best = serves.unwrap_or_else(|| closest(&judged));
         let excess = judged[best].excess;
         let considered = judged.into_iter().zip(&CANDIDATES).enumerate();
@@ -124,7 +124,7 @@ impl SelectedModel {
                 model: candidate.name,
                 chosen: k == best,
                 error: judged.error,
-                reason: match judged.unfit {
+                reason: match judged.rejection_reason {
                     Some(why) if k == best => format!("{why}; it comes closest"),
                     Some(why) => why,
                     None if k == best => "the cheapest within the tolerance".to_string(),
@@ -148,7 +148,7 @@ struct Candidate {
     name: &'static str,
     choice: fn() -> ModelChoice,
     /// Errors of the model's approximations at default settings, of the quantities in [`JUDGED_QUANTITIES`].
-    own: [f64; 4],
+    own_errors: [f64; 4],
 }
 
 /// The quantities that a tolerance is given for.
@@ -168,22 +168,22 @@ const CANDIDATES: [Candidate; 6] = [
     Candidate {
         name: "hertz = {}",
         choice: || ModelChoice::Hertz { finite_size: false },
-        own: [0.0; 4],
+        own_errors: [0.0; 4],
     },
     Candidate {
         name: "hertz = { finite_size = true }",
         choice: || ModelChoice::Hertz { finite_size: true },
-        own: [0.0; 4],
+        own_errors: [0.0; 4],
     },
     Candidate {
         name: "ting = { finite_size = true }",
         choice: || ModelChoice::Ting { finite_size: true, tolerance: defaults::TING_TOLERANCE },
-        own: [2e-4, 2e-4, 2e-4, 1e-3],
+        own_errors: [2e-4, 2e-4, 2e-4, 1e-3],
     },
     Candidate {
         name: "condensed = {}",
         choice: || ModelChoice::Condensed(defaults::CONDENSED),
-        own: [1e-4, 5e-4, 2e-3, 1e-2],
+        own_errors: [1e-4, 5e-4, 2e-3, 1e-2],
     },
     Candidate {
         name: "condensed = { vibration_modes = 12 }",
@@ -191,9 +191,13 @@ const CANDIDATES: [Candidate; 6] = [
             let options = CondensedOptions { vibration_modes: 12, ..defaults::CONDENSED };
             ModelChoice::Condensed(options)
         },
-        own: [1e-4, 5e-4, 3e-3, 1e-2],
+        own_errors: [1e-4, 5e-4, 3e-3, 1e-2],
     },
-    Candidate { name: "fem = {}", choice: || ModelChoice::Fem, own: [2e-4, 1.5e-3, 3e-3, 1e-2] },
+    Candidate {
+        name: "fem = {}",
+        choice: || ModelChoice::Fem,
+        own_errors: [2e-4, 1.5e-3, 3e-3, 1e-2],
+    },
 ];
 
 /// Share of the default tolerances down to which meshes are made as fine as a case asks.
@@ -207,7 +211,7 @@ struct Judged {
     /// Whether the model can compute the scene at any tolerance.
     is_possible: bool,
     /// Why the model is not suitable.
-    unfit: Option<String>,
+    rejection_reason: Option<String>,
 }
 
 /// Returns the index of the most accurate candidate that is possible.
@@ -268,7 +272,7 @@ impl Candidate {
                 size.check(radius).err().map(|error| error.to_string())
             });
         let is_possible = impossible.is_none();
-        let unfit = match (impossible, unknown, worst) {
+        let rejection_reason = match (impossible, unknown, worst) {
             (Some(why), ..) => Some(why),
             (None, Some(name), _) => {
                 Some(format!("lacks {name}, whose effect cannot be estimated"))
@@ -285,12 +289,12 @@ impl Candidate {
             }
             _ => None,
         };
-        let unfit = unfit.or_else(|| advised.map(str::to_string));
+        let rejection_reason = rejection_reason.or_else(|| advised.map(str::to_string));
         let (error, excess) = match unknown {
             Some(_) => (QuantityErrors::default(), f64::INFINITY),
             None => (error, total),
         };
-        Judged { error: (&error).into(), excess, is_possible, unfit }
+        Judged { error: (&error).into(), excess, is_possible, rejection_reason }
     }
 
     /// Returns the errors of the model's approximations, which fall with the tolerance where it chooses the mesh.
@@ -305,7 +309,7 @@ impl Candidate {
             };
             let share = asked[k] / usual[k];
             let is_followed = is_made_finer && (LEAST_SHARE_OF_TOLERANCE..1.0).contains(&share);
-            Some(self.own[k] * scales[k] * if is_followed { share } else { 1.0 })
+            Some(self.own_errors[k] * scales[k] * if is_followed { share } else { 1.0 })
         })
     }
 }

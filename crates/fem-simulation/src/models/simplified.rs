@@ -38,7 +38,7 @@ impl Simplified {
     }
 }
 
-/// Returns the answer of the effects that transformed the scene, or else the model's support.
+/// Returns the support of the effects that transformed the scene, or else the model's support.
 fn support(
     effect: &dyn Effect,
     supports: &[(&'static str, Support)],

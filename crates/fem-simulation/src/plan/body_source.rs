@@ -8,7 +8,7 @@ use fem_mesh::SphereMesh;
 
 use crate::plan::Plan;
 use crate::plan::limits::check_size;
-use crate::plan::mesh_source::{MeshSource, half_disc, import, mesh_refusal, quarter_disc};
+use crate::plan::mesh_source::{MeshSource, half_disc, import, mesh_rejection, quarter_disc};
 use crate::rejection::Rejection;
 
 /// The source of a body. Equal sources give equal bodies.
@@ -67,7 +67,7 @@ impl BodySource {
     /// A mesh that cannot be made.
     pub fn n_elements(&self) -> Result<usize, Rejection> {
         match self {
-            Self::Meshed { mesh, .. } => mesh.n_elements().map_err(|error| mesh_refusal(&error)),
+            Self::Meshed { mesh, .. } => mesh.n_elements().map_err(|error| mesh_rejection(&error)),
             Self::Rigid { .. } | Self::Wall => Ok(0),
         }
     }
@@ -79,7 +79,7 @@ impl BodySource {
     pub fn build(&self, side: usize) -> Result<BodyInput, Rejection> {
         Ok(match self {
             Self::Meshed { mesh, material } => {
-                let mesh = mesh.build(side).map_err(|error| mesh_refusal(&error))?;
+                let mesh = mesh.build(side).map_err(|error| mesh_rejection(&error))?;
                 let material = material.clone();
                 match mesh.is_half_space() {
                     true => BodyInput::HalfSpace { mesh, material },

@@ -1,4 +1,4 @@
-//! `[limits]`: a run that exceeds a limit is refused before it starts.
+//! `[limits]`: a run that exceeds a limit is rejected before it starts.
 
 use std::ops::RangeInclusive;
 
@@ -10,7 +10,7 @@ use fem_mesh::MeshError;
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
 use crate::plan::Plan;
-use crate::plan::mesh_source::{half_disc, mesh_refusal, quarter_disc};
+use crate::plan::mesh_source::{half_disc, mesh_rejection, quarter_disc};
 use crate::rejection::Rejection;
 
 /// Growth of the elements below which it is the reason of their number.
@@ -62,8 +62,8 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
         };
         if let Some((n, material)) = made {
             let n = n.map_err(|error| match error {
-                MeshError::TooLarge(_) => blame_growth(scene, mesh_refusal(&error)),
-                _ => mesh_refusal(&error),
+                MeshError::TooLarge(_) => blame_growth(scene, mesh_rejection(&error)),
+                _ => mesh_rejection(&error),
             })? as u64;
             elements += n;
             branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;
@@ -95,11 +95,11 @@ pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Resul
         "the meshes would have {elements} elements, whose edges at the contact are {} long",
         show(plan.contact_element_size, "m")
     );
-    let refusal = Rejection::new(key, found).with_help(format!(
+    let rejection = Rejection::new(key, found).with_help(format!(
         "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",
         plan.max_elements
     ));
-    Err(blame_growth(scene, refusal))
+    Err(blame_growth(scene, rejection))
 }
 
 /// Checks the memory of a run (bytes).
@@ -169,14 +169,14 @@ pub(crate) fn check_updates(
 }
 
 /// Names `mesh.growth` as the cause of many elements if it is very small.
-fn blame_growth(scene: &Scene, refusal: Rejection) -> Rejection {
+fn blame_growth(scene: &Scene, rejection: Rejection) -> Rejection {
     match scene.mesh().growth {
         Some(growth) if growth < SLOW_GROWTH => {
-            Rejection::new("mesh.growth", refusal.message).with_help(format!(
+            Rejection::new("mesh.growth", rejection.message).with_help(format!(
                 "elements grow too slowly; use a mesh.growth of at least {SLOW_GROWTH}, or leave it out"
             ))
         }
-        _ => refusal,
+        _ => rejection,
     }
 }
 

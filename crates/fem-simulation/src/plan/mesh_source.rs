@@ -66,25 +66,25 @@ pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
 }
 
 /// Returns the rejection of a mesh that cannot be generated, with the key that causes it.
-pub(crate) fn mesh_refusal(error: &MeshError) -> Rejection {
+pub(crate) fn mesh_rejection(error: &MeshError) -> Rejection {
     let key = match error {
         MeshError::RefinedRadius { .. } => "mesh.refined_radius",
         MeshError::Growth(_) => "mesh.growth",
         MeshError::FarRadius { .. } => "mesh.far_radius",
         _ => "mesh.contact_element_size",
     };
-    let refusal = Rejection::new(key, error.to_string());
+    let rejection = Rejection::new(key, error.to_string());
     match error {
-        MeshError::TooLarge(_) => refusal.with_help("use a larger mesh.contact_element_size"),
-        _ => refusal,
+        MeshError::TooLarge(_) => rejection.with_help("use a larger mesh.contact_element_size"),
+        _ => rejection,
     }
 }
 
 /// Reads the mesh of a sphere of this diameter (m) from a file, for the lower body (0) or the upper one (1).
 pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Rejection> {
     read_sphere(diameter, path).map_err(|found| {
-        let refusal = Rejection::new(format!("body.{k}.sphere.mesh"), format!("mesh {found}"));
-        refusal.with_help(
+        let rejection = Rejection::new(format!("body.{k}.sphere.mesh"), format!("mesh {found}"));
+        rejection.with_help(
             "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
              r >= 0 of the sphere with its contact pole at the origin; \
              `fem-run mesh CASE` writes such files, `meshio convert` makes them of gmsh's",

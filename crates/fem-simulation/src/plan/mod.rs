@@ -82,13 +82,13 @@ pub struct Plan {
     pub mass_scaling: f64,
     /// The requested snapshots.
     pub snapshots: SnapshotRequest,
-    /// Elements above which a run is refused.
+    /// Elements above which a run is rejected.
     pub max_elements: u64,
-    /// Elements times steps above which a run is refused.
+    /// Elements times steps above which a run is rejected.
     pub max_element_updates: u64,
     /// Longest run, in elastic contact times; a run that takes longer stops with [`NoSeparation`](fem_collision::Stop::NoSeparation).
     pub max_contact_times: f64,
-    /// Memory above which a run is refused, bytes.
+    /// Memory above which a run is rejected, bytes.
     pub max_memory: u64,
     /// Warnings about unread keys and a tolerance that cannot be met.
     pub warnings: Vec<String>,
@@ -177,7 +177,7 @@ impl Plan {
     /// # Errors
     /// Those of [`Plan::of`], with their place in the case.
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
-        Self::of(case.scene()).map_err(|refusal| refusal.in_case(case))
+        Self::of(case.scene()).map_err(|rejection| rejection.in_case(case))
     }
 
     /// Returns the element sizes of both bodies at the contact, m.

@@ -66,7 +66,7 @@ impl Simulation {
         levels: Vec<RefinementLevel>,
     ) -> Result<Self, CaseError> {
         let scene = case.scene().clone().with_refinement(refinement);
-        let of_case = |refusal: Rejection| refusal.in_case(&case);
+        let of_case = |rejection: Rejection| rejection.in_case(&case);
         let model: Arc<dyn Model> = Arc::from(model_of(&scene, shared).map_err(of_case)?);
         let resolved = resolved(&scene, case.file().clone()).map_err(of_case)?;
         let chosen = chosen(&scene).map_err(of_case)?;
@@ -121,7 +121,7 @@ impl Simulation {
     /// # Errors
     /// A case that the method rejects.
     pub fn resolve(case: &Case) -> Result<CaseFile, CaseError> {
-        resolved(case.scene(), case.file().clone()).map_err(|refusal| refusal.in_case(case))
+        resolved(case.scene(), case.file().clone()).map_err(|rejection| rejection.in_case(case))
     }
 
     /// Estimates the element updates of a case.
@@ -129,7 +129,7 @@ impl Simulation {
     /// # Errors
     /// A case that the method rejects.
     pub fn element_updates_of(case: &Case) -> Result<u64, CaseError> {
-        element_updates_of(case.scene()).map_err(|refusal| refusal.in_case(case))
+        element_updates_of(case.scene()).map_err(|rejection| rejection.in_case(case))
     }
 
     /// Returns the case.
@@ -263,7 +263,7 @@ impl Simulation {
     /// # Errors
     /// A restart state of another case, or a model without restart states.
     pub fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, CaseError> {
-        self.model.resume(state).map_err(|refusal| refusal.in_case(&self.case))
+        self.model.resume(state).map_err(|rejection| rejection.in_case(&self.case))
     }
 
     /// Returns the closed-form estimate for a collision of the case's bodies; `None` if it is not finite.

@@ -28,7 +28,7 @@ const LARGEST_SHARE: f64 = 0.1;
 const LARGEST_KNOWN: f64 = 0.25;
 
 impl FiniteSizeEffect {
-    /// Returns the answer of a model that includes the first order of the effect, or does not, with the
+    /// Returns the support of a model that includes the first order of the effect, or does not, with the
     /// reason.
     pub(crate) fn of_first_order(
         scene: &Scene,

@@ -104,7 +104,7 @@ impl PartnerWaves {
         RADIATION_ERROR + missing / (1.0 + missing)
     }
 
-    /// Returns the answer of a model whose radiation term includes these bodies.
+    /// Returns the support of a model whose radiation term includes these bodies.
     pub(crate) fn of_term(
         scene: &Scene,
         estimate: &Estimate,
@@ -118,7 +118,7 @@ impl PartnerWaves {
         }
     }
 
-    /// Returns the answer of condensed bodies: the radiation term, or vibration modes that resolve the
+    /// Returns the support of condensed bodies: the radiation term, or vibration modes that resolve the
     /// waves.
     pub(crate) fn of_condensed(scene: &Scene, estimate: &Estimate) -> Support {
         let mut crossed = crossed(scene, estimate).into_iter().flatten();

@@ -39,12 +39,12 @@ impl Effect for RigidPartner {
         let stiffer = stiffer(scene).filter(|_| scene.effects().rigid_partner != Some(Switch::Off));
         let Some(stiffer) = stiffer.filter(|stiffer| is_forced || stiffer.is_rigid()) else {
             return match is_forced {
-                true => Err(refused("rigid_partner is \"on\", and there is a wall already")),
+                true => Err(rejected("rigid_partner is \"on\", and there is a wall already")),
                 false => Ok(None),
             };
         };
         if is_forced && scene.effects().mirror_symmetry == Some(Switch::On) {
-            return Err(refused("rigid_partner and mirror_symmetry are both \"on\""));
+            return Err(rejected("rigid_partner and mirror_symmetry are both \"on\""));
         }
         let number = stiffer.number();
         let support =
@@ -91,7 +91,7 @@ fn change(scene: &Scene, estimate: &Estimate) -> NeglectError {
     change_between(&rigid, &whole, estimate.hertz.approach_speed())
 }
 
-fn refused(message: &str) -> Rejection {
+fn rejected(message: &str) -> Rejection {
     Rejection::new("effects.rigid_partner", message)
         .with_help("write \"auto\" or \"off\", or leave it out")
 }

@@ -173,7 +173,7 @@ impl Vibration {
             .then_some("bulk waves are too slow for few modes")
     }
 
-    /// Returns the answer of a model of rigid bodies with one degree of freedom.
+    /// Returns the support of a model of rigid bodies with one degree of freedom.
     pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Support {
         let warning = (estimate.effective_mach > MACH_LIMIT).then(|| {
             format!(

@@ -31,12 +31,12 @@ pub enum Support {
 }
 
 impl Support {
-    /// Returns an answer of a model that decides by itself.
+    /// Returns the support of a model that decides by itself.
     pub fn decided(active: bool, reason: impl Into<String>) -> Self {
         Self::Is { active, reason: reason.into(), warnings: Vec::new() }
     }
 
-    /// Adds warnings to an answer of a model that decides by itself.
+    /// Adds warnings to the support of a model that decides by itself.
     #[must_use]
     pub fn warning(mut self, more: impl IntoIterator<Item = String>) -> Self {
         if let Self::Is { warnings, .. } = &mut self {

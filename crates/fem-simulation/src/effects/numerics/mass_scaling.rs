@@ -25,7 +25,7 @@ const NOTHING: &str = "no mass is moved";
 const LITTLE_SHARE: f64 = 0.125;
 
 /// Returns the equilibrium modulus of a body over its instantaneous one.
-fn left(body: &Body) -> f64 {
+fn equilibrium_share(body: &Body) -> f64 {
     let series = body.material().and_then(Material::relaxation);
     let terms = series.into_iter().flat_map(PronySeries::terms);
     1.0 - terms.map(|term| term.weight).sum::<f64>()
@@ -37,14 +37,14 @@ impl MassScaling {
         let moduli = scene.bodies().each_ref().map(|body| body.partner().plane_strain_modulus());
         std::array::from_fn(|side| {
             // The body is most compliant at equilibrium.
-            let own = moduli[side] * left(&scene.bodies()[side]);
+            let own = moduli[side] * equilibrium_share(&scene.bodies()[side]);
             let share = moduli[1 - side] / (own + moduli[1 - side]);
             let times = LITTLE_SHARE / share;
             if times.is_finite() && times > 1.0 { times } else { 1.0 }
         })
     }
 
-    /// Returns the answer of a model with these body masses (kg; none for a wall or half-space), moved
+    /// Returns the support of a model with these body masses (kg; none for a wall or half-space), moved
     /// masses (kg) and gain in time step.
     pub(crate) fn of(
         scene: &Scene,

@@ -20,7 +20,7 @@ impl Effect for HourglassControl {}
 impl Effect for PenaltySprings {}
 
 impl ContactSearch {
-    /// Returns the answer of a model that searches this region.
+    /// Returns the support of a model that searches this region.
     pub(crate) fn within(candidate_region: &CandidateRegion) -> Support {
         let CandidateRegion { radius, n_points, at_nodes } = candidate_region;
         let points = if *at_nodes { "points" } else { "integration points" };

@@ -67,7 +67,7 @@ impl Bouncing {
     /// # Errors
     /// A weight that presses the bodies so flat that no contact theory holds.
     pub fn new(scene: &Scene, gravity: Gravity, first: Box<dyn Model>) -> Result<Self, Rejection> {
-        let refuse = |message: String| {
+        let reject = |message: String| {
             Err(Rejection::new("gravity.acceleration", message).with_help(
                 "a ball bounces where its weight is small; check its unit, sizes and moduli",
             ))
@@ -79,11 +79,11 @@ impl Bouncing {
                 let ball = Ball { scene: scene.clone(), gravity, first: Arc::from(first) };
                 Ok(Self { ball: Arc::new(ball) })
             }
-            Ok(pressed) => refuse(format!(
+            Ok(pressed) => reject(format!(
                 "the weight presses the bodies flat: a contact radius of {:.1e} effective radii at rest",
                 pressed.contact_radius / pair.effective_radius()
             )),
-            Err(error) => refuse(error.to_string()),
+            Err(error) => reject(error.to_string()),
         }
     }
 
@@ -130,7 +130,7 @@ impl Ball {
         let no_speed = || Stop::NotMade(format!("the ball comes down at {speed:?} m/s"));
         let scene = scene.ok_or_else(no_speed)?;
         let model = method_of(&scene).build(&scene, &SharedModels::default());
-        model.map_err(|refusal| Stop::NotMade(refusal.to_string()))
+        model.map_err(|rejection| Stop::NotMade(rejection.to_string()))
     }
 
     /// Returns the static contact of the ball at rest, or why there is none.
@@ -144,7 +144,7 @@ impl Ball {
                 bounced.bear(RestState { time: bounced.time(), contact });
             }
             Ok(None) => bounced.sink(),
-            Err(refusal) => bounced.warn(report::unknown(&refusal)),
+            Err(rejection) => bounced.warn(report::unknown(&rejection)),
         }
     }
 }

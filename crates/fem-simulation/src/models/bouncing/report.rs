@@ -60,6 +60,6 @@ pub(super) fn sinks(n_contacts: usize) -> String {
 }
 
 /// Warns of a static contact that could not be computed.
-pub(super) fn unknown(refusal: &Rejection) -> String {
-    format!("the contact of the ball at rest could not be computed: {refusal}")
+pub(super) fn unknown(rejection: &Rejection) -> String {
+    format!("the contact of the ball at rest could not be computed: {rejection}")
 }

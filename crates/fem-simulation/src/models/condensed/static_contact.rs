@@ -19,16 +19,16 @@ pub(in crate::models) fn of_elements(
     scene: &Scene,
     force: f64,
 ) -> Result<Option<StaticContact>, Rejection> {
-    let refuse = |message: String| Rejection::new("gravity", message);
+    let reject = |message: String| Rejection::new("gravity", message);
     let Some(relaxed) = scene.at_equilibrium() else { return Ok(None) };
     let hertz = relaxed.pair().and_then(|pair| Ok((pair, StaticHertz::new(&pair, force)?)));
-    let (pair, hertz) = hertz.map_err(|error| refuse(error.to_string()))?;
+    let (pair, hertz) = hertz.map_err(|error| reject(error.to_string()))?;
     // At this speed Hertz' largest approach, (1.25 m v²/K)^(2/5), equals the static one.
     let stiffness = force / (hertz.approach * hertz.approach.sqrt());
     let speed =
         hertz.approach * (0.8 * stiffness * hertz.approach.sqrt() / pair.effective_mass()).sqrt();
     let Some(relaxed) = relaxed.touching_at(speed) else {
-        return Err(refuse(format!(
+        return Err(reject(format!(
             "the static contact has no size: {:?} m",
             hertz.contact_radius
         )));
@@ -40,7 +40,7 @@ pub(in crate::models) fn of_elements(
     check_memory(&plan, &bodies)?;
     let settings = settings(&relaxed, &plan, fem_case::defaults::CONDENSED);
     let key = PairKey { bodies, settings };
-    let of_error = |error: CondensedError| refuse(error.to_string());
+    let of_error = |error: CondensedError| reject(error.to_string());
     let mut pair = CondensedPair::new(inputs(&key)?, key.settings).map_err(of_error)?;
     loop {
         match pair.pressed(force) {

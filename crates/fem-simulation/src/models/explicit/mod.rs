@@ -127,8 +127,8 @@ impl Explicit {
             speed_share: plan.speed_share,
             inputs: inputs(scene, &plan)?,
         };
-        let frame = made.own_frame(&approach).map_err(refused)?;
-        let bodies = made.bodies(frame.own(), plan.candidate_radius).map_err(refused)?;
+        let frame = made.own_frame(&approach).map_err(rejected)?;
+        let bodies = made.bodies(frame.own(), plan.candidate_radius).map_err(rejected)?;
         let cost = cost(scene, &bodies, &plan)?;
         let support = |effect: &dyn Effect| support(effect, scene, &plan.estimate, Some(&bodies));
         let decisions = decide(scene, &plan.estimate, support)?;
@@ -267,16 +267,16 @@ impl Model for Explicit {
     }
 
     fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        let refused = |error: ModelError| Rejection::new("model.fem", error.to_string());
+        let rejected = |error: ModelError| Rejection::new("model.fem", error.to_string());
         let RestartState { contact: run, bounces, approach: met, .. } = state;
-        let frame = self.made.own_frame(&met).map_err(refused)?;
+        let frame = self.made.own_frame(&met).map_err(rejected)?;
         let (approach, expected) = (*run.approach(), run.expected());
         if bounces.is_some() || approach != *frame.own() {
-            return Err(refused(ModelError::ForeignRestartState));
+            return Err(rejected(ModelError::ForeignRestartState));
         }
         let request = run.request().clone();
-        let bodies = self.bodies_at(&approach, run.candidate_radius()).map_err(refused)?;
-        let run = Run::resume(bodies, run).map_err(refused)?;
+        let bodies = self.bodies_at(&approach, run.candidate_radius()).map_err(rejected)?;
+        let run = Run::resume(bodies, run).map_err(rejected)?;
         let scene = &self.made.scene;
         let estimate = Estimate::at(scene, approach.speed())
             .map_err(|error| Rejection::new("body", error.to_string()))?;
@@ -337,14 +337,14 @@ impl Stepper for ExplicitStepper {
 }
 
 /// Returns the rejection of a scene whose bodies cannot be built.
-fn refused(error: ModelError) -> Rejection {
-    let refusal = Rejection::new("body", error.to_string());
+fn rejected(error: ModelError) -> Rejection {
+    let rejection = Rejection::new("body", error.to_string());
     match error {
-        ModelError::NoStep { .. } => refusal.with_help(
+        ModelError::NoStep { .. } => rejection.with_help(
             "check material.NAME.youngs_modulus, material.NAME.density and body.N.sphere.diameter, and \
              their units",
         ),
-        _ => refusal,
+        _ => rejection,
     }
 }
 

@@ -7,7 +7,7 @@ use fem_laws::{
     EndRule, Impact, LawContext, LawError, LawImpact, LawInput, LawInputError, Pair, PairRelaxation,
 };
 
-use super::{Motion, Reduced, refused};
+use super::{Motion, Reduced, rejected};
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
@@ -49,7 +49,7 @@ pub(super) fn build(
     tolerance: f64,
 ) -> Result<Reduced, Rejection> {
     let estimate = Estimate::checked(scene)?;
-    let refuse = |error: LawError| refused(scene, &error);
+    let reject = |error: LawError| rejected(scene, &error);
     let (numbers, pair) = law_numbers(scene, &estimate, law, end_rule)?;
     let name = law.family.name();
     let Some(made) = law.family.law(&pair, &numbers) else {
@@ -57,11 +57,11 @@ pub(super) fn build(
         return Err(Rejection::new(scene.model().path(), message));
     };
     let description = format!("model law {name}, one degree of freedom");
-    let law = made.map_err(refuse)?;
+    let law = made.map_err(reject)?;
     let impact = LawImpact::new(&pair, law).with_end_rule(end_rule);
     let gravity = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
     let impact = impact.with_tolerance(tolerance).and_then(|impact| impact.with_gravity(gravity));
-    let impact = impact.map_err(refuse)?;
+    let impact = impact.map_err(reject)?;
     let motion = Box::new(LawMotion { impact, law, numbers });
     Reduced::of(scene, estimate, pair, motion, description)
 }
@@ -74,7 +74,7 @@ fn law_numbers(
 ) -> Result<(Vec<f64>, Pair), Rejection> {
     let materials = scene.bodies().each_ref().map(|body| body.material());
     let relaxation =
-        PairRelaxation::new(materials[0], materials[1]).map_err(|error| refused(scene, &error))?;
+        PairRelaxation::new(materials[0], materials[1]).map_err(|error| rejected(scene, &error))?;
     let context = LawContext {
         pair: *estimate.hertz.pair(),
         approach_speed: estimate.hertz.approach_speed(),
@@ -83,7 +83,7 @@ fn law_numbers(
         end_rule,
     };
     law.parameters(&context).map_err(|error| match error {
-        LawInputError::Law(error) => refused(scene, &error),
+        LawInputError::Law(error) => rejected(scene, &error),
         LawInputError::Materials { message, help } => {
             Rejection::new(scene.model().path(), message).with_help(help)
         }

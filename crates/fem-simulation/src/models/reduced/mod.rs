@@ -214,7 +214,7 @@ impl Model for Reduced {
             Some(law) => under_spring(law, &self.pair, force).map(Some),
             None => relaxed_hertz(&self.pair, self.motion.equilibrium_weight(), force),
         };
-        found.map_err(|error| refused(&self.scene, &error))
+        found.map_err(|error| rejected(&self.scene, &error))
     }
 }
 
@@ -257,6 +257,6 @@ fn stop_of(error: &LawError) -> Stop {
 }
 
 /// Returns the rejection of a scene by its law.
-pub(super) fn refused(scene: &Scene, error: &LawError) -> Rejection {
+pub(super) fn rejected(scene: &Scene, error: &LawError) -> Rejection {
     Rejection::new(scene.model().path(), error.to_string())
 }

@@ -3,7 +3,7 @@
 use fem_case::Scene;
 use fem_laws::{Impact, LawError, Ting};
 
-use super::{Motion, Reduced, refused};
+use super::{Motion, Reduced, rejected};
 use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
 use crate::estimate::quasi_static::ting_of;
@@ -80,14 +80,14 @@ pub(super) fn motion(
     finite_size: bool,
     tolerance: f64,
 ) -> Result<Ting, Rejection> {
-    let refuse = |error: LawError| refused(scene, &error);
-    let size = finite_size.then(|| scene.finite_size()).transpose().map_err(refuse)?;
+    let reject = |error: LawError| rejected(scene, &error);
+    let size = finite_size.then(|| scene.finite_size()).transpose().map_err(reject)?;
     if let Some(size) = &size {
         size.check(viscous_flow::widest_contact(scene, estimate)).map_err(|error| {
             Rejection::new(format!("{}.finite_size", scene.model().path()), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
         })?;
     }
-    let ting = ting_of(scene, estimate.hertz.pair(), relaxes, size).map_err(refuse)?;
-    with_gravity(ting, scene).and_then(|ting| ting.with_tolerance(tolerance)).map_err(refuse)
+    let ting = ting_of(scene, estimate.hertz.pair(), relaxes, size).map_err(reject)?;
+    with_gravity(ting, scene).and_then(|ting| ting.with_tolerance(tolerance)).map_err(reject)
 }

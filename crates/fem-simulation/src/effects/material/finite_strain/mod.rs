@@ -105,7 +105,7 @@ impl FiniteStrain {
         Err(Rejection::new("effects.finite_strain", message).with_help(help))
     }
 
-    /// Returns the answer of explicit elements.
+    /// Returns the support of explicit elements.
     pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Support {
         let strained = Strained::of_both(scene, estimate).into_iter().flatten();
         let mut unsupported =
