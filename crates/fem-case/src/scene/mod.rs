@@ -79,8 +79,8 @@ impl Scene {
         self.step_factor
     }
 
-    /// Returns the largest mass that mass scaling moves, as a fraction of the lighter body's mass, in [0, 0.1], for equally
-    /// compliant bodies.
+    /// Returns the limit of mass scaling, in [0, 0.1]: in equally compliant bodies the largest moved mass over the lighter
+    /// body's mass.
     pub fn mass_scaling(&self) -> Option<f64> {
         self.mass_scaling
     }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use fem_material::Material;
+use fem_material::engineering::show;
 
 use super::Check;
 use crate::error::CaseError;
@@ -69,8 +70,9 @@ impl Check<'_> {
             let is_first_at_fault = lower_speed <= upper_speed && self.document.has(keys[0]);
             let culprit = keys[usize::from(!is_first_at_fault)];
             let message = format!(
-                "the bodies do not approach: their approach speeds, {lower_speed:?} and \
-                 {upper_speed:?} m/s, add up to {:?} m/s",
+                "the bodies do not approach: their approach speeds, {} and {}, add up to {:?} m/s",
+                show(lower_speed, "m/s"),
+                show(upper_speed, "m/s"),
                 lower_speed + upper_speed
             );
             return Err(self.conflict(culprit, &keys, message).with_help(

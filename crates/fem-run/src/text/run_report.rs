@@ -39,7 +39,7 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     if summary.contact_episodes > 1 {
         let _ = writeln!(
             text,
-            "\ncontact episodes  {} (the surfaces may separate for a few steps at first and last touch)",
+            "\nseparate contacts  {} (the surfaces may separate for a few steps at first and last touch)",
             summary.contact_episodes
         );
     }

@@ -89,17 +89,17 @@ pub fn decide(
 ) -> Result<EffectDecisions, Rejection> {
     let mut decisions = EffectDecisions::default();
     for effect in EFFECTS {
-        let answer = support(effect);
+        let own = support(effect);
         let switch = effect.switch(scene.effects());
-        if switch == Some(Switch::On) && matches!(answer, None | Some(Support::Lacks)) {
+        if switch == Some(Switch::On) && matches!(own, None | Some(Support::Lacks)) {
             return Err(lacking(scene, effect));
         }
-        let Some(answer) = answer else { continue };
+        let Some(own) = own else { continue };
         let relevance = effect.relevance(scene, estimate).unwrap_or_default();
-        let obeys = answer.obeys();
+        let obeys = own.obeys();
         let (is_needed, note) = (relevance.is_needed, relevance.warning.clone());
-        let is_inherent = matches!(answer, Support::Inherent { .. });
-        let (active, reason, warnings) = answer.of(relevance, switch);
+        let is_inherent = matches!(own, Support::Inherent { .. });
+        let (active, reason, warnings) = own.of(relevance, switch);
         if switch == Some(Switch::Off) && active {
             return Err(inherent(scene, effect, &reason));
         }

@@ -314,7 +314,7 @@ impl Candidate {
     }
 }
 
-/// Returns whether a model lacks an effect. No answer means that the model has it without a decision.
+/// Returns whether a model lacks an effect. `None` means that the model has it without a decision.
 fn lacks(support: Option<&Support>) -> bool {
     matches!(support, Some(Support::Lacks | Support::Is { active: false, .. }))
 }

@@ -46,7 +46,7 @@ fn support(
     estimate: &Estimate,
 ) -> Option<Support> {
     let own = supports.iter().find(|(name, _)| *name == effect.name());
-    own.map(|(_, answer)| answer.clone()).or_else(|| model.support(effect, estimate))
+    own.map(|(_, support)| support.clone()).or_else(|| model.support(effect, estimate))
 }
 
 impl Model for Simplified {

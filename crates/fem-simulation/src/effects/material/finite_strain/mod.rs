@@ -113,9 +113,9 @@ impl FiniteStrain {
         let is_open = scene.effects().finite_strain.is_none_or(|switch| switch == Switch::Auto);
         let is_asked = is_open && is_needed(scene, estimate);
         let Some(strained) = unsupported.next().filter(|_| is_asked) else {
-            let answer = Self::of_stability(scene, estimate);
-            let answer = answer.or_else(|| Self::of_nearness(scene, estimate));
-            return answer.unwrap_or(Support::Computes { idle: "" });
+            let support = Self::of_stability(scene, estimate);
+            let support = support.or_else(|| Self::of_nearness(scene, estimate));
+            return support.unwrap_or(Support::Computes { idle: "" });
         };
         let why = format!("needed, but {}", strained.why_unsupported());
         let neglect_error = FiniteStrain.neglect_error(scene, estimate).unwrap_or_default();
