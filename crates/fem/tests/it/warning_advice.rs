@@ -202,9 +202,10 @@ fn follow_advice<'a>(rows: impl Iterator<Item = &'a Row>) {
 }
 
 /// One warning reports a given mesh that is too coarse, and the element size that it advises ends it.
-fn follow_advised_element_size(sizes: &[&str]) {
+#[test]
+fn the_advised_element_size_ends_the_warning() {
     for model in ["model={fem={}}", CONDENSED] {
-        for size in sizes {
+        for size in ["90 um", "1 mm", "75 um", "0.2 mm"] {
             let size = format!("mesh.contact_element_size='{size}'");
             let (simulation, before) = computed_warnings(GLASS, &[size.clone(), model.to_string()]);
             let of_mesh: Vec<_> =
@@ -217,15 +218,4 @@ fn follow_advised_element_size(sizes: &[&str]) {
             assert_eq!(after, [""; 0], "{last} {way:?}");
         }
     }
-}
-
-#[test]
-fn the_advised_element_size_ends_the_warning() {
-    follow_advised_element_size(&["90 um", "1 mm"]);
-}
-
-#[test]
-#[ignore = "takes many seconds; .ci/run runs it"]
-fn the_advised_element_size_ends_the_warning_of_further_sizes() {
-    follow_advised_element_size(&["75 um", "0.2 mm"]);
 }
