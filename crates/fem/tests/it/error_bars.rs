@@ -90,7 +90,9 @@ const FAR_MESHES: [&str; 6] = [
 #[test]
 fn the_bar_includes_the_error_away_from_the_contact() {
     let theory = summary(BALL, &["model.hertz={finite_size=true}"]);
-    for (model, far_mesh) in [CONDENSED, FEM].into_iter().flat_map(|model| FAR_MESHES.map(|mesh| (model, mesh))) {
+    for (model, far_mesh) in
+        [CONDENSED, FEM].into_iter().flat_map(|model| FAR_MESHES.map(|mesh| (model, mesh)))
+    {
         let ours = summary(BALL, &[model, far_mesh, &across(BALL, 6.0)]);
         let checked = [
             QuantityOfInterest::ContactTime,
