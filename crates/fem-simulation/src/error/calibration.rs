@@ -15,6 +15,8 @@ pub(super) struct Calibration {
     pub safety_factor: f64,
     /// Constant c of the error c (h/a)² that the place of the contact's edge between two nodes causes.
     pub edge: [f64; 6],
+    /// Scatter of the quantities on any mesh, however fine.
+    pub scatter: [f64; 6],
 }
 
 /// Constants for explicit elements whose reference runs are condensed bodies on three meshes.
@@ -22,21 +24,29 @@ pub(super) const EXPLICIT: Calibration = Calibration {
     name: "EXPLICIT",
     safety_factor: 1.25,
     edge: [0.002, 0.008, 0.008, 0.01, 0.05, 0.1],
+    scatter: SCATTER_AT_SMALL_STRAIN,
 };
 
-/// Constants for explicit elements at large strain or with waves, which have a coarser run of their own.
-pub(super) const STRAINED: Calibration =
-    Calibration { name: "STRAINED", safety_factor: 2.0, edge: [0.01, 0.03, 0.01, 0.01, 0.04, 0.1] };
+/// Constants for explicit elements at large strain or with waves, which have a coarser run of their own. Elements that are
+/// flattened at the contact scatter more; the 98 scenes of the seeds 3 and 11 to 16 of `fem-run validate soft_random` gave
+/// the constants, with which 94 of them hold in all quantities.
+pub(super) const STRAINED: Calibration = Calibration {
+    name: "STRAINED",
+    safety_factor: 1.5,
+    edge: [0.002, 0.03, 0.01, 0.01, 0.04, 0.1],
+    scatter: [1e-4, 4.5e-3, 2e-3, 1e-4, 8e-3, 8e-3],
+};
 
 /// Constants for condensed bodies with one coarser run.
 pub(super) const CONDENSED: Calibration = Calibration {
     name: "CONDENSED",
     safety_factor: 1.5,
     edge: [0.002, 0.011, 0.004, 0.032, 0.7, 0.45],
+    scatter: SCATTER_AT_SMALL_STRAIN,
 };
 
-/// Scatter of the quantities on any mesh, however fine.
-pub(super) const SCATTER: [f64; 6] = [2e-5, 1e-4, 2e-4, 1e-4, 1e-3, 5e-4];
+/// Scatter of the quantities at small strain.
+const SCATTER_AT_SMALL_STRAIN: [f64; 6] = [2e-5, 1e-4, 2e-4, 1e-4, 1e-3, 5e-4];
 
 /// Errors per share of the mass that is moved for a longer time step.
 pub(super) const MOVED_MASS: [f64; 6] = [0.05, 0.25, 0.4, 0.45, 0.1, 0.2];

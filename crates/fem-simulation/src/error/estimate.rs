@@ -32,14 +32,17 @@ pub struct BarParts {
     pub across: f64,
     /// Floor by the place of the contact's edge.
     pub edge: f64,
-    /// Floor by scatter and moved mass.
-    pub floor: f64,
+    /// Floor by the scatter that remains on any mesh.
+    pub scatter: f64,
+    /// Floor by moved mass.
+    pub moved_mass: f64,
 }
 
 impl BarParts {
-    /// Returns safety factor × reference error + edge + floor.
+    /// Returns safety factor × reference error + edge + scatter + moved mass.
     pub fn sum(&self) -> f64 {
-        self.safety_factor * self.reference_error + self.edge + self.floor
+        // The last two first: the order of the sum decides its last bit.
+        self.safety_factor * self.reference_error + self.edge + (self.scatter + self.moved_mass)
     }
 }
 

@@ -3,12 +3,10 @@
 use fem_collision::{Collision, QuantityOfInterest};
 
 use super::calibration::{
-    CLOSED_FORM, CONDENSED, Calibration, EXPLICIT, SAMPLED_PER_TOLERANCE, STRAINED,
+    CLOSED_FORM, CONDENSED, Calibration, EXPLICIT, MOVED_MASS, SAMPLED_PER_TOLERANCE, STRAINED,
 };
 use super::estimate::{BarParts, ErrorEstimate};
-use super::noise_floor::{
-    contact_element_size, floor_of_mesh, floor_of_run, is_unresolved, moved_share,
-};
+use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, moved_share};
 use super::reference_runs::{ReferenceRuns, Subject, Values};
 use crate::effects::FiniteStrain;
 use crate::models::explicit::cost::needs_own_reference;
@@ -114,7 +112,7 @@ impl ErrorEstimator {
 
     /// Estimates the errors of explicit elements before the collision, the restitution's absolute, all others relative;
     /// `None` if only the collision itself shows them.
-    pub(super) fn before_run(&mut self, simulation: &Simulation) -> Option<Values> {
+    pub(super) fn before_run(&mut self, simulation: &Simulation) -> Option<[Option<BarParts>; 6]> {
         let setup = simulation.setup();
         let Cost::Steps { .. } = setup.cost else { return None };
         let elements = setup.elements.as_ref()?;
@@ -125,8 +123,7 @@ impl ErrorEstimator {
         let subject = Subject::planned(simulation)?;
         let (errors, values) = self.runs.condensed(&subject)?;
         let across = values[QuantityOfInterest::MaxContactRadius as usize]? / subject.size;
-        let parts = bar_parts(errors, &EXPLICIT, [across; 2], elements.moved_share);
-        Some(parts.map(|parts| Some(parts?.sum())))
+        Some(bar_parts(errors, &EXPLICIT, [across; 2], elements.moved_share))
     }
 
     /// Returns the element updates of a collision over those that closed forms expect, from a coarser run; 1 if closed
@@ -168,14 +165,15 @@ fn bar_parts(
     QuantityOfInterest::ALL.map(|quantity| {
         let is_pressure = quantity == QuantityOfInterest::PeakPressure;
         let across = if is_pressure { at_pressure } else { widest };
-        let [edge, floor] = floor_of_mesh(quantity, calibration, across, moved_share);
+        let k = quantity as usize;
         Some(BarParts {
             constants: calibration.name,
-            reference_error: errors[quantity as usize]?,
+            reference_error: errors[k]?,
             safety_factor: calibration.safety_factor,
             across,
-            edge,
-            floor,
+            edge: calibration.edge[k] / across.max(1.0).powi(2),
+            scatter: calibration.scatter[k],
+            moved_mass: MOVED_MASS[k] * moved_share,
         })
     })
 }
@@ -211,17 +209,17 @@ fn of_tolerance(collision: &Collision, tolerance: f64) -> QuantityErrors {
 
 #[cfg(test)]
 mod tests {
-    use super::super::calibration::{MOVED_MASS, SCATTER};
     use super::*;
 
     /// The bar is F_s |Δ| + c (h/a)² + scatter + moved mass, and the pressure's floor depends on its own radius.
     #[test]
     fn error_bar_is_the_sum_of_its_documented_parts() {
-        let calibration = Calibration { name: "", safety_factor: 2.0, edge: [0.16; 6] };
+        let calibration =
+            Calibration { name: "", safety_factor: 2.0, edge: [0.16; 6], scatter: [5e-4; 6] };
         let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
         for (k, parts) in parts.into_iter().enumerate() {
             let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.04 } else { 0.01 };
-            let expected = 2e-3 + edge + SCATTER[k] + 0.01 * MOVED_MASS[k];
+            let expected = 2e-3 + edge + 5e-4 + 0.01 * MOVED_MASS[k];
             assert!((parts.unwrap().sum() - expected).abs() < 1e-12, "{k}");
         }
         let mut errors = [Some(0.0); 6];

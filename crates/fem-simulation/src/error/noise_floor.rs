@@ -1,17 +1,14 @@
-//! The noise floor of the error bars: errors that no pair of reference runs shows.
-//!
-//! It has two parts. The part of the mesh is known from the settings: the place of the contact's edge between two nodes,
-//! the scatter on any mesh, and moved mass. The other part shows in the finished run: contact chatter, energy that is not
-//! conserved, overlapping surfaces, a contact narrower than an element, and an early pressure peak. No error bar is
-//! smaller than what the run's warnings report.
+//! The noise floor of the error bars that shows in the finished run: contact chatter, energy that is not conserved,
+//! overlapping surfaces, a contact narrower than an element, and an early pressure peak. No error bar is smaller than what
+//! the run's warnings report. The floor of the mesh is in [`super::calibration`].
 
 use std::f64::consts::PI;
 
 use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
 use super::calibration::{
-    CLOSED_FORM_PRESSURE, Calibration, EARLY, FEW_AT_PRESSURE, MOVED_MASS, RADIUS_PER_SCATTER,
-    RESTITUTION_PER_ROOT_SCATTER, SCATTER, TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
+    CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER, RESTITUTION_PER_ROOT_SCATTER,
+    TIME_PER_ROOT_SCATTER, UNRESOLVED_ERROR,
 };
 use crate::effects::MassScaling;
 use crate::plan::mesh_source::longest_contact_edge;
@@ -23,18 +20,6 @@ pub(crate) const LARGEST_NOISE: f64 = 0.005;
 pub(crate) const LARGEST_PENETRATION: f64 = 0.01;
 /// Excess of the restitution over 1 that is more than rounding.
 const LARGEST_EXCESS: f64 = 1e-5;
-
-/// Returns the floor by the place of the contact's edge, and the floor by scatter and moved mass.
-pub(super) fn floor_of_mesh(
-    quantity: QuantityOfInterest,
-    calibration: &Calibration,
-    across: f64,
-    moved_share: f64,
-) -> [f64; 2] {
-    let k = quantity as usize;
-    let edge = calibration.edge[k] / across.max(1.0).powi(2);
-    [edge, SCATTER[k] + MOVED_MASS[k] * moved_share]
-}
 
 /// Returns the floor that the finished run shows, for each quantity.
 pub(super) fn floor_of_run(

@@ -23,7 +23,7 @@ use fem_material::engineering::Unit;
 
 use super::calibration::MOVED_MASS;
 use super::elastic_null::elastic_null;
-use super::estimate::{ErrorEstimate, FaultySetting, NotRefined};
+use super::estimate::{BarParts, ErrorEstimate, FaultySetting, NotRefined};
 use super::estimator::ErrorEstimator;
 use super::noise_floor::of_chatter;
 use super::reference_runs::Subject;
@@ -117,7 +117,7 @@ impl Simulation {
         let level = self.levels().last()?;
         let quantity = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == level.quantity)?;
         let (error, tolerance) = (level.error, level.tolerance);
-        let miss = ToleranceMiss { quantity, error, tolerance };
+        let miss = ToleranceMiss { quantity, error, tolerance, scatter: 0.0 };
         let size = self.setup().elements.as_ref()?.plan.contact_element_size;
         // The collision was not computed on the coarser mesh.
         let is_before_run =
@@ -221,8 +221,12 @@ impl ErrorEstimator {
     /// Returns the largest miss that condensed reference runs expect: `None` if only the collision shows the error,
     /// `Some(None)` if the tolerance is met.
     fn expected_miss(&mut self, simulation: &Simulation) -> Option<Option<ToleranceMiss>> {
-        let errors = self.before_run(simulation)?;
-        Some(misses(simulation, |quantity| errors[quantity as usize]).into_iter().next())
+        let bars = self.before_run(simulation)?;
+        let error = |quantity| {
+            let parts: &BarParts = bars[quantity as usize].as_ref()?;
+            Some((parts.sum(), parts.scatter))
+        };
+        Some(misses(simulation, error).into_iter().next())
     }
 
     /// Returns the case on a finer mesh, or the reason why there is none; `met` is the collision on the present mesh, `None`
@@ -239,7 +243,7 @@ impl ErrorEstimator {
             return Err(NotRefined::Setting(setting));
         }
         if !miss.is_of_mesh() {
-            return Err(NotRefined::Scatter(miss.scatter()));
+            return Err(NotRefined::Scatter(miss.scatter));
         }
         if has_mesh_file(simulation) {
             return Err(NotRefined::FromFile);

@@ -2,7 +2,6 @@
 
 use fem_collision::{Collision, QuantityOfInterest};
 
-use super::calibration::SCATTER;
 use super::estimate::ErrorEstimate;
 use super::noise_floor::early_pressure_radius;
 use crate::effects::percent;
@@ -25,6 +24,8 @@ pub(super) struct ToleranceMiss {
     /// Estimated error: the restitution's absolute, others relative.
     pub error: f64,
     pub tolerance: f64,
+    /// Part of the error that no mesh reduces.
+    pub scatter: f64,
 }
 
 impl ToleranceMiss {
@@ -32,19 +33,14 @@ impl ToleranceMiss {
         self.error / self.tolerance
     }
 
-    /// Returns the part of the error that no mesh reduces.
-    pub fn scatter(&self) -> f64 {
-        SCATTER[self.quantity as usize]
-    }
-
     /// Returns whether a mesh could be fine enough.
     pub fn is_of_mesh(&self) -> bool {
-        self.scatter() < self.tolerance
+        self.scatter < self.tolerance
     }
 
     /// Returns the factor by which the part of the mesh must fall.
     pub fn excess_of_mesh(&self) -> f64 {
-        let scatter = self.scatter();
+        let scatter = self.scatter;
         match scatter < SCATTER_OF_TOLERANCE * self.tolerance {
             true => self.excess(),
             false => (self.error - scatter) / (self.tolerance - scatter),
@@ -77,7 +73,7 @@ impl ToleranceMiss {
         };
         let of_any_mesh = match self.is_of_mesh() {
             true => String::new(),
-            false => format!(" (of which {} remains on any mesh)", self.printed(self.scatter())),
+            false => format!(" (of which {} remains on any mesh)", self.printed(self.scatter)),
         };
         format!("{name} by {error}{tolerance}{of_any_mesh}")
     }
@@ -116,15 +112,16 @@ pub(super) fn missed(
         if is_early && quantity == QuantityOfInterest::PeakPressure {
             return None;
         }
-        Some(errors.discretisation(quantity)? / quantity.scale(quantity.of(collision)?))
+        let error = errors.discretisation(quantity)? / quantity.scale(quantity.of(collision)?);
+        Some((error, errors.parts(quantity).map_or(0.0, |parts| parts.scatter)))
     })
 }
 
 /// Returns the quantities whose error exceeds the tolerance: first those that a finer mesh improves, the largest excess
-/// first.
+/// first. `error` returns an error and its scatter.
 pub(super) fn misses(
     simulation: &Simulation,
-    error: impl Fn(QuantityOfInterest) -> Option<f64>,
+    error: impl Fn(QuantityOfInterest) -> Option<(f64, f64)>,
 ) -> Vec<ToleranceMiss> {
     let accuracy = simulation.case().scene().accuracy();
     let tolerances = [
@@ -134,7 +131,8 @@ pub(super) fn misses(
         (QuantityOfInterest::PeakPressure, accuracy.peak_pressure),
     ];
     let of = |(quantity, tolerance): (QuantityOfInterest, f64)| {
-        Some(ToleranceMiss { quantity, error: error(quantity)?, tolerance })
+        let (error, scatter) = error(quantity)?;
+        Some(ToleranceMiss { quantity, error, tolerance, scatter })
     };
     let mut missed: Vec<ToleranceMiss> =
         tolerances.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0).collect();

@@ -10,14 +10,14 @@
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 
-use fem::accuracy::{BarParts, Limit, Setting};
+use fem::accuracy::{Limit, Setting};
 use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 
 use super::{
-    NumberTrial, Parameters, Random, Trial, computed,
+    NumberTrial, Parameters, Parted, Random, Trial, computed,
     linear_scenes::{Ratios, overrides},
-    load, quantile, tabulate,
+    load, quantile, tabulate, tabulate_constants,
 };
 use crate::{Findings, Laboratory, StudyError};
 
@@ -32,8 +32,6 @@ const N_SHOWN: usize = 8;
 /// Largest number of scenes drawn per scene that is computed.
 const MOST_DRAWN: usize = 8;
 
-/// A trial and the parts of its error bars.
-type Parted = (Trial, Vec<BarParts>);
 type Numbers = [Option<f64>; 6];
 
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
@@ -55,69 +53,20 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         }
     }
     let mut findings = Findings::new();
-    findings.tabulate(
-        "Constants of the error estimate (crates/fem-simulation/src/error/calibration.rs). The edge constant needed is that \
-         with which the bars of 98 % of these scenes hold.",
-        ["constants", "quantity", "covered", "median bar", "bar over error", "edge constant", "edge constant needed"],
-        calibration_rows(&[&explicit, &condensed]),
-    );
+    tabulate_constants(&mut findings, &[&explicit, &condensed]);
     for (name, trials) in [("explicit", explicit), ("condensed", condensed)] {
         let count = |is: fn(&Trial) -> bool| trials.iter().filter(|one| is(&one.0)).count() as f64;
         findings.measure(format!("{name}.scenes"), trials.len() as f64);
         findings.measure(format!("{name}.covered"), count(|trial| trial.share() <= 1.0));
         findings.measure(format!("{name}.met"), count(Trial::is_met));
         let all = trials.iter().flat_map(|(trial, _)| &trial.numbers);
-        findings.measure(format!("{name}.bar"), quantile(all.map(width), 0.5));
+        findings.measure(format!("{name}.bar"), quantile(all.map(NumberTrial::width), 0.5));
         let caption = format!(
             "{name}: errors and bars of the scenes that come nearest to their bars; seed of the second half {drawn}."
         );
         tabulate(&mut findings, caption, trials.iter().map(|one| &one.0).collect(), N_SHOWN);
     }
     Ok(findings)
-}
-
-/// Returns a bar over the error, or over the uncertainty of the limit if that is larger.
-fn width(number: &NumberTrial) -> f64 {
-    number.bar / number.error.abs().max(number.reference_uncertainty)
-}
-
-/// Returns the edge constant, times (a/h)², with which a bar would hold.
-fn edge_needed(number: &NumberTrial, parts: &BarParts) -> f64 {
-    let BarParts { reference_error, safety_factor, across, floor, .. } = *parts;
-    let known = safety_factor * reference_error + floor + number.reference_uncertainty;
-    (number.error.abs() - known).max(0.0) * across * across
-}
-
-/// Returns, for each row of constants and each quantity, how often the bars hold, how wide they are, the edge constant and
-/// the one that is needed.
-fn calibration_rows(trials: &[&[Parted]]) -> Vec<[String; 7]> {
-    let all = trials.iter().copied().flatten();
-    let all: Vec<(&NumberTrial, &BarParts)> =
-        all.flat_map(|(trial, parts)| trial.numbers.iter().zip(parts)).collect();
-    let mut names: Vec<&str> = all.iter().map(|(_, parts)| parts.constants).collect();
-    names.sort_unstable();
-    names.dedup();
-    let keys = names.into_iter().flat_map(|name| QuantityOfInterest::ALL.map(|key| (name, key)));
-    let row = |(name, quantity): (&str, QuantityOfInterest)| {
-        let of = |of: fn(&NumberTrial, &BarParts) -> f64| {
-            let same = all
-                .iter()
-                .filter(|(number, parts)| parts.constants == name && number.quantity == quantity);
-            same.map(|(number, parts)| of(number, parts)).collect::<Vec<f64>>()
-        };
-        let shares = of(|number, _| number.share());
-        let edges = of(|_, parts| parts.edge * parts.across.max(1.0).powi(2));
-        [
-            name.to_string(),
-            quantity.key().to_string(),
-            format!("{} of {}", shares.iter().filter(|it| **it <= 1.0).count(), shares.len()),
-            format!("{:.1e}", quantile(of(|number, _| number.bar), 0.5)),
-            format!("{:.1}", quantile(of(|number, _| width(number)), 0.5)),
-            format!("{:.3}", quantile(edges, 0.5)),
-            format!("{:.3}", quantile(of(edge_needed), 0.98)),
-        ]
-    };
-    keys.map(row).collect()
 }
 
 /// Returns the errors and the bars of explicit elements and of condensed bodies; `None` for a scene that is too

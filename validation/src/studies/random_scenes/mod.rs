@@ -13,6 +13,7 @@ mod linear_scenes;
 mod model_differences;
 mod soft_scenes;
 
+use fem::accuracy::BarParts;
 use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 use rayon::prelude::*;
@@ -116,9 +117,17 @@ struct NumberTrial {
     reference_uncertainty: f64,
 }
 
+/// A trial and the parts of its error bars.
+type Parted = (Trial, Vec<BarParts>);
+
 impl NumberTrial {
     fn share(&self) -> f64 {
         self.error.abs() / (self.bar + self.reference_uncertainty)
+    }
+
+    /// Returns the bar over the error, or over the uncertainty of the reference if that is larger.
+    fn width(&self) -> f64 {
+        self.bar / self.error.abs().max(self.reference_uncertainty)
     }
 
     /// Whether the error is within the default tolerance; approach and contact radius have none.
@@ -173,4 +182,54 @@ fn quantile(values: impl IntoIterator<Item = f64>, share: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     let k = (share * values.len() as f64) as usize;
     values.get(k.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
+}
+
+/// Tabulates the constants of the error estimate with those that these trials need.
+fn tabulate_constants(findings: &mut Findings, trials: &[&[Parted]]) {
+    findings.tabulate(
+        "Constants of the error estimate (crates/fem-simulation/src/error/calibration.rs). The edge constant needed is that \
+         with which the bars of 98 % of these scenes hold.",
+        ["constants", "quantity", "covered", "median bar", "bar over error", "edge constant", "edge constant needed"],
+        calibration_rows(trials),
+    );
+}
+
+/// Returns the edge constant, times (a/h)², with which a bar would hold.
+fn edge_needed(number: &NumberTrial, parts: &BarParts) -> f64 {
+    let BarParts { reference_error, safety_factor, across, scatter, moved_mass, .. } = *parts;
+    let known =
+        safety_factor * reference_error + scatter + moved_mass + number.reference_uncertainty;
+    (number.error.abs() - known).max(0.0) * across * across
+}
+
+/// Returns, for each row of constants and each quantity, how often the bars hold, how wide they are, the edge constant and
+/// the one that is needed.
+fn calibration_rows(trials: &[&[Parted]]) -> Vec<[String; 7]> {
+    let all = trials.iter().copied().flatten();
+    let all: Vec<(&NumberTrial, &BarParts)> =
+        all.flat_map(|(trial, parts)| trial.numbers.iter().zip(parts)).collect();
+    let mut names: Vec<&str> = all.iter().map(|(_, parts)| parts.constants).collect();
+    names.sort_unstable();
+    names.dedup();
+    let keys = names.into_iter().flat_map(|name| QuantityOfInterest::ALL.map(|key| (name, key)));
+    let row = |(name, quantity): (&str, QuantityOfInterest)| {
+        let of = |of: fn(&NumberTrial, &BarParts) -> f64| {
+            let same = all
+                .iter()
+                .filter(|(number, parts)| parts.constants == name && number.quantity == quantity);
+            same.map(|(number, parts)| of(number, parts)).collect::<Vec<f64>>()
+        };
+        let shares = of(|number, _| number.share());
+        let edges = of(|_, parts| parts.edge * parts.across.max(1.0).powi(2));
+        [
+            name.to_string(),
+            quantity.key().to_string(),
+            format!("{} of {}", shares.iter().filter(|it| **it <= 1.0).count(), shares.len()),
+            format!("{:.1e}", quantile(of(|number, _| number.bar), 0.5)),
+            format!("{:.1}", quantile(of(|number, _| number.width()), 0.5)),
+            format!("{:.3}", quantile(edges, 0.5)),
+            format!("{:.3}", quantile(of(edge_needed), 0.98)),
+        ]
+    };
+    keys.map(row).collect()
 }

@@ -4,8 +4,9 @@
 //! A ball strikes a rigid wall, or one time in three a ball of another size and stiffness. Poisson's ratios are 0 to
 //! 0.495. Laws are all but that of St Venant and Kirchhoff, which collapses. Half of the scenes relax. At the speed of a
 //! scene Hertz' contact radius is 0.1 to 0.7 of the effective radius. Each is run with the default settings, and on
-//! elements [`FINER`] times smaller, from which its error is estimated with second order. A scene is `covered` if
-//! all six quantities are within their bars, and `met` if restitution, contact time, peak force and pressure are within the
+//! elements [`FINER`] times smaller. Both give the limit with second order; its distance from the finer run is its
+//! uncertainty, which is added to the bar before the comparison. A scene is `covered` if all six quantities are within
+//! their bars, and `met` if restitution, contact time, peak force and pressure are within the
 //! default tolerance or its warnings say that one of them may not be; `bar` is the median of a bar over the error, or over
 //! a tenth of the tolerance if that is larger. A scene is `foretold` if contact time and force at small strain differ by at
 //! most [`ESTIMATED_WITHIN`] times the estimate of the plan, plus [`NOISE`] of two meshes.
@@ -18,7 +19,10 @@ use fem::effects::{Effect, FiniteStrain};
 use fem_case::{Case, CaseError};
 use fem_collision::{Collision, QuantityOfInterest};
 
-use super::{NumberTrial, Parameters, Random, Trial, computed, load, quantile, tabulate};
+use super::{
+    NumberTrial, Parameters, Parted, Random, Trial, computed, load, quantile, tabulate,
+    tabulate_constants,
+};
 use crate::{Findings, Laboratory, StudyError};
 
 /// Ratio of the element sizes from which errors are estimated.
@@ -31,7 +35,7 @@ const NOISE: f64 = 0.01;
 const MOST_DRAWN: usize = 12;
 
 struct SoftTrial {
-    trial: Trial,
+    parted: Parted,
     has_warned: bool,
     is_estimated: bool,
 }
@@ -51,15 +55,17 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut findings = Findings::new();
     let count = |is: fn(&SoftTrial) -> bool| trials.iter().filter(|one| is(one)).count() as f64;
     findings.measure("scenes", trials.len() as f64);
-    findings.measure("covered", count(|one| one.trial.share() <= 1.0));
-    findings.measure("met", count(|one| one.has_warned || one.trial.is_met()));
+    findings.measure("covered", count(|one| one.parted.0.share() <= 1.0));
+    findings.measure("met", count(|one| one.has_warned || one.parted.0.is_met()));
     findings.measure("foretold", count(|one| one.is_estimated));
     let least = 0.1 * fem_case::defaults::TOLERANCE;
-    let all = trials.iter().flat_map(|one| &one.trial.numbers);
+    let all = trials.iter().flat_map(|one| &one.parted.0.numbers);
     let ratios = all.map(|NumberTrial { error, bar, .. }| bar / error.abs().max(least));
     findings.measure("bar", quantile(ratios, 0.5));
     let caption = format!("Errors and bars of soft scenes, seed {seed}.");
-    tabulate(&mut findings, caption, trials.iter().map(|one| &one.trial).collect(), scenes);
+    let trials: Vec<Parted> = trials.into_iter().map(|one| one.parted).collect();
+    tabulate(&mut findings, caption, trials.iter().map(|(trial, _)| trial).collect(), scenes);
+    tabulate_constants(&mut findings, &[&trials]);
     Ok(findings)
 }
 
@@ -152,19 +158,25 @@ fn compute(
         return Ok(None);
     }
     let errors = &computed.errors;
-    let numbers = QuantityOfInterest::ALL.into_iter().filter_map(|quantity| {
+    let measured = QuantityOfInterest::ALL.into_iter().filter_map(|quantity| {
         let (value, fine) = (quantity.of(collision)?, quantity.of(&fine)?);
         let bar = errors.discretisation(quantity)?;
         let scale = quantity.scale(fine);
-        let error = (value - fine) / (1.0 - FINER.powi(-2));
-        let (error, bar) = (error / scale, bar / scale);
-        Some(NumberTrial { quantity, error, bar, reference_uncertainty: 0.0 })
+        let limit = fine + (fine - value) / (FINER * FINER - 1.0);
+        let number = NumberTrial {
+            quantity,
+            error: (value - limit) / scale,
+            bar: bar / scale,
+            reference_uncertainty: (fine - limit).abs() / scale,
+        };
+        Some((number, errors.parts(quantity)?))
     });
-    let trial = Trial { scene, numbers: numbers.collect() };
+    let (numbers, parts) = measured.unzip();
+    let trial = Trial { scene, numbers };
     let has_warned =
         computed.warnings().iter().any(|warning| warning.contains("above the tolerance"));
     let is_estimated = is_estimated(simulation, collision, &small).unwrap_or(true);
-    Ok(trial.is_whole().then_some(SoftTrial { trial, has_warned, is_estimated }))
+    Ok(trial.is_whole().then_some(SoftTrial { parted: (trial, parts), has_warned, is_estimated }))
 }
 
 /// Whether contact time and peak force without finite strain differ from those with it by as much as the plan
