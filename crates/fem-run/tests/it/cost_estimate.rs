@@ -133,10 +133,10 @@ fn memory_estimate_includes_the_reference_run() {
     ] {
         let set = ["--set", model, "--set", "mesh.contact_element_size='26 um'"];
         let all = |first: &[&'static str]| [first, &set].concat();
-        let ran = place.succeed(&all(&[case, "--force", "--out", "out"]));
+        let ran = place.succeed(all(&[case, "--force", "--out", "out"]));
         let spent = place.json("out/summary.json")["cost"]["peak_memory_bytes"].as_f64().unwrap();
         let line = ran.stderr.lines().next().unwrap().to_string();
-        for told in [line, place.succeed(&all(&["check", case])).stdout] {
+        for told in [line, place.succeed(all(&["check", case])).stdout] {
             let ratio = spent / announced(told.split("memory  ").last().unwrap());
             assert!((1.0 / 1.7..1.7).contains(&ratio), "{case} {model}: {spent} {told}");
         }

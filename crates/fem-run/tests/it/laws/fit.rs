@@ -165,7 +165,7 @@ fn invert_gives_the_published_relaxation_rates_of_glass() {
         .succeed("invert case.toml --restitution 0.92")
         .prints("kuwabara_kono|tsuji|falcon|bordbar_hyppanen|hunt_crossley|ting");
     place
-        .fails(2, &[&ting[..5], &["1.5"]].concat())
+        .fails(2, [&ting[..5], &["1.5"]].concat())
         .tells("--restitution must be greater than 0 and less than 1");
     let law = "invert case.toml --restitution 0.3 --law hunt_crossley";
     place.fails(2, law).tells("no e gives a restitution of 0.3");

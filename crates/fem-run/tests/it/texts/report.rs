@@ -187,9 +187,9 @@ fn single_file_commands_overwrite_no_foreign_file() {
     }
     // They overwrite their own files, and `-` is no file.
     for _ in 0..2 {
-        place.succeed(&own("own.svg"));
+        place.succeed(own("own.svg"));
     }
-    let printed = place.run(&own("-"));
+    let printed = place.run(own("-"));
     assert_eq!((printed.code, printed.stdout), (Some(0), place.text("own.svg")));
     assert!(!place.path("-").exists());
 }
