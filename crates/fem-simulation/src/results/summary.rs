@@ -61,7 +61,7 @@ pub struct Summary {
     pub complete: bool,
     /// Why the run did not end by itself.
     pub stopped_because: Option<String>,
-    /// Name of the program ([`PROGRAM`]).
+    /// Name of the program ([`super::PROGRAM`]).
     pub program: &'static str,
     /// Version of the program.
     pub version: &'static str,
