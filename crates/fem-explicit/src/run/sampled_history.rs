@@ -19,11 +19,11 @@ pub(crate) struct SampledHistory {
     cadence: SamplingInterval,
     /// Means and peaks of force, contact radius and pressure.
     pub pulse: ForcePulse,
-    /// ForceNoise of the contact force.
+    /// Scatter of the contact force from step to step.
     pub scatter: ForceNoise,
     /// Vibration since the last contact; `None` before the first one.
     pub aftermath: Option<PostContactVibration>,
-    /// HistoryRow of the last sampled instant.
+    /// Row of the last sampled instant.
     pub last: Option<HistoryRow>,
     standstill: RestCriterion,
 }

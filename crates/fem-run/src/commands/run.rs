@@ -188,7 +188,7 @@ fn announce(
     let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
     let mut line = format!("{case}: {large}{price}{more}; result: {out}");
     if let Some(taken) = &place.taken {
-        line += &format!(", since {} holds that of another case", taken.display());
+        line += &format!(" ({} holds another case)", taken.display());
     }
     let _ = writeln!(stderr(), "{}", one_line(&line));
     standard_output::warn(simulation.case().scene().implausible_numbers());

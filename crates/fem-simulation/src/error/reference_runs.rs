@@ -35,11 +35,11 @@ pub fn first_contact(file: &CaseFile) -> Option<StopTable> {
     file.gravity.as_ref().map(bounces)
 }
 
-/// How the mesh continues away from the contact.
+/// How the mesh continues away from the contact: as the case gives it, or by the mesh rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum FarMesh {
     AsGiven,
-    SelectedModel,
+    ByRule,
 }
 
 /// A reference run and its result.
@@ -132,7 +132,7 @@ impl ReferenceRuns {
             let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
             let coarse = self.values(subject, &settings, FarMesh::AsGiven)?;
             let near = errors(values, extrapolated(coarse, values, ratio));
-            let chosen = self.values(subject, &settings, FarMesh::SelectedModel)?;
+            let chosen = self.values(subject, &settings, FarMesh::ByRule)?;
             let (far, of_condensed) = (errors(coarse, chosen), self.far_mesh(subject));
             Some(std::array::from_fn(|k| {
                 let of_condensed = of_condensed.and_then(|of| of[k]).unwrap_or(0.0);
@@ -146,7 +146,7 @@ impl ReferenceRuns {
         subject.far_mesh_key()?;
         let settings = [condensed(true), Setting::ElementSize(subject.size)];
         let given = self.values(subject, &settings, FarMesh::AsGiven)?;
-        let chosen = self.values(subject, &settings, FarMesh::SelectedModel)?;
+        let chosen = self.values(subject, &settings, FarMesh::ByRule)?;
         Some(errors(given, chosen))
     }
 
@@ -181,7 +181,7 @@ impl ReferenceRuns {
         let mut on = |size: f64| {
             let settings =
                 [condensed(false), Setting::ElementSize(size), Setting::Staggered(false)];
-            self.values(subject, &settings, FarMesh::SelectedModel)
+            self.values(subject, &settings, FarMesh::ByRule)
         };
         let (coarse, fine) = (on(size)?, on(0.5 * size)?);
         Some(errors(values, extrapolated(coarse, fine, 2.0)))
@@ -264,9 +264,9 @@ fn collide(
         for setting in settings {
             setting.apply(file);
         }
-        if let (FarMesh::SelectedModel, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
+        if let (FarMesh::ByRule, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
             (mesh.growth, mesh.refined_radius) = (None, None);
-            // The selected mesh depends on the speed.
+            // The mesh rule depends on the speed.
             *file = simulation.with_approach(file.clone(), approach);
         }
         if settings.iter().any(|it| matches!(it, Setting::ElementSize(_))) {

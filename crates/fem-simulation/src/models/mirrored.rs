@@ -177,10 +177,9 @@ impl Whole {
             approach: self.approach,
             energies,
             residual: half.residual.map(|residual| 2.0 * residual),
-            deepest_overlap: half.deepest_overlap.map(|deepest_overlap| DeepestOverlap {
-                overlap: 2.0 * deepest_overlap.overlap,
-                ..deepest_overlap
-            }),
+            deepest_overlap: half
+                .deepest_overlap
+                .map(|deepest| DeepestOverlap { overlap: 2.0 * deepest.overlap, ..deepest }),
             max_approach: half.max_approach.map(|approach| 2.0 * approach),
             initial_energy: half.initial_energy.map(|energy| 2.0 * energy + of_centre),
             bodies: [after(0), after(1)],

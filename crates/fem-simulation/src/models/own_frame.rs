@@ -85,9 +85,7 @@ impl OwnFrame {
             first_contact: own.first_contact.map(later),
             last_contact: own.last_contact.map(later),
             noisiest_instant: own.noisiest_instant.map(|at| at.later_by(self.delay())),
-            deepest_overlap: own
-                .deepest_overlap
-                .map(|deepest_overlap| deepest_overlap.later_by(self.delay())),
+            deepest_overlap: own.deepest_overlap.map(|deepest| deepest.later_by(self.delay())),
             residual_since: own.residual_since.map(|at| at.later_by(self.delay())),
             initial_energy: initial,
             energies: self.energies(own.energies, masses, last),

@@ -70,8 +70,10 @@ pub struct MeshRule {
     pub across: f64,
     /// Largest moved mass over the lighter body's mass.
     pub mass_scaling: f64,
-    /// The error of the force on the finest mesh, if the tolerance of the case cannot be met.
+    /// The error of the force on the finest mesh, if the scene asks for a finer one.
     pub reached: Option<f64>,
+    /// Whether the tolerance alone asks for a finer mesh than the finest.
+    pub is_for_tolerance: bool,
     /// The quantity that needs the smallest elements, and its tolerance.
     pub limiting_quantity: (QuantityOfInterest, f64),
 }
@@ -104,7 +106,8 @@ impl MeshRule {
         };
         let asked_for = (error / (TOLERANCE_SHARE_OF_MESH * tolerance)).sqrt() / later;
         let for_waves = (estimate.mach / MACH_OF_SLOW_IMPACTS).cbrt().max(1.0);
-        let asked_for = scene.refinement() * for_waves * asked_for.max(fewest);
+        let for_tolerance = asked_for.max(fewest);
+        let asked_for = scene.refinement() * for_waves * for_tolerance;
         let across = asked_for.min(MOST_ACROSS);
         let across = match is_staggered || at_nodes {
             true => across,
@@ -115,6 +118,7 @@ impl MeshRule {
             across,
             mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(reached)).min(MOST_MOVED_MASS),
             reached: (asked_for > MOST_ACROSS).then_some(reached),
+            is_for_tolerance: for_tolerance > MOST_ACROSS,
             limiting_quantity,
         }
     }

@@ -137,12 +137,18 @@ impl Plan {
         let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
         let out_of_reach = rule.reached.filter(|_| is_chosen);
         if let Some(reached) = out_of_reach {
-            warnings.push(format!(
-                "accuracy.tolerance cannot be met: even {:.0} elements across the contact leave an error of about {} of the \
-                 peak force; raise accuracy.tolerance",
-                rule.across,
-                percent(reached)
-            ));
+            let across = rule.across;
+            warnings.push(match rule.is_for_tolerance {
+                true => format!(
+                    "accuracy.tolerance cannot be met: even {across:.0} elements across the contact leave an error of about {} \
+                     of the peak force; raise accuracy.tolerance",
+                    percent(reached)
+                ),
+                false => format!(
+                    "accuracy.tolerance may not be met: the finest mesh has {across:.0} elements across the contact; the \
+                     estimated error or the steep fronts of a fast impact ask for more"
+                ),
+            });
         }
         let limits = scene.limits();
         Ok(Self {

@@ -103,7 +103,7 @@ fn build_digest_changes_with_sources_versions_and_opt_level() {
     for name in ABOVE {
         assert!(!moves(&format!("crates/{name}/Cargo.toml")), "{name}");
     }
-    assert!(!moves("crates/fem-explicit/src/run/restart_state/tests.rs"));
+    assert!(!moves("crates/fem-explicit/src/stress/kernel/tests.rs"));
 }
 
 /// As cargo unpacks it from a registry: alone, and no other crate is where a neighbour would be.

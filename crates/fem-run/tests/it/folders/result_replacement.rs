@@ -15,7 +15,7 @@ fn another_case_gets_its_own_result_folder() {
     let own = place.list("runs").pop().unwrap();
     assert!(own.starts_with("case-") && own.len() == "case-".len() + 8, "{own}");
     assert_eq!(place.read("runs/case/summary.json"), first);
-    let said = format!("result: runs/{own}, since runs/case holds that of another case");
+    let said = format!("result: runs/{own} (runs/case holds another case)");
     ran.tells(said);
     ran.prints(format!("Result: runs/{own}\n"));
 

@@ -103,7 +103,7 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
             true => "bodies that are rubber-like, hyperelastic or far stiffer than their partner do not yield"
                 .to_string(),
             false => {
-                format!("the stress reaches {reached}; materials with a lower yield strength flow")
+                format!("the largest von Mises stress is {reached}; a material with a lower yield strength would flow")
             }
         },
         open_error: String::new(),

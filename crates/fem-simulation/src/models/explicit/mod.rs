@@ -417,7 +417,7 @@ fn support(
     Some(match effect.name() {
         Viscoelasticity::NAME => Support::Inherent { idle: "" },
         HourglassControl::NAME => {
-            let why = "elements with one mean strain need stiffness against hourglass modes";
+            let why = "one-point elements need stiffness against hourglass modes";
             Support::decided(true, why)
         }
         ContactSearch::NAME => ContactSearch::within(&bodies?.candidate_region()),
