@@ -63,8 +63,8 @@ FAULTS = [
      "let rise = 4.0 * x * (2.0 * x * x - 1.0);"),
     ("slip_compliance", "fem-laws", "self.curvature * mismatch / (4.0 * PI)", "self.curvature * mismatch / (2.0 * PI)"),
     # Contact
-    ("spring_force", "fem-contact", "point.feet[1].add(force, f_upper); total.force += force;",
-     "point.feet[1].add(force, f_upper); total.force += point.area * force;"),
+    ("spring_force", "fem-contact", "point.projections[1].add(force, f_upper); total.force += force;",
+     "point.projections[1].add(force, f_upper); total.force += point.area * force;"),
     ("contact_area", "fem-contact", "let area = 2.0 * PI * radius * half;", "let area = PI * radius * half;"),
     ("nodes_of_a_foot", "fem-contact", "f[self.nodes[1] as usize][1] += self.shape[1] * force;",
      "f[self.nodes[1] as usize][1] += self.shape[0] * force;"),
@@ -110,7 +110,7 @@ FAULTS = [
     ("confidence_interval", "fem-study", "true => (value * (-reach).exp(), value * reach.exp())",
      "true => (value * (-reach).exp(), value)"),
     # A whole collision
-    ("summary_cost_unit", "fem-run:result_folder", "1e9 * spent.solve / updates as f64", "1e6 * spent.solve / updates as f64"),
+    ("summary_cost_unit", "fem-run:result_folder", "1e9 * cost.solve_s / updates as f64", "1e6 * cost.solve_s / updates as f64"),
     ("history_column", "fem-run:result_folder", '"contact_radius_m", "approach_m", "centre_pressure_pa"]',
      '"approach_m", "contact_radius_m", "centre_pressure_pa"]'),
     ("contact_file_slip", "fem:contact_profile", "let slip = place.radial[1] - place.radial[0];",
