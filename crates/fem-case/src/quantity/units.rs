@@ -325,6 +325,8 @@ mod tests {
             ("1 d", 86400.0),
             ("1 atm", 101325.0),
             ("1 lb", 0.45359237),
+            ("1 in^2", 6.4516e-4),
+            ("1 in^-2", 1.0 / 6.4516e-4),
         ] {
             let relative = (value(text) / expected - 1.0).abs();
             assert!(relative <= 2.0 * f64::EPSILON, "{text}: {}", value(text));

@@ -225,6 +225,14 @@ mod tests {
     use super::*;
     use fem_mesh::{HalfDisc, Side};
 
+    /// Tension σ has the von Mises stress σ, pure shear τ has √3 τ, and a pressure has none.
+    #[test]
+    fn invariants_of_elementary_stress_states_are_known() {
+        assert_eq!(invariants([0.0, 2.0, 0.0, 0.0]), (-2.0 / 3.0, 2.0));
+        assert_eq!(invariants([0.0, 0.0, 0.0, 2.0]), (0.0, 12f64.sqrt()));
+        assert_eq!(invariants([-2.0, -2.0, -2.0, 0.0]), (2.0, 0.0));
+    }
+
     #[test]
     fn linear_stress_is_recovered_exactly() {
         for side in [Side::Above, Side::Below] {

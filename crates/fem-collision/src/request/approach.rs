@@ -124,6 +124,17 @@ impl Approach {
 mod tests {
     use super::*;
 
+    /// The momentum is that of the start, and the approach is the one asked for. A wall keeps its velocity.
+    #[test]
+    fn centres_conserve_momentum() {
+        let approach = Approach::new([0.5, -0.25], 0.0).unwrap();
+        let velocities = approach.centres([1.0, 3.0], 0.125, 1.0);
+        assert!((velocities[0] + 3.0 * velocities[1] - (0.5 - 0.75)).abs() < 1e-15);
+        assert!((velocities[0] - velocities[1] - 0.125).abs() < 1e-15);
+        let wall = approach.centres([1.0, f64::INFINITY], 0.125, 1.0);
+        assert_eq!(wall, [-0.125, -0.25]);
+    }
+
     #[test]
     fn only_bodies_that_meet_have_an_approach() {
         for velocities in [[0.0, 0.0], [-0.5, 0.0], [f64::NAN, 0.0], [f64::INFINITY, 0.0]] {

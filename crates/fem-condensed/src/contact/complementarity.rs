@@ -128,3 +128,68 @@ fn solve_closed(
     }
     Some(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without pattern, in −1/2 .. 1/2.
+    fn noise(k: usize) -> f64 {
+        (k as f64 * 0.618_033_988_749_895 + 0.29).fract() - 0.5
+    }
+
+    fn problem(seed: usize) -> (Mat<f64>, Vec<f64>) {
+        let n = 1 + seed % 17;
+        let root = Mat::from_fn(n, n, |i, j| noise(seed * 1000 + i * n + j * j));
+        let mut compliance = &root * root.transpose();
+        for i in 0..n {
+            compliance[(i, i)] += 1e-3;
+        }
+        (compliance, (0..n).map(|k| noise(seed * 77 + 3 * k)).collect())
+    }
+
+    /// Random problems: the conditions themselves are the test.
+    #[test]
+    fn random_contact_problems_satisfy_complementarity() {
+        for seed in 0..200 {
+            let (compliance, overlap) = problem(seed);
+            let n = overlap.len();
+            let [mut forces, mut one_by_one] = [vec![0.0; n], vec![0.0; n]];
+            solve(&compliance, &overlap, &mut forces).unwrap();
+            let n_rounds = descend(&compliance, &overlap, 0.0, &mut one_by_one).unwrap();
+            // Few points are closed twice.
+            assert!(n_rounds <= 2 * n, "{seed}: {n_rounds} of {n}");
+            for forces in [forces, one_by_one] {
+                let largest = forces.iter().copied().fold(0.0, f64::max);
+                for k in 0..n {
+                    let gap = -left_overlap(&compliance, &overlap, &forces, k);
+                    // Rounding times the condition number, 1e4.
+                    assert!(forces[k] >= 0.0 && gap >= -1e-10, "{seed}: {forces:?}");
+                    assert!(forces[k] * gap.abs() <= 1e-10 * largest, "{seed}: {forces:?}");
+                }
+            }
+        }
+    }
+
+    /// Points that follow each other closely, as Gauss points of soft bodies do, pushed as no disc is.
+    #[test]
+    fn active_set_iterations_do_not_exceed_the_number_of_points() {
+        for n in [10, 40, 160] {
+            // 1/(1 + |i − j|) is positive definite: a convex function of the distance (Pólya).
+            let compliance =
+                Mat::from_fn(n, n, |i, j| (1.0 + 0.1 * (i as f64 - j as f64).abs()).recip());
+            for seed in 0..10 {
+                let overlap: Vec<f64> = (0..n).map(|k| noise(seed * 501 + k)).collect();
+                let mut forces = vec![0.0; n];
+                let n_rounds = descend(&compliance, &overlap, 0.0, &mut forces).unwrap();
+                assert!(n_rounds <= n, "{seed}: {n_rounds} of {n}");
+                let mut others = vec![0.0; n];
+                solve(&compliance, &overlap, &mut others).unwrap();
+                let largest = forces.iter().copied().fold(0.0, f64::max);
+                for (one, other) in forces.iter().zip(&others) {
+                    assert!((one - other).abs() < 1e-9 * largest, "{n} {seed}: {one} {other}");
+                }
+            }
+        }
+    }
+}

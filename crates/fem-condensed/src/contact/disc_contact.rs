@@ -186,3 +186,28 @@ impl DiscContactSolver {
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The remaining overlap outside of a disc is that left by its forces.
+    #[test]
+    fn remaining_overlap_outside_the_disc_is_that_of_its_forces() {
+        let n = 6;
+        let near = |i: usize, j: usize| (-0.3 * i.abs_diff(j) as f64).exp();
+        let mut solver = DiscContactSolver::new(Mat::from_fn(n, n, near));
+        for height in [0.1, 1.0, 3.0] {
+            let overlap: Vec<f64> = (0..n).map(|k| height - 0.2 * (k * k) as f64).collect();
+            let mut forces = vec![0.0; n];
+            let ContactDisc { n_closed } = solver.solve(&overlap, &mut forces).unwrap();
+            assert!(n_closed > 0 && n_closed < n && solver.n_fallbacks == 0);
+            for (k, overlap) in overlap.iter().enumerate() {
+                let closed: f64 = (0..n).map(|j| near(k, j) * forces[j]).sum();
+                let left = if k < n_closed { 0.0 } else { solver.left[k] };
+                assert!((overlap - closed - left).abs() < 1e-14, "{height} {k}");
+                assert!(forces[k] >= 0.0 && (k < n_closed || left <= 0.0));
+            }
+        }
+    }
+}
