@@ -75,8 +75,7 @@ FAULTS = [
      "let common = shares[0] * self.velocities[0] + shares[1] * self.velocities[1];"),
     ("dissipation_trapezoid", "fem-collision", "0.5 * (last.get(account).unwrap_or(0.0) + now) * time", "now * time"),
     # Condensed bodies
-    ("complementarity_sign", "fem-condensed", "true => forces[k] < -ROUNDING * largest",
-     "true => forces[k] < ROUNDING * largest"),
+    ("complementarity_sign", "fem-condensed", "overlap[point] - closing", "overlap[point] + closing"),
     ("newmark_beta", "fem-condensed", "const BETA: f64 = 1.0 / 12.0;", "const BETA: f64 = 1.0 / 4.0;"),
     ("branch_history", "fem-condensed", "branch.weight * (branch.step.decay * q - branch.step.gain * z)",
      "branch.weight * (q - branch.step.gain * z)"),
