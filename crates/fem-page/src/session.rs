@@ -67,12 +67,12 @@ impl Session {
     pub fn begin(&mut self, text: &str, ask: RecordedAmount) -> Result<RunStart, CaseError> {
         (self.simulation, self.stepper, self.collision) = (None, None, None);
         let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;
-        let mut simulation = Simulation::sharing(case, &self.shared)?;
+        let simulation = Simulation::sharing(case, &self.shared)?;
         let snapshots = SnapshotRequest::Count(ask.frames);
         let request =
             OutputRequest { history_rows: ask.rows, snapshots, ..simulation.request().clone() };
         let too_much = |error: OutputRequestError| CaseError::new(SOURCE, error.to_string());
-        simulation.set_output_request(request).map_err(too_much)?;
+        let simulation = simulation.with_output_request(request).map_err(too_much)?;
         let setup = simulation.setup();
         let begun = RunStart {
             case: simulation.case().file().clone(),
@@ -120,9 +120,9 @@ impl Session {
     /// be computed.
     fn hertz(&self, simulation: &Simulation, collision: &Collision) -> Option<Vec<HistoryRow>> {
         let case = simulation.case().edited(|file| file.model = Some(ModelTable::hertz())).ok()?;
-        let mut hertz = Simulation::sharing(case, &self.shared).ok()?;
-        hertz
-            .set_output_request(OutputRequest {
+        let hertz = Simulation::sharing(case, &self.shared).ok()?;
+        let hertz = hertz
+            .with_output_request(OutputRequest {
                 history_rows: self.ask?.rows,
                 ..OutputRequest::history()
             })

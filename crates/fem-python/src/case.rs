@@ -122,7 +122,7 @@ impl Case {
         let (ran, error) = watched(py, report, Duration::MAX, move |watch| {
             let mut simulation = Simulation::new(case)?;
             if !fields {
-                simulation.skip_snapshots();
+                simulation = simulation.without_snapshots();
             }
             let mut timed = Timed::since(started, RunWatch(watch));
             let computed = simulation.run_within_tolerance(&mut timed);

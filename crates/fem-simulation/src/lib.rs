@@ -30,14 +30,14 @@ pub use models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedMo
 pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
     AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, METHODS,
-    ModelCandidate, Reduced, ReducedMethod, chosen, method_of, model_of,
+    ModelCandidate, Reduced, ReducedMethod, method_of, model_of, selected_model,
 };
 pub use plan::body_source::build_meshes;
 pub use plan::contact_method::{ContactNoiseAdvice, contact_method, ignored_method_warning};
 pub use plan::element_size::MeshRule;
 pub use plan::pair_cache::PairCache;
 pub use plan::{Plan, divided_radius};
-pub use quantity_errors::QuantityErrors;
+pub use quantity_errors::{QuantityErrors, tolerance_of};
 pub use rejection::Rejection;
 pub use results::Summary;
 pub use results::diagnostics::diagnose;

@@ -1,6 +1,19 @@
-//! [`QuantityErrors`]: one error for each quantity of interest.
+//! [`QuantityErrors`]: one error for each quantity of interest, and the tolerance of each.
 
+use fem_case::Accuracy;
 use fem_collision::QuantityOfInterest;
+
+/// Returns the tolerance of a quantity, absolute for the restitution and otherwise relative; approach and contact radius
+/// have none.
+pub fn tolerance_of(accuracy: &Accuracy, quantity: QuantityOfInterest) -> Option<f64> {
+    match quantity {
+        QuantityOfInterest::Restitution => Some(accuracy.restitution),
+        QuantityOfInterest::ContactTime => Some(accuracy.contact_time),
+        QuantityOfInterest::PeakForce => Some(accuracy.peak_force),
+        QuantityOfInterest::PeakPressure => Some(accuracy.peak_pressure),
+        QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => None,
+    }
+}
 
 /// Errors of the quantities in the order of [`QuantityOfInterest::ALL`], SI; `None` if an error is not known. Both parts of
 /// an error bar are stored as such: the discretisation error and the model-form error.

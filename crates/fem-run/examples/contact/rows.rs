@@ -60,9 +60,8 @@ impl Row {
             "time.mass_scaling=2e-4".to_string(),
         ];
         let case = Case::parse("glass.toml", self.scene.text, Path::new("."), &overrides);
-        let mut simulation = Simulation::new(case.expect("a case")).expect("a scene");
-        simulation.set_output_request(OutputRequest::quantities()).expect("a run");
-        simulation
+        let simulation = Simulation::new(case.expect("a case")).expect("a scene");
+        simulation.with_output_request(OutputRequest::quantities()).expect("a run")
     }
 
     /// Returns the cells of the row after its run.

@@ -158,9 +158,8 @@ impl Side {
 
     /// Returns the simulation of the run.
     pub fn simulation(&self) -> Simulation {
-        let mut simulation = Simulation::new(self.case()).expect("a scene");
-        simulation.set_output_request(self.request()).expect("a run");
-        simulation
+        let simulation = Simulation::new(self.case()).expect("a scene");
+        simulation.with_output_request(self.request()).expect("a run")
     }
 
     /// Returns the model of one contact for a scene with several.

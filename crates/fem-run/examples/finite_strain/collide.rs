@@ -70,9 +70,7 @@ pub fn alike(strain: f64, radius: f64, poissons_ratio: f64) -> Vec<String> {
 /// Returns a case from its text and overrides, without snapshots.
 pub fn simulation(text: &str, set: &[String]) -> Result<Simulation, Fault> {
     let case = Case::parse("scene.toml", text, Path::new("."), set)?;
-    let mut simulation = Simulation::new(case)?;
-    simulation.skip_snapshots();
-    Ok(simulation)
+    Ok(Simulation::new(case)?.without_snapshots())
 }
 
 /// Returns the speed (m/s) at which Hertz' contact radius is this share of the effective radius: (a/R*)⁵ =

@@ -7,6 +7,7 @@ use super::noise_floor::early_pressure_radius;
 use crate::effects::percent;
 use crate::models::method::ElementSetup;
 use crate::plan::penalty_compliance::softness;
+use crate::quantity_errors::tolerance_of;
 use crate::simulation::Simulation;
 
 /// Errors up to this multiple of the lengthening by soft penalty springs are due to the springs and not to the mesh:
@@ -124,18 +125,14 @@ pub(super) fn misses(
     error: impl Fn(QuantityOfInterest) -> Option<(f64, f64)>,
 ) -> Vec<ToleranceMiss> {
     let accuracy = simulation.case().scene().accuracy();
-    let tolerances = [
-        (QuantityOfInterest::Restitution, accuracy.restitution),
-        (QuantityOfInterest::ContactTime, accuracy.contact_time),
-        (QuantityOfInterest::PeakForce, accuracy.peak_force),
-        (QuantityOfInterest::PeakPressure, accuracy.peak_pressure),
-    ];
-    let of = |(quantity, tolerance): (QuantityOfInterest, f64)| {
+    let of = |quantity| {
+        let tolerance = tolerance_of(&accuracy, quantity)?;
         let (error, scatter) = error(quantity)?;
         Some(ToleranceMiss { quantity, error, tolerance, scatter })
     };
+    let all = QuantityOfInterest::ALL;
     let mut missed: Vec<ToleranceMiss> =
-        tolerances.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0).collect();
+        all.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0).collect();
     let by_excess = |a: &ToleranceMiss, b: &ToleranceMiss| b.excess().total_cmp(&a.excess());
     missed.sort_by(|a, b| b.is_of_mesh().cmp(&a.is_of_mesh()).then(by_excess(a, b)));
     missed

@@ -4,9 +4,7 @@
 //! effects that it lacks ([`Method::support`], [`Effect::neglect_error`]). A model is skipped if it lacks an effect
 //! whose size cannot be estimated, or if its result would come with the advice to use another model.
 
-use fem_case::{
-    Accuracy, CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots, Switch, defaults,
-};
+use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots, Switch, defaults};
 use fem_collision::QuantityOfInterest;
 use serde::Serialize;
 
@@ -18,7 +16,7 @@ use crate::effects::{
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::models::method::{Method, Model, SharedModels};
-use crate::quantity_errors::QuantityErrors;
+use crate::quantity_errors::{QuantityErrors, tolerance_of};
 use crate::rejection::Rejection;
 
 /// The automatic choice of the model.
@@ -299,17 +297,16 @@ impl Candidate {
 
     /// Returns the errors of the model's approximations, which fall with the tolerance where it chooses the mesh.
     fn own_error(&self, scene: &Scene, estimate: &Estimate, has_fields: bool) -> QuantityErrors {
-        let usual = tolerances(&defaults::accuracy());
-        let asked = tolerances(&scene.accuracy());
-        let scales = scales(estimate);
+        let (usual, asked) = (defaults::accuracy(), scene.accuracy());
         let is_made_finer = has_fields && scene.mesh().contact_element_size.is_none();
         QuantityErrors::from_fn(|quantity| {
             let Some(k) = JUDGED_QUANTITIES.iter().position(|judged| *judged == quantity) else {
                 return Some(0.0);
             };
-            let share = asked[k] / usual[k];
+            let share = tolerance_of(&asked, quantity)? / tolerance_of(&usual, quantity)?;
             let is_followed = is_made_finer && (LEAST_SHARE_OF_TOLERANCE..1.0).contains(&share);
-            Some(self.own_errors[k] * scales[k] * if is_followed { share } else { 1.0 })
+            let error = self.own_errors[k] * scale(quantity, estimate);
+            Some(error * if is_followed { share } else { 1.0 })
         })
     }
 }
@@ -377,23 +374,27 @@ fn disobeyed(
     EFFECTS.into_iter().find(is_disobeyed).map(|effect| effect.name())
 }
 
-/// Returns the tolerances of the quantities in [`JUDGED_QUANTITIES`]: the restitution's absolute, others relative.
-fn tolerances(accuracy: &Accuracy) -> [f64; 4] {
-    let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
-    [restitution, contact_time, peak_force, peak_pressure]
-}
-
-/// Returns the values in SI units that relative tolerances belong to.
-fn scales(estimate: &Estimate) -> [f64; 4] {
+/// Returns the value in SI units that a relative tolerance belongs to; 1 for the restitution, whose tolerance is absolute.
+fn scale(quantity: QuantityOfInterest, estimate: &Estimate) -> f64 {
     let sizes = &estimate.effective.sizes;
-    [1.0, sizes.contact_time, sizes.peak_force, sizes.peak_pressure]
+    match quantity {
+        QuantityOfInterest::Restitution => 1.0,
+        QuantityOfInterest::ContactTime => sizes.contact_time,
+        QuantityOfInterest::PeakForce => sizes.peak_force,
+        QuantityOfInterest::MaxApproach => sizes.max_approach,
+        QuantityOfInterest::MaxContactRadius => sizes.max_contact_radius,
+        QuantityOfInterest::PeakPressure => sizes.peak_pressure,
+    }
 }
 
 /// Returns the largest error over its tolerance.
 fn excess(error: &QuantityErrors, scene: &Scene, estimate: &Estimate) -> f64 {
-    let allowed = tolerances(&scene.accuracy()).into_iter().zip(scales(estimate));
-    let errors = JUDGED_QUANTITIES.into_iter().map(|quantity| error.size(quantity).unwrap_or(0.0));
-    errors.zip(allowed).map(|(error, (share, scale))| error / (share * scale)).fold(0.0, f64::max)
+    let accuracy = scene.accuracy();
+    let over = |quantity| {
+        let tolerance = tolerance_of(&accuracy, quantity)? * scale(quantity, estimate);
+        Some(error.size(quantity).unwrap_or(0.0) / tolerance)
+    };
+    QuantityOfInterest::ALL.into_iter().filter_map(over).fold(0.0, f64::max)
 }
 
 /// Returns whether the case asks for snapshots or probes.

@@ -14,7 +14,7 @@ pub(crate) mod stepper;
 use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
-use crate::effects::SimplifiedScene;
+use crate::effects::{SimplifiedScene, Support};
 use crate::models::method::{Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
@@ -48,48 +48,79 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
     }
 }
 
-/// Makes the model of a scene after the transformations by effects; with gravity, the model of all contacts.
+/// A scene as its method computes it: transformed by the effects, with the model selected.
+#[derive(Clone, Debug)]
+pub(crate) struct ComputedScene {
+    /// The transformed scene with the selected model.
+    pub selected: SelectedModel,
+    supports: Vec<(&'static str, Support)>,
+}
+
+impl ComputedScene {
+    /// Transforms a scene and selects its model.
+    ///
+    /// # Errors
+    /// A scene that an effect rejects, or whose closed-form estimates are not finite.
+    pub fn of(given: &Scene) -> Result<Self, Rejection> {
+        let SimplifiedScene { scene, supports } = SimplifiedScene::of(given)?;
+        Ok(Self { selected: SelectedModel::of(&scene)?, supports })
+    }
+
+    fn method(&self) -> &'static dyn Method {
+        method_of(&self.selected.scene)
+    }
+
+    /// Makes the model of the given scene; with gravity, the model of all contacts.
+    ///
+    /// # Errors
+    /// A scene that the method rejects.
+    pub fn model(&self, given: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
+        let scene = &self.selected.scene;
+        let model = self.method().build(scene, shared)?;
+        let model = match given.gravity() {
+            Some(gravity) => Box::new(Bouncing::new(scene, gravity, model)?),
+            None => model,
+        };
+        match self.supports.is_empty() {
+            true => Ok(model),
+            false => Ok(Box::new(Simplified::new(model, given, self.supports.clone())?)),
+        }
+    }
+
+    /// Returns the number of element updates of all contacts ([`Method::element_updates`]).
+    pub fn element_updates(&self) -> Result<u64, Rejection> {
+        let scene = &self.selected.scene;
+        let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
+        Ok(self.method().element_updates(scene)?.saturating_mul(contacts))
+    }
+
+    /// Returns the case as written with every default of its method filled in.
+    pub fn resolve(&self, file: CaseFile) -> Result<CaseFile, Rejection> {
+        let scene = &self.selected.scene;
+        let mut file = self.method().resolve(scene, file)?;
+        if let Some(gravity) = scene.gravity() {
+            let bounces = Quantity::from_si(gravity.bounces as f64);
+            file.stop = Some(StopTable { bounces: Some(bounces) });
+        }
+        Ok(file)
+    }
+}
+
+/// Makes the model of a scene.
 ///
 /// # Errors
 /// A scene that an effect or the method rejects.
 pub fn model_of(scene: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
-    let SimplifiedScene { scene: computed, supports } = SimplifiedScene::of(scene)?;
-    let computed = SelectedModel::of(&computed)?.scene;
-    let model = method_of(&computed).build(&computed, shared)?;
-    let model = match scene.gravity() {
-        Some(gravity) => Box::new(Bouncing::new(&computed, gravity, model)?),
-        None => model,
-    };
-    match supports.is_empty() {
-        true => Ok(model),
-        false => Ok(Box::new(Simplified::new(model, scene, supports)?)),
-    }
+    ComputedScene::of(scene)?.model(scene, shared)
 }
 
-/// Returns the automatically chosen model, if the scene leaves the choice open.
+/// Returns the model that computes a scene: the selected one, if the case leaves it open.
 ///
 /// # Errors
 /// A scene that an effect rejects, or whose closed-form estimates are not finite.
-pub fn chosen(scene: &Scene) -> Result<Option<SelectedModel>, Rejection> {
+pub fn selected_model(scene: &Scene) -> Result<ModelChoice, Rejection> {
     match scene.model() {
-        ModelChoice::Auto => SelectedModel::of(&SimplifiedScene::of(scene)?.scene).map(Some),
-        _ => Ok(None),
+        ModelChoice::Auto => Ok(ComputedScene::of(scene)?.selected.scene.model().clone()),
+        named => Ok(named.clone()),
     }
-}
-
-/// Returns the number of element updates of all contacts ([`Method::element_updates`]).
-pub(crate) fn element_updates_of(scene: &Scene) -> Result<u64, Rejection> {
-    let one = method_of(scene).element_updates(&SimplifiedScene::of(scene)?.scene)?;
-    let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
-    Ok(one.saturating_mul(contacts))
-}
-
-/// Returns the case as written with every default of its method filled in.
-pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {
-    let mut file = method_of(scene).resolve(&SimplifiedScene::of(scene)?.scene, file)?;
-    if let Some(gravity) = scene.gravity() {
-        let bounces = Quantity::from_si(gravity.bounces as f64);
-        file.stop = Some(StopTable { bounces: Some(bounces) });
-    }
-    Ok(file)
 }

@@ -27,6 +27,7 @@ use fem_collision::QuantityOfInterest;
 
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
+use crate::quantity_errors::tolerance_of;
 
 /// Error of the peak force times k² without the oscillation.
 const SMOOTH_ERROR: f64 = 0.05;
@@ -58,7 +59,14 @@ const FEWEST_ACROSS_AT_NODES: f64 = 5.45;
 const ELEMENT_SHARE_OF_LATER_CONTACTS: f64 = 0.75;
 /// Place of the edge between two nodes at which the oscillation passes through zero.
 const ZERO_OF_OSCILLATION: f64 = 0.35;
-/// Bounds of the errors of force, contact time, restitution and peak pressure over that of the force.
+/// The quantities that the rule bounds.
+const BOUNDED_QUANTITIES: [QuantityOfInterest; 4] = [
+    QuantityOfInterest::PeakForce,
+    QuantityOfInterest::ContactTime,
+    QuantityOfInterest::Restitution,
+    QuantityOfInterest::PeakPressure,
+];
+/// Bounds of the errors of [`BOUNDED_QUANTITIES`] over that of the force.
 const ERRORS_OVER_FORCE_ERROR: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
 /// The same bounds for nodes that touch exactly.
 const ERRORS_OVER_FORCE_ERROR_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
@@ -136,18 +144,16 @@ pub(crate) fn touches_at_nodes(model: &ModelChoice) -> bool {
     matches!(model, ModelChoice::Condensed(CondensedOptions { penalty_springs: false, .. }))
 }
 
-/// Returns the tolerance of the peak force at which all tolerances are met.
+/// Returns the tolerance of the peak force at which all tolerances are met, and the quantity that limits it with its own.
 fn tolerance(accuracy: &Accuracy, bounds: &[f64; 4]) -> (f64, (QuantityOfInterest, f64)) {
-    let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
-    let all = [
-        (QuantityOfInterest::PeakForce, peak_force),
-        (QuantityOfInterest::ContactTime, contact_time),
-        (QuantityOfInterest::Restitution, restitution),
-        (QuantityOfInterest::PeakPressure, peak_pressure),
-    ];
-    let all = all.into_iter().zip(bounds).map(|(asked, bound)| (asked.1 / bound, asked));
-    all.fold((f64::INFINITY, (QuantityOfInterest::PeakForce, peak_force)), |least, one| {
-        if one.0 < least.0 { one } else { least }
+    let first = (f64::INFINITY, (QuantityOfInterest::PeakForce, accuracy.peak_force));
+    BOUNDED_QUANTITIES.into_iter().zip(bounds).fold(first, |least, (quantity, bound)| {
+        match tolerance_of(accuracy, quantity) {
+            Some(tolerance) if tolerance / bound < least.0 => {
+                (tolerance / bound, (quantity, tolerance))
+            }
+            _ => least,
+        }
     })
 }
 

@@ -1,4 +1,8 @@
-//! [`Simulation`]: a case joined with the model that computes it.
+//! [`Simulation`]: a case joined with the model that computes it. It does not change after it is built.
+//!
+//! The modules that describe a simulation or its collision add methods: `error/refinement.rs` (the run within the
+//! tolerance), `error/refinement_cost_bound.rs`, `results/summarise.rs`, `results/diagnostics.rs` (warnings) and
+//! `results/stress.rs`.
 
 pub(crate) mod checkpoint;
 pub(crate) mod identity;
@@ -7,7 +11,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use fem_case::schema::StartTable;
-use fem_case::{Case, CaseError, CaseFile, Scene};
+use fem_case::{Case, CaseError, CaseFile, ModelChoice, Scene};
 use fem_collision::{
     Approach, Collision, Monitor, OutputRequest, OutputRequestError, SnapshotRequest,
 };
@@ -19,19 +23,17 @@ use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, start_stepper};
 use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
-use crate::models::{
-    ModelCandidate, SelectedModel, chosen, element_updates_of, model_of, resolved,
-};
+use crate::models::{ComputedScene, ModelCandidate, SelectedModel};
 use crate::plan::body_source::probes_of;
 use crate::rejection::Rejection;
 use crate::simulation::identity::identity_of;
 
 /// A case that is ready to run.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Simulation {
     case: Case,
     model: Arc<dyn Model>,
-    chosen: Option<SelectedModel>,
+    selected: SelectedModel,
     request: OutputRequest,
     resolved: CaseFile,
     shared: SharedModels,
@@ -67,15 +69,15 @@ impl Simulation {
     ) -> Result<Self, CaseError> {
         let scene = case.scene().clone().with_refinement(refinement);
         let of_case = |rejection: Rejection| rejection.in_case(&case);
-        let model: Arc<dyn Model> = Arc::from(model_of(&scene, shared).map_err(of_case)?);
-        let resolved = resolved(&scene, case.file().clone()).map_err(of_case)?;
-        let chosen = chosen(&scene).map_err(of_case)?;
+        let computed = ComputedScene::of(&scene).map_err(of_case)?;
+        let model: Arc<dyn Model> = Arc::from(computed.model(&scene, shared).map_err(of_case)?);
+        let resolved = computed.resolve(case.file().clone()).map_err(of_case)?;
         let mut request = model.setup().request.clone();
         request.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
         Ok(Self {
             case,
             model,
-            chosen,
+            selected: computed.selected,
             request,
             resolved,
             shared: shared.clone(),
@@ -121,7 +123,10 @@ impl Simulation {
     /// # Errors
     /// A case that the method rejects.
     pub fn resolve(case: &Case) -> Result<CaseFile, CaseError> {
-        resolved(case.scene(), case.file().clone()).map_err(|rejection| rejection.in_case(case))
+        let resolve = |scene: ComputedScene| scene.resolve(case.file().clone());
+        ComputedScene::of(case.scene())
+            .and_then(resolve)
+            .map_err(|rejection| rejection.in_case(case))
     }
 
     /// Estimates the element updates of a case.
@@ -129,7 +134,10 @@ impl Simulation {
     /// # Errors
     /// A case that the method rejects.
     pub fn element_updates_of(case: &Case) -> Result<u64, CaseError> {
-        element_updates_of(case.scene()).map_err(|rejection| rejection.in_case(case))
+        let computed = ComputedScene::of(case.scene());
+        computed
+            .and_then(|scene| scene.element_updates())
+            .map_err(|rejection| rejection.in_case(case))
     }
 
     /// Returns the case.
@@ -144,12 +152,12 @@ impl Simulation {
 
     /// Returns the candidate models, the cheapest first; empty if the case names its model.
     pub fn considered(&self) -> &[ModelCandidate] {
-        self.chosen.as_ref().map_or(&[], |chosen| &chosen.considered)
+        &self.selected.considered
     }
 
     /// Returns the warning that no model is known to meet the tolerance, if the case leaves the choice open.
     pub(crate) fn choice_warning(&self) -> Option<String> {
-        self.chosen.as_ref()?.warning.clone()
+        self.selected.warning.clone()
     }
 
     /// Returns the decisions on the case.
@@ -176,10 +184,9 @@ impl Simulation {
     ///
     /// # Errors
     /// More rows or snapshots than a run keeps, or invalid times.
-    pub fn set_output_request(&mut self, request: OutputRequest) -> Result<(), OutputRequestError> {
+    pub fn with_output_request(self, request: OutputRequest) -> Result<Self, OutputRequestError> {
         request.check()?;
-        self.request = request;
-        Ok(())
+        Ok(Self { request, ..self })
     }
 
     /// Returns the resolved case with another approach.
@@ -206,9 +213,10 @@ impl Simulation {
     }
 
     /// Removes snapshots and probes from the output request. All other results keep their bits, and the resolved case too.
-    pub fn skip_snapshots(&mut self) {
-        self.request.snapshots = SnapshotRequest::none();
-        self.request.probes.clear();
+    #[must_use]
+    pub fn without_snapshots(self) -> Self {
+        let (snapshots, probes) = (SnapshotRequest::none(), Vec::new());
+        Self { request: OutputRequest { snapshots, probes, ..self.request }, ..self }
     }
 
     /// Returns the coarser meshes before this one, the first one first.
@@ -287,9 +295,11 @@ impl Simulation {
     /// Returns the scene with the selected model, if the case leaves the choice open.
     pub(crate) fn scene_of_model(&self) -> Cow<'_, Scene> {
         let scene = self.case.scene();
-        match &self.chosen {
-            Some(chosen) => Cow::Owned(scene.clone().with_model(chosen.scene.model().clone())),
-            None => Cow::Borrowed(scene),
+        match scene.model() {
+            ModelChoice::Auto => {
+                Cow::Owned(scene.clone().with_model(self.selected.scene.model().clone()))
+            }
+            _ => Cow::Borrowed(scene),
         }
     }
 

@@ -1,7 +1,10 @@
 //! The results of a variant.
 
 use fem_case::CaseError;
-use fem_collision::{Monitor, OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest};
+use fem_collision::{
+    Monitor, OutputRequest, OutputRequestError, QuantityOfInterest, SnapshotInstant,
+    SnapshotRequest,
+};
 use fem_simulation::{Cost, SharedModels, Simulation};
 
 use super::stress_samples::axial_stresses;
@@ -39,11 +42,12 @@ impl Measurement {
         contact_radius: f64,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, CaseError> {
-        let mut simulation = Simulation::sharing(variant.case.clone(), &SharedModels::default())?;
+        let simulation = Simulation::sharing(variant.case.clone(), &SharedModels::default())?;
         let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
         let request = OutputRequest { snapshots, ..simulation.request().clone() };
-        // One snapshot is within every limit.
-        let _ = simulation.set_output_request(request);
+        let too_much =
+            |error: OutputRequestError| variant.case.error_at("output", error.to_string());
+        let simulation = simulation.with_output_request(request).map_err(too_much)?;
         let collision = simulation.run(monitor);
         let (elements, memory) = match simulation.setup().cost {
             Cost::Steps { elements, memory, .. } | Cost::Factors { elements, memory, .. } => {

@@ -2,6 +2,7 @@
 
 use fem_case::Accuracy;
 use fem_collision::QuantityOfInterest;
+use fem_simulation::tolerance_of;
 
 use super::convergence::{Convergence, Limit, ObservedOrder};
 use super::measurement::Measurement;
@@ -243,20 +244,9 @@ fn in_tolerances(
     let shares = QuantityOfInterest::ALL.into_iter().filter_map(|quantity| {
         let (error, limit) = (errors[quantity as usize]?, limits[quantity as usize]?);
         let uncertain = limit.uncertainty / quantity.scale(limit.value);
-        Some((error.abs() + uncertain) / tolerance(quantity, accuracy)?)
+        Some((error.abs() + uncertain) / tolerance_of(accuracy, quantity)?)
     });
     Some(shares.fold(0.0, f64::max))
-}
-
-/// Returns the tolerance of the case for a quantity; `None` if it has none.
-fn tolerance(quantity: QuantityOfInterest, accuracy: &Accuracy) -> Option<f64> {
-    match quantity {
-        QuantityOfInterest::Restitution => Some(accuracy.restitution),
-        QuantityOfInterest::ContactTime => Some(accuracy.contact_time),
-        QuantityOfInterest::PeakForce => Some(accuracy.peak_force),
-        QuantityOfInterest::PeakPressure => Some(accuracy.peak_pressure),
-        QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => None,
-    }
 }
 
 /// Makes each error at least that of any finer variant of the same series.

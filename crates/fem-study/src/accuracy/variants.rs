@@ -4,8 +4,8 @@ use fem_case::{Case, CaseError, ModelChoice, Scene};
 use fem_simulation::effects::FiniteStrain;
 use fem_simulation::error::{Setting, first_contact};
 use fem_simulation::{
-    ErrorEstimator, Estimate, MeshRule, Plan, RefinedBeforeRun, Simulation, chosen, contact_method,
-    divided_radius, ignored_method_warning,
+    ErrorEstimator, Estimate, MeshRule, Plan, RefinedBeforeRun, Simulation, contact_method,
+    divided_radius, ignored_method_warning, selected_model,
 };
 
 use super::series::{COMMON, LARGE_MASS_SCALING, PRESETS, Preset, Series, Varied};
@@ -34,8 +34,7 @@ impl Variant {
     /// Returns the model that computes it: the chosen one, if the case leaves the model open.
     fn model(&self) -> ModelChoice {
         let scene = self.case.scene();
-        let chosen = chosen(scene).ok().flatten();
-        chosen.map_or(scene.model().clone(), |chosen| chosen.scene.model().clone())
+        selected_model(scene).unwrap_or_else(|_| scene.model().clone())
     }
 
     /// Whether explicit elements compute it.

@@ -41,7 +41,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         let make = |case| Simulation::sharing(case, self.shared);
         let mut simulation = self.members.build(index, make)?;
         if !self.has_fields {
-            simulation.skip_snapshots();
+            simulation = simulation.without_snapshots();
         }
         Ok(simulation.run_within_tolerance(monitor))
     }

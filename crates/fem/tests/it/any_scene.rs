@@ -117,8 +117,7 @@ fn simulation(text: &str) -> Result<Simulation, String> {
 }
 
 fn run(text: &str) -> Result<(Simulation, Collision), String> {
-    let mut simulation = simulation(text)?;
-    simulation.skip_snapshots();
+    let simulation = simulation(text)?.without_snapshots();
     let collision = simulation.run(&mut ());
     match collision.stop() {
         Some(stop) => Err(stop.to_string()),

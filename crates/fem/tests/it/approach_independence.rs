@@ -29,8 +29,8 @@ fn a_summary_belongs_to_its_approach() {
             let collision = slow.model().collide(&approach, &OutputRequest::history(), &mut ());
             let resolved = slow.resolved_at(&approach).to_toml().unwrap();
             let case = Case::parse("again.toml", &resolved, Path::new("."), &[]).unwrap();
-            let mut again = Simulation::new(case).unwrap();
-            again.set_output_request(OutputRequest::history()).unwrap();
+            let again = Simulation::new(case).unwrap();
+            let again = again.with_output_request(OutputRequest::history()).unwrap();
             let expected = again.run(&mut ());
             assert_eq!(plain(&collision), plain(&expected), "{name}");
             let values = |simulation: &Simulation, collision: &Collision| {
@@ -55,7 +55,7 @@ fn a_summary_belongs_to_its_approach() {
 #[test]
 fn an_impossible_request_is_rejected() {
     for method in METHODS {
-        let mut simulation = simulation(method.name(), &[]);
+        let simulation = simulation(method.name(), &[]);
         for request in [
             OutputRequest { history_rows: usize::MAX, ..OutputRequest::history() },
             OutputRequest {
@@ -70,7 +70,7 @@ fn an_impossible_request_is_rejected() {
             let approach = simulation.setup().approach;
             let collision = simulation.model().collide(&approach, &request, &mut ());
             assert!(matches!(collision.stop(), Some(Stop::NotMade(_))), "{}", method.name());
-            assert!(simulation.set_output_request(request).is_err());
+            assert!(simulation.clone().with_output_request(request).is_err());
         }
     }
 }

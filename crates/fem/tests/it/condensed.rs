@@ -242,8 +242,7 @@ fn enlarged_pair_is_not_shared_with_other_cases() {
 fn snapshots_are_skipped_on_demand() {
     for model in [CONDENSED, "model.fem={}", "model.ting={}"] {
         let overrides = ["mesh.contact_element_size='90 um'", model];
-        let mut skipping = simulation(&overrides);
-        skipping.skip_snapshots();
+        let skipping = simulation(&overrides).without_snapshots();
         let (skipped, whole) = (skipping.run(&mut ()), run(&overrides));
         assert!(skipped.snapshots.is_empty());
         assert_eq!(whole.snapshots.is_empty(), model.contains("ting"));

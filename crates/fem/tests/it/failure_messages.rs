@@ -189,10 +189,10 @@ fn stiffer_springs_are_advised_for_soft_ones() {
 fn a_raised_limit_lets_the_run_complete() {
     let fluid = "material.glass.relaxation={acts_on='all', terms=[{weight=0.995, relaxation_time='0.3 us'}]}";
     let mesh = ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.6 mm'", fluid];
-    let mut simulation = run(GLASS, &mesh).0;
+    let simulation = run(GLASS, &mesh).0;
     let request = simulation.request().clone();
-    simulation
-        .set_output_request(fem::OutputRequest { most_element_updates: 100_000, ..request })
+    let simulation = simulation
+        .with_output_request(fem::OutputRequest { most_element_updates: 100_000, ..request })
         .unwrap();
     let collision = simulation.run(&mut ());
     let stop = collision.stop().expect("a stop");

@@ -52,7 +52,7 @@ fn a_case_is_built_run_and_read() -> Result<(), CaseError> {
     let material: Option<&Material> = ball.material();
     assert!(material.is_some() && matches!(scene.model(), ModelChoice::Condensed(_)));
 
-    let mut simulation = Simulation::new(case)?;
+    let simulation = Simulation::new(case)?;
     let setup: &ModelSetup = simulation.setup();
     assert!(matches!(setup.cost, Cost::Factors { .. }));
     let hertz: &HertzImpact = &setup.estimate.hertz;
@@ -62,7 +62,7 @@ fn a_case_is_built_run_and_read() -> Result<(), CaseError> {
         ..OutputRequest::history()
     };
     assert_eq!(simulation.request().snapshots, request.snapshots);
-    simulation.set_output_request(request).unwrap();
+    let simulation = simulation.with_output_request(request).unwrap();
 
     let mut panel = Panel { phases: Vec::new(), reports_left: u64::MAX };
     let collision: Collision = simulation.run(&mut panel);

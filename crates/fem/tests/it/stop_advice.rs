@@ -139,15 +139,14 @@ fn failure(
 ) -> Option<(String, String)> {
     let case = case_of(case, overrides);
     let mut simulation = match Simulation::new(case) {
-        Ok(simulation) => simulation,
+        Ok(simulation) => simulation.without_snapshots(),
         Err(error) => {
             return Some((error.message().to_string(), error.help().unwrap_or("").to_string()));
         }
     };
-    simulation.skip_snapshots();
     if let Some(max_contact_times) = max_contact_times {
         let request = OutputRequest { max_contact_times, ..simulation.request().clone() };
-        simulation.set_output_request(request).unwrap();
+        simulation = simulation.with_output_request(request).unwrap();
     }
     let collision = simulation.run(&mut ());
     let stop = collision.stop()?;

@@ -45,8 +45,7 @@ fn summaries_are_in_order_and_equal_those_of_single_runs() {
     let case = pair(ModelTable::condensed());
     let alone = SPEEDS.map(|speed| {
         let case = case.edited(|file| set_speed(file, speed)).unwrap();
-        let mut simulation = Simulation::new(case).unwrap();
-        simulation.skip_snapshots();
+        let simulation = Simulation::new(case).unwrap().without_snapshots();
         let collision = simulation.run(&mut ());
         serde_json::to_value(simulation.summary(&collision)).unwrap()
     });

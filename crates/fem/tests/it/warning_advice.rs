@@ -89,8 +89,7 @@ const ROWS: [Row; 30] = [
 
 /// Returns the simulation on the last mesh and all warnings, before and after the run.
 fn computed_warnings(case: &str, set: &[String]) -> (Simulation, Vec<String>) {
-    let mut simulation = simulation_of(case, set);
-    simulation.skip_snapshots();
+    let simulation = simulation_of(case, set).without_snapshots();
     let mut all = simulation.warnings_before();
     let computed = simulation.run_within_tolerance(&mut ());
     all.extend(computed.warnings());

@@ -146,8 +146,7 @@ fn largest(so_far: f64, value: f64) -> f64 {
 }
 
 fn run(case: Case) -> Result<(Outcome, Option<u64>), CaseError> {
-    let mut simulation = Simulation::new(case)?;
-    simulation.skip_snapshots();
+    let simulation = Simulation::new(case)?.without_snapshots();
     let estimated = match simulation.setup().cost {
         Cost::Steps { element_updates, .. } => Some(element_updates),
         _ => None,

@@ -132,15 +132,8 @@ impl NumberTrial {
 
     /// Whether the error is within the default tolerance; approach and contact radius have none.
     fn is_met(&self) -> bool {
-        let accuracy = fem_case::defaults::accuracy();
-        let tolerance = match self.quantity {
-            QuantityOfInterest::Restitution => accuracy.restitution,
-            QuantityOfInterest::ContactTime => accuracy.contact_time,
-            QuantityOfInterest::PeakForce => accuracy.peak_force,
-            QuantityOfInterest::PeakPressure => accuracy.peak_pressure,
-            QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => return true,
-        };
-        self.error.abs() <= tolerance + self.reference_uncertainty
+        let tolerance = fem::tolerance_of(&fem_case::defaults::accuracy(), self.quantity);
+        tolerance.is_none_or(|most| self.error.abs() <= most + self.reference_uncertainty)
     }
 }
 

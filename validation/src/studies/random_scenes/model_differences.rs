@@ -179,8 +179,7 @@ fn run(
 }
 
 fn collide(case: Case) -> Result<Result<Ran, String>, CaseError> {
-    let mut simulation = Simulation::new(case)?;
-    simulation.skip_snapshots();
+    let simulation = Simulation::new(case)?.without_snapshots();
     let collision = simulation.run(&mut ());
     if let Some(stop) = collision.stop() {
         return Ok(Err(stop.to_string()));
