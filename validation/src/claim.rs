@@ -33,7 +33,7 @@ impl Section {
             Self::Theory => "Against theory",
             Self::Mechanics => "Mechanics",
             Self::CrossCode => "Against other programs",
-            Self::Paper => "Against the paper",
+            Self::Paper => "Against Bordbar & Hyppänen (2007)",
         }
     }
 }

@@ -50,7 +50,7 @@ pub enum MeshError {
     #[error("growth {0} is not allowed; it must lie above 1 and not above 2")]
     Growth(f64),
     /// The mesh would have more nodes than indices.
-    #[error("the mesh would have {0} elements; at most {max} can be numbered", max = u32::MAX / 2)]
+    #[error("the mesh would have {0:.1e} elements; at most {max} can be numbered", max = u32::MAX / 2)]
     TooLarge(f64),
     /// An imported mesh is not a half disc at the required position.
     #[error("{0}")]

@@ -53,6 +53,7 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
                 "a file with bodies is a case: fem-run FILE; a sweep names it, case = \"FILE\""
                     .to_string()
             }
+            ("effects", "gravity") => "the table [gravity] switches gravity on".to_string(),
             _ => keys(),
         };
         return at(format!("unknown key `{found}`{}", in_table(table)))
@@ -94,8 +95,11 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
             ));
         }
         let found = if is_date { "a date or time".to_string() } else { with_article(found) };
-        return at(format!("{} is {found}", name(path)))
-            .with_help(format!("write {}", with_article(wanted)));
+        let wanted = match path {
+            "body" => "two [[body]] tables".to_string(),
+            _ => with_article(wanted),
+        };
+        return at(format!("{} is {found}", name(path))).with_help(format!("write {wanted}"));
     }
     // serde reads an array as a struct's fields in order and reports their number.
     if let Some((_, wanted)) =

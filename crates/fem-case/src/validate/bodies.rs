@@ -70,10 +70,10 @@ impl Check<'_> {
             let is_first_at_fault = lower_speed <= upper_speed && self.document.has(keys[0]);
             let culprit = keys[usize::from(!is_first_at_fault)];
             let message = format!(
-                "the bodies do not approach: their approach speeds, {} and {}, add up to {:?} m/s",
+                "the bodies do not approach: their approach speeds, {} and {}, add up to {}",
                 show(lower_speed, "m/s"),
                 show(upper_speed, "m/s"),
-                lower_speed + upper_speed
+                show(lower_speed + upper_speed, "m/s")
             );
             return Err(self.conflict(culprit, &keys, message).with_help(
                 "approach_speed is positive toward the other body; the sum must be greater than 0",

@@ -19,7 +19,7 @@ pub struct CaseArguments {
     /// Override a key of the case by its dotted path; may be repeated
     ///
     /// The value is TOML or plain words: --set mesh.contact_element_size=28e-6, --set
-    /// body.0.approach_speed='1 m/s' (arrays count from 0), --set model=ting, which replaces another model.
+    /// body.0.approach_speed='1 m/s' (arrays count from 0), --set model=ting (selects the model).
     /// Overrides apply from left to right and can add keys and tables that the file does not have.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,

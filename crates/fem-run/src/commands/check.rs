@@ -100,7 +100,7 @@ fn expect(
         Cost::ClosedForm { law } => one_degree_of_freedom(&setup.description, law.as_ref()),
     };
     format!(
-        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the changes without them\n\
+        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the error of leaving each one out (?: not known)\n\
          {}\n{}",
         models(simulation),
         unforced(simulation),
@@ -174,7 +174,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
         _ => format!("{} %", number(100.0 * tolerance, 3)),
     };
     let (table, name) = (table(&[Left, Left], rows), quantity.name());
-    format!("\nChosen for accuracy.tolerance, {tolerance} of the {name}\n{table}")
+    format!("\nChosen by accuracy.tolerance = {tolerance}: the {name} decides\n{table}")
 }
 
 /// Returns which contact the cost refers to, if there may be several.

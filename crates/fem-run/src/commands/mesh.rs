@@ -21,7 +21,7 @@ const MARK: &str = "fem-run mesh";
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
-    /// Folder for the files [default: meshes/<the case file's stem>]
+    /// Folder for the files [default: meshes/CASE, with the name of the case file]
     ///
     /// Existing files are replaced only if this command wrote them.
     #[arg(long, value_name = "DIR")]

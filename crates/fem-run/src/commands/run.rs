@@ -1,6 +1,6 @@
 //! `fem-run CASE.toml`: computes a collision and writes its result folder.
 
-use std::io::{Write, stderr};
+use std::io::{IsTerminal, Write, stderr, stdout};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -31,17 +31,17 @@ use crate::text::{Failure, one_line, shown, standard_output};
 /// How to run a case.
 #[derive(clap::Args, Debug)]
 pub struct Options {
-    /// Folder for the result [default: runs/<the case file's stem>]
+    /// Folder for the result [default: runs/CASE, with the name of the case file]
     ///
-    /// An existing folder is replaced only if it is empty or the result of the same case; cases that differ
-    /// only in [output] count as the same. Files of your own in it are kept. Without --out the result of
-    /// another case is left alone too: the run then takes a folder beside it and prints its name.
+    /// An existing folder is replaced only if it is empty or holds a result of the same case; differences in
+    /// [output] do not count. Other files in it are kept. Without --out a result of another case is kept too,
+    /// and the run writes to a new folder next to it.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replace the result of another case
     #[arg(long)]
     force: bool,
-    /// Maximum number of threads; a single run uses one, which is the fastest
+    /// Maximum number of threads; without effect on a single run, which is fastest on one
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
     /// The tolerance of the results.
@@ -79,9 +79,10 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         }
         None => estimator.refine_before_run(simulation, || true),
     };
+    let mut printed = Vec::new();
     if !options.quiet {
         let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
-        announce(&simulation, &estimator, &forecast, &input.name(), &place);
+        printed = announce(&simulation, &estimator, &forecast, &input.name(), &place);
         if options.restart.restart {
             announce_restart(restart_state.as_ref());
         }
@@ -116,7 +117,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     match (options.json, options.quiet) {
         (true, _) => standard_output::print(&text)?,
         (false, true) => {}
-        (false, false) => standard_output::print(&report(&summary, place))?,
+        (false, false) => standard_output::print(&report(&summary, place, &printed))?,
     }
     if let Some(fault) = fault {
         return Err(fault);
@@ -171,13 +172,15 @@ fn compute(
     }
 }
 
+/// Prints on stderr what is known before a run. Returns the warnings that a reader of its report sees
+/// there too.
 fn announce(
     simulation: &Simulation,
     estimator: &ErrorEstimator,
     forecast: &Forecast,
     case: &str,
     place: &ResultPath,
-) {
+) -> Vec<String> {
     // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
@@ -191,9 +194,12 @@ fn announce(
         line += &format!(" ({} holds another case)", taken.display());
     }
     let _ = writeln!(stderr(), "{}", one_line(&line));
-    standard_output::warn(simulation.case().scene().implausible_numbers());
-    if let Some(hint) = simulation.cheaper_model_hint() {
-        let _ = writeln!(stderr(), "hint: {}", one_line(&hint));
+    let warnings = simulation.warnings_before();
+    standard_output::warn(warnings.clone());
+    // A report in a file has all warnings.
+    match stdout().is_terminal() && stderr().is_terminal() {
+        true => warnings,
+        false => Vec::new(),
     }
 }
 

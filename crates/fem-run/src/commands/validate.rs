@@ -29,7 +29,7 @@ const TABLE: OwnedFileKind = OwnedFileKind {
     option: "--table or --scenes",
 };
 
-/// Check the program against theory, other programs and the paper
+/// Check the program against theory, other programs and measurements
 ///
 /// Evaluates the claims of a folder, all or those named, prints a table and writes a self-contained page
 /// with pictures. Exit status 1 if a claim fails.

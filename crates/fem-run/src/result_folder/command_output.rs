@@ -16,9 +16,9 @@ use crate::text::{Failure, shown, standard_output};
 pub struct OutputArguments {
     /// Folder for the result [default: in runs/, named after the input and the command]
     ///
-    /// An existing folder is replaced only if it is empty or the result of the same command, case and
-    /// data. Files of your own in it are kept. Without --out, a folder with another result is left
-    /// alone too, and the files go into a folder beside it.
+    /// An existing folder is replaced only if it is empty or holds a result of the same command, case and
+    /// data. Other files in it are kept. Without --out another result is kept too, and the files go into a
+    /// new folder next to it.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace the result of another case or other data

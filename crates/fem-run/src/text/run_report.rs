@@ -24,7 +24,8 @@ const LEAST_LOSS: f64 = 1e-6;
 const ROUNDING: f64 = 1e-9;
 const MOST_BOUNCES: usize = 12;
 
-pub fn report(summary: &Summary, place: Option<&Path>) -> String {
+/// Returns the report with the warnings that are not among those `printed` before the run.
+pub fn report(summary: &Summary, place: Option<&Path>, printed: &[String]) -> String {
     let mut text = String::new();
     let title = summary.case.title.as_deref().unwrap_or_default();
     // Writing to a String cannot fail.
@@ -58,7 +59,12 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
         "\nEffects\n{}",
         effects(summary.effects.iter().map(|effect| &effect.decision))
     );
-    text += &warnings(&summary.warnings);
+    let is_new = |warning: &&String| !printed.contains(warning);
+    let new: Vec<String> = summary.warnings.iter().filter(is_new).cloned().collect();
+    text += &match new.is_empty() && !printed.is_empty() {
+        true => "No further warnings.\n".to_string(),
+        false => warnings(&new),
+    };
     let place = place.map_or("not written".into(), shown);
     let _ = writeln!(text, "\nResult: {place}");
     text
@@ -173,7 +179,7 @@ fn bodies(bodies: &[BodySummary]) -> String {
 
 /// Returns how peaks are defined, the restitution without relaxation, the residuals and the cost.
 fn balances(summary: &Summary) -> String {
-    let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| number(value, 2));
+    let residual = |value: f64| number(value, 2);
     let book = summary.energy.accounts.0;
     let dissipated = book.total(BalanceSide::Lost);
     let of_effects = book.entries().filter(|(account, _)| account.shown() == ShownIn::WhereFilled);
@@ -185,8 +191,8 @@ fn balances(summary: &Summary) -> String {
             "averaged over 1/64 of the contact time (unaveraged force: {}); radius and pressure are {}",
             show(force, "N"),
             match summary.radius_and_pressure {
-                "true" => "on the deformed surface",
-                _ => "on the undeformed surface",
+                "true" => "true, on the deformed surface",
+                _ => "nominal, on the undeformed surface",
             },
         );
         ["peaks".to_string(), text]
@@ -201,24 +207,23 @@ fn balances(summary: &Summary) -> String {
             false => "from a coarser run without relaxation",
         };
         let text = format!(
-            "without relaxation, the same mesh and settings lose {lost} of the restitution ({how})"
+            "without relaxation, the same mesh and settings would lose {lost} of the restitution ({how})"
         );
-        ["elastic null".to_string(), text]
+        ["numerical loss".to_string(), text]
     });
-    let rows = [
-        [
-            "energy".to_string(),
-            format!(
-                "residual {} of the initial energy; dissipated {}{}",
-                residual(summary.energy.residual_relative),
-                dissipated.map_or(NONE.into(), |energy| show(energy, "J")),
-                of_effects.collect::<String>(),
-            ),
-        ],
-        ["momentum".into(), format!("residual {}", residual(summary.momentum_residual_relative))],
-        ["cost".into(), price(summary)],
-    ];
-    table(&[Left, Left], peaks.into_iter().chain(null).chain(rows))
+    let energy = format!(
+        "residual {} of the initial energy; dissipated {}{}",
+        summary.energy.residual_relative.map_or(NONE.into(), residual),
+        dissipated.map_or(NONE.into(), |energy| show(energy, "J")),
+        of_effects.collect::<String>(),
+    );
+    let energy = ["energy".to_string(), energy];
+    let momentum = summary.momentum_residual_relative;
+    let momentum = momentum.map(|drift| ["momentum".into(), format!("residual {}", residual(drift))]);
+    // Closed forms take less than is worth printing.
+    let cost = summary.steps.is_some().then(|| ["cost".into(), price(summary)]);
+    let rows = peaks.into_iter().chain(null).chain([energy]).chain(momentum).chain(cost);
+    table(&[Left, Left], rows)
 }
 
 fn price(summary: &Summary) -> String {

@@ -34,7 +34,7 @@ fn place(checks: &str) -> Place {
 fn a_claim_that_holds_is_shown_with_its_reference() {
     let place = place(CHECK);
     let ran = place.succeed("validate");
-    ran.prints("Against the paper|mine|restitution|0.93|0.01|pass");
+    ran.prints("Against Bordbar & Hyppänen (2007)|mine|restitution|0.93|0.01|pass");
     ran.tells("[1/1] pass  mine");
     assert_eq!(place.list("runs/validation"), ["checks.csv", "index.html", "summary.json"]);
     assert_eq!(place.json("runs/validation/summary.json")["passed"], true);

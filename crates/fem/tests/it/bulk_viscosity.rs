@@ -30,7 +30,7 @@ fn work(simulation: &Simulation) -> Option<f64> {
 #[test]
 fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
     for (speed, switch, expected, reason) in [
-        (SLOW, "effects={}", false, "no steep fronts"),
+        (SLOW, "effects={}", false, "too slow for steep fronts"),
         (FAST, "effects={}", true, "0.025"),
         (SLOW, ON, true, "forced on"),
         (FAST, OFF, false, "switched off"),

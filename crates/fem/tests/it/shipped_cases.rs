@@ -36,7 +36,7 @@ const ROWS: [Row; 14] = [
         "condensed",
         &[RELAXES, "surface slip", "rigid partner"],
         &[
-            ["rigid partner", "steel contributes 3.4e-5 of the compliance"],
+            ["rigid partner", "steel contributes 3.4e-3 % of the compliance"],
             ["surface slip", "= 0.0015"],
         ],
     ),

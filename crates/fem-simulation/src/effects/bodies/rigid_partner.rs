@@ -5,12 +5,11 @@
 //! the contact modulus by 1/(1 − s), and Hertz' powers give the change for elastic bodies ([`fem_laws::rigid_partner`]). The
 //! relaxation and radiation of the body are neglected, too.
 
-use fem_case::engineering;
 use fem_case::{Body, Scene, Switch};
 
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
-use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::simplified_scene::TransformedScene;
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, RigidPartner};
@@ -125,7 +124,7 @@ impl Stiffer<'_> {
         format!(
             "{} contributes {} of the compliance",
             self.body.name(),
-            engineering::number(self.share, 2)
+            percent(self.share)
         )
     }
 }

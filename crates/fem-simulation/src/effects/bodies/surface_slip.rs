@@ -39,13 +39,12 @@ impl Effect for SurfaceSlip {
                  contact time by about {time} and the peak force by {force}; models fem, condensed and ting have it"
             )
         });
+        let is_needed = materials_mismatch(scene);
+        let slope = format!("slope of the interface × mismatch of the materials = {}", number(slope, 2));
         Some(Relevance {
-            is_needed: materials_mismatch(scene),
-            number: format!(
-                "slope of the interface × mismatch of the materials = {}",
-                number(slope, 2)
-            ),
-            if_not_needed: "the surfaces do not slip".to_string(),
+            is_needed,
+            number: if is_needed { slope } else { String::new() },
+            if_not_needed: "the materials have equal (1 − 2ν)/G: the surfaces do not slip".to_string(),
             open_error: format!("{time} of the contact time is open"),
             warning,
         })

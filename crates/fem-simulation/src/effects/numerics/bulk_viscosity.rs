@@ -65,7 +65,7 @@ impl Effect for BulkViscosity {
         let is_needed = is_needed(scene, estimate.mach, is_finite);
         let if_not_needed = match estimate.mach > MACH_LIMIT {
             true => "a contact without mass does not ring behind steep fronts",
-            false => "no steep fronts to spread",
+            false => "too slow for steep fronts",
         };
         let warning = is_needed.then(|| {
             let speed = above(estimate, MACH_LIMIT);

@@ -53,41 +53,30 @@ impl MassScaling {
         longer: f64,
     ) -> Support {
         let names = scene.bodies().each_ref().map(Body::name);
-        let free = masses.into_iter().zip(names);
-        let free = free.filter_map(|(mass, name)| Some((mass?, name)));
-        let Some((lightest, its)) = free.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+        let Some(lightest) = masses.into_iter().flatten().min_by(f64::total_cmp) else {
             return Support::decided(false, NOTHING);
         };
-        let each = moved.into_iter().zip(masses).zip(names).zip(Self::times(scene));
-        let moved = each.filter_map(|(((moved, mass), name), times)| {
-            let share =
-                moved.map(|moved| moved / lightest).filter(|share| *share > ROUNDING_OF_MASS)?;
-            let of = match share < 1.0 {
-                true => format!("{} of", percent(share)),
-                false => format!("{} times", number(share, 2)),
-            };
+        let each = moved.into_iter().zip(names).zip(Self::times(scene));
+        let moved = each.filter_map(|((moved, name), times)| {
+            let share = moved? / lightest;
             let less = match times > 1.0 {
                 true => {
-                    format!(", which deforms {} times less,", number(times / LITTLE_SHARE - 1.0, 2))
+                    format!(" (which deforms {} times less)", number(times / LITTLE_SHARE - 1.0, 2))
                 }
                 false => String::new(),
             };
-            Some(match mass == Some(lightest) {
-                true => format!("{of} the mass of {name}{less}"),
-                false => format!("{of} the mass of {its} in {name}{less}"),
-            })
+            (share > ROUNDING_OF_MASS).then(|| format!("{} in {name}{less}", percent(share)))
         });
         let moved: Vec<String> = moved.collect();
         match moved.is_empty() {
             true => Support::decided(false, NOTHING),
             false => {
                 let moved = moved.join(" and ");
-                Support::decided(
-                    true,
-                    format!(
-                        "moves {moved} to light nodes; the time step is {longer:.1} times longer"
-                    ),
-                )
+                let reason = format!(
+                    "mass moved to light nodes, as a share of the lighter body's mass: {moved}; the time step is \
+                     {longer:.1} times longer"
+                );
+                Support::decided(true, reason)
             }
         }
     }

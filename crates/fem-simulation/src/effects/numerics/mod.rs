@@ -24,10 +24,12 @@ impl ContactSearch {
     pub(crate) fn within(candidate_region: &CandidateRegion) -> Support {
         let CandidateRegion { radius, n_points, at_nodes } = candidate_region;
         let points = if *at_nodes { "points" } else { "integration points" };
-        let flight = "free flight is not stepped";
+        let radius = show(*radius, "m");
         Support::decided(
             true,
-            format!("{n_points} {points} within {} of the axis; {flight}", show(*radius, "m")),
+            format!(
+                "contact is searched at {n_points} {points} within {radius} of the axis; steps begin at first touch"
+            ),
         )
     }
 }

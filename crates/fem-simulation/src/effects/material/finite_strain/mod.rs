@@ -225,9 +225,9 @@ fn laws_text(scene: &Scene, estimate: &Estimate) -> String {
     let names = names.join(" and ");
     let spread = spread(scene, estimate);
     match spread > LEAST_REPORTED_SPREAD {
-        false => names,
+        false => format!("law {names}"),
         true => format!(
-            "{names} by default (other laws change the contact time by {} {})",
+            "law {names} by default (other laws change the contact time by {} {})",
             if is_beyond(scene, estimate) { "more than" } else { "up to" },
             percent(spread)
         ),
@@ -237,7 +237,7 @@ fn laws_text(scene: &Scene, estimate: &Estimate) -> String {
 impl Effect for FiniteStrain {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         let open = error_text(scene, estimate);
-        let is_needed = is_needed(scene, estimate);
+        let (is_needed, laws) = (is_needed(scene, estimate), laws_text(scene, estimate));
         let warning = is_needed.then(|| {
             format!(
                 "the contact radius is {} of the effective radius, where small strain is off by \
@@ -248,15 +248,15 @@ impl Effect for FiniteStrain {
         Some(Relevance {
             is_needed,
             number: format!(
-                "contact radius / effective radius = {:.3}, law {}{}",
+                "contact radius / effective radius = {:.3}{}{}",
                 estimate.strain,
-                laws_text(scene, estimate),
+                if is_needed { format!(", {laws}") } else { String::new() },
                 match is_beyond(scene, estimate) {
                     true => "; the contact is too wide for an estimate by closed forms",
                     false => "",
                 }
             ),
-            if_not_needed: format!("small strain leaves out {open}"),
+            if_not_needed: format!("small strain suffices: it leaves out {open}; {laws}"),
             open_error: format!("{open} is left out"),
             warning,
         })
@@ -337,9 +337,13 @@ impl Effect for FiniteStrain {
         // A contact that does not end has no contact time.
         let has_end = collision.contact_time.is_some();
         let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
-            "strains are beyond Hooke's law, and the case names no elastic law: the choice changes the contact time by more than \
-             the tolerance, as the effect finite strain estimates; set material.NAME.hyperelastic"
-                .to_string()
+            format!(
+                "the contact radius reached {:.1} % of the effective radius, where the choice of an elastic law changes \
+                 the contact time by {} {}, and the case names no elastic law; set material.NAME.hyperelastic",
+                100.0 * strain,
+                if is_beyond(scene, &found) { "more than" } else { "up to" },
+                percent(spread)
+            )
         });
         strain_warning.into_iter().chain(law).collect()
     }
