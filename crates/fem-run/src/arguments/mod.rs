@@ -75,7 +75,8 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
         ErrorKind::ArgumentConflict if error.to_string().contains("the subcommand") => {
             let word = std::env::args().nth(1).unwrap_or_default();
             let text = match Path::new(&word).exists() {
-                true => "only one case can be run at a time, and a command must be the first word".to_string(),
+                true => "only one case can be run at a time, and a command must be the first word"
+                    .to_string(),
                 false => format!("{word:?} is neither a case file nor a command"),
             };
             (word, format!("{text}; the commands are {names}"))

@@ -219,7 +219,8 @@ fn balances(summary: &Summary) -> String {
     );
     let energy = ["energy".to_string(), energy];
     let momentum = summary.momentum_residual_relative;
-    let momentum = momentum.map(|drift| ["momentum".into(), format!("residual {}", residual(drift))]);
+    let momentum =
+        momentum.map(|drift| ["momentum".into(), format!("residual {}", residual(drift))]);
     // Closed forms take less than is worth printing.
     let cost = summary.steps.is_some().then(|| ["cost".into(), price(summary)]);
     let rows = peaks.into_iter().chain(null).chain([energy]).chain(momentum).chain(cost);

@@ -65,5 +65,8 @@ pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
     };
     let bodies = scene.bodies().iter().zip(meshes);
     let rows = bodies.map(|(body, mesh)| row(body.name(), mesh));
-    headed("body|>elements|>nodes|>smallest scaled Jacobian|>largest aspect ratio|edge lengths", rows)
+    headed(
+        "body|>elements|>nodes|>smallest scaled Jacobian|>largest aspect ratio|edge lengths",
+        rows,
+    )
 }

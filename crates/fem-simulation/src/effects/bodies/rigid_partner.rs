@@ -121,10 +121,6 @@ impl Stiffer<'_> {
 
     /// Returns the deciding number, as text.
     fn number(&self) -> String {
-        format!(
-            "{} contributes {} of the compliance",
-            self.body.name(),
-            percent(self.share)
-        )
+        format!("{} contributes {} of the compliance", self.body.name(), percent(self.share))
     }
 }

@@ -40,11 +40,13 @@ impl Effect for SurfaceSlip {
             )
         });
         let is_needed = materials_mismatch(scene);
-        let slope = format!("slope of the interface × mismatch of the materials = {}", number(slope, 2));
+        let slope =
+            format!("slope of the interface × mismatch of the materials = {}", number(slope, 2));
         Some(Relevance {
             is_needed,
             number: if is_needed { slope } else { String::new() },
-            if_not_needed: "the materials have equal (1 − 2ν)/G: the surfaces do not slip".to_string(),
+            if_not_needed: "the materials have equal (1 − 2ν)/G: the surfaces do not slip"
+                .to_string(),
             open_error: format!("{time} of the contact time is open"),
             warning,
         })
