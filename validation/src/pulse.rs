@@ -164,7 +164,7 @@ mod tests {
         assert!((ratio - TIME_OVER_WIDTH).abs() < 1e-4, "{ratio}");
     }
 
-    /// For t (1 − t), a tenth of the height lies √0.9/2 beside the middle, and the mean over w of the middle is
+    /// For t (1 − t), a tenth of the height lies √0.9/2 away from the middle, and the mean over w of the middle is
     /// (1 − w²/3)/4 of 4: a parabola less its curvature. Rows are 1e-3 apart.
     #[test]
     fn a_parabola_has_its_width_at_a_tenth_and_its_mean() {

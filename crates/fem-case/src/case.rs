@@ -118,7 +118,7 @@ impl Case {
         Case::validated(document, file, defaults)
     }
 
-    /// Returns the same case with some keys changed, validated again.
+    /// Returns this case with some keys changed, validated again.
     ///
     /// The change receives [`Case::file`]. Faults of changed keys name the key; all others still point at their line.
     /// A key that is set to its old value counts as unchanged.

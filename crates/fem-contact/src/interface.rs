@@ -146,12 +146,12 @@ impl ContactInterface {
         self.add_weighted_bound(side, self.bound_factors[side], bound, |_| 1.0);
     }
 
-    /// Adds the same bound for a fixed surface of the other body: θ is 0.
+    /// Adds the bound of the contact stiffness for a fixed surface of the other body: θ is 0.
     pub fn add_bound_against_held(&self, side: usize, bound: &mut [f64]) {
         self.add_weighted_bound(side, 1.0, bound, |_| 1.0);
     }
 
-    /// Adds the same bound with a factor on each spring and a factor per point.
+    /// Adds the bound of the contact stiffness with a factor on all springs and one per point.
     pub(crate) fn add_weighted_bound(
         &self,
         side: usize,

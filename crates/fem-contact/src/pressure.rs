@@ -11,7 +11,7 @@ impl ContactInterface {
         self.radius_of(self.signed_pressure(u))
     }
 
-    /// Returns the same radius for given signed pressures at the points.
+    /// Returns the contact radius (m) for given signed pressures at the points.
     pub(crate) fn radius_of(
         &self,
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,
@@ -36,7 +36,8 @@ impl ContactInterface {
         self.at_nodes(self.coarser(), self.signed_pressure(u))
     }
 
-    /// Returns the same at the nodes of one side (0 lower, 1 upper), for given signed pressures at the points.
+    /// Returns radius (m) and contact pressure (Pa) at the nodes of one side (0 lower, 1 upper), for given signed
+    /// pressures at the points.
     pub(crate) fn at_nodes<'a>(
         &'a self,
         side: usize,
@@ -74,7 +75,7 @@ impl ContactInterface {
         })
     }
 
-    /// Returns the same sums at the nodes of the coarser side.
+    /// Returns radius, integral and area at the nodes of the coarser side, as [`Self::sums_at_nodes`] does.
     pub(crate) fn sums<'a>(
         &'a self,
         values: impl Iterator<Item = f64> + Clone + 'a,
@@ -93,7 +94,7 @@ impl ContactInterface {
         self.radius_and_pressure_of(self.signed_pressure(u))
     }
 
-    /// Returns the same for given signed pressures at the points.
+    /// Returns the contact radius (m) and the pressure on the axis (Pa) for given signed pressures at the points.
     pub(crate) fn radius_and_pressure_of(
         &self,
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,

@@ -14,7 +14,7 @@ use crate::pressure_recovery::{
 use crate::slip::SlippingInterface;
 use crate::surface::Surface;
 
-/// Number of radii inside the contact that a closed profile has beside the nodes.
+/// Number of radii inside the contact that a closed profile has in addition to the nodes.
 const N_PLACES: usize = 32;
 /// Number of nodes beyond the candidate region.
 pub(crate) const N_BEYOND: usize = 5;

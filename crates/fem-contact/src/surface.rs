@@ -106,7 +106,7 @@ impl Surface {
         self.arc(r).0
     }
 
-    /// Returns the same depth (m) and its slope, the tangent of the arc's angle.
+    /// Returns the depth of the true arc (m) and its slope, the tangent of the arc's angle.
     pub(crate) fn arc(&self, r: f64) -> (f64, f64) {
         let (sine, cosine) = self.angle(r);
         (sine * r / (1.0 + cosine), sine / cosine)

@@ -131,7 +131,7 @@ mod tests {
         }
     }
 
-    /// Two roots in one place are found to the root of a rounding; of nothing it is nothing.
+    /// A double eigenvalue is accurate to the square root of machine precision; a zero matrix has the eigenvalue 0.
     #[test]
     fn largest_eigenvalue_handles_double_zero_and_huge_roots() {
         let diagonal = [2.0, 5.0, 5.0, 1.0, 0.0, 0.0, 0.5, 3.0];
@@ -141,7 +141,7 @@ mod tests {
         };
         assert!((of(diagonal) / 5.0 - 1.0).abs() < 1e-7, "{}", of(diagonal));
         assert_eq!(of([0.0; 8]), 0.0);
-        // Nor of numbers whose squares are none.
+        // Squares of these numbers overflow.
         let huge = of([1e250; 8].map(|of_all| 0.5 * of_all)) / 0.5e250;
         assert!((huge - 1.0).abs() < 1e-2, "{huge}");
     }

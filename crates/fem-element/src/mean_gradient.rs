@@ -122,7 +122,7 @@ pub fn mean_gradient(geometry: &QuadGeometry) -> ElementStiffness {
 mod tests {
     use super::*;
 
-    /// Both ways to the matrix, of a skew quad with a corner on the axis.
+    /// Both functions give the same stiffness matrix of a skew quad with a corner on the axis.
     #[test]
     fn the_lower_triangle_is_that_of_the_whole_matrix() {
         let geometry = QuadGeometry::new(&[[0.0, 0.1], [1.0, 0.0], [1.3, 0.9], [0.2, 1.1]]);

@@ -37,7 +37,7 @@
 //!                               set_time_step            set_time_step           set_time_step
 //! ```
 //!
-//! A part declares the fields of history that it needs. The run keeps them beside displacement and velocity, in a
+//! A part declares the fields of history that it needs. The run keeps them with displacement and velocity, in a
 //! [`RunState`]. A part adds the energies that it stores, gives and dissipates to [`Accounts`], which the ledger
 //! balances. A part that is switched off is absent: an elastic body has no history, and an empty list costs nothing.
 //!

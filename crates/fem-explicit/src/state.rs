@@ -31,7 +31,7 @@ pub(crate) struct State {
 pub(crate) struct Scratch {
     /// Nodal forces of both bodies, N.
     pub forces: [NodalField; 2],
-    /// Sum of the forces on nodes beside stress and contact along +y, N.
+    /// Sum of the forces on nodes other than stress and contact along +y, N.
     pub resultants: [f64; 2],
     /// Share of the contact in the forces.
     pub pushed: [PushedNodes; 2],

@@ -79,8 +79,8 @@ fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     step * (0..POINTS).map(point).sum::<f64>()
 }
 
-/// Returns γ of a half-space of this material, m s/N: of the radiated energy W = γ ∫Ḟ² dt, and of the
-/// displacement −γ Ḟ beside what the force at rest would make,
+/// Returns γ of a half-space of this material, m s/N, in the radiated energy W = γ ∫Ḟ² dt and in the displacement
+/// −γ Ḟ, which adds to the quasi-static one:
 ///
 /// ```math
 /// \gamma = \frac{C(\nu)}{\mu c_s},
@@ -102,8 +102,8 @@ pub fn radiated_share(hertz: &HertzImpact, material: &Material) -> f64 {
     share_of_damping(hertz, sizes, radiation_damping(material))
 }
 
-/// Returns the same for γ (m s/N) and of a pulse of Hertz' form with another peak force (N) and largest approach (m),
-/// as relaxation leaves them of an impact that would be `hertz`.
+/// Returns the share of the energy of approach that a body with this γ (m s/N) radiates. The pulse has Hertz' form, but
+/// the peak force (N) and the largest approach (m) to which relaxation changes those of `hertz`.
 pub(crate) fn share_of_damping(
     hertz: &HertzImpact,
     [force, approach]: [f64; 2],

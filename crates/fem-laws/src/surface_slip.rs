@@ -31,11 +31,11 @@
 //! = 0.566\,\frac{cF}\delta, \qquad \frac{cF}\delta = \frac4{3\pi}\,a\,|\kappa\beta|
 //! ```
 //!
-//! of an impact, with Dundurs' β. The first follows from ½cF² beside Hertz' energy, the second from the
+//! of an impact, with Dundurs' β. The first follows from ½cF² added to Hertz' energy, the second from the
 //! action ½c∫F²dt. Between like bodies t is the same, on a rigid plane κ = 0. Frictionless.
 //!
 //! Relaxing bodies have t of their moduli in Carson's transform: falling as 1/μ with constant ν, and
-//! t = 3/(3K+μ) beside an elastic bulk modulus. κ stays that of the instantaneous moduli.
+//! t = 3/(3K+μ) with an elastic bulk modulus. κ stays that of the instantaneous moduli.
 
 use std::f64::consts::PI;
 

@@ -22,7 +22,7 @@ pub struct Charts {
 }
 
 impl Charts {
-    /// Draws a run beside Hertz' theory of the same bodies; `common` is the energy (J) of their common
+    /// Draws a run next to Hertz' theory of the same bodies; `common` is the energy (J) of their common
     /// motion, if it is known, which is not drawn.
     pub(crate) fn of(run: &[HistoryRow], hertz: &[HistoryRow], common: Option<f64>) -> Self {
         Self {

@@ -122,7 +122,7 @@ fn run(
 /// Identity and JSON summary of each case; `None` for a case that an interrupt left out.
 type Summaries = Vec<(String, Option<String>)>;
 
-/// Computes cases on `threads` threads, 0 for one per processor. An early end is returned beside the
+/// Computes cases on `threads` threads, 0 for one per processor. An early end is returned with the
 /// results until then, which are empty if it came before all cases were checked.
 #[pyfunction]
 pub fn run_members(

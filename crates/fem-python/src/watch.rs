@@ -48,7 +48,7 @@ impl Monitor for RunWatch<'_> {
     }
 }
 
-/// Runs `work` without Python's lock. Signals and exceptions of `report` stop it early; they are returned beside its value.
+/// Runs `work` without Python's lock. Signals and exceptions of `report` stop it early; they are returned with its value.
 /// There is no value if stopped work, such as the factorisation of a mesh, which nothing interrupts, does not end within
 /// `grace`; it then continues by itself.
 pub fn watched<T: Send + 'static>(

@@ -1,4 +1,4 @@
-//! The stress below the contact of two elastic spheres when they are closest, beside Hertz: pressed
+//! The stress below the contact of two elastic spheres when they are closest, next to Hertz: pressed
 //! hardest at the surface, sheared hardest in some depth.
 //!
 //! `cargo run --release -p fem --example stress`

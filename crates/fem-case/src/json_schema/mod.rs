@@ -44,7 +44,7 @@ pub fn of_sweeps() -> Value {
 
 /// Returns the schema of a type in draft 7, which the TOML plugins of editors support.
 fn schema_of<T: JsonSchema>(title: &str) -> Value {
-    let settings = SchemaSettings::draft07().with_transform(Present);
+    let settings = SchemaSettings::draft07().with_transform(WithoutNull);
     let mut schema = settings.into_generator().into_root_schema_for::<T>();
     schema.insert("title".to_string(), json!(title));
     schema.to_value()
@@ -52,9 +52,9 @@ fn schema_of<T: JsonSchema>(title: &str) -> Value {
 
 /// Removes `null` from optional keys, since TOML has no null.
 #[derive(Clone)]
-struct Present;
+struct WithoutNull;
 
-impl Transform for Present {
+impl Transform for WithoutNull {
     fn transform(&mut self, schema: &mut Schema) {
         transform_subschemas(self, schema);
         let Some(keys) = schema.as_object_mut() else { return };

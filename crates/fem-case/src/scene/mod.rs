@@ -148,7 +148,7 @@ impl Scene {
         }
     }
 
-    /// Returns the same scene with the bodies in contact at time 0 at this speed, m/s; `None` for a scene without gravity
+    /// Returns this scene with the bodies in contact at time 0 at this speed, m/s; `None` for a scene without gravity
     /// and for a speed that is not positive and finite.
     pub fn touching_at(&self, speed: f64) -> Option<Self> {
         let mut scene = self.clone();

@@ -195,7 +195,7 @@ pub struct OutputTable {
     /// The instants at which fields are written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots: Option<SnapshotsValue>,
-    /// The arrays in the files of snapshots, beside the body's number; all by default.
+    /// The arrays in the files of snapshots, in addition to the body's number; all by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<Vec<Field>>,
     /// `[[output.probe]]`: points whose fields are recorded over time.

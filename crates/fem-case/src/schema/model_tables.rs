@@ -192,7 +192,7 @@ macro_rules! law_tables {
             }
         )+
 
-        /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand beside it.
+        /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand next to it.
         #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         #[serde(

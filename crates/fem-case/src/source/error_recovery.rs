@@ -8,7 +8,7 @@ use crate::error::CaseError;
 use crate::source::overrides::parse_path;
 use crate::source::toml_syntax::join;
 
-/// The largest number of faults that are reported beside the first one.
+/// The largest number of faults that are reported after the first one.
 pub(crate) const MOST_FAULTS: usize = 20;
 
 /// Valid values of keys that a case needs, by their last part; other keys are left out.

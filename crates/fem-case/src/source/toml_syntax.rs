@@ -19,7 +19,7 @@ pub(crate) fn is_bare(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || c == '-'
 }
 
-/// Returns the same value with all of its spans moved by `start`.
+/// Returns a value with all of its spans moved by `start`.
 pub(crate) fn shift(value: Spanned<DeValue<'_>>, start: usize) -> Spanned<DeValue<'_>> {
     let span = value.span();
     let value = match value.into_inner() {

@@ -53,8 +53,8 @@ pub struct AxisValue {
 enum Source {
     /// The sweep file contains the value as TOML.
     Written,
-    /// A range or a table gives the value as a bare number or as text.
-    Made,
+    /// The value comes from a range or a table.
+    Generated,
 }
 
 impl SweptKey {
@@ -85,7 +85,7 @@ impl AxisValue {
 
     /// Creates a value of a range or of a table.
     pub(crate) fn made(texts: Vec<String>, span: Range<usize>) -> Self {
-        Self { texts, source: Source::Made, span }
+        Self { texts, source: Source::Generated, span }
     }
 
     /// Returns the value of a key of the axis as written.
@@ -98,7 +98,7 @@ impl AxisValue {
     pub fn displayed(&self, key: usize) -> String {
         let text = self.text(key);
         match self.source {
-            Source::Made => rounded(text).filter(|short| short.len() < text.len()),
+            Source::Generated => rounded(text).filter(|short| short.len() < text.len()),
             Source::Written => None,
         }
         .unwrap_or_else(|| text.to_string())
@@ -111,7 +111,7 @@ impl AxisValue {
                 let value = DeValue::parse(&text[self.span.clone()]).ok()?;
                 Some(shift(value, self.span.start))
             }
-            Source::Made => {
+            Source::Generated => {
                 let text = self.text(key);
                 // Anything else is text, such as 0.5 m/s.
                 let number = DeValue::parse(text).ok().map(Spanned::into_inner);

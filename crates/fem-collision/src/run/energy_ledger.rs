@@ -192,7 +192,7 @@ impl DissipatedEnergies {
 mod tests {
     use super::*;
 
-    /// `name` and `side` index the table by the variant.
+    /// `name` and `side` use the number of an account as its index in the table.
     #[test]
     fn ledger_lines_are_in_the_order_of_the_accounts() {
         for (k, (account, ..)) in LINES.iter().enumerate() {

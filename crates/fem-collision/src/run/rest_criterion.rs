@@ -40,10 +40,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::request::Frame;
 
-/// Restitution that counts as zero if the energy bounds it.
+/// If the energy that is left bounds the restitution by this, the bodies stay together.
 const NOTHING_LEFT: f64 = 1e-4;
-/// Restitution that counts as zero if the momentum bounds it. Liquid bridges of discrete elements separate bodies with
-/// 1e-4.
+/// If the impulse that is left bounds the restitution by this, the bodies stay together. Liquid bridges of discrete
+/// elements separate bodies with 1e-4.
 const AT_REST: f64 = 1e-3;
 /// Largest bound by energy for bodies that are at rest by their momentum.
 const LARGEST_BOUND_BY_ENERGY: f64 = 0.03;

@@ -14,8 +14,8 @@ pub(crate) const FIXED: u32 = u32::MAX;
 /// Equation numbers of the degrees of freedom.
 #[derive(Debug, Clone)]
 pub(crate) struct Numbering {
-    /// Equations of (u_r, u_y) of each node, or [`FIXED`]; the ground comes after all equations, if there
-    /// is one.
+    /// Equations of (u_r, u_y) of each node, or [`FIXED`]. The fixed ground, if any, is the last
+    /// equation.
     pub equations: Vec<[u32; 2]>,
     /// Number of equations without the ground.
     pub n_equations: usize,

@@ -29,7 +29,7 @@ impl CondensedPair {
         }
     }
 
-    /// Returns the same without slip.
+    /// Returns contact radius (m) and pressure on the axis (Pa) without slip.
     pub(crate) fn recover(&self, forces: &[f64], room: &mut Pressures) -> (f64, f64) {
         let enforcement = self.enforcement();
         let other = self.staggered.as_ref();

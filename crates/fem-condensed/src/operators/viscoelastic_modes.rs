@@ -146,7 +146,7 @@ impl ViscoelasticModes {
         }
     }
 
-    /// Returns the same modes, subtracted from the body.
+    /// Returns these modes, subtracted from the body.
     pub fn removed(self) -> Self {
         self.weighted(-1.0)
     }

@@ -241,7 +241,7 @@ fn zero_radiation_is_elastic_and_small_radiation_loss_is_linear() {
     assert!(upper < 1e-9 * radiated, "{upper:e}");
 }
 
-/// Beside relaxation, modes of the ball and penalty springs; a soft ball and a hard block.
+/// With relaxation, modes of the ball and penalty springs; a soft ball and a hard block.
 #[test]
 fn radiation_adds_to_losses_by_relaxation_modes_and_springs() {
     let polymer = || material(POLYMER, ActsOn::Shear, &[(0.3, 2e4), (0.3, 2e3)]);

@@ -99,7 +99,7 @@ fn snapshots_agree_with_the_rigid_body_motion() {
 }
 
 /// Velocities of a snapshot are those by which displacements change from step to step, in contact, with
-/// modes of vibration, and of a shear modulus that relaxes beside them.
+/// modes of vibration, and of a shear modulus that relaxes, with them.
 #[test]
 fn velocities_are_the_change_of_displacements() {
     for (glass, vibration_modes) in [(glass(), 0), (relaxing(Shear), 6)] {

@@ -18,7 +18,7 @@ pub(super) struct Interval<'a> {
     pub segments: [Segment<'a>; 2],
     /// Inner and outer end, m.
     pub radii: [f64; 2],
-    /// Side and node with which each end moves; none on the axis and at the equator of a rigid sphere.
+    /// Side and node with which each end moves; `None` on the axis and at the equator of a rigid sphere.
     pub ends: [Option<(usize, u32)>; 2],
     /// Penalty per area, Pa/m.
     pub stiffness: f64,
@@ -126,8 +126,8 @@ impl<'a> Interval<'a> {
 }
 
 impl<U: Fn(u32) -> [f64; 2]> RefinementWalk<'_, U> {
-    /// Returns the fold at which the walk has ended, and whether nodes beyond it overlap the other surface at
-    /// the radius to which they have come back.
+    /// Returns the fold where the walk along the surface ended, and whether the nodes beyond it overlap the
+    /// other surface.
     pub fn surface_fold(&self) -> Option<(SurfaceFold, bool)> {
         let side = self.folded?;
         let surface = &self.interface.surfaces[side];

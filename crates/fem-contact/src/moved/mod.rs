@@ -103,7 +103,7 @@ impl MovedInterface {
         })
     }
 
-    /// Shares springs by mass beside a rigid sphere, as
+    /// Shares springs by mass against a rigid sphere, as
     /// [`ContactInterface::with_rigid_mass`](crate::ContactInterface::with_rigid_mass) does.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {

@@ -24,7 +24,7 @@ impl MovedInterface {
         self.at_nodes(coarser(self.surfaces.each_ref(), self.candidate_radius), u)
     }
 
-    /// Returns the same for a given side, 0 the lower one.
+    /// Returns radius (m) and contact pressure (Pa) at the nodes of a side, 0 the lower one.
     fn at_nodes<'a>(
         &'a self,
         side: usize,

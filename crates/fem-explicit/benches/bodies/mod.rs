@@ -103,7 +103,7 @@ fn glass(weights: &[f64], acts_on: ActsOn) -> Result<Material, Error> {
     Ok(Material::new(2390.0, moduli, relaxation)?)
 }
 
-/// The mesh with its nodes numbered in another order, none beside the one that it lies beside.
+/// The mesh with its nodes numbered in another order, none next to its neighbour on the mesh.
 fn unordered(mesh: &SphereMesh) -> Result<SphereMesh, Error> {
     let n = mesh.nodes().len();
     let common = |mut a: usize, mut b: usize| {

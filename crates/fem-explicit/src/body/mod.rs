@@ -173,7 +173,7 @@ impl Body {
         Self { held, ..self }
     }
 
-    /// Adds the forces on its nodes beside stress and contact. Returns their sum along +y, N.
+    /// Adds the forces on the body's nodes other than stress and contact. Returns their sum along +y, N.
     pub(crate) fn add_node_forces(
         &self,
         motion: &Motion<'_>,
@@ -313,7 +313,7 @@ impl Body {
         -resultant
     }
 
-    /// Returns whether external forces beside the contact change its momentum.
+    /// Returns whether external forces other than the contact change its momentum.
     pub(crate) fn is_pushed(&self) -> bool {
         self.held || !self.node_forces.is_empty()
     }

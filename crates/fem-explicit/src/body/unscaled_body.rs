@@ -99,7 +99,7 @@ impl UnscaledBody {
         }
     }
 
-    /// Returns its mass, kg; `None` for a half-space.
+    /// Returns the body's mass, kg; `None` for a half-space.
     pub fn mass(&self) -> Option<f64> {
         match self {
             Self::Meshed(meshed) if meshed.mesh.is_half_space() => None,

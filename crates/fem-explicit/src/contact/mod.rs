@@ -1,4 +1,4 @@
-//! The contact of the bodies: what a step asks of it ([`Contact`]), and one file per implementation.
+//! The contact of the bodies: the trait [`Contact`] that a step calls, and one file per implementation.
 //!
 //! ```text
 //! springs       penalty springs between the surfaces before deformation, also of surfaces that slip
@@ -64,15 +64,15 @@ pub trait Contact: Part {
     /// Returns the candidate region, in which contact is searched for.
     fn candidate_region(&self) -> CandidateRegion;
 
-    /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, which holds for any closed part.
+    /// Adds a bound of the contact stiffness at each node (N/m) of a side, 0 lower, 1 upper, which holds for any closed part.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);
 
-    /// Adds a bound of its damping at each node (N s/m) of a side; a contact that does not depend on the
+    /// Adds a bound of the contact damping at each node (N s/m) of a side; a contact that does not depend on the
     /// velocity has none.
     fn add_damping_bound(&self, _side: usize, _bound: &mut [f64]) {}
 
     /// Adds the growth of both bounds on a side since the bodies were undeformed, for all that can close within a time,
-    /// s. It is asked for in runs at finite strain; a contact of constant stiffness adds nothing.
+    /// s. Only runs at finite strain call it; a contact of constant stiffness adds nothing.
     fn add_bound_growth(
         &self,
         _motions: &[Motion<'_>; 2],
@@ -94,14 +94,15 @@ pub trait Contact: Part {
     /// Returns the nodes of a side, 0 lower, 1 upper, on which [`Contact::add_forces`] can add forces, in any order.
     fn pushed_nodes(&self, side: usize) -> Vec<u32>;
 
-    /// Checks whether it can work, once it knows the time step.
+    /// Checks whether the contact can work at the time step, which it knows by then.
     ///
-    /// # Errors The contact cannot work at this time step.
+    /// # Errors
+    /// The contact cannot work at this time step.
     fn check(&self) -> Result<(), ModelError> {
         Ok(())
     }
 
-    /// Adds the energy that it has dissipated since first touch; the energy of its springs is returned with the forces.
+    /// Adds the energy that the contact has dissipated since first touch; the energy of its springs is returned with the forces.
     fn add_energies(&self, _history: [&[NodalField]; 2], _accounts: &mut Accounts) {}
 
     /// Returns the nodes of a side, 0 lower, 1 upper, that have no mass: the step keeps their velocity, and the contact
@@ -110,13 +111,13 @@ pub trait Contact: Part {
         &[]
     }
 
-    /// Allocates its buffers for a run. A run that is resumed begins with new ones: their contents must not change a
+    /// Allocates the buffers of the contact for a run. A run that is resumed begins with new ones: their contents must not change a
     /// bit of the result.
     fn buffers(&self) -> Box<dyn Any + Send + Sync> {
         Box::new(())
     }
 
-    /// Advances its own history over a step, and moves the nodes without mass; `motions` include the history of the stress.
+    /// Advances the history of the contact over a step, and moves the nodes without mass; `motions` include the history of the stress.
     fn advance(
         &self,
         _motions: [MotionMut<'_>; 2],

@@ -1,4 +1,4 @@
-//! Forces on the nodes of a body beside stress and contact, one file per force.
+//! Forces on the nodes of a body other than stress and contact, one file per force.
 
 mod bulk_viscosity;
 mod gravity;

@@ -1,4 +1,4 @@
-//! The restart state of a run: all that its continuation depends on beside its model.
+//! The restart state of a run: all that its continuation depends on apart from its model.
 
 use fem_collision::{Approach, Ending, Expectation, History, OutputRequest, Snapshot};
 use serde::{Deserialize, Serialize};

@@ -15,7 +15,7 @@ use crate::time::advance_motion;
 pub(crate) use last_valid_state::LastValidState;
 pub(crate) use recorder::{Instant, Recorder};
 
-/// Returns the number of states that a run keeps in memory for a request, beside the candidates for labels.
+/// Returns the number of states that a run keeps in memory for a request, in addition to the candidates for labels.
 pub fn n_states(request: &SnapshotRequest) -> usize {
     match request {
         SnapshotRequest::Labels(_) => 0,

@@ -177,7 +177,7 @@ impl FiniteStrainStress for PartlyFinite {
         self.near.n_elements()
     }
 
-    /// Adds the bound of the near elements alone, as does the next method: only its growth counts.
+    /// Adds the bound of the elements at finite strain only, as does the next method: callers use its growth.
     fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
         self.near.add_undeformed_stiffness_bound(bound);
     }

@@ -191,8 +191,8 @@ fn level_within(model_step: f64, allowed: f64, margin: f64) -> Option<u32> {
     (0..=MOST_LEVELS).find(|&level| model_step * level_factor(level) * margin <= allowed)
 }
 
-/// Returns the same for a strain rate, 1/s. Elements that are strained faster than the shortest step can follow
-/// collapse.
+/// Returns the lowest level whose step times a margin follows a strain rate, 1/s. Elements that are strained faster
+/// than the shortest step can follow collapse.
 fn level_for_strain_rate(model_step: f64, strain_rate: f64, margin: f64) -> u32 {
     level_within(model_step, STRAIN_PER_STEP / strain_rate, margin).unwrap_or(MOST_LEVELS)
 }

@@ -146,7 +146,7 @@ impl NodeForce for Maxwell {
     }
 }
 
-/// A part with history, beside relaxing stress with its own: its energies balance, its history is
+/// A part with history, together with relaxing stress with its own: its energies balance, its history is
 /// kept and resumed.
 #[test]
 fn a_force_with_history_balances_and_resumes() {

@@ -9,7 +9,7 @@ pub struct Levels {
 
 impl Levels {
     /// Returns multiples of 1, 2 or 5 times a power of ten that cover a range, with about `n` bands on the
-    /// larger side of zero. Zero is no level: the band from minus to plus one step is neutral.
+    /// larger side of zero. Values within one step of zero share a neutral band.
     pub fn about_zero(smallest: f64, largest: f64, n: usize) -> Self {
         let side = |value: f64| if value.is_finite() { value.max(0.0) } else { 0.0 };
         let (below, above) = (side(-smallest), side(largest));

@@ -1,4 +1,4 @@
-//! The linear spring beside a linear dashpot.
+//! The linear spring parallel to a linear dashpot.
 //!
 //! ```math
 //! F = K\xi + C\dot\xi, \qquad \omega_0^2 = \frac K{m^*}, \quad \zeta = \frac C{2\sqrt{m^*K}}

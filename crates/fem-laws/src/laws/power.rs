@@ -1,4 +1,4 @@
-//! The general law of a non-linear spring beside a non-linear dashpot.
+//! The general law of a non-linear spring parallel to a non-linear dashpot.
 //!
 //! ```math
 //! F = K\xi^\gamma + C\xi^n\dot\xi

@@ -16,11 +16,11 @@ use crate::ting::step::{Solved, State, Stepper};
 /// Local error of the rate over the tolerance. A collision takes some tens of steps.
 const LOCAL_SHARE: f64 = 0.1;
 
-/// Restitution that is none; also of the energy that could still come back, its root.
+/// A restitution below this counts as 0, as does the square root of the share of energy that could still return.
 const STUCK: f64 = 1e-8;
 
-/// Restitution that may come out as none where nothing moves but rounding: beside waves that leave, or
-/// because a force of rounding times a large approach never gets below [`STUCK`].
+/// A restitution below this counts as 0 if rounding errors alone move the bodies: with radiated waves, or if the
+/// rounding error of the force times a large approach stays above [`STUCK`].
 const RESTING: f64 = 1e-6;
 /// Rounding error of a force, relative to the force of the unrelaxed materials: the force is a difference
 /// of terms of that size.

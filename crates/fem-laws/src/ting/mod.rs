@@ -27,15 +27,15 @@
 //! ```
 //!
 //! products in Carson's transform, with c(a), E, ν of the relaxed moduli. That is the correspondence
-//! principle in loading, to first order in a/R. In unloading F lacks what E* makes of K u^(3/2)
-//! since t₁. Keeping it makes the restitution of glass, from 0.1 to 2 m/s and of whatever loss, too
-//! small by up to 4e-4, found by direct integration; finite elements agree.
+//! principle in loading, to first order in a/R. In unloading the term E* K u^(3/2) since t₁ is left out of F:
+//! with it the restitution of glass from 0.1 to 2 m/s is too small by up to 4e-4 at any loss, as direct
+//! integration and finite elements show.
 //!
-//! With a [`SurfaceSlip`] its compliance comes beside that of finite size in the same way.
+//! With a [`SurfaceSlip`] its compliance adds to that of finite size in the same way.
 //!
-//! With bodies that radiate, −γ Ḟ of each comes beside them in δ: [`crate::radiation_damping`], in the
-//! passive form of `radiation_compliance.rs`, by the force itself, in loading and unloading. The contact then is
-//! largest a little before the approach is, and t₁ looks back from there.
+//! Bodies that radiate add −γ Ḟ each to δ: [`crate::radiation_damping`], in the passive form of
+//! `radiation_compliance.rs`, by the force itself, in loading and unloading. The contact is then largest a little
+//! before the approach is, and t₁ is found from that time.
 //!
 //! With gravity, δ̈ = g − F/m*. A ball that turns back while it still touches, or that creeps under its
 //! weight, does not leave any more: it stays. Contacts that grow twice are not followed.
@@ -154,9 +154,8 @@ impl Ting {
     }
 
     /// Makes the model coarser and five times faster, for estimates: iterations end at 1e-8 of the speed,
-    /// and waves are smoothed over four times the usual share of the contact time. For a loss of 0.6 % the
-    /// loss itself comes out 0.3 % too small, its effect on the peak force 5 % and on the contact time 30 %
-    /// too small. Results are given beyond [`Ting::MAX_RADIATED_SHARE`] too.
+    /// and waves are smoothed over four times the usual share of the contact time. At a loss of 0.6 %, the loss
+    /// is 0.3 % too small, the change of the peak force 5 % and that of the contact time 30 %. Results are given beyond [`Ting::MAX_RADIATED_SHARE`] too.
     pub fn with_coarse_waves(self) -> Self {
         Self { has_coarse_waves: true, ..self }
     }

@@ -72,7 +72,7 @@ impl Hyperelastic {
         Self { law, bulk: moduli.bulk_modulus(), shear: moduli.shear_modulus() }
     }
 
-    /// Returns the same law with the given shares of K and G.
+    /// Returns this law with the given shares of K and G.
     pub(super) fn scaled(&self, bulk: f64, shear: f64) -> Self {
         Self { law: self.law, bulk: bulk * self.bulk, shear: shear * self.shear }
     }

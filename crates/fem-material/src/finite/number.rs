@@ -11,7 +11,7 @@ use std::ops::{Add, Div, Mul, Sub};
 pub trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// Returns the same number in all lanes.
+    /// Returns a number with one value in all lanes.
     fn splat(value: f64) -> Self;
 
     /// Returns self + x y, of lanes rounded once.
@@ -144,8 +144,8 @@ pub(super) fn inverse_cube_root_change<N: Number>(volume_change: N) -> N {
 /// Where the series takes the place of the root: its first term left out is 8e-20 of the result.
 const SERIES_BOUND: f64 = 1e-3;
 
-/// Returns the same in a quarter of the time if J is near 1: by the binomial series, and by the root
-/// where that does not serve.
+/// Returns J^(−1/3) − 1 for J − 1 by the binomial series where J is near 1, in a quarter of the time, and by the
+/// root elsewhere.
 #[inline(always)]
 pub(super) fn inverse_cube_root_change_near_one<N: Number>(d: N) -> N {
     let (c_1, c_2) = (N::splat(-1.0 / 3.0), N::splat(2.0 / 9.0));

@@ -43,8 +43,8 @@ pub(super) struct PrincipalAxes {
 impl PrincipalAxes {
     /// Computes the principal axes of a displacement gradient with a positive J.
     ///
-    /// A plane F is a rotation, of which it has the multiple `turn`, and a symmetric deviator, the
-    /// reflection `shear`, both as complex numbers; λ = |turn| ± |shear|, and n_1 bisects them.
+    /// The in-plane F is the sum of a scaled rotation `turn` and a symmetric deviator `shear`, both complex
+    /// numbers; λ = |turn| ± |shear|, and n_1 bisects them.
     pub fn of(h: &AxisymmetricTensor) -> Self {
         let turn = [1.0 + 0.5 * (h.rr + h.yy), 0.5 * (h.yr - h.ry)];
         let shear = [0.5 * (h.rr - h.yy), 0.5 * (h.yr + h.ry)];

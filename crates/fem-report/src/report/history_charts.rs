@@ -1,4 +1,4 @@
-//! Charts over time: one result beside Hertz' curves, or several results over each other.
+//! Charts over time: one result next to Hertz' curves, or several results over each other.
 
 use fem_case::engineering::show;
 use fem_figure::{Chart, Curve, GREY};

@@ -15,7 +15,7 @@ const MOST_OVER_DATA: f64 = 1.2;
 /// Intervals of Hertz' profile from the axis to its edge.
 const N_INTERVALS: u32 = 40;
 
-/// Returns the pressure profiles, each beside Hertz' profile under the same force: those of some snapshots
+/// Returns the pressure profiles, each next to Hertz' profile under the same force: those of some snapshots
 /// of one result, or those of several results at their largest pressure. `None` without any pressure.
 pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
     let contacts = || results.iter().flat_map(|result| &result.contacts);

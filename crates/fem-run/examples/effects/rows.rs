@@ -29,7 +29,7 @@ const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
 const FALLING: &str = "body.1.approach_speed=0.5";
 const WEIGHT: &str = "gravity.acceleration=9.81";
 
-/// Records of a run beside the quantities of interest.
+/// Records of a run in addition to the quantities of interest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
     /// Only the quantities of interest.

@@ -99,7 +99,7 @@ fn spent() -> Result<f64, Error> {
     Ok(START.get_or_init(Instant::now).elapsed().as_secs_f64())
 }
 
-/// Returns the command beside this example.
+/// Returns the command next to this example.
 pub fn command() -> Result<PathBuf, Error> {
     let example = std::env::current_exe()?;
     let folder = example.ancestors().nth(2).ok_or("an example lies in a folder of the build")?;

@@ -18,7 +18,7 @@ use case::CaseArguments;
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a wall or a half-space.
 ///
-/// Prints the result beside Hertz' closed form and writes summary.json, history.csv and ParaView files into
+/// Prints the result next to Hertz' closed form and writes summary.json, history.csv and ParaView files into
 /// a folder.
 #[derive(Debug, Parser)]
 #[command(

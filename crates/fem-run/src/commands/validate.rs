@@ -47,7 +47,7 @@ pub struct Arguments {
     /// Replace the result of a case or of another command
     #[arg(long)]
     force: bool,
-    /// Also write the table as Markdown, and the pictures into images beside it; for all claims only
+    /// Also write the table as Markdown, and the pictures into images next to it; for all claims only
     ///
     /// An existing file is replaced only if it is such a table.
     #[arg(long, value_name = "FILE")]

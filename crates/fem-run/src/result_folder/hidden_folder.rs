@@ -1,6 +1,6 @@
 //! Hidden folders in which results are written, and the recovery of those whose process was killed.
 //!
-//! A hidden folder lies beside the final place of its result. It contains a lock file with the name of that
+//! A hidden folder lies next to the final place of its result. It contains a lock file with the name of that
 //! place, which its process keeps locked: whoever gets the lock knows that the process is gone. The lock file
 //! is the first file in the folder and the last one to be removed, so a killed process leaves a folder with
 //! a lock file or an empty one.
@@ -32,7 +32,7 @@ pub struct HiddenFolder {
 }
 
 impl HiddenFolder {
-    /// Creates a folder beside `target` with the permissions of any new folder.
+    /// Creates a folder next to `target` with the permissions of any new folder.
     pub fn beside(target: &Path) -> io::Result<Self> {
         let parent = target.parent().unwrap_or(Path::new("/"));
         let name = target.file_name().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The folder of a result: claimed before the run, filled in a hidden folder beside its final place, and moved
+//! The folder of a result: claimed before the run, filled in a hidden folder next to its final place, and moved
 //! there in one step at the end.
 //!
 //! ```text
@@ -95,7 +95,7 @@ pub struct ResultFolder {
 }
 
 impl ResultFolder {
-    /// Claims `out` without touching its content, and recovers what killed runs left beside it. `longest_name`
+    /// Claims `out` without touching its content, and recovers what killed runs left next to it. `longest_name`
     /// is the longest file name to come.
     pub fn claim(out: &Path, longest_name: &str, replaces: Replaces) -> Result<Self, Failure> {
         if let Some(parent) = resolve(out)?.parent() {
@@ -145,7 +145,7 @@ impl ResultFolder {
     }
 
     /// Moves the files to their place and returns it as the user would name it. A result that lacks files is
-    /// written beside an old one.
+    /// written next to an old one.
     pub fn publish(mut self, is_whole: bool) -> Result<PathBuf, Failure> {
         let Some(mut hidden) = self.hidden.take() else { return Ok(self.shown.clone()) };
         self.made.clear();
@@ -218,7 +218,7 @@ fn check_place(out: &Path, target: &Path, replaces: &Replaces) -> Result<(), Fai
     }
 }
 
-/// Moves a hidden folder to `target`, or beside it, and returns its place as the user would name it.
+/// Moves a hidden folder to `target`, or next to it, and returns its place as the user would name it.
 fn put_in_place(
     hidden: &mut HiddenFolder,
     target: &Path,

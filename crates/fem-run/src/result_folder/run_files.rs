@@ -56,7 +56,7 @@ pub fn save(
     written.fault.map_or(Ok(()), Err)
 }
 
-/// Writes the files of a result that `keep` asks for, beside the files `others` that exist already.
+/// Writes the files of a result that `keep` asks for, in addition to the files `others` that exist already.
 pub fn write_result(
     folder: &Path,
     stem: &str,

@@ -52,7 +52,7 @@ impl Collector<'_> {
     /// selects the members of this process.
     ///
     /// Another process may finish a member after this one has read the folder, and write its table before
-    /// this one. A process that looks again after writing and finds nothing new is the last.
+    /// this one. A process that finds no new member after writing has written the final table.
     pub fn collect(&mut self, is_own: impl Fn(usize) -> bool) -> Result<SweepOutcome, Failure> {
         loop {
             self.folder.refresh();

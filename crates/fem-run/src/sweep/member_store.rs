@@ -135,7 +135,7 @@ impl MemberStore {
         }
     }
 
-    /// Whether there are folders of members beside the files.
+    /// Whether there are folders of members in addition to the files.
     pub fn has_others(&self) -> bool {
         self.has_others
     }

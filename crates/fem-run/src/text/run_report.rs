@@ -70,7 +70,7 @@ pub fn report(summary: &Summary, place: Option<&Path>, printed: &[String]) -> St
     text
 }
 
-/// Returns each quantity with both parts of its error bar, beside Hertz' value.
+/// Returns each quantity with both parts of its error bar, next to Hertz' value.
 fn quantities(summary: &Summary) -> String {
     let (ours, hertz) = (&summary.collision, &summary.hertz);
     let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());

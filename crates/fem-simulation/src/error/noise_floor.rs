@@ -105,8 +105,8 @@ pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
     (!is_possible).then_some(restitution - 1.0)
 }
 
-/// Returns the larger moved mass of both bodies over the lighter body's mass. The share of a stiffer body is divided by its
-/// larger allowance.
+/// Returns the larger moved mass of both bodies over the lighter body's mass. The share of a stiffer body is divided by
+/// the factor by which more mass is moved in it ([`MassScaling::times`]).
 pub(super) fn moved_share(simulation: &Simulation, collision: &Collision) -> f64 {
     let allowed = MassScaling::times(simulation.case().scene());
     let shares = collision.moved_shares().into_iter().zip(allowed);

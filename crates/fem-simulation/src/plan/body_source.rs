@@ -51,7 +51,7 @@ impl BodySource {
         })
     }
 
-    /// Returns the same body without relaxation.
+    /// Returns this body without relaxation.
     pub fn without_relaxation(self) -> Self {
         match self {
             Self::Meshed { mesh, material } => {

@@ -124,7 +124,7 @@ const ROUNDING: f64 = 1e-6;
 /// Range in which the observed order is searched, and the step of its derivative over that range.
 const SEARCHED_ORDERS: (f64, f64) = (0.1, 8.0);
 const DERIVATIVE_STEP: f64 = 1e-5;
-/// Fewest levels beside the finest that determine an order.
+/// Fewest levels in addition to the finest that determine an order.
 const FEWEST_LEVELS: usize = 3;
 /// Largest standard error of an order.
 const LARGEST_STANDARD_ERROR: f64 = 0.75;

@@ -144,7 +144,7 @@ impl<'a> Study<'a> {
         Self { runs, limits, orders, parts }
     }
 
-    /// Returns the fastest of the variants that serve which is within the tolerances of the case.
+    /// Returns the fastest variant within the case's tolerances for which `serves` is true.
     pub fn cheapest_within(
         &self,
         serves: impl Fn(&VariantRun<'a>) -> bool,

@@ -61,7 +61,7 @@ impl Model {
         Self { finite_size: Some(finite_size), ..self }
     }
 
-    /// Returns the same bodies under another law, with the end rule of that law if it has one.
+    /// Returns these bodies under another law, with the end rule of that law if it has one.
     ///
     /// # Errors
     /// Those of [`Model::new`].

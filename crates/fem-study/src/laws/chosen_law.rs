@@ -162,7 +162,7 @@ impl ChosenLaw {
     }
 
     /// Returns the substitute for a parameter of a fit that has neither a value nor a default, and that
-    /// restitutions do not determine beside the loss.
+    /// restitutions do not determine in addition to the loss.
     pub fn stand_in(&self, index: usize) -> Option<StandIn> {
         let parameter = &self.family().parameters()[index];
         if self.known[index] != Known::Nowhere || parameter.default.is_some() {

@@ -38,7 +38,7 @@ pub struct RankedLaw {
     pub fit: Fit,
     /// AICc less that of the best law; `None` if there are too few data for the number of parameters.
     pub difference: Option<f64>,
-    /// Share of the evidence.
+    /// Akaike weight of the law among all fitted laws, 0 to 1.
     pub weight: Option<f64>,
 }
 

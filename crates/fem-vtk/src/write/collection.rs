@@ -9,7 +9,7 @@ use serde_json::json;
 use crate::error::Error;
 use crate::write::write_atomically;
 
-/// Writes `path` (`<stem>.pvd`) and `<stem>.vtu.series` beside it.
+/// Writes `path` (`<stem>.pvd`) and `<stem>.vtu.series` next to it.
 ///
 /// `snapshots` are times in seconds and `.vtu` file names relative to `path`'s folder. Each of the two files is written
 /// completely or not at all.

@@ -11,7 +11,7 @@ use std::path::Path;
 
 use crate::error::Error;
 
-/// Writes a hidden temporary file beside `path`, then renames it to `path`. A partly written file would be read by VTK as
+/// Writes a hidden temporary file next to `path`, then renames it to `path`. A partly written file would be read by VTK as
 /// zero points, without an error.
 fn write_atomically(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
     let io_error = |source| Error::Io { path: path.to_path_buf(), source };

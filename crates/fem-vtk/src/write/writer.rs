@@ -97,7 +97,7 @@ impl<'a> VtuWriter<'a> {
         self
     }
 
-    /// Validates the arrays, writes a temporary file beside `path` and renames it to `path`: after an error `path` is
+    /// Validates the arrays, writes a temporary file next to `path` and renames it to `path`: after an error `path` is
     /// unchanged.
     ///
     /// # Errors

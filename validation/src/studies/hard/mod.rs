@@ -1,7 +1,7 @@
 //! Hard scenes: each axis of `validation/hard` goes from one extreme to the other, with every model that
 //! supports the scene.
 //!
-//! An axis is a file beside the claim, [`Axis`]. The invariants of every run are measured, the worst of all runs
+//! An axis is a file next to the claim, [`Axis`]. The invariants of every run are measured, the worst of all runs
 //! as `growth`, `momentum`, `excess`, `no_number` and `cost` ([`Trial`]); a run that may gain energy must
 //! warn of it. `endurance.flight` and `endurance.vibration` concern one body ([`endurance`]). `AXIS.difference` is the largest
 //! difference of a run from its reference, over the tolerance of its scene; `AXIS.unexpected` counts
@@ -30,7 +30,7 @@ use trial::{Outcome, Trial};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Names of the files beside the claim, without their ending.
+    /// Names of the files next to the claim, without their ending.
     axes: Vec<String>,
     /// Whether only runs of milliseconds are made.
     #[serde(default)]

@@ -1,4 +1,4 @@
-//! Tables from files beside the claim: faults of earlier versions with the present results of the scenes that guard
+//! Tables from files next to the claim: faults of earlier versions with the present results of the scenes that guard
 //! against them (`seen.toml`), and counts of hostile inputs (`fed.toml`).
 
 use std::fs;

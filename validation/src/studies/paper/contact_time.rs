@@ -1,4 +1,4 @@
-//! Fig. 12: contact time against speed, beside Hertz and Hertz with finite spheres.
+//! Fig. 12: contact time against speed, next to Hertz and Hertz with finite spheres.
 
 use fem::ting_impact;
 use fem_figure::{Axis, Chart, Curve};

@@ -18,7 +18,7 @@ pub fn parsed(overrides: &[&str]) -> Case {
     Case::parse("pair.toml", &text(), Path::new("."), &overrides).unwrap()
 }
 
-/// Returns the same case, made in code.
+/// Returns the case of [`text`], made in code.
 pub fn made() -> CaseFile {
     let glass = MaterialTable::from_youngs_modulus_poissons_ratio("2390 kg/m^3", "63 GPa", 0.244)
         .relaxing(

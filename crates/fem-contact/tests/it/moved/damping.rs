@@ -1,4 +1,4 @@
-//! Dashpots beside the springs.
+//! Dashpots parallel to the springs.
 
 use std::f64::consts::PI;
 

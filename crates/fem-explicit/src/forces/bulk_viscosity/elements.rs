@@ -1,5 +1,5 @@
 //! The element loops of bulk viscosity: one adds up rates of dilatation at nodes, one makes forces of what is
-//! left of them beside their means.
+//! left of them apart from their means.
 
 use fem_element::QuadGeometry;
 

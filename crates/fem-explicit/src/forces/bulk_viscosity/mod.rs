@@ -10,7 +10,7 @@
 //! with the dilatation rate ε̇_V = tr ε̇ of an element, the root l of its area, the speed c_d of
 //! pressure waves, and the drop j of velocity across the element while it is compressed. The quadratic
 //! term is that of von Neumann & Richtmyer (1950), here with its coefficient squared; it acts in
-//! compression alone. The linear term is Landshoff's (1955) on what the rate has beside its mean around the
+//! compression alone. The linear term is Landshoff's (1955) on the deviation of the rate from its mean around the
 //! element: the mean over the corners of means of their elements, weighed by ρ l V,
 //!
 //! ```math

@@ -44,7 +44,7 @@ pub struct Arguments {
     /// [default: a tenth of the shortest contact time to ten times the longest]
     #[arg(long, value_name = "FIRST..LAST", value_parser = parse_window)]
     times: Option<(f64, f64)>,
-    /// The moduli that relax: all, or the shear modulus beside an elastic bulk modulus [default: as in the
+    /// The moduli that relax: all, or the shear modulus with an elastic bulk modulus [default: as in the
     /// case, or all]
     #[arg(long, value_name = "MODULI", value_parser = ["all", "shear"])]
     acts_on: Option<String>,

@@ -20,12 +20,12 @@ const RELAXATION: &str = include_str!("relaxation.toml");
 /// Gravity for a sphere above a resting body, commented out.
 const GRAVITY: &str = include_str!("gravity.toml");
 
-/// The schema beside the case, for editors.
+/// The schema next to the case, for editors.
 const SCHEMA_FILE: &str = "fem-run.schema.json";
 
 /// Write a case to start from, NAME.toml, with comments on what can be changed
 ///
-/// fem-run.schema.json beside it lets editors complete and check keys. No file is overwritten.
+/// fem-run.schema.json next to it lets editors complete and check keys. No file is overwritten.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     /// The new case file, with or without .toml

@@ -29,7 +29,7 @@ fn a_kink_of_the_contact_radius_is_explained() {
     assert!(of("2e-6") && !of("1.0"));
 }
 
-/// Numbers with errors, curves beside Hertz, fields, effects, the case, how to cite.
+/// Numbers with errors, curves next to Hertz, fields, effects, the case, how to cite.
 #[test]
 fn report_of_a_run_with_fields_has_all_sections() {
     let place = Place::new();

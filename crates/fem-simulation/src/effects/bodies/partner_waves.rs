@@ -69,7 +69,7 @@ impl PartnerWaves {
     }
 
     /// Returns the materials of the radiating bodies of the condensed model ([`PartnerWaves::radiating`]). A body that
-    /// radiates must be so heavy that the energy of its own motion is small beside the loss, since it moves as a whole
+    /// radiates must be so heavy that the energy of its own motion is small compared with the loss, since it moves as a whole
     /// without delay. Vibration modes replace the term.
     pub(crate) fn radiating_at_rest(scene: &Scene, estimate: &Estimate) -> [Option<Material>; 2] {
         let radiating = Self::radiating(scene, estimate);

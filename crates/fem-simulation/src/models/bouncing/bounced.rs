@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::chain::Chain;
 use super::{phase, report};
 
-/// The restart state of a bouncing ball, beside that of the present contact.
+/// The restart state of a bouncing ball, in addition to that of the present contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Bounces {
     /// Initial state of the ball, and the output request of all contacts.

@@ -37,7 +37,7 @@ pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)
     said
 }
 
-/// Warns of a static contact that is not small beside the effective radius (m).
+/// Warns of a static contact that is not small compared with the effective radius (m).
 pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Option<String> {
     let share = contact.contact_radius? / effective_radius;
     (share > LARGEST_STRAIN).then(|| {

@@ -235,7 +235,7 @@ impl RebuildData {
         ExplicitBodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
-    /// Returns the same bodies with a larger candidate region, if there is one.
+    /// Returns these bodies with a larger candidate region, if there is one.
     fn larger(&self, bodies: &ExplicitBodies) -> Option<ExplicitBodies> {
         let before = bodies.candidate_radius();
         let larger = self.bodies(bodies.approach(), CANDIDATE_GROWTH * before).ok()?;
@@ -348,7 +348,7 @@ fn rejected(error: ModelError) -> Rejection {
     }
 }
 
-/// Returns the parts that effects add to the step, beside stress and contact, for an approach speed (m/s)
+/// Returns the parts that effects add to the step in addition to stress and contact, for an approach speed (m/s)
 /// of the whole scene.
 fn parts(
     scene: &Scene,

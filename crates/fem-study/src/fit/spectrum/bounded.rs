@@ -27,7 +27,7 @@ impl Linear {
         (&self.a * DVector::from_row_slice(weights) - &self.b).norm_squared()
     }
 
-    /// Returns the same misfit up to a constant, with at most one row more than weights.
+    /// Returns a problem whose misfit differs by a constant, with at most one row more than weights.
     pub fn compressed(&self) -> Self {
         let n = self.a.ncols();
         if self.a.nrows() <= n + 1 {

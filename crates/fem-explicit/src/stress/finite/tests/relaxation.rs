@@ -11,7 +11,7 @@ use super::*;
 use crate::test_support::relaxing_glass;
 
 const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
-/// Fast and slow beside the paths of the tests, and something that lasts.
+/// Terms that are fast and slow compared with the paths of the tests, and an equilibrium modulus.
 const TERMS: [(f64, f64); 2] = [(0.3, 0.2), (0.5, 2.0)];
 
 /// The elements of a body on a path that the test chooses.

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Half of a collision of like bodies is thus as strained as the whole. A body that strains little stays at small strain
-//! beside one that strains more. The loss 1 − e by radiated waves is proportional to T⁻² and adds 2 (1 − e) ΔT/T.
+//! next to one that strains more. The loss 1 − e by radiated waves is proportional to T⁻² and adds 2 (1 − e) ΔT/T.
 //!
 //! Compared with runs at a/R* from 0.1 to 0.7 and ν of 0.2 and 0.45, of like, softer, stiffer and steel balls on a
 //! half-space, unlike balls of one size, and like balls of sizes 1:3 (`validation/finite_strain_tables.md`). Where it
@@ -85,7 +85,7 @@ impl FiniteStrain {
 
     /// Returns the distance from first touch (m) within which elements are at finite strain; the change by farther elements
     /// falls with its third power (`fem-explicit/src/stress/partly_finite.rs`). It is `None` if all elements are: if the case
-    /// forces the effect on, in flat contacts and beside waves.
+    /// forces the effect on, in flat contacts and with waves.
     pub(crate) fn within(scene: &Scene, estimate: &Estimate) -> Option<f64> {
         let is_near = estimate.strain < STRAIN_OF_ALL_ELEMENTS
             && estimate.mach < MACH_OF_ALL_ELEMENTS
