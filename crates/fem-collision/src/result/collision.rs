@@ -208,6 +208,44 @@ impl Collision {
         }
     }
 
+    /// Returns the collision with all its instants shifted by `delay`, s.
+    #[must_use]
+    pub fn later_by(self, delay: f64) -> Self {
+        let later = |time: Option<f64>| time.map(|time| delay + time);
+        let step = |at: Option<StepInstant>| at.map(|at| at.later_by(delay));
+        let shifted = Self {
+            ending: match self.ending {
+                Ending::Stopped(stop) => Ending::Stopped(stop.later_by(delay)),
+                ending => ending,
+            },
+            first_contact: later(self.first_contact),
+            last_contact: later(self.last_contact),
+            noisiest_instant: step(self.noisiest_instant),
+            deepest_overlap: self.deepest_overlap.map(|deepest| deepest.later_by(delay)),
+            residual_since: step(self.residual_since),
+            ..self
+        };
+        shifted.map_samples(
+            |row| HistoryRow { time: delay + row.time, ..row },
+            |fields| Snapshot { time: delay + fields.time, ..fields },
+        )
+    }
+
+    /// Returns the collision with each row of the history changed by `row`, and each snapshot and probe sample by `fields`.
+    #[must_use]
+    pub fn map_samples(
+        self,
+        row: impl Fn(HistoryRow) -> HistoryRow,
+        fields: impl Fn(Snapshot) -> Snapshot,
+    ) -> Self {
+        Self {
+            history: self.history.into_iter().map(row).collect(),
+            snapshots: self.snapshots.into_iter().map(&fields).collect(),
+            probes: self.probes.into_iter().map(&fields).collect(),
+            ..self
+        }
+    }
+
     /// Returns the reason if the run was stopped.
     pub fn stop(&self) -> Option<&Stop> {
         match &self.ending {

@@ -5,10 +5,10 @@ pub(crate) mod instants;
 pub(crate) mod sample;
 
 use fem_collision::{
-    Collision, DeepestOverlap, Ending, EnergyLedger, ForceNoise, ForcePulse, Frame, History,
-    LARGEST_RESIDUAL, Monitor, OutputRequest, POST_CONTACT_FRACTION, PostContactVibration,
-    Progress, RelativeMotion, RestCriterion, STEPS_BETWEEN_REPORTS, StepInstant, Stop,
-    longest_at_pole, nan_aware_max, nan_aware_max_abs,
+    BodyResult, Collision, DeepestOverlap, Ending, EnergyLedger, ForceNoise, ForcePulse, Frame,
+    History, HistoryRow, LARGEST_RESIDUAL, Monitor, OutputRequest, POST_CONTACT_FRACTION,
+    PostContactVibration, Progress, RelativeMotion, RestCriterion, STEPS_BETWEEN_REPORTS,
+    StepInstant, Stop, longest_at_pole, nan_aware_max, nan_aware_max_abs,
 };
 
 use crate::contact::pressure::Pressures;
@@ -312,43 +312,18 @@ impl<'a> ImpactRun<'a> {
         self.standstill.observe(&held)
     }
 
-    fn finish(self, ending: Ending) -> FinishedRun {
+    /// Returns the collision of the run with its ending.
+    fn finish(mut self, ending: Ending) -> FinishedRun {
+        let bodies = self.body_results(&ending);
+        let history = self.history_rows(&ending);
         let (motion, frame) = (&self.motion, self.frame);
-        let is_parted = ending == Ending::Parted;
-        // The rate is that at the end of the contact.
-        let fallen = frame.gravity * (motion.time() - self.last_contact);
-        let restitution = ending.restitution(fallen - motion.rate, frame.speed());
-        let velocity_after = restitution.map(|e| frame.velocities(-e * frame.speed()));
-        let mut bodies = self.pair.bodies_before(frame);
-        let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
-        for (side, body) in bodies.iter_mut().enumerate() {
-            body.velocity_after = velocity_after.map(|both| both[side]);
-            // The vibration energy of a half-space is the radiated energy; a wall has neither this nor a mass.
-            let input = &self.pair.inputs()[side];
-            let is_wall = frame.masses[side].is_none() && input.mesh().is_none();
-            let radiated = self.radiated.filter(|_| input.is_half_space());
-            let in_waves = radiated.map_or(0.0, |both| both[side]);
-            body.vibration_energy =
-                vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
-        }
         let meshes = self.pair.inputs().each_ref().map(|input| input.mesh());
         let peaks = self.pulse.peaks(self.force.highest, longest_at_pole(meshes));
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;
-        let mut history = self.history.map(History::into_rows).unwrap_or_default();
-        if !history.is_empty()
-            && is_parted
-            && let Some([before, end, after]) = self.opening
-            && before.time < end.time
-            && end.time < after.time
-        {
-            let place = history.partition_point(|row| row.time < first_touch + end.time);
-            history.insert(place, end.row(frame));
-        }
         let collision = Collision {
-            approach: frame.approach,
-            restitution,
-            contact_time: is_parted.then_some(self.last_contact),
+            restitution: self.restitution(&ending),
+            contact_time: (ending == Ending::Parted).then_some(self.last_contact),
             first_contact: has_touched.then_some(first_touch),
             last_contact: has_touched.then_some(first_touch + self.last_contact),
             contact_episodes: self.episodes,
@@ -371,20 +346,56 @@ impl<'a> ImpactRun<'a> {
             momentum_residual_relative: Some(self.worst_momentum / frame.momentum_scale()),
             bodies,
             time_step: Some(motion.time_step),
-            plain_time_step: None,
             steps: Some(motion.step as u64),
-            element_updates: None,
             factor_bytes: Some(self.pair.factor_bytes() as u64),
             repeated_contact_solutions: Some(motion.n_fallbacks() as u64),
-            bounces: Vec::new(),
-            rest: None,
             history,
-            snapshots: Vec::new(),
-            probes: Vec::new(),
             warnings: ending.together_warning().into_iter().collect(),
-            ending,
+            ..Collision::empty(frame.approach, ending)
         };
         FinishedRun { collision, trace: self.trace }
+    }
+
+    /// Returns the restitution, with the rate at the end of the contact.
+    fn restitution(&self, ending: &Ending) -> Option<f64> {
+        let fallen = self.frame.gravity * (self.motion.time() - self.last_contact);
+        ending.restitution(fallen - self.motion.rate, self.frame.speed())
+    }
+
+    /// Returns the results of both bodies.
+    fn body_results(&self, ending: &Ending) -> [BodyResult; 2] {
+        let frame = self.frame;
+        let velocity_after = self.restitution(ending).map(|e| frame.velocities(-e * frame.speed()));
+        let is_parted = *ending == Ending::Parted;
+        let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
+        let mut bodies = self.pair.bodies_before(frame);
+        for (side, body) in bodies.iter_mut().enumerate() {
+            body.velocity_after = velocity_after.map(|both| both[side]);
+            // The vibration energy of a half-space is the radiated energy; a wall has neither this nor a mass.
+            let input = &self.pair.inputs()[side];
+            let is_wall = frame.masses[side].is_none() && input.mesh().is_none();
+            let radiated = self.radiated.filter(|_| input.is_half_space());
+            let in_waves = radiated.map_or(0.0, |both| both[side]);
+            body.vibration_energy =
+                vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
+        }
+        bodies
+    }
+
+    /// Returns the rows of the history, with one at the end of the contact.
+    fn history_rows(&mut self, ending: &Ending) -> Vec<HistoryRow> {
+        let mut history = self.history.take().map(History::into_rows).unwrap_or_default();
+        if !history.is_empty()
+            && *ending == Ending::Parted
+            && let Some([before, end, after]) = self.opening
+            && before.time < end.time
+            && end.time < after.time
+        {
+            let time = self.frame.approach.first_touch() + end.time;
+            let place = history.partition_point(|row| row.time < time);
+            history.insert(place, end.row(self.frame));
+        }
+        history
     }
 }
 

@@ -173,7 +173,7 @@ impl Whole {
             ..body
         };
         let energies = twice(&half.energies).with(Account::Kinetic, of_centre);
-        Collision {
+        let whole = Collision {
             approach: self.approach,
             energies,
             residual: half.residual.map(|residual| 2.0 * residual),
@@ -183,11 +183,9 @@ impl Whole {
             max_approach: half.max_approach.map(|approach| 2.0 * approach),
             initial_energy: half.initial_energy.map(|energy| 2.0 * energy + of_centre),
             bodies: [after(0), after(1)],
-            history: half.history.iter().map(|row| self.row(row, of_centre)).collect(),
-            snapshots: half.snapshots.into_iter().map(|s| self.snapshot(s)).collect(),
-            probes: half.probes.into_iter().map(|s| self.snapshot(s)).collect(),
             ..half
-        }
+        };
+        whole.map_samples(|row| self.row(&row, of_centre), |fields| self.snapshot(fields))
     }
 
     /// Returns the velocities of both bodies from that of the lower one relative to the plane, m/s.

@@ -11,7 +11,7 @@
 //! A wall has an infinite mass and is at rest in this frame. Its work is V times the momentum that it transfers.
 
 use fem_collision::{
-    Account, Approach, ApproachError, BodyResult, Collision, Ending, EnergyLedger, HistoryRow,
+    Account, Approach, ApproachError, BodyResult, Collision, EnergyLedger, HistoryRow,
     OutputRequest, Progress, Snapshot, SnapshotRequest,
 };
 
@@ -67,7 +67,6 @@ impl OwnFrame {
             return own;
         }
         let masses = own.bodies.map(|body| body.mass);
-        let later = |time: f64| self.delay() + time;
         let scale = |approach: &Approach| momentum_scale(approach, masses);
         let initial =
             own.initial_energy.map(|energy| energy + self.gained(masses, self.own.velocities()));
@@ -76,17 +75,8 @@ impl OwnFrame {
         let [lower, upper] = self.own.velocities();
         let last = own.history.last().map(|row| row.velocity);
         let last = last.unwrap_or([after[0].unwrap_or(lower), after[1].unwrap_or(upper)]);
-        Collision {
+        let moved = Collision {
             approach: self.approach,
-            ending: match own.ending {
-                Ending::Stopped(stop) => Ending::Stopped(stop.later_by(self.delay())),
-                ending => ending,
-            },
-            first_contact: own.first_contact.map(later),
-            last_contact: own.last_contact.map(later),
-            noisiest_instant: own.noisiest_instant.map(|at| at.later_by(self.delay())),
-            deepest_overlap: own.deepest_overlap.map(|deepest| deepest.later_by(self.delay())),
-            residual_since: own.residual_since.map(|at| at.later_by(self.delay())),
             initial_energy: initial,
             energies: self.energies(own.energies, masses, last),
             momentum_residual_relative: own
@@ -96,11 +86,10 @@ impl OwnFrame {
                 velocity_after: body.velocity_after.map(|v| v + self.velocity),
                 ..body
             }),
-            history: own.history.into_iter().map(|row| self.row(row, masses)).collect(),
-            snapshots: own.snapshots.into_iter().map(|snapshot| self.snapshot(snapshot)).collect(),
-            probes: own.probes.into_iter().map(|snapshot| self.snapshot(snapshot)).collect(),
             ..own
-        }
+        };
+        let row = |row| self.row(row, masses);
+        moved.map_samples(row, |snapshot| self.snapshot(snapshot)).later_by(self.delay())
     }
 
     /// Returns the time of first touch, s.
@@ -137,7 +126,6 @@ impl OwnFrame {
 
     fn row(&self, own: HistoryRow, masses: [Option<f64>; 2]) -> HistoryRow {
         HistoryRow {
-            time: self.delay() + own.time,
             velocity: own.velocity.map(|v| v + self.velocity),
             energies: self.energies(own.energies, masses, own.velocity),
             ..own
@@ -150,7 +138,6 @@ impl OwnFrame {
             own.carried[side] += flown[side] + self.velocity * own.time;
             own.bodies[side].velocity.iter_mut().for_each(|v| v[1] += self.velocity);
         }
-        own.time += self.delay();
         own
     }
 }
@@ -179,8 +166,7 @@ mod tests {
         assert_eq!(frame.request(&OutputRequest::quantities()), OutputRequest::quantities());
         let snapshot = Snapshot { time: 0.5, ..Snapshot::default() };
         // 2 s of flight at 3 m/s and at rest, then half a second with the mass centre.
-        let carried = frame.snapshot(snapshot);
-        assert_eq!((carried.time, carried.carried), (2.5, [7.0, 1.0]));
+        assert_eq!(frame.snapshot(snapshot).carried, [7.0, 1.0]);
     }
 
     /// A wall at 2 m/s throws a body of 1 kg at rest away at 4 m/s: 8 J.
