@@ -26,15 +26,15 @@ pub trait Observer: Sync {
 /// Runs the cases of a claim for its study.
 pub struct Laboratory<'a> {
     claim: &'a Claim,
-    shelf: &'a Shelf,
+    cache: &'a ResultCache,
     observer: &'a dyn Observer,
-    price: Mutex<Price>,
+    cost: Mutex<StudyCost>,
 }
 
 impl<'a> Laboratory<'a> {
     /// Creates the laboratory of a claim.
-    pub fn new(claim: &'a Claim, shelf: &'a Shelf, observer: &'a dyn Observer) -> Self {
-        Self { claim, shelf, observer, price: Mutex::default() }
+    pub fn new(claim: &'a Claim, cache: &'a ResultCache, observer: &'a dyn Observer) -> Self {
+        Self { claim, cache, observer, cost: Mutex::default() }
     }
 
     /// Returns the claim that is tested.
@@ -73,7 +73,7 @@ impl<'a> Laboratory<'a> {
                 format!("model `{}` has no explicit elements", case.scene().model().name());
             return Err(case.error_at(&case.scene().model().path(), message).into());
         }
-        let slot = self.shelf.explicit.slot(key(Simulation::resolve(&case)?)?);
+        let slot = self.cache.explicit.slot(key(Simulation::resolve(&case)?)?);
         let result = slot.get_or_init(|| self.run_explicit(case)).clone();
         self.pay_for(result.as_ref().map(|run| &run.run));
         result
@@ -93,7 +93,7 @@ impl<'a> Laboratory<'a> {
         if self.observer.is_interrupted() {
             return Err(StudyError::Interrupted);
         }
-        let slot = self.shelf.others.slot(key(Simulation::resolve(&case)?)?);
+        let slot = self.cache.others.slot(key(Simulation::resolve(&case)?)?);
         let result = slot.get_or_init(|| self.run_other(case)).clone();
         self.pay_for(result.as_deref());
         result
@@ -119,8 +119,8 @@ impl<'a> Laboratory<'a> {
     }
 
     /// Returns the cost of the claim so far.
-    pub(crate) fn price(&self) -> Price {
-        *self.price.lock().unwrap_or_else(PoisonError::into_inner)
+    pub(crate) fn cost(&self) -> StudyCost {
+        *self.cost.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn pay_for<E>(&self, run: Result<&Run, E>) {
@@ -130,10 +130,10 @@ impl<'a> Laboratory<'a> {
     }
 
     fn pay(&self, element_updates: u64, seconds: f64) {
-        let mut price = self.price.lock().unwrap_or_else(PoisonError::into_inner);
-        price.runs += 1;
-        price.element_updates += element_updates;
-        price.seconds += seconds;
+        let mut cost = self.cost.lock().unwrap_or_else(PoisonError::into_inner);
+        cost.runs += 1;
+        cost.element_updates += element_updates;
+        cost.seconds += seconds;
     }
 
     fn run_explicit(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
@@ -145,9 +145,9 @@ impl<'a> Laboratory<'a> {
         Ok(Arc::new(ExplicitRun { model, run }))
     }
 
-    /// Runs a case of another model; models on the shelf are shared.
+    /// Runs a case of another model; models in the cache are shared.
     fn run_other(&self, case: Case) -> Result<Arc<Run>, StudyError> {
-        let simulation = Simulation::sharing(case, &self.shelf.shared)?;
+        let simulation = Simulation::sharing(case, &self.cache.shared)?;
         let (case, hertz) = (simulation.case().clone(), simulation.setup().estimate.hertz);
         self.collide(case, hertz, |listener| simulation.run(listener)).map(Arc::new)
     }
@@ -200,7 +200,7 @@ impl Monitor for Listener<'_> {
 
 /// Cost of a claim: runs, element updates and time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Price {
+pub struct StudyCost {
     /// Number of runs; runs that claims share count in each.
     pub runs: u64,
     /// Elements times steps.
@@ -231,7 +231,7 @@ impl<T> Default for Slots<T> {
 
 /// The runs that claims share: a case is run once.
 #[derive(Debug, Default)]
-pub struct Shelf {
+pub struct ResultCache {
     /// Runs of the explicit model.
     explicit: Slots<ExplicitRun>,
     /// Runs of all other models.
@@ -252,7 +252,7 @@ pub struct ClaimResult {
     /// The error of a study that failed.
     pub error: Option<StudyError>,
     /// Cost of the claim.
-    pub price: Price,
+    pub cost: StudyCost,
 }
 
 impl ClaimResult {
@@ -263,22 +263,22 @@ impl ClaimResult {
 }
 
 /// Runs a claim's study and makes its checks.
-pub fn evaluate(claim: &Claim, shelf: &Shelf, observer: &dyn Observer) -> ClaimResult {
-    let laboratory = Laboratory::new(claim, shelf, observer);
+pub fn evaluate(claim: &Claim, cache: &ResultCache, observer: &dyn Observer) -> ClaimResult {
+    let laboratory = Laboratory::new(claim, cache, observer);
     let study = find_study(&claim.study).map_err(StudyError::Parameters);
     let outcome = study.and_then(|study| study(&laboratory));
-    let price = laboratory.price();
+    let cost = laboratory.cost();
     let claim = claim.clone();
     match outcome {
         Ok(findings) => {
             let measured = |quantity: &str| findings.quantities.get(quantity).copied();
             let judge = |check: &Check| check.judge(measured(&check.quantity));
             let checks = claim.checks.iter().map(judge).collect();
-            ClaimResult { checks, claim, findings, error: None, price }
+            ClaimResult { checks, claim, findings, error: None, cost }
         }
         Err(error) => {
             let findings = Findings::default();
-            ClaimResult { claim, checks: Vec::new(), findings, error: Some(error), price }
+            ClaimResult { claim, checks: Vec::new(), findings, error: Some(error), cost }
         }
     }
 }

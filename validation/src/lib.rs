@@ -27,7 +27,7 @@ pub use claim::{Claim, RunFile, Section};
 pub use claim_file::load_claims;
 pub use error::{ClaimError, StudyError};
 pub use findings::{Figure, Findings, Table};
-pub use laboratory::{ClaimResult, Laboratory, Observer, Price, Shelf, evaluate};
+pub use laboratory::{ClaimResult, Laboratory, Observer, ResultCache, StudyCost, evaluate};
 pub use pages::{hard_scenes, has_hard_scenes, markdown, page, pictures};
 pub use pulse::Pulse;
 pub use run::{ExplicitRun, Run};

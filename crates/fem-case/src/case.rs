@@ -15,7 +15,7 @@ use crate::scene::Scene;
 use crate::scene::body::Shape;
 use crate::schema::{CaseFile, is_list};
 use crate::source::document::Document;
-use crate::source::error_recovery::{Repair, read_repaired};
+use crate::source::error_recovery::{KeyRepair, read_repaired};
 use crate::source::explain::{explain, listed};
 use crate::validate::validate;
 
@@ -162,7 +162,7 @@ impl Case {
         folder: &Path,
         overrides: &[String],
     ) -> Result<Case, CaseError> {
-        let read = |repairs: &[Repair]| {
+        let read = |repairs: &[KeyRepair]| {
             let document = Document::parse(name, text, overrides, None, repairs)?;
             Case::of_document(document, stem, folder)
         };

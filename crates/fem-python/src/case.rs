@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use fem::{Identity, Simulation};
-use fem_command::{Failure, Given, Timed};
+use fem_command::{Failure, JobInput, Timed};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
@@ -36,8 +36,8 @@ impl Case {
     }
 
     /// Returns the case as the input of a job.
-    pub(crate) fn given(&self) -> Given {
-        Given { case: Some(self.case.clone()), name: self.name.clone(), table: None }
+    pub(crate) fn given(&self) -> JobInput {
+        JobInput { case: Some(self.case.clone()), name: self.name.clone(), table: None }
     }
 }
 

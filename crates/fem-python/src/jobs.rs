@@ -4,7 +4,7 @@ use std::ffi::OsString;
 
 use fem::measured::{Table, decode};
 use fem_case::library;
-use fem_command::{Failure, Given};
+use fem_command::{Failure, JobInput};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -18,14 +18,14 @@ type Data = Option<(String, Vec<u8>)>;
 /// Runs a job without Python's lock and returns its numbers as JSON.
 fn done(
     py: Python<'_>,
-    given: Given,
+    given: JobInput,
     data: Data,
     options: Vec<String>,
-    job: fn(&Given, &[String]) -> Result<Value, Failure>,
+    job: fn(&JobInput, &[String]) -> Result<Value, Failure>,
 ) -> PyResult<String> {
     let work = || -> Result<Value, Failure> {
         let table = data.map(|(name, bytes)| Table::parse(&name, &decode(&bytes))).transpose()?;
-        job(&Given { table, ..given }, &options)
+        job(&JobInput { table, ..given }, &options)
     };
     let numbers = py.detach(work).or_raise(py)?;
     serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
@@ -62,7 +62,7 @@ jobs! {
 /// Runs `fem-run cradle`.
 #[pyfunction]
 pub fn cradle(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
-    done(py, Given::default(), data, options, fem_command::cradle)
+    done(py, JobInput::default(), data, options, fem_command::cradle)
 }
 
 /// Returns the library of materials as JSON.

@@ -49,8 +49,8 @@ fn to_two_digits(value: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub struct Forecast {
     pub seconds: Option<f64>,
-    /// Element updates of the collision over those that closed forms announce.
-    pub longer: f64,
+    /// Element updates of the collision over those that closed forms estimate.
+    pub updates_over_expected: f64,
     /// Element updates of the collision and of its reference runs; 0 for models that take none.
     pub element_updates: f64,
     /// An upper bound of the finer meshes that may follow.
@@ -74,19 +74,19 @@ impl Forecast {
         making: f64,
         is_open: bool,
     ) -> Self {
-        let longer = estimator.updates_over_expected(simulation);
-        let seconds = seconds(simulation, making, longer);
+        let updates_over_expected = estimator.updates_over_expected(simulation);
+        let seconds = seconds(simulation, making, updates_over_expected);
         let announced = match simulation.setup().cost {
             Cost::Steps { element_updates, .. } => element_updates as f64,
             _ => 0.0,
         };
         let of_reference_runs = simulation.reference_updates().unwrap_or(0.0);
-        let element_updates = (1.0 + of_reference_runs) * longer * announced;
+        let element_updates = (1.0 + of_reference_runs) * updates_over_expected * announced;
         let bound = is_open.then(|| simulation.refinement_bound()).flatten();
         let finer = seconds
             .zip(bound)
             .map(|(seconds, bound)| FinerMeshes { bound, first: (element_updates, seconds) });
-        Self { seconds, longer, element_updates, finer }
+        Self { seconds, updates_over_expected, element_updates, finer }
     }
 
     /// Returns the seconds here with all finer meshes that may follow.

@@ -15,7 +15,7 @@ use crate::{commands, text::Failure};
 
 /// The input of a job.
 #[derive(Clone, Debug, Default)]
-pub struct Given {
+pub struct JobInput {
     /// The case that the job starts from.
     pub case: Option<Case>,
     /// The name of the case in messages.
@@ -50,7 +50,7 @@ pub(crate) fn value_of(numbers: &impl Serialize) -> Result<Value, Failure> {
     serde_json::to_value(numbers).map_err(|error| Failure::failed(error.to_string()))
 }
 
-impl Given {
+impl JobInput {
     fn case(&self) -> Result<&Case, Failure> {
         self.case.as_ref().ok_or_else(|| Failure::bad_input("a case is missing"))
     }
@@ -69,54 +69,54 @@ impl Given {
 ///
 /// # Errors
 /// Options, data or a case that the command rejects, with its messages.
-pub fn fit(given: &Given, options: &[String]) -> Result<Value, Failure> {
-    let before = [&[given.name.as_str()][..], &given.data()].concat();
-    commands::laws::fit::numbers(&parsed("fit", &before, options)?, given.case()?, given.table()?)
+pub fn fit(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
+    let before = [&[input.name.as_str()][..], &input.data()].concat();
+    commands::laws::fit::numbers(&parsed("fit", &before, options)?, input.case()?, input.table()?)
 }
 
 /// Runs `fem-run invert`.
 ///
 /// # Errors
 /// The same as those of [`fit`].
-pub fn invert(given: &Given, options: &[String]) -> Result<Value, Failure> {
-    commands::laws::invert::numbers(&parsed("invert", &[&given.name], options)?, given.case()?)
+pub fn invert(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
+    commands::laws::invert::numbers(&parsed("invert", &[&input.name], options)?, input.case()?)
 }
 
 /// Runs `fem-run export`; `texts` contains the snippets.
 ///
 /// # Errors
 /// The same as those of [`fit`].
-pub fn export(given: &Given, options: &[String]) -> Result<Value, Failure> {
-    let before = [&[given.name.as_str()][..], &given.data()].concat();
+pub fn export(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
+    let before = [&[input.name.as_str()][..], &input.data()].concat();
     let arguments = parsed("export", &before, options)?;
-    commands::laws::export::numbers(&arguments, given.case()?, given.table.as_ref())
+    commands::laws::export::numbers(&arguments, input.case()?, input.table.as_ref())
 }
 
 /// Runs `fem-run calibrate`; `relaxation_toml` is the table to paste into a case.
 ///
 /// # Errors
 /// The same as those of [`fit`].
-pub fn calibrate(given: &Given, options: &[String]) -> Result<Value, Failure> {
-    let before = [&[given.name.as_str()][..], &given.data()].concat();
+pub fn calibrate(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
+    let before = [&[input.name.as_str()][..], &input.data()].concat();
     let arguments = parsed("calibrate", &before, options)?;
-    commands::laws::calibrate::numbers(&arguments, given.case()?, given.table()?)
+    commands::laws::calibrate::numbers(&arguments, input.case()?, input.table()?)
 }
 
 /// Runs `fem-run cradle` and returns one object per trial, in a list if there is a table.
 ///
 /// # Errors
 /// The same as those of [`fit`].
-pub fn cradle(given: &Given, options: &[String]) -> Result<Value, Failure> {
-    let arguments = parsed("cradle", &given.data(), options)?;
-    commands::laws::cradle::numbers(&arguments, given.table.as_ref())
+pub fn cradle(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
+    let arguments = parsed("cradle", &input.data(), options)?;
+    commands::laws::cradle::numbers(&arguments, input.table.as_ref())
 }
 
 /// Runs `fem-run check` and returns the resolved case with comments on the expected run.
 ///
 /// # Errors
 /// The model rejects the case.
-pub fn check(given: &Given) -> Result<String, Failure> {
-    commands::check::text(given.case()?.clone(), &given.name)
+pub fn check(input: &JobInput) -> Result<String, Failure> {
+    commands::check::text(input.case()?.clone(), &input.name)
 }
 
 /// Returns why a collision stopped early, as `fem-run CASE` reports it; `None` if it is complete.

@@ -11,7 +11,7 @@ use toml::{Spanned, Table};
 
 use crate::error::CaseError;
 use crate::library;
-use crate::source::error_recovery::Repair;
+use crate::source::error_recovery::KeyRepair;
 use crate::source::key_origins::{KeyOrigin, KeyOrigins};
 use crate::source::overrides::{self, Assignment, OverrideError};
 use crate::source::toml_syntax::first_line;
@@ -51,7 +51,7 @@ impl Document {
         text: &'t str,
         overrides: &'t [String],
         insertions: Option<Insertions<'_, 't>>,
-        repairs: &'t [Repair],
+        repairs: &'t [KeyRepair],
     ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
         let mut document = Document { sources: Vec::new(), origins: KeyOrigins::default() };
         document.add(name.to_string(), text, 0);
@@ -78,7 +78,7 @@ impl Document {
                     .map_err(|error| document.override_error(error))?;
             }
         }
-        for Repair { path, value } in repairs {
+        for KeyRepair { path, value } in repairs {
             overrides::repair(tree.get_mut(), path, value.as_deref());
         }
         if library::underlay(tree.get_mut(), document.next_start()) {

@@ -31,7 +31,7 @@ const VALID_VALUES: [(&str, &str); 14] = [
 
 /// A key of the tree and its new value.
 #[derive(Clone, Debug)]
-pub(crate) struct Repair {
+pub(crate) struct KeyRepair {
     /// The parts of the key.
     pub(crate) path: Vec<String>,
     /// The value as TOML; `None` removes the key.
@@ -40,7 +40,7 @@ pub(crate) struct Repair {
 
 /// Reads a text under repairs until it is valid. Returns what was read at last, if anything, and all faults.
 pub(crate) fn read_repaired<T>(
-    read: impl Fn(&[Repair]) -> Result<T, CaseError>,
+    read: impl Fn(&[KeyRepair]) -> Result<T, CaseError>,
 ) -> (Option<T>, Vec<CaseError>) {
     let (mut faults, mut repairs) = (Vec::new(), Repairs::default());
     loop {
@@ -62,7 +62,7 @@ pub(crate) fn read_repaired<T>(
 
 #[derive(Default)]
 struct Repairs {
-    list: Vec<Repair>,
+    list: Vec<KeyRepair>,
     /// The repaired keys as dotted paths.
     keys: Vec<String>,
 }
@@ -97,7 +97,7 @@ impl Repairs {
             return false;
         }
         self.keys.extend([key.to_string(), path.join(".")]);
-        self.list.push(Repair { path, value });
+        self.list.push(KeyRepair { path, value });
         true
     }
 }

@@ -16,7 +16,7 @@ use crate::case::{Case, text_at};
 use crate::error::CaseError;
 use crate::quantity::{Count, Quantity};
 use crate::source::document::{Document, Insertions};
-use crate::source::error_recovery::{Repair, read_repaired};
+use crate::source::error_recovery::{KeyRepair, read_repaired};
 use crate::source::explain::explain;
 use crate::source::overrides;
 use crate::sweep::axes::{Axis, SweptKey, read_axes};
@@ -227,7 +227,7 @@ impl Sweep {
         read_repaired(|repairs| self.read(choice, repairs)).1
     }
 
-    fn read(&self, choice: &[(usize, usize)], repairs: &[Repair]) -> Result<Case, CaseError> {
+    fn read(&self, choice: &[(usize, usize)], repairs: &[KeyRepair]) -> Result<Case, CaseError> {
         let assign =
             |(axis, value): &(usize, usize)| self.axes[*axis].assignments(*value, &self.text);
         let assignments = choice.iter().flat_map(assign).collect();

@@ -44,12 +44,12 @@ pub(crate) struct Contact {
     /// Acceleration of the approach by gravity; 0 without gravity.
     pub gravity: f64,
     /// Accuracy of the iterations.
-    pub settling: Settling,
+    pub accuracy: IterationAccuracy,
 }
 
 /// Accuracy of the iterations of a collision.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Settling {
+pub(crate) struct IterationAccuracy {
     /// Change of the rate, of 1, at which those of a step end.
     pub rate: f64,
     /// Newton's for Hertz' approach: from an error of 1e-2 to 1e-4, 1e-8, 1e-16.
@@ -58,7 +58,7 @@ pub(crate) struct Settling {
     pub equivalent_time: f64,
 }
 
-impl Settling {
+impl IterationAccuracy {
     /// To rounding: the force has an error of its slope 1.5 √u u̇ ≤ 2 times that of t₁.
     pub const FULL: Self = Self { rate: 1e-14, n_newton: 4, equivalent_time: 1e-13 };
 
@@ -74,7 +74,7 @@ impl Contact {
 
     /// Returns u and ∂u/∂δ at δ, with the internal variables of the finite size.
     pub fn inverted(&self, approach: f64, remembered: &Correction) -> (f64, f64) {
-        self.correction.hertz_approach_after(self.settling.n_newton, approach, remembered)
+        self.correction.hertz_approach_after(self.accuracy.n_newton, approach, remembered)
     }
 
     /// Returns the finite-size correction for the memories of the elements.
@@ -208,7 +208,7 @@ pub(crate) struct Record {
 
 /// The shrinking contact at one instant of unloading.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Shrunk {
+pub(crate) struct UnloadingContact {
     /// t₁, when the growing contact was as large.
     pub equivalent_time: f64,
     pub force: f64,
@@ -221,10 +221,21 @@ pub(crate) struct Shrunk {
 impl Record {
     /// Returns the contact at `time` in unloading: the t₁ at which the loading until then,
     /// faded since, equals the `surface` condition's part of now.
-    pub fn shrunk(&self, contact: &Contact, time: f64, surface: f64, guess: f64) -> Shrunk {
+    pub fn shrunk(
+        &self,
+        contact: &Contact,
+        time: f64,
+        surface: f64,
+        guess: f64,
+    ) -> UnloadingContact {
         let (mut low, mut high) = (0.0, self.end);
         if surface <= 0.0 {
-            return Shrunk { equivalent_time: 0.0, force: 0.0, hertz_approach: 0.0, pressure: 0.0 };
+            return UnloadingContact {
+                equivalent_time: 0.0,
+                force: 0.0,
+                hertz_approach: 0.0,
+                pressure: 0.0,
+            };
         }
         let mut t1 = guess.clamp(0.0, self.end);
         // Newton's method inside a bracket that bisection shrinks where it fails.
@@ -238,7 +249,7 @@ impl Record {
             }
             let newton = t1 - excess / slope;
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            let settled = contact.settling.equivalent_time * self.end;
+            let settled = contact.accuracy.equivalent_time * self.end;
             if (next - t1).abs() <= settled || high - low <= settled {
                 return shrunk;
             }
@@ -248,7 +259,7 @@ impl Record {
     }
 
     /// Returns the condition, its slope in t₁, and the contact.
-    fn look_back(&self, contact: &Contact, time: f64, t1: f64) -> (f64, f64, Shrunk) {
+    fn look_back(&self, contact: &Contact, time: f64, t1: f64) -> (f64, f64, UnloadingContact) {
         let index = self.steps.partition_point(|step| step.start <= t1).max(1) - 1;
         let step = &self.steps[index];
         let theta = (t1 - step.start) / step.length;
@@ -271,7 +282,11 @@ impl Record {
             None => relaxation * compression * step.rate_at(theta),
             Some(_) => relaxation * step.hertz_rate_at(contact, compression, theta),
         };
-        (surface, slope, Shrunk { equivalent_time: t1, force, hertz_approach: hertz, pressure })
+        (
+            surface,
+            slope,
+            UnloadingContact { equivalent_time: t1, force, hertz_approach: hertz, pressure },
+        )
     }
 }
 

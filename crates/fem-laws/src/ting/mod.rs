@@ -62,7 +62,7 @@ use crate::pair_relaxation::PairRelaxation;
 use crate::radiation::{radiation_damping, share_of_damping};
 use crate::surface_slip::SurfaceSlip;
 use crate::ting::collision::{Collision, Units};
-use crate::ting::loading_record::{Contact, Element, Settling};
+use crate::ting::loading_record::{Contact, Element, IterationAccuracy};
 use crate::ting::radiation_compliance::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
 
 /// Rates above this are cut off: they leave a force of 1e-15.
@@ -190,7 +190,11 @@ impl Ting {
             correction: corrections.equilibrium,
             radiation: None,
             gravity: self.gravity * units.time / units.speed,
-            settling: if self.has_coarse_waves { Settling::FORECAST } else { Settling::FULL },
+            accuracy: if self.has_coarse_waves {
+                IterationAccuracy::FORECAST
+            } else {
+                IterationAccuracy::FULL
+            },
         };
         let rate = approach_speed / units.speed;
         let run = |contact: &Contact| {

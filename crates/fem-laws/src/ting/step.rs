@@ -161,7 +161,7 @@ impl Stepper<'_> {
             };
             let change = (0..N).map(|i| (new_force[i] - force[i]).abs()).fold(0.0, f64::max);
             force = new_force;
-            if length * change <= self.contact.settling.rate {
+            if length * change <= self.contact.accuracy.rate {
                 let pressure = match self.record {
                     None => self.remembered(&kernel, PRESSURE, &hertz.map(f64::sqrt), &drives),
                     Some(_) => shrunk_pressure,

@@ -42,7 +42,7 @@ struct Page<'a> {
     subtitle: String,
     stopped: &'a str,
     cards: Vec<Card>,
-    price: String,
+    cost: String,
     warnings: Vec<String>,
     charts: Vec<String>,
     kink: &'static str,
@@ -82,7 +82,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         subtitle: subtitle(result),
         stopped: result.text("stopped_because"),
         cards: cards::cards(result),
-        price: price(result),
+        cost: cost_text(result),
         warnings: warnings(result),
         charts: drawn(charts),
         kink: effects::contact_radius_kink(result),
@@ -139,7 +139,7 @@ fn subtitle(result: &StoredResult) -> String {
 }
 
 /// Returns the cost of the run in one line.
-fn price(result: &StoredResult) -> String {
+fn cost_text(result: &StoredResult) -> String {
     let elements = |body: &Value| body.get("elements").and_then(Value::as_f64);
     let elements: f64 = result.list("bodies").iter().filter_map(elements).sum();
     let seconds = result.number(&["cost", "solve_s"]).unwrap_or(0.0);

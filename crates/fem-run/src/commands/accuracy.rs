@@ -102,7 +102,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn announce(case: &str, variants: &Variants, budget: f64) {
-    let updates = variants.all.iter().fold(0u64, |sum, variant| sum.saturating_add(variant.price));
+    let updates =
+        variants.all.iter().fold(0u64, |sum, variant| sum.saturating_add(variant.element_updates));
     let _ = writeln!(
         stderr(),
         "{}: {} variants, {} element updates in all, the cheapest first; ends after {}",
@@ -188,7 +189,7 @@ struct Forecast {
 
 impl Forecast {
     fn seconds(&self, variant: &Variant) -> f64 {
-        match variant.price {
+        match variant.element_updates {
             0 => NEXT_LEVEL * self.condensed,
             price => price as f64 * self.update,
         }

@@ -217,7 +217,7 @@ fn costs(
             let longer = time_step / plain_time_step;
             let step = show(time_step, "s");
             row("time step", format!("{step} ({longer:.2} times that without mass scaling)"));
-            let longer = forecast.map_or(1.0, |forecast| forecast.longer);
+            let longer = forecast.map_or(1.0, |forecast| forecast.updates_over_expected);
             row("steps", format!("about {}", estimated_count(longer * steps as f64)));
             let element_updates = longer * element_updates as f64;
             let all = forecast.map(|forecast| forecast.element_updates);

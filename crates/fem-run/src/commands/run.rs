@@ -24,7 +24,7 @@ use crate::result_folder::restart::{
     RESTART_FILE, RestartArguments, RestartWriter, announce_restart, read_restart,
 };
 use crate::result_folder::run_files::{WrittenResult, longest_name, write_result};
-use crate::result_folder::{Replaces, ResultFolder};
+use crate::result_folder::{OverwritePolicy, ResultFolder};
 use crate::text::run_report::report;
 use crate::text::{Failure, one_line, shown, standard_output};
 
@@ -65,7 +65,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let making = begin.elapsed().as_secs_f64();
     let identity = Identity::of(simulation.case())?;
     let stem = input.stem();
-    let replaces = Replaces::only(&identity.case, options.force);
+    let replaces = OverwritePolicy::only(&identity.case, options.force);
     let place = ResultPath::choose(options.out.as_deref(), &stem, &identity.case, &replaces);
     let restart_state = match options.restart.restart {
         true => find_restart_state(&place, &identity)?,
@@ -186,10 +186,11 @@ fn announce(
     let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
         format!("; adaptive refinement may add {}", finer.in_words())
     });
-    let (price, out) = (price(simulation, estimator, forecast), place.out.display());
+    let (cost_estimate, out) =
+        (cost_estimate(simulation, estimator, forecast), place.out.display());
     let large = simulation.case().scene().large_spheres();
     let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
-    let mut line = format!("{case}: {large}{price}{more}; result: {out}");
+    let mut line = format!("{case}: {large}{cost_estimate}{more}; result: {out}");
     if let Some(taken) = &place.taken {
         line += &format!(" ({} holds another case)", taken.display());
     }
@@ -207,15 +208,15 @@ fn announce(
 fn tell_finer(simulation: &Simulation, estimator: &mut ErrorEstimator, making: f64) {
     if let Some(why) = simulation.refined_because() {
         let forecast = Forecast::of(simulation, estimator, making, false);
-        let price = price(simulation, estimator, &forecast);
-        let _ = writeln!(stderr(), "{}", one_line(&format!("{why}; {price}")));
+        let cost_estimate = cost_estimate(simulation, estimator, &forecast);
+        let _ = writeln!(stderr(), "{}", one_line(&format!("{why}; {cost_estimate}")));
     }
 }
 
-fn price(
+fn cost_estimate(
     simulation: &Simulation,
     estimator: &ErrorEstimator,
-    &Forecast { seconds, longer, .. }: &Forecast,
+    &Forecast { seconds, updates_over_expected, .. }: &Forecast,
 ) -> String {
     let time = |seconds: Option<f64>| {
         seconds.map_or(String::new(), |seconds| format!(", about {}", estimated(seconds, "s")))
@@ -227,7 +228,7 @@ fn price(
         Cost::Steps { elements, steps, seconds: expected, .. } => format!(
             "{} elements, about {} steps{}{memory}",
             HumanCount(elements),
-            estimated_count(longer * steps as f64),
+            estimated_count(updates_over_expected * steps as f64),
             time(seconds.or(Some(expected)))
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(

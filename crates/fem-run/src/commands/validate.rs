@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use comfy_table::CellAlignment::Left;
 use fem_case::engineering::show;
 use fem_validate::{
-    Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, hard_scenes, has_hard_scenes,
+    Claim, ClaimError, ClaimResult, ResultCache, Section, evaluate, hard_scenes, has_hard_scenes,
     load_claims, markdown, pictures,
 };
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ use crate::arguments::case::parse_count;
 use crate::progress::ItemProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::result_folder::whole_file::OwnedFileKind;
-use crate::result_folder::{Replaces, ResultFolder};
+use crate::result_folder::{OverwritePolicy, ResultFolder};
 use crate::text::{Failure, headed, one_line, shown, standard_output, table};
 
 /// Identifies the Markdown tables of this command.
@@ -90,7 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for path in arguments.table.iter().chain(&arguments.scenes) {
         TABLE.check(path)?;
     }
-    let replaces = Replaces::only(MADE_FROM, arguments.force);
+    let replaces = OverwritePolicy::only(MADE_FROM, arguments.force);
     let folder = ResultFolder::claim(&arguments.out, ".summary.json.XXXXXX.tmp", replaces)?;
     let interrupt = Interrupt::listen();
     let results = run(&claims, arguments, &interrupt)?;
@@ -128,13 +128,13 @@ fn run(
 ) -> Result<Vec<ClaimResult>, Failure> {
     let pool = thread_pool(arguments.threads)?;
     let progress = ItemProgress::new(interrupt.clone(), "claims", claims.len(), arguments.quiet);
-    let shelf = Shelf::default();
+    let cache = ResultCache::default();
     let results = pool.install(|| {
         let evaluated = claims.par_iter().map(|claim| {
-            let result = evaluate(claim, &shelf, &progress);
+            let result = evaluate(claim, &cache, &progress);
             if !progress.is_stopped() {
                 let verdict = if result.passed() { "pass" } else { "FAIL" };
-                let seconds = show(result.price.seconds, "s");
+                let seconds = show(result.cost.seconds, "s");
                 progress.finish_item(&format!("{verdict}  {}  {seconds}", result.claim.name));
             }
             result

@@ -38,9 +38,9 @@ pub fn write_files(folder: &Path, results: &[ClaimResult], n_all: usize) -> Resu
                 "claim": result.claim.name,
                 "passed": result.passed(),
                 "error": result.error.as_ref().map(ToString::to_string),
-                "runs": result.price.runs,
-                "element_updates": result.price.element_updates,
-                "seconds": result.price.seconds,
+                "runs": result.cost.runs,
+                "element_updates": result.cost.element_updates,
+                "seconds": result.cost.seconds,
             })
         })
         .collect();

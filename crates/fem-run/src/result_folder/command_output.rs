@@ -8,7 +8,7 @@ use fem::results::PROGRAM;
 use serde::Serialize;
 use serde_json::json;
 
-use super::{Replaces, ResultFolder, ResultPath};
+use super::{OverwritePolicy, ResultFolder, ResultPath};
 use crate::text::{Failure, shown, standard_output};
 
 /// Options for the result folder of a command.
@@ -40,7 +40,7 @@ impl OutputArguments {
     ) -> Result<CommandOutput, Failure> {
         let inputs = inputs.iter().map(String::as_bytes);
         let made_from = digest_of(std::iter::once(command.as_bytes()).chain(inputs));
-        let replaces = Replaces::only(&made_from, self.force);
+        let replaces = OverwritePolicy::only(&made_from, self.force);
         let folder = format!("{stem}_{command}");
         let place = ResultPath::choose(self.out.as_deref(), &folder, &made_from, &replaces);
         let longest_name = "liggghts_coeff_restitution.in.tmp";

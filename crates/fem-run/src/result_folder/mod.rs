@@ -36,13 +36,13 @@ const LOOKS: usize = 5;
 const DIGITS: usize = 8;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Replaces {
+pub enum OverwritePolicy {
     Any,
     /// Results that were made from the input with this digest.
     MadeFrom(String),
 }
 
-impl Replaces {
+impl OverwritePolicy {
     pub fn only(made_from: &str, force: bool) -> Self {
         if force { Self::Any } else { Self::MadeFrom(made_from.to_string()) }
     }
@@ -65,7 +65,12 @@ pub struct ResultPath {
 impl ResultPath {
     /// Returns `out` if it is given, and else `runs/<name>`. If that holds a result that may not be replaced,
     /// the folder is `runs/<name>-<digits of made_from>`.
-    pub fn choose(out: Option<&Path>, name: &str, made_from: &str, replaces: &Replaces) -> Self {
+    pub fn choose(
+        out: Option<&Path>,
+        name: &str,
+        made_from: &str,
+        replaces: &OverwritePolicy,
+    ) -> Self {
         if let Some(out) = out {
             return Self { out: out.to_path_buf(), taken: None };
         }
@@ -89,7 +94,7 @@ pub struct ResultFolder {
     /// The absolute path with symbolic links resolved.
     target: PathBuf,
     hidden: Option<HiddenFolder>,
-    replaces: Replaces,
+    replaces: OverwritePolicy,
     /// Parent folders that were created, the innermost first.
     made: Vec<PathBuf>,
 }
@@ -97,7 +102,11 @@ pub struct ResultFolder {
 impl ResultFolder {
     /// Claims `out` without touching its content, and recovers what killed runs left next to it. `longest_name`
     /// is the longest file name to come.
-    pub fn claim(out: &Path, longest_name: &str, replaces: Replaces) -> Result<Self, Failure> {
+    pub fn claim(
+        out: &Path,
+        longest_name: &str,
+        replaces: OverwritePolicy,
+    ) -> Result<Self, Failure> {
         if let Some(parent) = resolve(out)?.parent() {
             recover_leftovers(parent);
         }
@@ -108,7 +117,7 @@ impl ResultFolder {
     pub fn claim_recovered(
         out: &Path,
         longest_name: &str,
-        replaces: Replaces,
+        replaces: OverwritePolicy,
     ) -> Result<Self, Failure> {
         let target = resolve(out)?;
         check_place(out, &target, &replaces)?;
@@ -187,7 +196,7 @@ fn resolve(out: &Path) -> Result<PathBuf, Failure> {
     path.ok_or_else(|| fault("this is not the name of a folder"))
 }
 
-fn check_place(out: &Path, target: &Path, replaces: &Replaces) -> Result<(), Failure> {
+fn check_place(out: &Path, target: &Path, replaces: &OverwritePolicy) -> Result<(), Failure> {
     let named = shown(out);
     let refuse = |found: &str| {
         Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
@@ -258,7 +267,7 @@ fn put_in_place(
     Err(io::Error::other("other runs keep writing to it"))
 }
 
-/// Replaces an old result; returns false if another run was faster. If it is killed on the way, the next run
+/// OverwritePolicy an old result; returns false if another run was faster. If it is killed on the way, the next run
 /// recovers the hidden folders that it leaves.
 fn replace(hidden: &mut HiddenFolder, target: &Path) -> io::Result<bool> {
     let mut aside = HiddenFolder::beside(target)?;

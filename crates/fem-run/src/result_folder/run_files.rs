@@ -18,7 +18,7 @@ use fem_collision::{Collision, SnapshotInstant};
 use fem_report::report::{REPORT_FILE, StoredResult, report_page};
 use fem_report::section_view::{contour_of_frames, half_width, mirrored, sections};
 
-use super::{Replaces, ResultFolder, whole_file::write_whole};
+use super::{OverwritePolicy, ResultFolder, whole_file::write_whole};
 use crate::{progress::stopwatch::Stopwatch, text::Failure};
 
 const RESERVE_FILE: &str = ".fem-run-room";
@@ -47,7 +47,7 @@ pub fn save(
     force: bool,
 ) -> Result<(), Failure> {
     let identity = Identity::of(computed.simulation.case())?;
-    let replaces = Replaces::only(&identity.case, force);
+    let replaces = OverwritePolicy::only(&identity.case, force);
     let place = ResultFolder::claim(folder, &longest_name(stem), replaces)?;
     let written = write_result(place.path(), stem, computed, stopwatch, Keep::All, &[]);
     if !written.summary.files.is_empty() {

@@ -159,7 +159,7 @@ impl SweepFolder {
         (summary["program"] == PROGRAM && summary["complete"].is_boolean()).then_some(summary)
     }
 
-    /// Replaces a file in one step: readers see the old content or the new one.
+    /// OverwritePolicy a file in one step: readers see the old content or the new one.
     pub fn write(
         &self,
         name: &str,

@@ -222,12 +222,12 @@ fn balances(summary: &Summary) -> String {
     let momentum =
         momentum.map(|drift| ["momentum".into(), format!("residual {}", residual(drift))]);
     // Closed forms take less than is worth printing.
-    let cost = summary.steps.is_some().then(|| ["cost".into(), price(summary)]);
+    let cost = summary.steps.is_some().then(|| ["cost".into(), cost_text(summary)]);
     let rows = peaks.into_iter().chain(null).chain([energy]).chain(momentum).chain(cost);
     table(&[Left, Left], rows)
 }
 
-fn price(summary: &Summary) -> String {
+fn cost_text(summary: &Summary) -> String {
     let cost = &summary.cost;
     let memory = cost.peak_memory_bytes.map(|bytes| format!(", {}", DecimalBytes(bytes)));
     let memory = memory.unwrap_or_default();

@@ -3,7 +3,7 @@
 use fem_case::schema::ContactMethod;
 use fem_simulation::error::Setting;
 
-use Varied::{ElementSize, Factor, FiniteSize, Nothing};
+use VariedSetting::{ElementSize, Factor, FiniteSize, Nothing};
 
 /// Variants of a scene that differ in one setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub enum Series {
 }
 
 /// The setting in which the variants of a series differ.
-pub(super) enum Varied {
+pub(super) enum VariedSetting {
     /// None: the only variant is the case as it runs.
     Nothing,
     /// Without and with the spheres' finite size.
@@ -59,7 +59,7 @@ pub(super) struct Preset {
     is_choice: bool,
     /// Settings of all its variants.
     pub settings: &'static [Setting],
-    pub varied: Varied,
+    pub varied: VariedSetting,
 }
 
 /// Elements across the contact radius where one setting is varied by itself.
@@ -80,7 +80,7 @@ const fn row(
     name: &'static str,
     is_choice: bool,
     settings: &'static [Setting],
-    varied: Varied,
+    varied: VariedSetting,
 ) -> Preset {
     Preset { series, name, is_choice, settings, varied }
 }

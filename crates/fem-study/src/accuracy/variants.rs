@@ -8,7 +8,7 @@ use fem_simulation::{
     divided_radius, ignored_method_warning, selected_model,
 };
 
-use super::series::{COMMON, LARGE_MASS_SCALING, PRESETS, Preset, Series, Varied};
+use super::series::{COMMON, LARGE_MASS_SCALING, PRESETS, Preset, Series, VariedSetting};
 
 /// One variant of a scene: a model, a mesh and settings.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub struct Variant {
     /// The case with these settings.
     pub case: Case,
     /// Estimated number of element updates; 0 without elements.
-    pub price: u64,
+    pub element_updates: u64,
 }
 
 impl Variant {
@@ -122,7 +122,7 @@ impl Variants {
     /// that a study that ends early has the most variants.
     pub fn cheapest_first(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.all.len()).collect();
-        order.sort_by_key(|&k| self.all[k].price);
+        order.sort_by_key(|&k| self.all[k].element_updates);
         order
     }
 }
@@ -171,16 +171,16 @@ impl Base {
     fn settings(&self, preset: &Preset) -> Vec<(Vec<Setting>, Option<f64>)> {
         let is_made = self.is_staggered.is_some();
         match preset.varied {
-            Varied::Nothing => Vec::new(),
-            Varied::FiniteSize(setting) => {
+            VariedSetting::Nothing => Vec::new(),
+            VariedSetting::FiniteSize(setting) => {
                 [false, true].map(|is_on| (vec![setting(is_on)], None)).into()
             }
-            Varied::ElementSize(_) if !is_made => vec![(preset.settings.to_vec(), None)],
-            Varied::ElementSize(all) => {
+            VariedSetting::ElementSize(_) if !is_made => vec![(preset.settings.to_vec(), None)],
+            VariedSetting::ElementSize(all) => {
                 let of = |&across| (self.meshed(preset, None, across), Some(self.element(across)));
                 all.iter().map(of).collect()
             }
-            Varied::Factor(setting, values) => {
+            VariedSetting::Factor(setting, values) => {
                 let of = |&value| (self.meshed(preset, Some(setting(value)), COMMON), Some(value));
                 values.iter().map(of).collect()
             }
@@ -224,14 +224,22 @@ impl Base {
         value: Option<f64>,
         case: Case,
     ) -> Result<Variant, CaseError> {
-        let price = Simulation::element_updates_of(&case)?;
+        let element_updates = Simulation::element_updates_of(&case)?;
         let size = settings.iter().find_map(|setting| match setting {
             Setting::ElementSize(size) => Some(*size),
             _ => None,
         });
         let elements_across = size.map(|size| self.contact_radius / size);
         let has_common_elements = size == Some(self.element(COMMON));
-        Ok(Variant { series, value, elements_across, has_common_elements, settings, case, price })
+        Ok(Variant {
+            series,
+            value,
+            elements_across,
+            has_common_elements,
+            settings,
+            case,
+            element_updates,
+        })
     }
 }
 

@@ -29,18 +29,18 @@ pub struct Checked {
     /// magnitude.
     pub seconds: Vec<f64>,
     /// Implausible values of the scenes, such as a ball of 1 km; each once.
-    pub oddities: BTreeSet<String>,
+    pub implausible: BTreeSet<String>,
     /// Suggestions that make the sweep cheaper.
     pub advice: Option<&'static str>,
 }
 
 /// A member that was checked.
-struct Seen {
+struct CheckedMember {
     member: Member,
     case: CaseFile,
     /// Cost estimate of a member that is still to run.
-    price: Option<u64>,
-    oddities: Vec<String>,
+    element_updates: Option<u64>,
+    implausible: Vec<String>,
 }
 
 /// Checks all members. Those that are `is_own` and not `is_done` are left to run; `see` is called for each member in
@@ -72,35 +72,44 @@ pub fn check_some(
     let look = |index: usize, case: &Case| {
         let (member, resolved) = Member::resolved(index, case)?;
         let is_left = is_own(index) && !is_done(&member);
-        let price = is_left.then(|| Simulation::element_updates_of(case)).transpose()?;
-        Ok(Seen { member, case: resolved, price, oddities: case.scene().implausible_numbers() })
+        let element_updates = is_left.then(|| Simulation::element_updates_of(case)).transpose()?;
+        Ok(CheckedMember {
+            member,
+            case: resolved,
+            element_updates,
+            implausible: case.scene().implausible_numbers(),
+        })
     };
     let mut checked = Checked { members: Vec::with_capacity(places.len()), ..Checked::default() };
     let mut odd = BTreeSet::new();
     let (mut known, mut prices, mut meshes) = (HashSet::new(), Vec::new(), Meshes::default());
     for some in places.chunks(AT_ONCE) {
         let made = some.par_iter().map(|&index| members.build(index, |case| look(index, &case)));
-        let made: Vec<Result<Seen, CaseError>> = made.collect();
+        let made: Vec<Result<CheckedMember, CaseError>> = made.collect();
         for seen in made {
             let seen = seen.map_err(|first| {
                 members.with_other_faults(first, |case| look(usize::MAX, &case).map(drop))
             });
-            let Seen { member, case, price, oddities } = seen?;
-            odd.extend(oddities);
+            let CheckedMember { member, case, element_updates, implausible } = seen?;
+            odd.extend(implausible);
             see(&member, &case);
             checked.members.push(member);
-            if let Some(price) = price
+            if let Some(element_updates) = element_updates
                 && known.insert(member.digest)
             {
-                prices.push((Reverse(price), member.index, seconds(&case, price)));
+                prices.push((
+                    Reverse(element_updates),
+                    member.index,
+                    seconds(&case, element_updates),
+                ));
                 meshes.see(member.index, &case);
             }
         }
     }
-    prices.sort_unstable_by_key(|(price, index, _)| (*price, *index));
+    prices.sort_unstable_by_key(|(element_updates, index, _)| (*element_updates, *index));
     (checked.left, checked.seconds) =
         prices.into_iter().map(|(_, index, seconds)| (index, seconds)).unzip();
-    checked.oddities = odd;
+    checked.implausible = odd;
     checked.advice = meshes.advice(members)?;
     Ok(checked)
 }

@@ -23,7 +23,7 @@ static MEASURED: LazyLock<Results> = LazyLock::new(|| {
     let variants = Variants::of(&case(BALL)).unwrap();
     let measure = |variant: &fem::accuracy::Variant| {
         let across = variant.elements_across.unwrap_or_default();
-        let is_needed = variant.price <= 4_000_000 || variant.has_common_elements;
+        let is_needed = variant.element_updates <= 4_000_000 || variant.has_common_elements;
         let measure = || Measurement::of(variant, variants.contact_radius, &mut ()).unwrap();
         (is_needed && across < 17.0).then(|| (measure(), 1.0 + across))
     };
@@ -35,8 +35,9 @@ static MEASURED: LazyLock<Results> = LazyLock::new(|| {
 fn study(most_updates: u64, accuracy: &Accuracy) -> Study<'static> {
     let (variants, measured) = &*MEASURED;
     let pairs = variants.all.iter().zip(measured);
-    let cheap =
-        pairs.map(|(variant, result)| result.clone().filter(|_| variant.price <= most_updates));
+    let cheap = pairs.map(|(variant, result)| {
+        result.clone().filter(|_| variant.element_updates <= most_updates)
+    });
     Study::of(variants, cheap.collect::<Vec<_>>().leak(), accuracy)
 }
 
@@ -186,5 +187,5 @@ fn an_effect_that_a_scene_lacks_has_no_variant() {
     // From coarse to fine.
     assert!(sizes(Series::Explicit).collect::<Vec<_>>().is_sorted_by(|a, b| a > b));
     let order = variants.cheapest_first();
-    assert!(order.iter().map(|k| variants.all[*k].price).is_sorted());
+    assert!(order.iter().map(|k| variants.all[*k].element_updates).is_sorted());
 }

@@ -211,8 +211,8 @@ impl Entry<'_> {
                 let says = |text: &String| warnings.iter().any(|warning| warning.contains(text));
                 self.expected.says.iter().all(says)
             }
-            (Outcome::Refused(message), Some(text)) => message.contains(text),
-            (Outcome::Refused(_), None) => false,
+            (Outcome::Rejected(message), Some(text)) => message.contains(text),
+            (Outcome::Rejected(_), None) => false,
         }
     }
 
@@ -248,7 +248,7 @@ impl Entry<'_> {
 mod tests {
     use std::path::Path;
 
-    use crate::{Observer, Shelf, evaluate, load_claims};
+    use crate::{Observer, ResultCache, evaluate, load_claims};
 
     struct Nobody;
 
@@ -269,7 +269,7 @@ mod tests {
         let mut claims = load_claims(folder, &["hard".to_string()]).unwrap();
         let claim = &mut claims[0];
         claim.parameters.insert("quick".to_string(), true.into());
-        let result = evaluate(claim, &Shelf::default(), &Nobody);
+        let result = evaluate(claim, &ResultCache::default(), &Nobody);
         assert!(result.error.is_none(), "{:?}", result.error);
         assert!(result.findings.quantities["runs"] > 40.0);
         let table = || {

@@ -18,7 +18,7 @@ pub(super) enum Outcome {
     /// The run ended by itself.
     Ran { collision: Box<Collision>, warnings: Vec<String>, hertz: HertzImpact },
     /// The run was rejected or stopped, with the message.
-    Refused(String),
+    Rejected(String),
 }
 
 /// Restitution (the product of all for a bouncing ball); contact time, peak force and peak pressure over Hertz' values.
@@ -27,7 +27,7 @@ pub(super) type Numbers = [Option<f64>; 4];
 impl Trial {
     pub fn of(laboratory: &Laboratory, case: Result<Case, CaseError>) -> Result<Self, StudyError> {
         let outcome = laboratory.work(|| {
-            let refused = |error: CaseError| (Outcome::Refused(error.to_string()), None);
+            let refused = |error: CaseError| (Outcome::Rejected(error.to_string()), None);
             let (outcome, estimated) = case.and_then(run).unwrap_or_else(refused);
             let trial = Self { outcome, estimated };
             let updates = trial.collision().and_then(|collision| collision.element_updates);
@@ -45,7 +45,7 @@ impl Trial {
     fn collision(&self) -> Option<&Collision> {
         match &self.outcome {
             Outcome::Ran { collision, .. } => Some(collision),
-            Outcome::Refused(_) => None,
+            Outcome::Rejected(_) => None,
         }
     }
 
@@ -116,7 +116,7 @@ impl Trial {
                 let warnings: Vec<String> = warnings.iter().map(|one| beginning(one)).collect();
                 format!("warns: {}", warnings.join("; "))
             }
-            Outcome::Refused(message) => {
+            Outcome::Rejected(message) => {
                 format!("refused: {}", beginning(message.lines().next().unwrap_or_default()))
             }
         }
@@ -153,7 +153,7 @@ fn run(case: Case) -> Result<(Outcome, Option<u64>), CaseError> {
     };
     let collision = simulation.run(&mut ());
     if let Some(stop) = collision.stop() {
-        return Ok((Outcome::Refused(stop.to_string()), estimated));
+        return Ok((Outcome::Rejected(stop.to_string()), estimated));
     }
     let warnings = simulation.warnings(&collision);
     let hertz = simulation.setup().estimate.hertz;

@@ -34,7 +34,7 @@ type Evaluate<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;
 type Linearise<'a> = dyn Fn(&[f64], &[f64]) -> Linear + 'a;
 
 /// Searches the ends of ranges.
-pub(super) struct Seeker<'a> {
+pub(super) struct RangeSearch<'a> {
     /// A function from weights to restitutions.
     pub restitutions: &'a Evaluate<'a>,
     /// A function from weights and restitutions to the problem that is linearised about them.
@@ -47,7 +47,7 @@ pub(super) struct Seeker<'a> {
     pub rise: f64,
 }
 
-impl Seeker<'_> {
+impl RangeSearch<'_> {
     /// Returns the range of c·w.
     pub fn range(&self, combination: &[f64]) -> Result<Range, FitError> {
         let value = dot(combination, self.best);

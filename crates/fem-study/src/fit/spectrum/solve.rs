@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::bounded::Linear;
-use super::ranges::{Seeker, moments};
+use super::ranges::{RangeSearch, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
 use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem, root_mean_square};
@@ -75,7 +75,7 @@ impl<'a> Solver<'a> {
         let is_weighted = problem.uncertainties.is_some();
         let error = if is_weighted { unit } else { scatter.max(MODEL_ERROR) };
         let quantile = quantile(confidence, (!is_weighted).then_some(freedom));
-        let seeker = Seeker {
+        let search = RangeSearch {
             restitutions: &|weights| self.evaluate(weights),
             linear: &|weights, restitutions| {
                 let at = State { weights: weights.to_vec(), restitutions: restitutions.to_vec() };
@@ -88,9 +88,9 @@ impl<'a> Solver<'a> {
         let n = problem.times.len();
         let single = |k: usize| (0..n).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
         let weight_ranges =
-            (0..n).map(|k| seeker.range(&single(k))).collect::<Result<Vec<_>, _>>()?;
+            (0..n).map(|k| search.range(&single(k))).collect::<Result<Vec<_>, _>>()?;
         let [total, rate, time] = moments(problem.times);
-        let moments = [seeker.range(&total)?, seeker.range(&rate)?, seeker.range(&time)?];
+        let moments = [search.range(&total)?, search.range(&rate)?, search.range(&time)?];
         let residuals = state.restitutions.iter().zip(problem.measured).map(|(e, m)| e - m);
         let residuals: Vec<f64> = residuals.collect();
         Ok(SpectrumFit {
