@@ -124,7 +124,7 @@ impl EnergyLedger {
     /// Returns the sum of this ledger and another one.
     #[must_use]
     pub fn and(self, other: &Self) -> Self {
-        other.entries().fold(self, |book, (account, energy)| book.with(account, energy))
+        other.entries().fold(self, |ledger, (account, energy)| ledger.with(account, energy))
     }
 
     /// Returns the energy in an account, or `None` if the model does not fill it.
@@ -202,22 +202,24 @@ mod tests {
 
     #[test]
     fn residual_is_held_energy_minus_supplied_energy() {
-        let mut book = EnergyLedger::EMPTY.with(Account::Kinetic, 3.0).with(Account::WallWork, 0.5);
-        assert_eq!(book.residual(2.5), 0.0);
-        book.add(Account::ViscousDissipation, 0.25);
-        book.add(Account::Kinetic, -0.5);
-        assert_eq!(book.residual(2.5), -0.25);
-        assert_eq!(book.get(Account::Kinetic), Some(2.5));
-        assert_eq!(book.get(Account::Strain), None);
-        assert_eq!(book.entries().count(), 3);
-        assert_eq!(book.total(BalanceSide::Held), Some(2.5));
+        let mut ledger =
+            EnergyLedger::EMPTY.with(Account::Kinetic, 3.0).with(Account::WallWork, 0.5);
+        assert_eq!(ledger.residual(2.5), 0.0);
+        ledger.add(Account::ViscousDissipation, 0.25);
+        ledger.add(Account::Kinetic, -0.5);
+        assert_eq!(ledger.residual(2.5), -0.25);
+        assert_eq!(ledger.get(Account::Kinetic), Some(2.5));
+        assert_eq!(ledger.get(Account::Strain), None);
+        assert_eq!(ledger.entries().count(), 3);
+        assert_eq!(ledger.total(BalanceSide::Held), Some(2.5));
         assert_eq!(EnergyLedger::EMPTY.total(BalanceSide::Held), None);
     }
 
     #[test]
     fn nan_stays_in_the_residual() {
-        let book = EnergyLedger::EMPTY.with(Account::Kinetic, 1.0).with(Account::Strain, f64::NAN);
-        assert!(book.residual(1.0).is_nan());
+        let ledger =
+            EnergyLedger::EMPTY.with(Account::Kinetic, 1.0).with(Account::Strain, f64::NAN);
+        assert!(ledger.residual(1.0).is_nan());
     }
 
     /// The rule is exact for a power that grows in proportion to time.

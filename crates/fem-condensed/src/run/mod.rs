@@ -64,11 +64,11 @@ pub(crate) struct ImpactRun<'a> {
     worst_momentum: f64,
     approach: InterpolatedPeak,
     force: InterpolatedPeak,
-    scatter: ForceNoise,
+    force_noise: ForceNoise,
     deepest_overlap: Option<DeepestOverlap>,
     pulse: ForcePulse,
-    aftermath: PostContactVibration,
-    standstill: RestCriterion,
+    vibration_after: PostContactVibration,
+    rest_criterion: RestCriterion,
     /// End of the compression, since first touch, s.
     turned: f64,
     /// Time limit since first touch, s.
@@ -124,11 +124,11 @@ impl<'a> ImpactRun<'a> {
             worst_momentum: 0.0,
             approach: InterpolatedPeak::default(),
             force: InterpolatedPeak::default(),
-            scatter: ForceNoise::default(),
+            force_noise: ForceNoise::default(),
             deepest_overlap: None,
             pulse: ForcePulse::default(),
-            aftermath: PostContactVibration::default(),
-            standstill: RestCriterion::new(frame),
+            vibration_after: PostContactVibration::default(),
+            rest_criterion: RestCriterion::new(frame),
             turned: 0.0,
             history: (request.history_rows > 0)
                 .then(|| History::new(request.history_rows, per_step as f64 * steps)),
@@ -201,9 +201,9 @@ impl<'a> ImpactRun<'a> {
             return Ok(Some(Ending::Together));
         }
         // NaN is above every limit.
-        let is_sound = self.worst_residual <= LARGEST_IMBALANCE;
+        let is_balanced = self.worst_residual <= LARGEST_IMBALANCE;
         let time_of_case = self.time_of_case();
-        if !is_sound {
+        if !is_balanced {
             let relative = self.worst_residual;
             return Err(Stop::EnergyImbalance { time: time_of_case, relative });
         }
@@ -240,7 +240,7 @@ impl<'a> ImpactRun<'a> {
             time: self.frame.approach.first_touch() + time,
             step: motion.step as u64,
         };
-        self.scatter.observe(motion.force, now);
+        self.force_noise.observe(motion.force, now);
         if let Some((overlap, radius)) = motion.largest_overlap() {
             self.deepest_overlap = DeepestOverlap::of(
                 self.deepest_overlap,
@@ -285,9 +285,9 @@ impl<'a> ImpactRun<'a> {
         sample = self.integrated(before.as_ref(), begin.as_ref(), sample);
         let lost = sample.dissipated + sample.radiated.unwrap_or(0.0);
         let residual = sample.residual;
-        let at_stake = self.frame.energy_scale(self.approach.highest);
-        self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / at_stake);
-        self.growth = nan_aware_max(self.growth, (residual - lost) / at_stake);
+        let energy_scale = self.frame.energy_scale(self.approach.highest);
+        self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / energy_scale);
+        self.growth = nan_aware_max(self.growth, (residual - lost) / energy_scale);
         if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
             self.residual_since = Some(now);
         }
@@ -295,7 +295,7 @@ impl<'a> ImpactRun<'a> {
         let drift = self.frame.impulse(rate) + given - self.impulse;
         self.worst_momentum = nan_aware_max_abs(self.worst_momentum, drift);
         if self.episodes > 0 {
-            self.aftermath.observe(self.was_closed, vibration);
+            self.vibration_after.observe(self.was_closed, vibration);
         }
         let approach = self.motion.approach;
         self.trace.push(RunTrace { approach, is_closed: self.was_closed });
@@ -309,7 +309,7 @@ impl<'a> ImpactRun<'a> {
         };
         self.observe_within(before, begin, sample);
         (self.before_last, self.last) = (begin, Some(sample));
-        self.standstill.observe(&held)
+        self.rest_criterion.observe(&held)
     }
 
     /// Returns the collision of the run with its ending.
@@ -333,9 +333,9 @@ impl<'a> ImpactRun<'a> {
             max_contact_radius: Some(peaks.radius),
             peak_pressure: Some(peaks.pressure),
             peak_pressure_radius: Some(peaks.pressure_radius),
-            force_scatter: self.scatter.force(),
+            force_scatter: self.force_noise.force(),
             deepest_overlap: self.deepest_overlap,
-            noisiest_instant: self.scatter.noisiest_instant(),
+            noisiest_instant: self.force_noise.noisiest_instant(),
             candidate_region: Some(self.pair.candidate_region()),
             initial_energy: Some(frame.kinetic(frame.speed())),
             energies: self.last.map_or(EnergyLedger::EMPTY, |end| end.energies(frame)),
@@ -367,7 +367,7 @@ impl<'a> ImpactRun<'a> {
         let frame = self.frame;
         let velocity_after = self.restitution(ending).map(|e| frame.velocities(-e * frame.speed()));
         let is_parted = *ending == Ending::Parted;
-        let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
+        let vibration_energy = self.vibration_after.vibration_energy().filter(|_| is_parted);
         let mut bodies = self.pair.bodies_before(frame);
         for (side, body) in bodies.iter_mut().enumerate() {
             body.velocity_after = velocity_after.map(|both| both[side]);

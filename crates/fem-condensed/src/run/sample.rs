@@ -83,7 +83,7 @@ impl MotionSample {
     /// Returns the energy in each account, J.
     pub fn energies(&self, frame: &Frame) -> EnergyLedger {
         let [lower, upper] = self.vibration;
-        let mut book = EnergyLedger::EMPTY
+        let mut ledger = EnergyLedger::EMPTY
             .with(Account::Kinetic, frame.kinetic(self.rate) + lower + upper)
             .with(Account::Strain, self.strain)
             .with(Account::Contact, self.contact)
@@ -95,10 +95,10 @@ impl MotionSample {
         ];
         for (account, energy) in of_effects {
             if let Some(energy) = energy {
-                book.add(account, energy);
+                ledger.add(account, energy);
             }
         }
-        book
+        ledger
     }
 
     /// Returns the row of the history.

@@ -59,14 +59,14 @@ pub(crate) struct Ledger {
     /// Time of the last balance, s.
     last_time: f64,
     /// Result of the last balance.
-    shown: Shown,
+    last_balance: LastBalance,
     /// Its change since by the contact.
     pub since: ContactWork,
 }
 
 /// The result of a balance.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-struct Shown {
+struct LastBalance {
     /// Energy residual, J.
     residual: f64,
     /// Energy dissipated until then, J.
@@ -126,7 +126,7 @@ impl Ledger {
             impulse: 0.0,
             losses: DissipatedEnergies::default(),
             last_time: model.approach().first_touch(),
-            shown: Shown::default(),
+            last_balance: LastBalance::default(),
             since: ContactWork::default(),
         }
     }
@@ -150,19 +150,19 @@ impl Ledger {
 
     /// Returns the present residual, as far as it comes from the contact, J.
     pub fn residual(&self) -> f64 {
-        self.shown.residual + self.since.energy
+        self.last_balance.residual + self.since.energy
     }
 
     /// Updates the largest residuals of energy and momentum.
     fn note(&mut self, state: &State) {
-        let Shown { lost, drift, .. } = self.shown;
+        let LastBalance { lost, drift, .. } = self.last_balance;
         let residual = self.residual();
         self.worst_residual =
             nan_aware_max_abs(self.worst_residual, residual / self.initial_relative);
         self.growth = nan_aware_max(self.growth, (residual - lost) / self.initial_relative);
         // A residual that is not a number is above every limit.
-        let is_sound = self.worst_residual <= LARGEST_RESIDUAL;
-        if self.beyond.is_none() && !is_sound {
+        let is_balanced = self.worst_residual <= LARGEST_RESIDUAL;
+        if self.beyond.is_none() && !is_balanced {
             self.beyond = Some(StepInstant { time: state.time, step: state.step });
         }
         let drift = (drift + self.since.momentum) / self.momentum_scale;
@@ -226,8 +226,8 @@ impl Ledger {
             None => energies.residual(self.initial),
         };
         let drift = self.drift(model, lower.momentum + upper.momentum);
-        self.shown =
-            Shown { residual, lost: energies.total(BalanceSide::Lost).unwrap_or(0.0), drift };
+        self.last_balance =
+            LastBalance { residual, lost: energies.total(BalanceSide::Lost).unwrap_or(0.0), drift };
         self.since.restart();
         self.note(state);
 

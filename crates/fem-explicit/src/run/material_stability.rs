@@ -19,8 +19,8 @@ const STALLED_STEP_SHARE: f64 = 0.1;
 
 /// The first unstable element of a run that was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Lost {
-    moment: StepInstant,
+struct FirstUnstableElement {
+    at: StepInstant,
     body: usize,
     element: usize,
     /// Its centre (r, y) before the collision, m.
@@ -33,7 +33,7 @@ struct Lost {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MaterialStability {
     n_seen: u64,
-    lost: Option<Lost>,
+    unstable: Option<FirstUnstableElement>,
 }
 
 impl MaterialStability {
@@ -50,30 +50,30 @@ impl MaterialStability {
         if !can_be_lost(model) {
             return Ok(());
         }
-        if self.lost.is_none()
+        if self.unstable.is_none()
             && (!adds_up || self.n_seen.is_multiple_of(INSTANTS_BETWEEN_SEARCHES))
         {
-            self.lost = find(model, state);
+            self.unstable = find(model, state);
         }
         self.n_seen = self.n_seen.saturating_add(1);
         let is_stalled = || state.time_step(model) < STALLED_STEP_SHARE * model.time_step();
-        match &self.lost {
-            Some(lost) if !adds_up || is_stalled() => Err(lost.stop()),
+        match &self.unstable {
+            Some(unstable) if !adds_up || is_stalled() => Err(unstable.stop()),
             _ => Ok(()),
         }
     }
 
     /// Returns the stop of a run in which an element has collapsed, if a law had lost its stability.
     pub fn stop_of_collapse(&mut self, model: &ExplicitBodies, state: &State) -> Option<Stop> {
-        if self.lost.is_none() && can_be_lost(model) {
-            self.lost = find(model, state);
+        if self.unstable.is_none() && can_be_lost(model) {
+            self.unstable = find(model, state);
         }
-        self.lost.as_ref().map(Lost::stop)
+        self.unstable.as_ref().map(FirstUnstableElement::stop)
     }
 
     /// Returns the warning of a run that has passed an instability.
     pub fn warning(&self) -> Option<String> {
-        let stop = self.lost.as_ref()?.stop();
+        let stop = self.unstable.as_ref()?.stop();
         Some(format!(
             "{stop}; what follows depends on the mesh there: name another material.NAME.hyperelastic, as neo-hooke, \
              which is stable at any deformation"
@@ -82,17 +82,16 @@ impl MaterialStability {
 
     /// Returns whether it can belong to a run of a model in a state.
     pub fn fits(&self, model: &ExplicitBodies, state: &State) -> bool {
-        self.lost.as_ref().is_none_or(|lost| {
-            let n_elements = model.bodies().get(lost.body).map_or(0, |body| body.n_elements());
-            lost.element < n_elements && lost.moment.time <= state.time
+        self.unstable.as_ref().is_none_or(|unstable| {
+            let n_elements = model.bodies().get(unstable.body).map_or(0, |body| body.n_elements());
+            unstable.element < n_elements && unstable.at.time <= state.time
         })
     }
 }
 
-impl Lost {
+impl FirstUnstableElement {
     fn stop(&self) -> Stop {
-        let Self { moment: StepInstant { time, step }, body, element, place, stretches, .. } =
-            *self;
+        let Self { at: StepInstant { time, step }, body, element, place, stretches, .. } = *self;
         Stop::StabilityLost {
             at: StepInstant { time, step },
             body,
@@ -111,7 +110,7 @@ fn can_be_lost(model: &ExplicitBodies) -> bool {
 }
 
 /// Finds the least stable element of a body that has an unstable one.
-fn find(model: &ExplicitBodies, state: &State) -> Option<Lost> {
+fn find(model: &ExplicitBodies, state: &State) -> Option<FirstUnstableElement> {
     let of = |body: usize| {
         let (own, state_of_body) = (&model.bodies()[body], &state.bodies[body]);
         let stress = own.finite_strain().filter(|stress| stress.can_lose_stability())?;
@@ -119,8 +118,8 @@ fn find(model: &ExplicitBodies, state: &State) -> Option<Lost> {
         let UnstableElement { element, stretches, law } =
             stress.unstable_element(&state_of_body.displacement, history)?;
         let place = own.element_centre(element);
-        let moment = StepInstant { time: state.time, step: state.step };
-        Some(Lost { moment, body, element, place, stretches, law: law.to_string() })
+        let at = StepInstant { time: state.time, step: state.step };
+        Some(FirstUnstableElement { at, body, element, place, stretches, law: law.to_string() })
     };
     [0, 1].into_iter().find_map(of)
 }

@@ -41,9 +41,9 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> 
         max_contact_radius: Some(peaks.radius),
         peak_pressure: Some(peaks.pressure),
         peak_pressure_radius: Some(peaks.pressure_radius),
-        force_scatter: sampled.scatter.force(),
+        force_scatter: sampled.force_noise.force(),
         deepest_overlap: log.deepest_overlap,
-        noisiest_instant: sampled.scatter.noisiest_instant(),
+        noisiest_instant: sampled.force_noise.noisiest_instant(),
         candidate_region: Some(model.candidate_region()),
         initial_energy: Some(ledger.initial),
         energies: sampled.last.map_or(EnergyLedger::EMPTY, |row| row.energies),
@@ -87,7 +87,7 @@ fn body_results(
     ending: &Ending,
     velocity_after: Option<[f64; 2]>,
 ) -> [BodyResult; 2] {
-    let vibration = run.sampled.aftermath.as_ref().filter(|_| *ending == Ending::Parted);
+    let vibration = run.sampled.vibration_after.as_ref().filter(|_| *ending == Ending::Parted);
     let vibration_energy = vibration.and_then(|vibration| vibration.vibration_energy());
     [0, 1].map(|side: usize| {
         let body = &model.bodies()[side];

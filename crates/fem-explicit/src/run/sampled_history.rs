@@ -16,39 +16,39 @@ const GONE_WITH_WAVES: f64 = 0.95;
 /// Quantities derived from the instants that have been sampled so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SampledHistory {
-    cadence: SamplingInterval,
+    sampling_interval: SamplingInterval,
     /// Means and peaks of force, contact radius and pressure.
     pub pulse: ForcePulse,
     /// Scatter of the contact force from step to step.
-    pub scatter: ForceNoise,
+    pub force_noise: ForceNoise,
     /// Vibration since the last contact; `None` before the first one.
-    pub aftermath: Option<PostContactVibration>,
+    pub vibration_after: Option<PostContactVibration>,
     /// Row of the last sampled instant.
     pub last: Option<HistoryRow>,
-    standstill: RestCriterion,
+    rest_criterion: RestCriterion,
 }
 
 impl SampledHistory {
     /// Starts for a contact of an expected number of steps.
     pub fn new(model: &ExplicitBodies, expected_steps: f64) -> Self {
         Self {
-            cadence: SamplingInterval::new(OutputRequest::ROWS, expected_steps),
+            sampling_interval: SamplingInterval::new(OutputRequest::ROWS, expected_steps),
             pulse: ForcePulse::default(),
-            scatter: ForceNoise::default(),
-            aftermath: None,
+            force_noise: ForceNoise::default(),
+            vibration_after: None,
             last: None,
-            standstill: RestCriterion::new(&model.frame()),
+            rest_criterion: RestCriterion::new(&model.frame()),
         }
     }
 
     /// Returns whether this step is to be sampled.
     pub fn is_due(&self, step: u64) -> bool {
-        self.cadence.is_due(step)
+        self.sampling_interval.is_due(step)
     }
 
     /// Takes note of a step with a contact force, sampled or not: the time after the last contact begins anew.
     pub fn touch(&mut self) {
-        self.aftermath = Some(PostContactVibration::default());
+        self.vibration_after = Some(PostContactVibration::default());
     }
 
     /// Returns whether the bodies stay together, by the last sampled instant, a time (s) after first touch, at a rate
@@ -75,26 +75,26 @@ impl SampledHistory {
             }
         }
         let force = row.contact_force;
-        self.standstill.observe(&RelativeMotion { time, is_closed, force, rate, inner_energy })
+        self.rest_criterion.observe(&RelativeMotion { time, is_closed, force, rate, inner_energy })
     }
 
     /// Takes the row of an instant, the impulse of the contact so far (N s), the step, and whether the contact is
     /// closed.
     pub fn take(&mut self, row: HistoryRow, impulse: f64, step: u64, is_closed: bool) {
-        self.cadence.count();
+        self.sampling_interval.count();
         let (radius, pressure) = (row.contact_radius, row.centre_pressure);
         self.pulse.observe(row.time, impulse, radius.unwrap_or(0.0), pressure.unwrap_or(0.0));
-        self.scatter.observe(row.contact_force, StepInstant { time: row.time, step });
-        if let Some(aftermath) = &mut self.aftermath {
-            aftermath.observe(is_closed, row.vibration);
+        self.force_noise.observe(row.contact_force, StepInstant { time: row.time, step });
+        if let Some(vibration) = &mut self.vibration_after {
+            vibration.observe(is_closed, row.vibration);
         }
         self.last = Some(row);
     }
 
     /// Returns whether it can belong to a run of a model in a state.
     pub fn fits(&self, model: &ExplicitBodies, state: &State) -> bool {
-        self.cadence.is_consistent()
-            && self.standstill.is_of(&model.frame())
+        self.sampling_interval.is_consistent()
+            && self.rest_criterion.is_of(&model.frame())
             && self.pulse.is_consistent()
             && self.pulse.last_time().is_none_or(|time| time <= state.time)
             && self.last.is_none_or(|row| row.time <= state.time)

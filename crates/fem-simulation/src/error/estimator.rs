@@ -3,11 +3,11 @@
 use fem_collision::{Collision, QuantityOfInterest};
 
 use super::calibration::{
-    CLOSED_FORM, CONDENSED, Calibration, EXPLICIT, MOVED_MASS, SAMPLED_PER_TOLERANCE, STRAINED,
+    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, MOVED_MASS, SAMPLED_PER_TOLERANCE,
 };
 use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, moved_share};
-use super::reference_runs::{ReferenceRuns, Subject, Values};
+use super::reference_runs::{EstimatedCollision, ReferenceRuns, Values};
 use crate::effects::FiniteStrain;
 use crate::models::explicit::cost::needs_own_reference;
 use crate::models::method::Cost;
@@ -85,7 +85,7 @@ impl ErrorEstimator {
         across: f64,
     ) -> Option<(Values, Calibration)> {
         let plan = &simulation.setup().elements.as_ref()?.plan;
-        let subject = &Subject { simulation, approach: collision.approach, plan, size };
+        let subject = &EstimatedCollision { simulation, approach: collision.approach, plan, size };
         let is_explicit = collision.element_updates.is_some();
         let is_finite = || simulation.decisions(collision).is_active(FiniteStrain::NAME);
         let needs_own = is_explicit
@@ -101,7 +101,7 @@ impl ErrorEstimator {
                 let condensed = self.runs.condensed(subject).map(|(errors, _)| errors);
                 let condensed = |k: usize| condensed.and_then(|condensed| condensed[k]);
                 let both = |k: usize| Some(own[k]? + condensed(k).unwrap_or(0.0));
-                Some((std::array::from_fn(both), STRAINED))
+                Some((std::array::from_fn(both), COARSER_RUN))
             }
             (false, false, _) => {
                 Some((self.runs.mesh_file(subject, Some(values), across)?, CONDENSED))
@@ -120,7 +120,7 @@ impl ErrorEstimator {
         if !elements.plan.makes_meshes || needs_own_reference(&setup.estimate, is_finite) {
             return None;
         }
-        let subject = Subject::planned(simulation)?;
+        let subject = EstimatedCollision::planned(simulation)?;
         let (errors, values) = self.runs.condensed(&subject)?;
         let across = values[QuantityOfInterest::MaxContactRadius as usize]? / subject.size;
         Some(bar_parts(errors, &EXPLICIT, [across; 2], elements.moved_share))
@@ -133,7 +133,7 @@ impl ErrorEstimator {
         const ELEMENT_UPDATES_OF_COARSER_RUN: u64 = 4_000_000;
         let is_open = simulation.reference_updates().is_some()
             && simulation.case().scene().gravity().is_none();
-        let subject = Subject::planned(simulation).filter(|_| is_open);
+        let subject = EstimatedCollision::planned(simulation).filter(|_| is_open);
         let ratio = subject.and_then(|subject| {
             self.runs.updates_over_expected(&subject, ELEMENT_UPDATES_OF_COARSER_RUN)
         });

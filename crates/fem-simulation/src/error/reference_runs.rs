@@ -63,7 +63,7 @@ pub(super) struct ReferenceRuns {
 
 /// The collision that reference runs are compared with.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Subject<'a> {
+pub(super) struct EstimatedCollision<'a> {
     pub simulation: &'a Simulation,
     pub approach: Approach,
     pub plan: &'a Plan,
@@ -71,7 +71,7 @@ pub(super) struct Subject<'a> {
     pub size: f64,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> EstimatedCollision<'a> {
     /// Returns the planned collision; `None` for models without elements.
     pub fn planned(simulation: &'a Simulation) -> Option<Self> {
         let setup = simulation.setup();
@@ -103,7 +103,7 @@ impl ReferenceRuns {
     }
 
     /// Returns the errors of condensed bodies on the mesh of explicit elements, and their values there.
-    pub fn condensed(&mut self, subject: &Subject<'_>) -> Option<(Values, Values)> {
+    pub fn condensed(&mut self, subject: &EstimatedCollision<'_>) -> Option<(Values, Values)> {
         let settings = [condensed(true), Setting::ElementSize(subject.size), subject.staggered()];
         let values = self.values(subject, &settings, FarMesh::AsGiven)?;
         Some((self.error_of(subject, values, subject.size)?, values))
@@ -113,7 +113,7 @@ impl ReferenceRuns {
     /// elements.
     pub fn mesh_file(
         &mut self,
-        subject: &Subject<'_>,
+        subject: &EstimatedCollision<'_>,
         values: Option<Values>,
         across: f64,
     ) -> Option<Values> {
@@ -127,7 +127,7 @@ impl ReferenceRuns {
 
     /// Returns the errors from a run of the model itself with longer elements, plus those of the mesh away from the
     /// contact if the case gives it.
-    pub fn coarser(&mut self, subject: &Subject<'_>, values: Values) -> Option<Values> {
+    pub fn coarser(&mut self, subject: &EstimatedCollision<'_>, values: Values) -> Option<Values> {
         COARSER_ELEMENT_RATIOS.into_iter().find_map(|ratio| {
             let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
             let coarse = self.values(subject, &settings, FarMesh::AsGiven)?;
@@ -142,7 +142,7 @@ impl ReferenceRuns {
     }
 
     /// Returns the change of each quantity by the mesh away from the contact, as the case gives it.
-    pub fn far_mesh(&mut self, subject: &Subject<'_>) -> Option<Values> {
+    pub fn far_mesh(&mut self, subject: &EstimatedCollision<'_>) -> Option<Values> {
         subject.far_mesh_key()?;
         let settings = [condensed(true), Setting::ElementSize(subject.size)];
         let given = self.values(subject, &settings, FarMesh::AsGiven)?;
@@ -152,7 +152,11 @@ impl ReferenceRuns {
 
     /// Returns the element updates of the collision over those that closed forms expect, from a coarser run of about
     /// `most` element updates.
-    pub fn updates_over_expected(&mut self, subject: &Subject<'_>, most: u64) -> Option<f64> {
+    pub fn updates_over_expected(
+        &mut self,
+        subject: &EstimatedCollision<'_>,
+        most: u64,
+    ) -> Option<f64> {
         let Cost::Steps { element_updates, .. } = subject.simulation.setup().cost else {
             return None;
         };
@@ -173,7 +177,12 @@ impl ReferenceRuns {
 
     /// Returns the errors of values against the limit of condensed bodies whose nodes touch exactly, with elements of
     /// about this size (m) and half of it; the edge of the contact is at a node of both.
-    fn error_of(&mut self, subject: &Subject<'_>, values: Values, size: f64) -> Option<Values> {
+    fn error_of(
+        &mut self,
+        subject: &EstimatedCollision<'_>,
+        values: Values,
+        size: f64,
+    ) -> Option<Values> {
         let size = match values[QuantityOfInterest::MaxContactRadius as usize] {
             Some(radius) if radius > size => radius / (radius / size).round(),
             _ => size,
@@ -189,7 +198,7 @@ impl ReferenceRuns {
 
     fn values(
         &mut self,
-        subject: &Subject<'_>,
+        subject: &EstimatedCollision<'_>,
         settings: &[Setting],
         far_mesh: FarMesh,
     ) -> Option<Values> {
@@ -199,7 +208,7 @@ impl ReferenceRuns {
     /// Returns a reference run, computed if it is not known; `None` if it takes more element updates than allowed.
     fn run(
         &mut self,
-        subject: &Subject<'_>,
+        subject: &EstimatedCollision<'_>,
         settings: &[Setting],
         far_mesh: FarMesh,
         most_element_updates: u64,
@@ -240,12 +249,12 @@ fn condensed(penalty_springs: bool) -> Setting {
 
 /// Computes the first contact of the bodies with these settings; `None` if the model rejects them.
 fn collide(
-    subject: &Subject<'_>,
+    subject: &EstimatedCollision<'_>,
     settings: &[Setting],
     far_mesh: FarMesh,
     most_element_updates: u64,
 ) -> Option<(Simulation, Collision)> {
-    let Subject { simulation, approach, .. } = subject;
+    let EstimatedCollision { simulation, approach, .. } = subject;
     let is_condensed = settings.iter().any(|it| matches!(it, Setting::Condensed { .. }));
     let case = simulation.case().edited(|file| {
         file.stop = first_contact(file);

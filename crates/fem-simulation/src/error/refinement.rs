@@ -26,7 +26,7 @@ use super::elastic_null::elastic_null;
 use super::estimate::{BarParts, ErrorEstimate, FaultySetting, NotRefined};
 use super::estimator::ErrorEstimator;
 use super::noise_floor::of_chatter;
-use super::reference_runs::Subject;
+use super::reference_runs::EstimatedCollision;
 use super::tolerance_check::{ToleranceMiss, missed, misses};
 use crate::models::method::Cost;
 use crate::models::stepper::RefinementLevel;
@@ -311,7 +311,7 @@ impl ErrorEstimator {
         if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
             return Some(FaultySetting::MovedMass);
         }
-        let subject = Subject::planned(simulation)?;
+        let subject = EstimatedCollision::planned(simulation)?;
         if let Some(key) = subject.far_mesh_key() {
             let error = self.runs.far_mesh(&subject).and_then(|of| of[miss.quantity as usize]);
             if error.is_some_and(|error| error > miss.tolerance) {

@@ -94,7 +94,7 @@ pub(crate) fn max_contact_times(scene: &Scene, estimate: &Estimate) -> f64 {
 
 /// Times of a contact over those of elastic bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Slower {
+pub(crate) struct SlowdownFactors {
     /// Ratio of the times until the largest approach δ, about δ/v.
     pub stop: f64,
     /// Ratio of the times from first touch to the end of the run.
@@ -102,15 +102,17 @@ pub(crate) struct Slower {
 }
 
 /// Returns the factors by which relaxation slows the contact, at least 1.
-pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slower {
-    let Some(Ok(impact)) = impact(scene, estimate) else { return Slower { stop: 1.0, end: 1.0 } };
+pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> SlowdownFactors {
+    let Some(Ok(impact)) = impact(scene, estimate) else {
+        return SlowdownFactors { stop: 1.0, end: 1.0 };
+    };
     let hertz = &estimate.hertz;
     let stop = Some(impact.max_approach / hertz.max_approach());
     let stop =
         stop.filter(|stop| *stop > LEAST_APPROACH_OVER_ELASTIC && stop.is_finite()).unwrap_or(1.0);
     let end = duration_of(scene, estimate, met, &impact)
         .map_or(stop, |end| end / ((1.0 + POST_CONTACT_FRACTION) * hertz.contact_time()));
-    Slower { stop, end: end.max(1.0) }
+    SlowdownFactors { stop, end: end.max(1.0) }
 }
 
 /// Returns whether relaxation determines the approach. Under gravity the weight does.

@@ -202,7 +202,7 @@ const CANDIDATES: [Candidate; 6] = [
 const LEAST_SHARE_OF_TOLERANCE: f64 = 0.05;
 
 /// The expected error of a candidate.
-struct Judged {
+struct CandidateVerdict {
     error: ExpectedError,
     /// Largest error over its tolerance; infinite if the error is unknown.
     excess: f64,
@@ -213,7 +213,7 @@ struct Judged {
 }
 
 /// Returns the index of the most accurate candidate that is possible.
-fn closest(judged: &[Judged]) -> usize {
+fn closest(judged: &[CandidateVerdict]) -> usize {
     let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
     let closest = possible.min_by(|(_, a), (_, b)| a.excess.total_cmp(&b.excess));
     closest.map_or(judged.len() - 1, |(k, _)| k)
@@ -221,7 +221,7 @@ fn closest(judged: &[Judged]) -> usize {
 
 impl Candidate {
     /// Judges the model by the tolerance of the case.
-    fn judge(&self, scene: &Scene, estimate: &Estimate) -> Judged {
+    fn judge(&self, scene: &Scene, estimate: &Estimate) -> CandidateVerdict {
         let own_scene = scene.clone().with_model((self.choice)());
         let support =
             |effect: &dyn Effect| method_of(&own_scene).support(effect, &own_scene, estimate);
@@ -292,7 +292,7 @@ impl Candidate {
             Some(_) => (QuantityErrors::default(), f64::INFINITY),
             None => (error, total),
         };
-        Judged { error: (&error).into(), excess, is_possible, rejection_reason }
+        CandidateVerdict { error: (&error).into(), excess, is_possible, rejection_reason }
     }
 
     /// Returns the errors of the model's approximations, which fall with the tolerance where it chooses the mesh.

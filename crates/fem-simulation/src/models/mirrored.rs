@@ -77,14 +77,14 @@ impl<M: Model> Model for Mirrored<M> {
         match half_of(approach) {
             Ok(half) => {
                 let request = &in_half(request);
-                Whole::of(approach).collision(self.half.collide(&half, request, monitor))
+                MirroredFrame::of(approach).collision(self.half.collide(&half, request, monitor))
             }
             Err(stop) => Collision::stopped(*approach, stop),
         }
     }
 
     fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        let whole = Whole::of(approach);
+        let whole = MirroredFrame::of(approach);
         match half_of(approach) {
             Ok(half) => {
                 let half = self.half.start(&half, &in_half(request))?;
@@ -98,7 +98,7 @@ impl<M: Model> Model for Mirrored<M> {
         let whole = state.approach;
         let approach = half_of(&whole).map_err(|stop| Rejection::new("body", stop.to_string()))?;
         let half = self.half.resume(RestartState { approach, ..state })?;
-        Ok(Box::new(MirroredStepper { half, whole: Whole::of(&whole) }))
+        Ok(Box::new(MirroredStepper { half, whole: MirroredFrame::of(&whole) }))
     }
 
     /// Gravity makes bodies differ, so it never meets mirror symmetry.
@@ -130,7 +130,7 @@ fn half_of(approach: &Approach) -> Result<Approach, Stop> {
 /// A collision under way of which half is computed.
 struct MirroredStepper {
     half: Box<dyn Stepper>,
-    whole: Whole,
+    whole: MirroredFrame,
 }
 
 impl Stepper for MirroredStepper {
@@ -152,13 +152,13 @@ impl Stepper for MirroredStepper {
 }
 
 /// The transformation of the half's results to those of both bodies.
-struct Whole {
+struct MirroredFrame {
     approach: Approach,
     /// Velocity of the mass centre along +y, m/s.
     velocity: f64,
 }
 
-impl Whole {
+impl MirroredFrame {
     fn of(approach: &Approach) -> Self {
         let [lower, upper] = approach.velocities();
         Self { approach: *approach, velocity: 0.5 * (lower + upper) }
@@ -231,6 +231,6 @@ impl Whole {
 }
 
 /// Returns the accounts of both bodies from those of one.
-fn twice(book: &EnergyLedger) -> EnergyLedger {
-    book.and(book)
+fn twice(ledger: &EnergyLedger) -> EnergyLedger {
+    ledger.and(ledger)
 }

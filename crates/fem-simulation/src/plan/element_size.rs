@@ -79,7 +79,7 @@ pub struct MeshRule {
     /// Largest moved mass over the lighter body's mass.
     pub mass_scaling: f64,
     /// The error of the force on the finest mesh, if the scene asks for a finer one.
-    pub reached: Option<f64>,
+    pub error_on_finest_mesh: Option<f64>,
     /// Whether the tolerance alone asks for a finer mesh than the finest.
     pub is_for_tolerance: bool,
     /// The quantity that needs the smallest elements, and its tolerance.
@@ -121,11 +121,12 @@ impl MeshRule {
             true => across,
             false => (across - ZERO_OF_OSCILLATION).ceil() + ZERO_OF_OSCILLATION,
         };
-        let reached = error / (TOLERANCE_SHARE_OF_MESH * MOST_ACROSS * MOST_ACROSS);
+        let error_on_finest_mesh = error / (TOLERANCE_SHARE_OF_MESH * MOST_ACROSS * MOST_ACROSS);
         Self {
             across,
-            mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(reached)).min(MOST_MOVED_MASS),
-            reached: (asked_for > MOST_ACROSS).then_some(reached),
+            mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(error_on_finest_mesh))
+                .min(MOST_MOVED_MASS),
+            error_on_finest_mesh: (asked_for > MOST_ACROSS).then_some(error_on_finest_mesh),
             is_for_tolerance: for_tolerance > MOST_ACROSS,
             limiting_quantity,
         }
@@ -201,7 +202,7 @@ mod tests {
                 (found.mass_scaling / mass - 1.0).abs() < 1e-9,
                 "{set:?} {tolerance}: {found:?}"
             );
-            assert_eq!(found.reached, None);
+            assert_eq!(found.error_on_finest_mesh, None);
         }
     }
 
@@ -219,7 +220,7 @@ mod tests {
                 }
                 before = Some(now);
             }
-            assert!(before.unwrap().reached.is_some_and(|reached| reached < 2e-4));
+            assert!(before.unwrap().error_on_finest_mesh.is_some_and(|error| error < 2e-4));
         }
         let one = |key: &str, tolerance: f64| {
             mesh_rule(&[&format!("accuracy.tolerance.{key}={tolerance:e}")]).across

@@ -135,7 +135,7 @@ impl Plan {
         let far_radius = far_radius(scene, &estimate, refined_radius, candidate_radius);
         let mut warnings = unread_keys(scene, makes_meshes, far_radius.is_some());
         let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
-        let out_of_reach = rule.reached.filter(|_| is_chosen);
+        let out_of_reach = rule.error_on_finest_mesh.filter(|_| is_chosen);
         if let Some(reached) = out_of_reach {
             let across = rule.across;
             warnings.push(match rule.is_for_tolerance {

@@ -78,8 +78,8 @@ mod tests {
     fn an_effect_that_is_off_has_no_key() {
         let off = EnergyLedger::EMPTY.with(Account::Kinetic, 1.0);
         let on = off.with(Account::Contact, 0.0);
-        let has = |book| {
-            in_summary(book, contact_where_filled).any(|account| account == Account::Contact)
+        let has = |ledger| {
+            in_summary(ledger, contact_where_filled).any(|account| account == Account::Contact)
         };
         assert!(!has(&off) && has(&on));
         // Accounts that every summary shows are there, filled or not.

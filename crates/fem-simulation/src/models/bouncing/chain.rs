@@ -185,20 +185,20 @@ impl Chain {
 
     /// Returns the accounts of a contact with those of earlier contacts added.
     fn carried(&self, own: &EnergyLedger) -> EnergyLedger {
-        let mut book = EnergyLedger::EMPTY;
+        let mut ledger = EnergyLedger::EMPTY;
         for (account, energy) in own.entries() {
-            book.add(account, energy + self.lost.get(account).unwrap_or_default());
+            ledger.add(account, energy + self.lost.get(account).unwrap_or_default());
         }
         match self.left {
-            Some(left) => book.with(Account::LeftBefore, left),
-            None => book,
+            Some(left) => ledger.with(Account::LeftBefore, left),
+            None => ledger,
         }
     }
 
     /// Returns the energy lost or supplied up to the end of a contact, in joules.
     fn lost_after(&self, end: &EnergyLedger) -> EnergyLedger {
         let own = end.entries().filter(|(account, _)| account.side() != BalanceSide::Held);
-        own.fold(self.lost, |book, (account, energy)| book.with(account, energy))
+        own.fold(self.lost, |ledger, (account, energy)| ledger.with(account, energy))
     }
 
     /// Returns the energy of each account at the end, in joules.

@@ -4,7 +4,7 @@ use fem_case::{Body, CondensedOptions};
 use fem_collision::{Monitor, Phase, Progress};
 use fem_material::{ActsOn, Material};
 
-use crate::estimate::viscous_flow::Slower;
+use crate::estimate::viscous_flow::SlowdownFactors;
 
 /// Least number of steps per elastic contact time for bodies that flow.
 const FEWEST_STEPS: usize = 10;
@@ -18,7 +18,7 @@ const MOST_STEPS_BY_FACTOR: usize = 1000;
 
 /// Returns the number of steps per elastic contact time for bodies that lose a share of their moduli in it. The steps are
 /// longer if the bodies stop later, and shorter if they relax to little.
-pub(super) fn n_steps(options: CondensedOptions, slower: Slower, relaxed: f64) -> usize {
+pub(super) fn n_steps(options: CondensedOptions, slower: SlowdownFactors, relaxed: f64) -> usize {
     let steps = match relaxed > LOSS_OF_MODULI_OF_EARLY_PEAK {
         true => (MORE_OF_SOFTENED * options.steps).min(MOST_STEPS_BY_FACTOR).max(options.steps),
         false => options.steps,
@@ -83,7 +83,7 @@ mod tests {
     fn bodies_that_relax_to_little_take_more_steps() {
         let steps = |steps: usize, stop: f64, relaxed: f64| {
             let options = CondensedOptions { steps, ..fem_case::defaults::CONDENSED };
-            n_steps(options, Slower { stop, end: stop }, relaxed)
+            n_steps(options, SlowdownFactors { stop, end: stop }, relaxed)
         };
         assert_eq!([0.0, 0.5, 0.9].map(|relaxed| steps(250, 1.0, relaxed)), [250, 250, 1000]);
         assert_eq!([100, 400, 8000].map(|own| steps(own, 1.0, 1.0)), [400, 1000, 8000]);

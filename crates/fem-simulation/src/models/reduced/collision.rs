@@ -27,7 +27,7 @@ pub(super) fn of_impact(
     let residual = |instant| rows.row(instant).residual.unwrap_or(0.0);
     let is_together = impact.contact_time.is_none();
     let first_touch = frame.approach.first_touch();
-    let at_stake = frame.energy_scale(impact.max_approach);
+    let energy_scale = frame.energy_scale(impact.max_approach);
     let end = impact.history.last().map(|instant| rows.row(instant));
     let ending = if is_together { Ending::Together } else { Ending::Parted };
     Collision {
@@ -43,7 +43,9 @@ pub(super) fn of_impact(
         initial_energy: Some(frame.kinetic(frame.speed())),
         energies: end.map_or(EnergyLedger::EMPTY, |row| row.energies),
         residual: end.and_then(|row| row.residual),
-        residual_relative: Some(instants().map(residual).fold(0.0, nan_aware_max_abs) / at_stake),
+        residual_relative: Some(
+            instants().map(residual).fold(0.0, nan_aware_max_abs) / energy_scale,
+        ),
         bodies: [0, 1].map(|side: usize| BodyResult {
             mass: frame.masses[side],
             velocity_after: Some(after[side]),

@@ -18,9 +18,9 @@
 //! matters, the estimate is between a third and three times the computed change; it is larger for half-spaces at ν = 0.2 or
 //! under a harder ball, and where a change has reversed its sign.
 
+mod body_strain;
 mod departure;
 mod measured;
-mod strained;
 
 use fem_case::engineering::show;
 use fem_case::{Body, ModelChoice, Scene, Switch};
@@ -28,8 +28,8 @@ use fem_collision::{Collision, QuantityOfInterest};
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
+use self::body_strain::BodyStrain;
 use self::departure::Departure;
-use self::strained::Strained;
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
@@ -67,14 +67,14 @@ impl FiniteStrain {
     /// Returns the laws of both bodies at the strains of an estimate; `None` for a body that is computed at small strain.
     pub fn laws(scene: &Scene, estimate: &Estimate) -> [Option<HyperelasticLaw>; 2] {
         let is_needed = is_needed(scene, estimate);
-        let is_finite = |strained: &Strained| match scene.effects().finite_strain {
+        let is_finite = |strained: &BodyStrain| match scene.effects().finite_strain {
             Some(Switch::On) => true,
             Some(Switch::Off) => false,
             None | Some(Switch::Auto) => {
                 is_needed && strained.is_supported() && strained.matters(scene)
             }
         };
-        let of_both = Strained::of_both(scene, estimate);
+        let of_both = BodyStrain::of_both(scene, estimate);
         of_both.map(|strained| Some(strained.filter(is_finite)?.material.law()))
     }
 
@@ -97,7 +97,7 @@ impl FiniteStrain {
 
     /// Checks that elements can compute a scene at forced large strain.
     pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
-        let mut strained = Strained::of_both(scene, estimate).into_iter().flatten();
+        let mut strained = BodyStrain::of_both(scene, estimate).into_iter().flatten();
         let unsupported = strained.find(|strained| !strained.is_supported());
         let Some(strained) = unsupported.filter(|_| is_forced_on(scene)) else { return Ok(()) };
         let message = format!("finite strain is forced on, and {}", strained.why_unsupported());
@@ -107,7 +107,7 @@ impl FiniteStrain {
 
     /// Returns the support of explicit elements.
     pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Support {
-        let strained = Strained::of_both(scene, estimate).into_iter().flatten();
+        let strained = BodyStrain::of_both(scene, estimate).into_iter().flatten();
         let mut unsupported =
             strained.filter(|strained| !strained.is_supported() && strained.matters(scene));
         let is_open = scene.effects().finite_strain.is_none_or(|switch| switch == Switch::Auto);
@@ -153,12 +153,12 @@ impl FiniteStrain {
             return None;
         }
         let pressure = estimate.hertz.peak_pressure();
-        let both = Strained::of_both(scene, estimate).into_iter().zip(computed);
+        let both = BodyStrain::of_both(scene, estimate).into_iter().zip(computed);
         let mut unstable = both.filter_map(|(body, law)| {
             law?;
             body.filter(|body| body.is_unstable(pressure))
         });
-        let Strained { name, material, .. } = unstable.next()?;
+        let BodyStrain { name, material, .. } = unstable.next()?;
         let warning = format!(
             "{}, the law of {name}, is expected to lose its stability under the contact's pressure: elements \
              collapse, and the run may stop; use another material.NAME.hyperelastic, such as neo-hooke, which is \
@@ -172,7 +172,7 @@ impl FiniteStrain {
 
 /// Returns the error of neglecting it for elastic bodies, as magnitudes.
 fn departure(scene: &Scene, estimate: &Estimate) -> Departure {
-    let both = Strained::of_both(scene, estimate).into_iter().flatten();
+    let both = BodyStrain::of_both(scene, estimate).into_iter().flatten();
     with_waves(scene, estimate, both.map(|strained| strained.departure).sum())
 }
 
@@ -191,7 +191,7 @@ fn with_relaxation(scene: &Scene, estimate: &Estimate, change: Departure) -> Dep
 
 /// Returns the spread of the contact time over the laws that the case leaves open, as a share.
 fn spread(scene: &Scene, estimate: &Estimate) -> f64 {
-    Strained::of_both(scene, estimate).iter().flatten().map(Strained::spread).sum()
+    BodyStrain::of_both(scene, estimate).iter().flatten().map(BodyStrain::spread).sum()
 }
 
 fn is_forced_on(scene: &Scene) -> bool {
@@ -205,8 +205,8 @@ fn is_needed(scene: &Scene, estimate: &Estimate) -> bool {
 
 /// Returns whether a body is flatter than all reference spheres.
 fn is_beyond(scene: &Scene, estimate: &Estimate) -> bool {
-    let both = Strained::of_both(scene, estimate);
-    both.iter().flatten().any(Strained::is_beyond)
+    let both = BodyStrain::of_both(scene, estimate);
+    both.iter().flatten().any(BodyStrain::is_beyond)
 }
 
 /// Returns the error of neglecting it, as text.
@@ -280,12 +280,12 @@ impl Effect for FiniteStrain {
         status: &EffectStatus,
     ) -> QuantityErrors {
         let computed = if status.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
-        let both = Strained::of_both(scene, estimate);
+        let both = BodyStrain::of_both(scene, estimate);
         let both =
             || both.iter().zip(computed).filter_map(|(body, law)| Some((body.as_ref()?, law)));
         // A law that is named and computed has no error.
         let is_open =
-            |body: &Strained, law| body.possible_laws().iter().any(|one| Some(*one) != law);
+            |body: &BodyStrain, law| body.possible_laws().iter().any(|one| Some(*one) != law);
         if both().any(|(body, law)| body.is_beyond() && is_open(body, law)) {
             return QuantityErrors::default();
         }

@@ -15,7 +15,7 @@ const LARGEST_POISSONS_RATIO: f64 = 0.4999;
 const OWN_SHARE: f64 = 0.1;
 
 /// A deformable body to which finite strain matters.
-pub(super) struct Strained<'a> {
+pub(super) struct BodyStrain<'a> {
     pub name: &'a str,
     pub material: &'a Material,
     /// Share of the contact's compliance.
@@ -25,7 +25,7 @@ pub(super) struct Strained<'a> {
     pub departure: Departure,
 }
 
-impl<'a> Strained<'a> {
+impl<'a> BodyStrain<'a> {
     /// Returns both bodies of a scene, with `None` for a rigid one.
     pub fn of_both(scene: &'a Scene, estimate: &Estimate) -> [Option<Self>; 2] {
         let shares = scene.compliance_shares();
