@@ -11,15 +11,16 @@
 //! \mathbf u_i = C_i \mathbf p
 //! ```
 //!
-//! Elements, masses and penalty springs are those of the explicit model. Contact acts along the common normal of
-//! the flattened interface, at matching nodes; the finer of two unlike meshes is projected on the nodes of the
-//! coarser. Initial gaps are taken between the exact circles, not between the element edges. The contact problem of a step is solved exactly, without iteration
-//! (`disc_contact`).
+//! Elements, masses and penalty springs are those of the explicit model. Contact acts along the common normal of the
+//! flattened interface, at matching nodes; the finer of two unlike meshes is projected on the nodes of the coarser.
+//! Initial gaps are taken between the exact circles, not between the element edges. The contact problem of a step is
+//! solved exactly, without iteration (`disc_contact`).
 //!
-//! A relaxing body is a set of scalar viscoelastic modes (`viscoelastic_modes`). With constant Poisson's ratio there is one
-//! per contact node. With a relaxing shear modulus and an elastic bulk modulus a Galerkin basis has two per node (`shear`). Modes of free vibration add the inertia that the quasi-static body lacks (`vibration`). For
-//! a body so large that its waves do not return within the contact, such as a half-space, a separate element
-//! models the radiated energy (`radiation`).
+//! A relaxing body is a set of scalar viscoelastic modes (`viscoelastic_modes`). With constant Poisson's ratio there is
+//! one per contact node. With a relaxing shear modulus and an elastic bulk modulus a Galerkin basis has two per node
+//! (`shear`). Modes of free vibration add the inertia that the quasi-static body lacks (`vibration`). For a body so
+//! large that its waves do not return within the contact, such as a half-space, a separate element models the radiated
+//! energy (`radiation`).
 //!
 //! A rigid sphere has no compliance; its curvature enters the gap, its mass the reduced mass. A wall has neither.
 //!
@@ -70,5 +71,4 @@ pub use contact::elastic_impact::ElasticImpact;
 pub use error::CondensedError;
 pub use operators::slip::Slip;
 pub use pair::CondensedPair;
-pub use settings::Damping;
-pub use settings::{ContactModel, PairSettings};
+pub use settings::{ContactModel, Damping, PairSettings};

@@ -30,8 +30,8 @@ pub struct PairSettings {
     pub held: [bool; 2],
     /// Slip between the surfaces of unlike bodies, if included.
     pub slip: Option<Slip>,
-    /// Whether factors are kept. Fields, a relaxing shear modulus with an elastic bulk modulus, and vibration modes need them;
-    /// otherwise they are computed again on request.
+    /// Whether factors are kept. Fields, a relaxing shear modulus with an elastic bulk modulus, and vibration modes
+    /// need them; otherwise they are computed again on request.
     pub keeps_factors: bool,
 }
 

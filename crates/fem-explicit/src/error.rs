@@ -23,7 +23,8 @@ pub enum ModelError {
         /// The allowed range.
         allowed: &'static str,
     },
-    /// The time step is not a positive finite number, because a body is extremely stiff, light, small, soft, heavy or large.
+    /// The time step is not a positive finite number, because a body is extremely stiff, light, small, soft, heavy or
+    /// large.
     #[error(
         "explicit elements would need a time step of {time_step} s: the time in which a wave crosses the \
          smallest element is beyond the range of numbers"

@@ -1,7 +1,7 @@
 //! One body without contact: its free vibrations, and the forces of a given deformation.
 //!
-//! The body moves as in a collision, M ü = −f(u), by central differences with a step that is stable for it alone, without mass
-//! scaling.
+//! The body moves as in a collision, M ü = −f(u), by central differences with a step that is stable for it alone,
+//! without mass scaling.
 
 use fem_collision::{BalanceSide, BodyFields, StressField};
 use fem_material::Material;
@@ -66,8 +66,8 @@ impl FreeMotion {
         Self::with_law(mesh, material, None, step_factor)
     }
 
-    /// Makes a body at finite strain, by a law. The step stays that of the undeformed body, so a body that stiffens much may
-    /// become unstable.
+    /// Makes a body at finite strain, by a law. The step stays that of the undeformed body, so a body that stiffens
+    /// much may become unstable.
     ///
     /// # Errors
     /// The step factor is out of range, or the material has too many relaxation terms.
@@ -117,7 +117,8 @@ impl FreeMotion {
         self.state.velocity = self.at_nodes(velocity);
     }
 
-    /// Sets the displacement (r, y) of every node, m, as a function of its place (r, y), m, instantaneously: nothing has relaxed.
+    /// Sets the displacement (r, y) of every node, m, as a function of its place (r, y), m, instantaneously: nothing
+    /// has relaxed.
     pub fn set_displacement(&mut self, displacement: impl Fn([f64; 2]) -> [f64; 2]) {
         self.state.displacement = self.at_nodes(displacement);
         let BodyState { displacement, history, .. } = &mut self.state;
@@ -165,8 +166,8 @@ impl FreeMotion {
         &self.forces
     }
 
-    /// Returns the energy ½ v_{n−1/2}·M v_{n+1/2} plus the stored energy, ½ u_n·K u_n for an elastic body, J. Leapfrog conserves it
-    /// to rounding for an elastic body at small strain.
+    /// Returns the energy ½ v_{n−1/2}·M v_{n+1/2} plus the stored energy, ½ u_n·K u_n for an elastic body, J. Leapfrog
+    /// conserves it to rounding for an elastic body at small strain.
     pub fn energy(&self) -> f64 {
         let inverse_mass = self.body.inverse_mass.as_flattened();
         let forces = self.forces.as_flattened();

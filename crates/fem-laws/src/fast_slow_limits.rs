@@ -26,9 +26,9 @@
 //! | slow | g T/τ | −ε t/T | 4/9 ε | 0.0368 ε | 0.1974 ε |
 //! | fast, with g′ left | g τ/(g′ T) | ε T δ(t) | c ε, c = 5.568 | (1 − c/10) ε | 3/5 c ε |
 //!
-//! Here g is the weight of the term in the contact's modulus. A term of the shear modulus G of one body is weighted with this
-//! body's share of the contact's compliance and with ∂ ln(E/(1−ν²))/∂ ln G at constant K; that derivative is 1 if K relaxes
-//! with G.
+//! Here g is the weight of the term in the contact's modulus. A term of the shear modulus G of one body is weighted
+//! with this body's share of the contact's compliance and with ∂ ln(E/(1−ν²))/∂ ln G at constant K; that derivative is
+//! 1 if K relaxes with G.
 //!
 //! Limits: ε ≪ 1. For a weak term with τ ≈ T, e and F are overestimated and T is underestimated by up to a
 //! factor of three. With other terms that relax strongly the estimate has an error of up to a half.

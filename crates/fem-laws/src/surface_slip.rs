@@ -220,8 +220,8 @@ mod tests {
         Pair::new(first, second).unwrap()
     }
 
-    /// Under Hertz' pressure the surface moves inward by Johnson's eq. 3.41b, and slope and radial traction together change the
-    /// gap by the same amount at every radius.
+    /// Under Hertz' pressure the surface moves inward by Johnson's eq. 3.41b, and slope and radial traction together
+    /// change the gap by the same amount at every radius.
     #[test]
     fn slip_changes_the_gap_by_a_constant() {
         let [lower, upper] = materials();

@@ -9,7 +9,7 @@
 //! K(t) and G(t) by the elastic identities. So ν(t) is not the viscoelastic Poisson's ratio of a creep or relaxation
 //! test.
 
-use crate::elastic::{ElasticModuli, poissons_ratio, youngs_modulus};
+use crate::elastic::ElasticModuli;
 use crate::error::{MaterialError, positive};
 use crate::finite::HyperelasticLaw;
 use crate::prony::{ActsOn, PronySeries};
@@ -96,24 +96,6 @@ impl Material {
             self.instantaneous.bulk_modulus() * self.shear_fraction(time)
         } else {
             self.instantaneous.bulk_modulus()
-        }
-    }
-
-    /// Returns E for G(t) and K(t).
-    pub fn youngs_modulus_at(&self, time: f64) -> f64 {
-        if self.bulk_relaxes() {
-            self.instantaneous.youngs_modulus() * self.shear_fraction(time)
-        } else {
-            youngs_modulus(self.bulk_modulus_at(time), self.shear_modulus_at(time))
-        }
-    }
-
-    /// Returns ν for G(t) and K(t): constant if both relax, rising towards 1/2 if only G does.
-    pub fn poissons_ratio_at(&self, time: f64) -> f64 {
-        if self.bulk_relaxes() {
-            self.instantaneous.poissons_ratio()
-        } else {
-            poissons_ratio(self.bulk_modulus_at(time), self.shear_modulus_at(time))
         }
     }
 

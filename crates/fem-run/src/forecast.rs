@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use fem::accuracy::CONDENSED_REFERENCE_TIME;
+use fem::error::CONDENSED_REFERENCE_TIME;
 use fem::{Cost, ErrorEstimator, RefinementBound, Simulation};
 use fem_case::engineering::Unit;
 use fem_collision::{Monitor, OutputRequest, Phase, Progress};

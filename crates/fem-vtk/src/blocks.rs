@@ -152,8 +152,8 @@ impl Layout {
         }
     }
 
-    /// Decompresses the blocks; `None` if one is not zlib data of the size in the header. Memory grows with the decompressed
-    /// bytes, never with the sizes in the header.
+    /// Decompresses the blocks; `None` if one is not zlib data of the size in the header. Memory grows with the
+    /// decompressed bytes, never with the sizes in the header.
     pub(crate) fn decompress(&self, mut blocks: &[u8], sizes: &[usize]) -> Option<Vec<u8>> {
         if self.n_bytes() / LARGEST_RATIO > blocks.len() {
             return None;

@@ -1,11 +1,12 @@
 //! Writes and reads VTK XML files of quadrilateral meshes, without a VTK library.
 //!
 //! Writing: [`VtuWriter`] writes one `.vtu` (`UnstructuredGrid` of `VTK_QUAD` cells) per snapshot, a series on one
-//! [`VtuGrid`]. [`write_collection`] writes a `.pvd` and a `.vtu.series` with the times of the files. They are for ParaView ≥
-//! 5.11, VTK ≥ 9.2 and meshio 5.3; `.ci/check_vtk.py` reads them with the last two.
+//! [`VtuGrid`]. [`write_collection`] writes a `.pvd` and a `.vtu.series` with the times of the files. They are for
+//! ParaView ≥ 5.11, VTK ≥ 9.2 and meshio 5.3; `.ci/check_vtk.py` reads them with the last two.
 //!
-//! Reading: [`read_quad_mesh`] reads a `.vtu` of quadrilaterals from ParaView, VTK, meshio or this crate, and [`VtuFile`] any
-//! named array of such a file. Lengths in a file are compared with its bytes before anything is allocated.
+//! Reading: [`read_quad_mesh`] reads a `.vtu` of quadrilaterals from ParaView, VTK, meshio or this crate, and
+//! [`VtuFile`] any named array of such a file. Lengths in a file are compared with its bytes before anything is
+//! allocated.
 //!
 //! Format: the *VTK File Formats* document, "XML File Formats", version 1.0 (`UInt64` headers).
 //!

@@ -1,8 +1,8 @@
 //! Regular expressions of quantities as strings: for a length `22.2 mm`, but not `22.2 s`.
 //!
 //! A unit is one symbol, or a quotient of two or three in the usual form of the dimension: `m/s`, `kg/m^3`, `N/mm²`. An
-//! expression cannot check the dimension of products, negative powers and parentheses, so any of known symbols are accepted.
-//! There is no look-around, which some validators lack.
+//! expression cannot check the dimension of products, negative powers and parentheses, so any of known symbols are
+//! accepted. There is no look-around, which some validators lack.
 
 use crate::quantity::unit_table::symbols;
 

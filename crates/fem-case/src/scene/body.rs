@@ -42,8 +42,8 @@ impl Body {
         self.yield_strength
     }
 
-    /// Returns the name of the material, without `lib:`, if it is the library's, without a published loss, and the case gives
-    /// no relaxation.
+    /// Returns the name of the material, without `lib:`, if it is the library's, without a published loss, and the case
+    /// gives no relaxation.
     pub fn unpublished_loss(&self) -> Option<&str> {
         self.unpublished_loss.as_deref()
     }

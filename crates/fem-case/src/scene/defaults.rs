@@ -1,6 +1,7 @@
-//! The defaults of all keys of a case that do not depend on the scene. Validation, the plan and messages read them here; the
-//! table in `docs/cases.md` states them. Element sizes, mass scaling and other defaults that follow from the scene are the
-//! plan's (`fem-simulation/src/plan`). Laws have the defaults of their keys in their table (`fem-laws/src/laws/mod.rs`).
+//! The defaults of all keys of a case that do not depend on the scene. Validation, the plan and messages read them
+//! here; the table in `docs/cases.md` states them. Element sizes, mass scaling and other defaults that follow from the
+//! scene are the plan's (`fem-simulation/src/plan`). Laws have the defaults of their keys in their table
+//! (`fem-laws/src/laws/mod.rs`).
 
 use fem_laws::{EndRule, LawImpact, Ting};
 

@@ -20,9 +20,9 @@ const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 const LEAST_SHARE: f64 = 1e-3;
 
 impl Scene {
-    /// Returns the library's materials, without `lib:`, that have no published loss and no relaxation in the case, so that
-    /// the restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves out bodies
-    /// that hardly deform.
+    /// Returns the library's materials, without `lib:`, that have no published loss and no relaxation in the case, so
+    /// that the restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves
+    /// out bodies that hardly deform.
     pub fn materials_of_unpublished_loss(&self) -> Vec<&str> {
         if matches!(self.model, ModelChoice::Law { .. }) {
             return Vec::new();
@@ -48,8 +48,8 @@ impl Scene {
         })
     }
 
-    /// Returns a note on the sizes and the unit of spheres that are all one metre or larger, which may be intended; `None` if
-    /// one of them is [implausible](Self::implausible_numbers).
+    /// Returns a note on the sizes and the unit of spheres that are all one metre or larger, which may be intended;
+    /// `None` if one of them is [implausible](Self::implausible_numbers).
     pub fn large_spheres(&self) -> Option<String> {
         let spheres: Vec<f64> = self.bodies.iter().filter_map(Body::diameter).collect();
         let are_large =

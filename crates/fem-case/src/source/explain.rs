@@ -152,7 +152,8 @@ fn with_article(what: &str) -> String {
     format!("{article} {what}")
 }
 
-/// Splits serde's "`found`, expected one of `a`, `b`" or "`found`, there are no fields" into the word and the allowed words.
+/// Splits serde's "`found`, expected one of `a`, `b`" or "`found`, there are no fields" into the word and the allowed
+/// words.
 fn split_backticked(text: &str) -> (&str, Vec<&str>) {
     let (found, rest) = text
         .rsplit_once("`, expected ")

@@ -80,25 +80,19 @@ impl Check<'_> {
             ));
         }
         // Adding to 0 gives a body at rest the velocity 0, never -0.
-        let (lower_velocity, upper_velocity) = (0.0 + lower_speed, 0.0 - upper_speed);
-        Ok([
-            Body {
-                name: lower.name.clone(),
-                shape: lower_shape,
-                velocity: lower_velocity,
-                held: lower.held.unwrap_or_default(),
-                yield_strength: self.yield_strength(file, lower)?,
-                unpublished_loss: unpublished_loss(file, lower),
-            },
-            Body {
-                name: upper.name.clone(),
-                shape: upper_shape,
-                velocity: upper_velocity,
-                held: upper.held.unwrap_or_default(),
-                yield_strength: self.yield_strength(file, upper)?,
-                unpublished_loss: unpublished_loss(file, upper),
-            },
-        ])
+        let lower = (lower, lower_shape, 0.0 + lower_speed);
+        let upper = (upper, upper_shape, 0.0 - upper_speed);
+        let body = |(table, shape, velocity): (&BodyTable, _, _)| {
+            Ok(Body {
+                name: table.name.clone(),
+                shape,
+                velocity,
+                held: table.held.unwrap_or_default(),
+                yield_strength: self.yield_strength(file, table)?,
+                unpublished_loss: unpublished_loss(file, table),
+            })
+        };
+        Ok([body(lower)?, body(upper)?])
     }
 
     /// Returns the yield strength of a body's material, Pa.

@@ -140,8 +140,8 @@ impl Probes {
         self.found.iter().position(Option::is_none)
     }
 
-    /// Reduces a snapshot of bodies of these materials to the probes: fields with one entry per request, in their order, and
-    /// zero in the other body.
+    /// Reduces a snapshot of bodies of these materials to the probes: fields with one entry per request, in their
+    /// order, and zero in the other body.
     pub fn reduce(&self, materials: [Option<&Material>; 2], all: &Snapshot) -> Snapshot {
         let n = self.found.len();
         let mut few = Snapshot {
@@ -234,8 +234,8 @@ mod tests {
         disc.build().unwrap().on_side(side)
     }
 
-    /// u = (a r, b y) has a uniform strain: displacement and stress are exact everywhere, also on the axis and on the arc of
-    /// the surface.
+    /// u = (a r, b y) has a uniform strain: displacement and stress are exact everywhere, also on the axis and on the
+    /// arc of the surface.
     #[test]
     fn linear_fields_are_exact_at_any_place() {
         let (glass, [a, b]) = (glass(), [1e-3, -2e-3]);

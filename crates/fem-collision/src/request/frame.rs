@@ -29,7 +29,8 @@ impl Frame {
         self.approach.speed()
     }
 
-    /// Returns the momentum m*(v − δ̇), N s, that the first body has transferred to the second at a rate of the approach, m/s.
+    /// Returns the momentum m*(v − δ̇), N s, that the first body has transferred to the second at a rate of the
+    /// approach, m/s.
     pub fn impulse(&self, rate: f64) -> f64 {
         self.reduced_mass * (self.speed() - rate)
     }
@@ -54,8 +55,8 @@ impl Frame {
         0.5 * self.reduced_mass * self.speed() * self.speed()
     }
 
-    /// Returns ½m*(δ̇² − v²), J: the change of the kinetic energy without the work of a wall. It avoids the cancellation that
-    /// unequal masses would cause.
+    /// Returns ½m*(δ̇² − v²), J: the change of the kinetic energy without the work of a wall. It avoids the
+    /// cancellation that unequal masses would cause.
     pub fn gained(&self, rate: f64) -> f64 {
         0.5 * self.reduced_mass * (rate - self.speed()) * (rate + self.speed())
     }
@@ -70,8 +71,8 @@ impl Frame {
         (self.gravity > 0.0).then(|| -self.weight() * approach)
     }
 
-    /// Returns the energy (J) to which residuals are relative, at the largest approach so far (m): the initial energy and the
-    /// work of the weight. A ball that is laid down has almost no initial energy.
+    /// Returns the energy (J) to which residuals are relative, at the largest approach so far (m): the initial energy
+    /// and the work of the weight. A ball that is laid down has almost no initial energy.
     pub fn energy_scale(&self, closest: f64) -> f64 {
         self.initial() + self.weight() * closest
     }

@@ -55,8 +55,8 @@ pub struct Collision {
     pub energies: EnergyLedger,
     /// Energy residual at the end, J.
     pub residual: Option<f64>,
-    /// Largest energy residual, over the initial kinetic energy in the frame of the mass centre; with gravity over the sum of
-    /// that and the work of the weight on the approach.
+    /// Largest energy residual, over the initial kinetic energy in the frame of the mass centre; with gravity over the
+    /// sum of that and the work of the weight on the approach.
     pub residual_relative: Option<f64>,
     /// The instant at which that first exceeded [`LARGEST_RESIDUAL`], for models with time steps.
     pub residual_since: Option<StepInstant>,

@@ -17,8 +17,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Returns the completed fraction of a run after the time `elapsed` (s) of `expected` (s). It is proportional to the time
-    /// up to 0.9 and then approaches 1, in case the run takes longer.
+    /// Returns the completed fraction of a run after the time `elapsed` (s) of `expected` (s). It is proportional to
+    /// the time up to 0.9 and then approaches 1, in case the run takes longer.
     pub fn share(elapsed: f64, expected: f64) -> f64 {
         const IN_PROPORTION: f64 = 0.9;
         let done = elapsed / expected;

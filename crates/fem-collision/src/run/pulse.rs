@@ -7,9 +7,9 @@
 //! \bar F = \frac{J(t + w) - J(t)}{w}, \qquad w = \frac{1.75}{64}\,\frac{J}{\max F},
 //! ```
 //!
-//! with the impulse J, which is exact over all steps. 1.75 J / max F is the duration of a Hertz pulse with this impulse (the
-//! contact time T of an elastic contact), and a window of 1/64 of it lowers a smooth peak by 0.01 %. Fits of parabolas and
-//! quartics over wider windows scatter as much and lower the peak of a rubber ball at 10 m/s by 3 %.
+//! with the impulse J, which is exact over all steps. 1.75 J / max F is the duration of a Hertz pulse with this impulse
+//! (the contact time T of an elastic contact), and a window of 1/64 of it lowers a smooth peak by 0.01 %. Fits of
+//! parabolas and quartics over wider windows scatter as much and lower the peak of a rubber ball at 10 m/s by 3 %.
 //!
 //! At first touch the flat facet of the first elements strikes a small area, and its pressure depends on the mesh. The
 //! pressure therefore counts from a quarter of the largest contact radius, or from two elements if that is less. In bodies
@@ -251,8 +251,8 @@ mod tests {
         assert!((peaks.pressure - 1.0).abs() < 3e-4, "{peaks:?}");
     }
 
-    /// A viscous body: the pressure is largest, 1, at a hundredth of the contact time and a twentieth of the largest radius.
-    /// Elements of an eightieth of the radius resolve it, larger ones do not.
+    /// A viscous body: the pressure is largest, 1, at a hundredth of the contact time and a twentieth of the largest
+    /// radius. Elements of an eightieth of the radius resolve it, larger ones do not.
     #[test]
     fn an_early_peak_of_the_pressure_is_found() {
         let (mut pulse, n) = (ForcePulse::default(), 4000);

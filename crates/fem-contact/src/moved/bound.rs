@@ -21,8 +21,8 @@ impl MovedInterface {
         self.add_bound(AT_REST, side, steepness_at_rest, per_area, bound);
     }
 
-    /// Adds a bound of the contact stiffness at each node (N/m) of a side for displacements `u` (m). It holds until a point has come nearer to the other
-    /// surface by more than `reach` (m).
+    /// Adds a bound of the contact stiffness at each node (N/m) of a side for displacements `u` (m). It holds until a
+    /// point has come nearer to the other surface by more than `reach` (m).
     ///
     /// A spring k A (m·δ)² along m = (−y', 1) is at most (1 + y'²) k A in any direction. The rest is as
     /// in [`ContactInterface::add_stiffness_bound`](crate::ContactInterface::add_stiffness_bound), but with the

@@ -19,9 +19,9 @@
 //! \theta = \frac{\sum_j \max(n_j - m_j, 0)}{\sum_j \max(m_j - n_j, 0)},
 //! ```
 //!
-//! so that the body keeps its mass. The step is the longest for which the moved mass stays within its budget and θ is at most
-//! ½. Mass that is added and not moved would make the bodies heavier: 1 % of it prolongs the contact by 0.25 % and raises the
-//! force by 0.65 %.
+//! so that the body keeps its mass. The step is the longest for which the moved mass stays within its budget and θ is
+//! at most ½. Mass that is added and not moved would make the bodies heavier: 1 % of it prolongs the contact by 0.25 %
+//! and raises the force by 0.65 %.
 //!
 //! Forces of damping C take the velocity of half a step before, which is the same as
 //! the mean velocity at the mass M − ½ Δt C. So with C bounded by a diagonal γ_i the
@@ -37,11 +37,11 @@
 //! the step of an oscillator of damping ratio ξ (Belytschko, Liu & Moran 2000, eq. 6.2.30). Without
 //! damping it is the step above, to the bit.
 //!
-//! Nodes without mass ([`BoundaryMass`]) are always at the minimum of the energy, so the potential of the other nodes is
-//! V(u) = min_b W(u, b), with a convex W of stress and contact. Its curvature is at most that of W at fixed b, which is the
-//! stiffness of the elements without those corners. Hence λ_e is that of the rest of an element, and the springs of the
-//! contact are not in the bound, however stiff they are. V is convex with a continuous gradient, so this holds while springs
-//! open and close.
+//! Nodes without mass ([`BoundaryMass`]) are always at the minimum of the energy, so the potential of the other nodes
+//! is V(u) = min_b W(u, b), with a convex W of stress and contact. Its curvature is at most that of W at fixed b, which
+//! is the stiffness of the elements without those corners. Hence λ_e is that of the rest of an element, and the springs
+//! of the contact are not in the bound, however stiff they are. V is convex with a continuous gradient, so this holds
+//! while springs open and close.
 
 use fem_element::QuadGeometry;
 use fem_mesh::{SphereMesh, lump_mass};
@@ -151,8 +151,8 @@ impl NodalBound {
         stable
     }
 
-    /// Moves mass from nodes that have more than they need for a critical time step (s) to those that have less. Returns the
-    /// masses and the moved mass, kg.
+    /// Moves mass from nodes that have more than they need for a critical time step (s) to those that have less.
+    /// Returns the masses and the moved mass, kg.
     pub fn scale_mass(&self, time_step: f64) -> (Vec<f64>, f64) {
         let [missing, spare] = self.missing_and_spare(time_step);
         // The critical node may lack a rounding error while no node has spare mass.

@@ -70,8 +70,8 @@ impl BoundaryMass {
         moved
     }
 
-    /// Returns the masses of the nodes (kg) after the move. Mass of a node beyond its shares of elements moves in proportion to
-    /// those.
+    /// Returns the masses of the nodes (kg) after the move. Mass of a node beyond its shares of elements moves in
+    /// proportion to those.
     pub fn of_nodes(
         &self,
         mesh: &SphereMesh,

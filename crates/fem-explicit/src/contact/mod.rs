@@ -64,7 +64,8 @@ pub trait Contact: Part {
     /// Returns the candidate region, in which contact is searched for.
     fn candidate_region(&self) -> CandidateRegion;
 
-    /// Adds a bound of the contact stiffness at each node (N/m) of a side, 0 lower, 1 upper, which holds for any closed part.
+    /// Adds a bound of the contact stiffness at each node (N/m) of a side, 0 lower, 1 upper, which holds for any closed
+    /// part.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);
 
     /// Adds a bound of the contact damping at each node (N s/m) of a side; a contact that does not depend on the
@@ -102,7 +103,8 @@ pub trait Contact: Part {
         Ok(())
     }
 
-    /// Adds the energy that the contact has dissipated since first touch; the energy of its springs is returned with the forces.
+    /// Adds the energy that the contact has dissipated since first touch; the energy of its springs is returned with
+    /// the forces.
     fn add_energies(&self, _history: [&[NodalField]; 2], _accounts: &mut Accounts) {}
 
     /// Returns the nodes of a side, 0 lower, 1 upper, that have no mass: the step keeps their velocity, and the contact
@@ -111,13 +113,14 @@ pub trait Contact: Part {
         &[]
     }
 
-    /// Allocates the buffers of the contact for a run. A run that is resumed begins with new ones: their contents must not change a
-    /// bit of the result.
+    /// Allocates the buffers of the contact for a run. A run that is resumed begins with new ones: their contents must
+    /// not change a bit of the result.
     fn buffers(&self) -> Box<dyn Any + Send + Sync> {
         Box::new(())
     }
 
-    /// Advances the history of the contact over a step, and moves the nodes without mass; `motions` include the history of the stress.
+    /// Advances the history of the contact over a step, and moves the nodes without mass; `motions` include the history
+    /// of the stress.
     fn advance(
         &self,
         _motions: [MotionMut<'_>; 2],

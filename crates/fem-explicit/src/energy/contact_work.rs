@@ -1,17 +1,18 @@
 //! The share of the contact in the balance of energy and momentum, at every step.
 //!
-//! Leapfrog conserves the energy of the bodies alone exactly ([`Ledger`](super::Ledger)). The forces p of the contact change
-//! it over a step by ½ Δt v_{n+1/2}·(p_n + p_{n+1}), as follows from the equations of motion at t_n and t_{n+1};
-//! on nodes without mass p is the force that keeps them in balance. The energy C of the springs and the work W on dashpots
-//! must grow by the same amount:
+//! Leapfrog conserves the energy of the bodies alone exactly ([`Ledger`](super::Ledger)). The forces p of the contact
+//! change it over a step by ½ Δt v_{n+1/2}·(p_n + p_{n+1}), as follows from the equations of motion at t_n and t_{n+1};
+//! on nodes without mass p is the force that keeps them in balance. The energy C of the springs and the work W on
+//! dashpots must grow by the same amount:
 //!
 //! ```math
 //! \Delta_n = \tfrac12 \Delta t\, v_{n+1/2} \cdot (p_n + p_{n+1}) + (C + W)_{n+1} - (C + W)_n
 //! ```
 //!
-//! is spurious energy. It costs a pass over the nodes of the contact, while the whole balance costs one over all elements.
-//! Its sum since the last balance is the present residual: exactly for elastic bodies at small strain, and except the error
-//! of the dissipated power between two balances for relaxing ones. At finite strain further errors appear only in a balance.
+//! is spurious energy. It costs a pass over the nodes of the contact, while the whole balance costs one over all
+//! elements. Its sum since the last balance is the present residual: exactly for elastic bodies at small strain, and
+//! except the error of the dissipated power between two balances for relaxing ones. At finite strain further errors
+//! appear only in a balance.
 
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};

@@ -11,9 +11,10 @@ pub use gravity::Weight;
 
 /// A force on the nodes of a body, from first touch on.
 ///
-/// Implement it for effects that act from outside or depend on the motion: gravity, drag, a prescribed load, bulk viscosity. A
-/// body has a list of such forces, empty by default ([`Parts`](crate::Parts)), which are added in its order. A rigid sphere is
-/// one node with all of its mass; a wall has no forces. No force acts in the flight before first touch, which is not stepped.
+/// Implement it for effects that act from outside or depend on the motion: gravity, drag, a prescribed load, bulk
+/// viscosity. A body has a list of such forces, empty by default ([`Parts`](crate::Parts)), which are added in its
+/// order. A rigid sphere is one node with all of its mass; a wall has no forces. No force acts in the flight before
+/// first touch, which is not stepped.
 ///
 /// ```
 /// use fem_collision::Account;
@@ -53,7 +54,8 @@ pub trait NodeForce: Part {
     /// Adds the work that it has done since first touch, its stored energy, or its power.
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
 
-    /// Returns the acceleration along +y that it gives to the whole body at any place and velocity, m/s²; 0 for any other force.
+    /// Returns the acceleration along +y that it gives to the whole body at any place and velocity, m/s²; 0 for any
+    /// other force.
     fn acceleration(&self) -> f64 {
         0.0
     }

@@ -125,8 +125,8 @@ fn run_warnings(model: &ExplicitBodies, run: &RunState, ending: &Ending) -> Vec<
 /// on the mesh.
 const MACH_OF_STEEP_FRONTS: f64 = 0.02;
 
-/// Returns the element size (m) from which the pressure counts as a peak, as soon as the contact spans two of them; infinite
-/// where first touch makes a steep front.
+/// Returns the element size (m) from which the pressure counts as a peak, as soon as the contact spans two of them;
+/// infinite where first touch makes a steep front.
 fn resolving_size(model: &ExplicitBodies) -> f64 {
     let mut materials = model.bodies().iter().filter_map(Body::material);
     let is_slow = |material: &Material| {

@@ -8,8 +8,8 @@ use crate::model::ExplicitBodies;
 use crate::state::{Scratch, State};
 use crate::time::{StepControl, add_impulse};
 
-/// Computes the forces in the present configuration: internal forces, node forces, contact forces, and the reactions of held
-/// bodies.
+/// Computes the forces in the present configuration: internal forces, node forces, contact forces, and the reactions of
+/// held bodies.
 pub(crate) fn update_forces(
     model: &ExplicitBodies,
     state: &State,

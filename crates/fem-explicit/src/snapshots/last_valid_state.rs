@@ -10,8 +10,8 @@ use crate::state::{Scratch, State};
 /// Valid instants from one that is kept to the next: about thirty are kept in turn during a contact.
 const INSTANTS_BETWEEN_COPIES: u64 = 32;
 
-/// The last state that was kept while the energy of the run added up. It is part of the restart state, so that a resumed run
-/// has the same one.
+/// The last state that was kept while the energy of the run added up. It is part of the restart state, so that a
+/// resumed run has the same one.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LastValidState {
     is_wanted: bool,

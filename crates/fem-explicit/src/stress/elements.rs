@@ -38,9 +38,9 @@ pub(crate) struct GatheredBlocks {
 }
 
 impl GatheredBlocks {
-    /// Packs integrated elements, quads on nodes with numbers below `n_nodes`. Lane l takes the l-th part of the elements, so
-    /// that the lanes of a block share no node and their sums do not wait for each other. Empty lanes have no stiffness and
-    /// point at node 0.
+    /// Packs integrated elements, quads on nodes with numbers below `n_nodes`. Lane l takes the l-th part of the
+    /// elements, so that the lanes of a block share no node and their sums do not wait for each other. Empty lanes have
+    /// no stiffness and point at node 0.
     pub fn pack<'a>(
         n_nodes: usize,
         elements: impl ExactSizeIterator<Item = ([u32; 4], &'a QuadGeometry)>,

@@ -1,9 +1,9 @@
 //! Elements in rows, as in the meshes of `fem-mesh` and in any mesh whose nodes are numbered row by row.
 //!
-//! If an element has the corners k, k + 1, k + s + 1 and k + s, the next one in its row has the corners from k + 1 on: the
-//! corners of eight elements are four times eight neighbours in memory. The slot between the last element of a row and the first
-//! one of the next row is an element without stiffness. So all rows of one length s form one stretch, and only these slots are
-//! idle.
+//! If an element has the corners k, k + 1, k + s + 1 and k + s, the next one in its row has the corners from k + 1 on:
+//! the corners of eight elements are four times eight neighbours in memory. The slot between the last element of a row
+//! and the first one of the next row is an element without stiffness. So all rows of one length s form one stretch, and
+//! only these slots are idle.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -27,7 +27,8 @@ pub(crate) struct Stretch {
     shapes: Range<usize>,
 }
 
-/// Elements of a body that lie in rows. All node numbers of a stretch are below `n_nodes`, so that kernels index without a check.
+/// Elements of a body that lie in rows. All node numbers of a stretch are below `n_nodes`, so that kernels index
+/// without a check.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows {
     stretches: Vec<Stretch>,
@@ -42,8 +43,8 @@ struct Placed {
 }
 
 impl Rows {
-    /// Packs the integrated elements that lie in stretches of eight or more; quads are on nodes with numbers below `n_nodes`. Returns
-    /// also the numbers of the other elements.
+    /// Packs the integrated elements that lie in stretches of eight or more; quads are on nodes with numbers below
+    /// `n_nodes`. Returns also the numbers of the other elements.
     pub fn pack(
         n_nodes: usize,
         quads: &[[u32; 4]],
@@ -154,8 +155,8 @@ mod tests {
         Rows::pack(mesh.nodes().len(), mesh.quads(), &geometries(mesh))
     }
 
-    /// The cost of a step: blocks and rings lie in rows, except the halves of the first and of the last ring along the nodes of a
-    /// block that are not neighbours.
+    /// The cost of a step: blocks and rings lie in rows, except the halves of the first and of the last ring along the
+    /// nodes of a block that are not neighbours.
     #[test]
     fn built_in_meshes_are_packed_into_element_rows() {
         for m in [3, 5, 10, 20] {

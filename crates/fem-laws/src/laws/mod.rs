@@ -22,7 +22,8 @@ pub use tsuji::{tsuji, tsuji_coefficient, tsuji_values, zhang_whiten_coefficient
 /// A row holds, in this order:
 ///
 /// - the law's variant, its name, the type of its table in a case file and what serde expects there;
-/// - `formula`: the [`ContactLaw`] from the pair and the parameters, in the order of the keys;
+/// - `formula`: the [`ContactLaw`] from the pair and the parameters, in the order of the keys, as a call of a
+///   function of this module; two rows may call the same one;
 /// - `given by`: alternative sets of keys, of which a case gives exactly one, each key with its
 ///   [`crate::KeyNeed`] unless it is required; `values` names the function that turns keys into
 ///   parameters where they are not the parameters themselves;

@@ -153,9 +153,10 @@ impl Ting {
         self.relaxation.equilibrium_weight()
     }
 
-    /// Makes the model coarser and five times faster, for estimates: iterations end at 1e-8 of the speed,
-    /// and waves are smoothed over four times the usual share of the contact time. At a loss of 0.6 %, the loss
-    /// is 0.3 % too small, the change of the peak force 5 % and that of the contact time 30 %. Results are given beyond [`Ting::MAX_RADIATED_SHARE`] too.
+    /// Makes the model coarser and five times faster, for estimates: iterations end at 1e-8 of the speed, and waves are
+    /// smoothed over four times the usual share of the contact time. At a loss of 0.6 %, the loss is 0.3 % too small,
+    /// the change of the peak force 5 % and that of the contact time 30 %. Results are given beyond
+    /// [`Ting::MAX_RADIATED_SHARE`] too.
     pub fn with_coarse_waves(self) -> Self {
         Self { has_coarse_waves: true, ..self }
     }

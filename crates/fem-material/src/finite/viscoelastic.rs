@@ -140,19 +140,6 @@ impl Viscoelastic {
         Ok(stress.times(1.0 / (1.0 + strain.volume_change)))
     }
 
-    /// Returns the dissipated power per undeformed volume D, W/m³.
-    ///
-    /// # Errors
-    /// det F is not positive.
-    pub fn dissipation_rate(
-        &self,
-        h: &AxisymmetricTensor,
-        history: &[ViscousStrain],
-    ) -> Result<f64, Inverted> {
-        upright(h)?;
-        Ok(self.energy_and_dissipation_rate(h, history).1)
-    }
-
     /// Returns the stored energy (J/m³) and the dissipated power (W/m³), on one number or on lanes. They are valid
     /// where J − 1 > −1.
     #[inline(always)]

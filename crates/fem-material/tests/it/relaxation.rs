@@ -204,8 +204,6 @@ fn elastic_material_does_not_relax() {
     for time in [0.0, 1.0, f64::INFINITY] {
         assert_eq!(material.shear_modulus_at(time), moduli.shear_modulus());
         assert_eq!(material.bulk_modulus_at(time), moduli.bulk_modulus());
-        assert_eq!(material.youngs_modulus_at(time), moduli.youngs_modulus());
-        assert_eq!(material.poissons_ratio_at(time), moduli.poissons_ratio());
     }
     assert_eq!(material.equilibrium_shear_modulus(), moduli.shear_modulus());
 }
@@ -219,25 +217,18 @@ fn poissons_ratio_is_constant_when_all_relaxes() {
         // One or two roundings each.
         assert!((material.shear_modulus_at(time) - g * moduli.shear_modulus()).abs() < 1e-4);
         assert!((material.bulk_modulus_at(time) - g * moduli.bulk_modulus()).abs() < 1e-4);
-        assert!((material.youngs_modulus_at(time) - g * 63e9).abs() < 1e-4);
-        assert_eq!(material.poissons_ratio_at(time), moduli.poissons_ratio());
     }
     assert_eq!(material.equilibrium_shear_modulus(), 0.0);
 }
 
 #[test]
-fn poissons_ratio_rises_to_one_half_when_shear_alone_relaxes() {
+fn bulk_modulus_is_constant_when_shear_alone_relaxes() {
     let material = glass(Some(series(&[(1.0, 1.0 / 2708.0)], ActsOn::Shear).unwrap()));
-    let bulk_modulus = material.instantaneous().bulk_modulus();
-    assert!((material.poissons_ratio_at(0.0) - 0.244).abs() < 1e-15);
-    assert_eq!(material.poissons_ratio_at(f64::INFINITY), 0.5);
-    assert_eq!(material.youngs_modulus_at(f64::INFINITY), 0.0);
-    for time in [0.0, 3e-5, 1e-3] {
-        assert_eq!(material.bulk_modulus_at(time), bulk_modulus);
-        let (e, nu) = (material.youngs_modulus_at(time), material.poissons_ratio_at(time));
-        // The elastic identities, up to rounding.
-        assert!((e / (3.0 * bulk_modulus * (1.0 - 2.0 * nu)) - 1.0).abs() < 1e-13);
-        assert!((e / (2.0 * material.shear_modulus_at(time) * (1.0 + nu)) - 1.0).abs() < 1e-13);
+    let moduli = *material.instantaneous();
+    for time in [0.0, 3e-5, 1e-3, f64::INFINITY] {
+        let g = (-2708.0 * time).exp();
+        assert!((material.shear_modulus_at(time) - g * moduli.shear_modulus()).abs() < 1e-4);
+        assert_eq!(material.bulk_modulus_at(time), moduli.bulk_modulus());
     }
 }
 

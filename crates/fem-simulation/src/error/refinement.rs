@@ -9,10 +9,10 @@
 //!
 //! between the first order of bulk viscosity and the second order of elements, and the collision is computed again. The
 //! ratio is 2 at once if condensed reference runs, which show the error before the collision, find a smaller one
-//! insufficient. There are at most [`MOST_LEVELS`] finer meshes, each of at most [`MOST_UPDATES`] element updates or `limits.element_updates`. No
-//! mesh is refined for errors of other settings of the case (moved mass, soft springs, a coarse mesh away from the
-//! contact). A warning gives the reason why a mesh stays. Every decision follows from numbers of the case and of its
-//! runs, so it is the same on all machines.
+//! insufficient. There are at most [`MOST_LEVELS`] finer meshes, each of at most [`MOST_UPDATES`] element updates or
+//! `limits.element_updates`. No mesh is refined for errors of other settings of the case (moved mass, soft springs, a
+//! coarse mesh away from the contact). A warning gives the reason why a mesh stays. Every decision follows from numbers
+//! of the case and of its runs, so it is the same on all machines.
 
 use std::convert::Infallible;
 
@@ -229,8 +229,8 @@ impl ErrorEstimator {
         Some(misses(simulation, error).into_iter().next())
     }
 
-    /// Returns the case on a finer mesh, or the reason why there is none; `met` is the collision on the present mesh, `None`
-    /// before the run.
+    /// Returns the case on a finer mesh, or the reason why there is none; `met` is the collision on the present mesh,
+    /// `None` before the run.
     fn finer(
         &mut self,
         simulation: &Simulation,

@@ -8,10 +8,10 @@
 //! E_s^* = \frac{3\,\max F}{4\,\sqrt R\;(\max\delta)^{3/2}}, \qquad E^*(t_s) = E_s^*,
 //! ```
 //!
-//! and the modulus of each body is its relaxation modulus at the time t_s after a sudden load. For elastic bodies this is the
-//! elastic modulus; with fast relaxation it tends to the equilibrium modulus; for a fluid it is the modulus at the time
-//! in which it flows. For bodies that keep more than half of their moduli during the contact t_s = T/2, which is right
-//! within some per cent.
+//! and the modulus of each body is its relaxation modulus at the time t_s after a sudden load. For elastic bodies this
+//! is the elastic modulus; with fast relaxation it tends to the equilibrium modulus; for a fluid it is the modulus at
+//! the time in which it flows. For bodies that keep more than half of their moduli during the contact t_s = T/2, which
+//! is right within some per cent.
 
 use fem_case::{Body, Scene, Shape};
 use fem_collision::Collision;

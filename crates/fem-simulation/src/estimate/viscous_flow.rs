@@ -30,8 +30,8 @@ const LEAST_APPROACH_OVER_ELASTIC: f64 = 3.0;
 /// Returns the largest contact radius, m: Hertz' radius with instantaneous moduli, plus that by the weight, or the radius
 /// after relaxation.
 ///
-/// A ball that is released on a plane moves until the contact stores the work of its weight, 2/5 K δ^{5/2} = m g δ, which is
-/// (5/2)^{2/3} of the static approach. The impact adds at most its own radius.
+/// A ball that is released on a plane moves until the contact stores the work of its weight, 2/5 K δ^{5/2} = m g δ,
+/// which is (5/2)^{2/3} of the static approach. The impact adds at most its own radius.
 pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
     let pair = estimate.hertz.pair();
     let pressed = scene.gravity().and_then(|gravity| {

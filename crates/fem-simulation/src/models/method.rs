@@ -73,7 +73,8 @@ impl SharedModels {
     }
 }
 
-/// A scene ready to be computed at any approach and from any number of threads. A collision does not depend on earlier ones.
+/// A scene ready to be computed at any approach and from any number of threads. A collision does not depend on earlier
+/// ones.
 pub trait Model: fmt::Debug + Send + Sync {
     /// Returns the decisions on the scene.
     fn setup(&self) -> &ModelSetup;
@@ -82,8 +83,9 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// has no use for the effect.
     fn support(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Support>;
 
-    /// Computes a collision of the scene's bodies to its end or failure. An invalid request ([`OutputRequest::check`]) stops
-    /// it at the start. If the contact outgrows the candidate region, the collision is computed again with a larger one.
+    /// Computes a collision of the scene's bodies to its end or failure. An invalid request ([`OutputRequest::check`])
+    /// stops it at the start. If the contact outgrows the candidate region, the collision is computed again with a
+    /// larger one.
     fn collide(
         &self,
         approach: &Approach,

@@ -1,7 +1,7 @@
 //! Explicit bodies are computed in the frame of their mass centre, from first touch on.
 //!
-//! Strains are differences of displacements, which rounding would destroy after 10⁶ m of free flight or at a common speed of
-//! 10⁹ m/s. With the velocity V of the mass centre and the time t₀ of first touch,
+//! Strains are differences of displacements, which rounding would destroy after 10⁶ m of free flight or at a common
+//! speed of 10⁹ m/s. With the velocity V of the mass centre and the time t₀ of first touch,
 //!
 //! ```math
 //! t = t_0 + t', \qquad v = v' + V, \qquad

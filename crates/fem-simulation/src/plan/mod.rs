@@ -86,7 +86,8 @@ pub struct Plan {
     pub max_elements: u64,
     /// Elements times steps above which a run is rejected.
     pub max_element_updates: u64,
-    /// Longest run, in elastic contact times; a run that takes longer stops with [`NoSeparation`](fem_collision::Stop::NoSeparation).
+    /// Longest run, in elastic contact times; a run that takes longer stops with
+    /// [`NoSeparation`](fem_collision::Stop::NoSeparation).
     pub max_contact_times: f64,
     /// Memory above which a run is rejected, bytes.
     pub max_memory: u64,
@@ -264,8 +265,8 @@ fn unread_keys(scene: &Scene, makes_meshes: bool, has_half_space: bool) -> Vec<S
     unread.map(|(key, .., why)| format!("mesh.{key} has no effect: {why}")).collect()
 }
 
-/// Rounds a length (m) down to one of [`SIZES_PER_OCTAVE`] sizes per octave of the smallest radius. Scenes that differ in speed,
-/// relaxation or modulus then share meshes, and condensed bodies are factored once.
+/// Rounds a length (m) down to one of [`SIZES_PER_OCTAVE`] sizes per octave of the smallest radius. Scenes that differ
+/// in speed, relaxation or modulus then share meshes, and condensed bodies are factored once.
 fn shared_length(length: f64, smallest_radius: f64) -> f64 {
     let n = (SIZES_PER_OCTAVE * (smallest_radius / length).log2() * (1.0 - 1e-12)).ceil();
     smallest_radius * (-n / SIZES_PER_OCTAVE).exp2()

@@ -1,7 +1,7 @@
 //! Cache of condensed pairs that several cases share, so that a sweep over speeds or relaxations factors once.
 //!
-//! The key of a pair is its source, so no mesh is built to find it. The result of a case does not depend on the cases before
-//! it: a pair that had to be enlarged is not put back.
+//! The key of a pair is its source, so no mesh is built to find it. The result of a case does not depend on the cases
+//! before it: a pair that had to be enlarged is not put back.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -38,8 +38,9 @@ impl Simulation {
 }
 
 impl Summary {
-    /// Returns the summary of a collision with its estimated errors. `cost` has the times that the caller measured, `warnings`
-    /// and `files` are those so far. Numbers that are not finite become `None`, and one more warning lists them.
+    /// Returns the summary of a collision with its estimated errors. `cost` has the times that the caller measured,
+    /// `warnings` and `files` are those so far. Numbers that are not finite become `None`, and one more warning lists
+    /// them.
     pub fn of(
         simulation: &Simulation,
         collision: &Collision,

@@ -13,7 +13,6 @@ mod study;
 mod variants;
 
 pub use convergence::{Convergence, Limit, ObservedOrder, PowerLaw};
-pub use fem_simulation::error::{BarParts, CONDENSED_REFERENCE_TIME, Setting};
 pub use measurement::Measurement;
 pub use series::Series;
 pub use study::{ErrorPart, ErrorSource, Study, VariantErrors, VariantRun};

@@ -69,8 +69,8 @@ impl VtuFile {
     ///
     /// # Errors
     ///
-    /// The file cannot be read; its XML is broken or ends early; it is a VTK file of another type, byte order or compressor;
-    /// or it does not have exactly one piece.
+    /// The file cannot be read; its XML is broken or ends early; it is a VTK file of another type, byte order or
+    /// compressor; or it does not have exactly one piece.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let bytes =

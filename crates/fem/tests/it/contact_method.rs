@@ -79,8 +79,8 @@ fn forced_viscosity_needs_penalty_springs() {
     }
 }
 
-/// Behind steep fronts a massless boundary has the force and pressure of penalty springs with viscosity, without ringing and
-/// with a smaller loss.
+/// Behind steep fronts a massless boundary has the force and pressure of penalty springs with viscosity, without
+/// ringing and with a smaller loss.
 #[test]
 fn a_massless_boundary_does_not_ring_behind_fronts() {
     let run = |method: &str, switch: &str| {

@@ -36,9 +36,9 @@ const LIKE_HERTZ: [&[&str]; 9] = [
 /// Poisson's ratio and Young's modulus (Pa) of the case.
 const GLASS: (f64, f64) = (0.244, 63e9);
 
-/// The profile at the maximum is that of Hertz with the scene's a, p₀ and δ. With x = r/a the pressure is p₀ √(1 − x²), the
-/// gap is zero inside but for the overlap of springs, and δ (x²/2 − 1 + ((2 − x²) asin(1/x) + √(x² − 1))/π) outside (Johnson
-/// 1985, (3.42)). The surfaces move inward by (1 − 2ν)(1 + ν) a p₀ (1 − (1 − x²)^{3/2})/(3 E x) (his (3.41b)).
+/// The profile at the maximum is that of Hertz with the scene's a, p₀ and δ. With x = r/a the pressure is p₀ √(1 − x²),
+/// the gap is zero inside but for the overlap of springs, and δ (x²/2 − 1 + ((2 − x²) asin(1/x) + √(x² − 1))/π) outside
+/// (Johnson 1985, (3.42)). The surfaces move inward by (1 − 2ν)(1 + ν) a p₀ (1 − (1 − x²)^{3/2})/(3 E x) (his (3.41b)).
 #[test]
 fn contact_profile_at_maximum_equals_hertz() {
     for set in LIKE_HERTZ {

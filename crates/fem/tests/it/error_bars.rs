@@ -303,8 +303,8 @@ fn reduced_models_have_the_error_of_their_tolerance() {
     }
 }
 
-/// Near the collapse of St Venant and Kirchhoff's law the bars are right within a factor of two. The fine values are recorded
-/// from elements 1.6 times shorter.
+/// Near the collapse of St Venant and Kirchhoff's law the bars are right within a factor of two. The fine values are
+/// recorded from elements 1.6 times shorter.
 #[test]
 fn bars_of_a_softening_law_have_the_size_of_its_errors() {
     let text = "material.rubber = { density = 1000, youngs_modulus = 1e6, poissons_ratio = 0.3,

@@ -114,8 +114,8 @@ fn softer_springs_are_advised_without_a_massless_boundary() {
     }
 }
 
-/// Springs that open and close within a few steps get a shorter time step and conserve energy; with the usual step they gain
-/// 3e-3 to 5e-2 of it or fail.
+/// Springs that open and close within a few steps get a shorter time step and conserve energy; with the usual step they
+/// gain 3e-3 to 5e-2 of it or fail.
 #[test]
 fn ringing_springs_conserve_energy() {
     for (method, factor) in [("penalty", 100.0), ("node_to_surface", 10.0)] {

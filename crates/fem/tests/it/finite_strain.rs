@@ -255,8 +255,8 @@ fn slip_cannot_be_switched_off_at_finite_strain() {
     assert!(simulation(&[&[STEEL_BALL][..], &both].concat()).is_ok());
 }
 
-/// Beyond a/R = 0.85, the flattest computed collision, finite strain is on at any tolerance and the error of small strain is
-/// unknown. A law that is named and computed has no model-form error.
+/// Beyond a/R = 0.85, the flattest computed collision, finite strain is on at any tolerance and the error of small
+/// strain is unknown. A law that is named and computed has no model-form error.
 #[test]
 fn errors_beyond_the_flattest_computed_collision_are_unknown() {
     let all_is_known = |set: &[&str]| {

@@ -64,8 +64,8 @@ fn a_very_large_sphere_is_a_half_space() {
     }
 }
 
-/// The contact time of elements on a half-space is that of Hertz with the sphere's own compliance, within the discretisation
-/// error.
+/// The contact time of elements on a half-space is that of Hertz with the sphere's own compliance, within the
+/// discretisation error.
 #[test]
 fn the_contact_time_of_elements_is_that_of_hertz() {
     // A ball of the same material allows long time steps.

@@ -64,8 +64,8 @@ fn the_estimate_grows_with_the_power_of_the_modal_response() {
     }
 }
 
-/// The estimate agrees with the recorded difference between explicit elements at small strain and quasi-static bodies: a ball
-/// on a wall at 0.42 % of its shear wave speed with a tolerance of 0.2 %, and an unlike pair at 13 % with 0.4 %.
+/// The estimate agrees with the recorded difference between explicit elements at small strain and quasi-static bodies:
+/// a ball on a wall at 0.42 % of its shear wave speed with a tolerance of 0.2 %, and an unlike pair at 13 % with 0.4 %.
 #[test]
 fn the_estimate_agrees_with_explicit_elements() {
     for (text, found) in [
@@ -81,8 +81,9 @@ fn the_estimate_agrees_with_explicit_elements() {
     assert!(estimated(&PLASTIC.on_wall())[0] > 0.000_29);
 }
 
-/// A small ball leaves its waves in a large one, which hardly moves. The losses are recorded from explicit elements at small
-/// strain and a tolerance of 0.2 %, with waves that cross the large ball 3.0, 4.6, 4.4 and 8.0 times during the contact.
+/// A small ball leaves its waves in a large one, which hardly moves. The losses are recorded from explicit elements at
+/// small strain and a tolerance of 0.2 %, with waves that cross the large ball 3.0, 4.6, 4.4 and 8.0 times during the
+/// contact.
 #[test]
 fn the_loss_in_a_large_body_agrees_with_explicit_elements() {
     for (ball, large, found) in [

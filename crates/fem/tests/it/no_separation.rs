@@ -52,8 +52,8 @@ fn a_collision_without_separation_is_complete() {
     }
 }
 
-/// Faster relaxing bodies come to rest later, here in up to three hundred elastic contact times. If they would flow into each
-/// other, all models reject them with the same message.
+/// Faster relaxing bodies come to rest later, here in up to three hundred elastic contact times. If they would flow
+/// into each other, all models reject them with the same message.
 #[test]
 fn flowing_bodies_have_the_same_result_in_all_models() {
     for (acts_on, times) in

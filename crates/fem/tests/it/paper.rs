@@ -1,5 +1,5 @@
-//! Results of the shipped cases at default settings against independent numbers: the source paper (Bordbar & Hyppänen 2007),
-//! Hertz, and quasi-static finite elements and Ting's theory with the same material (converged at small strain:
+//! Results of the shipped cases at default settings against independent numbers: the source paper (Bordbar & Hyppänen
+//! 2007), Hertz, and quasi-static finite elements and Ting's theory with the same material (converged at small strain:
 //! T = 62.818 µs, F = 107.99 N; e = 0.92763 at constant Poisson's ratio and 0.94811 with elastic bulk modulus).
 
 use std::path::Path;

@@ -120,7 +120,8 @@ fn a_half_space_radiates_as_hunter_predicts() {
     }
 }
 
-/// On half-spaces that relax during the contact, or strongly, models with radiation are within their error bars of elements.
+/// On half-spaces that relax during the contact, or strongly, models with radiation are within their error bars of
+/// elements.
 #[test]
 #[ignore = "27 s; .ci/run runs it"]
 fn half_spaces_that_relax_are_within_their_bars() {

@@ -151,9 +151,9 @@ fn ball_on_wall(model: ModelTable) -> Case {
     Case::of(file).unwrap()
 }
 
-/// Johnson, Contact Mechanics (1985), eqs 3.40 and 3.45: σ_yy is −p0 / (1 + z²/a²), and for ν = 0.3 the largest shear stress
-/// is 0.310 p0 at the depth 0.48 a. With 14 elements across the contact radius the stress agrees within 1 % of p0 below
-/// the first elements, where the recovery is one-sided.
+/// Johnson, Contact Mechanics (1985), eqs 3.40 and 3.45: σ_yy is −p0 / (1 + z²/a²), and for ν = 0.3 the largest shear
+/// stress is 0.310 p0 at the depth 0.48 a. With 14 elements across the contact radius the stress agrees within 1 % of
+/// p0 below the first elements, where the recovery is one-sided.
 #[test]
 fn the_stress_on_the_axis_is_that_of_hertz() {
     let simulation = Simulation::new(ball_on_wall(ModelTable::condensed())).unwrap();

@@ -141,8 +141,8 @@ fn rigid_balls_on_a_half_space_and_held_ones() {
     }
 }
 
-/// Moved mass is a share of the lighter body. For a ball of 2 mm on a sphere of 60 mm, a share of the sphere would be sixteen
-/// times the ball.
+/// Moved mass is a share of the lighter body. For a ball of 2 mm on a sphere of 60 mm, a share of the sphere would be
+/// sixteen times the ball.
 #[test]
 fn moved_mass_is_a_share_of_a_small_rigid_ball() {
     let set = |model| {

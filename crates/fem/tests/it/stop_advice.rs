@@ -1,9 +1,9 @@
 //! Advice after a stop or a rejection: it names keys of cases, and with the advised change the scene ends well.
 //!
-//! Advice on growing energy, on limits and on warnings is tested in `failure_messages.rs` and `warning_advice.rs`. Growing energy,
-//! motion that is not a number, a time step that becomes too short, unbalanced energy of condensed bodies and a missing
-//! contact state occur only in runs that are disturbed from inside: none of 900 random scenes at the ends of all axes has
-//! one of them.
+//! Advice on growing energy, on limits and on warnings is tested in `failure_messages.rs` and `warning_advice.rs`.
+//! Growing energy, motion that is not a number, a time step that becomes too short, unbalanced energy of condensed
+//! bodies and a missing contact state occur only in runs that are disturbed from inside: none of 900 random scenes at
+//! the ends of all axes has one of them.
 
 use fem::{OutputRequest, Simulation, Stop, stop_advice};
 use fem_collision::StepInstant;

@@ -119,8 +119,8 @@ fn like_bodies_do_not_slip() {
     }
 }
 
-/// Slip that is forced on between like bodies is zero to first order. Explicit elements of different sizes change the force by
-/// 4e-4 on this coarse mesh, which is noise, and the approach by 1e-6.
+/// Slip that is forced on between like bodies is zero to first order. Explicit elements of different sizes change the
+/// force by 4e-4 on this coarse mesh, which is noise, and the approach by 1e-6.
 #[test]
 fn forced_slip_between_like_bodies_changes_nothing() {
     for (model, allowed) in [("fem", 1e-3), ("condensed", 1e-7), ("ting", 1e-7)] {

@@ -126,7 +126,8 @@ fn a_sufficient_mesh_stays() {
     }
 }
 
-/// If the case keeps a mesh that is too coarse, a warning names the quantity, its error, the tolerance and the change to make.
+/// If the case keeps a mesh that is too coarse, a warning names the quantity, its error, the tolerance and the change
+/// to make.
 #[test]
 fn a_coarse_mesh_of_the_case_has_a_warning() {
     for (set, words) in [
@@ -178,8 +179,8 @@ fn no_mesh_is_advised_for_an_impossible_tolerance() {
     assert!(!told.contains("0.00 %"), "{told}");
 }
 
-/// Errors by moved mass or springs of the case do not refine the mesh; a warning names the key, and without it the tolerance
-/// is met.
+/// Errors by moved mass or springs of the case do not refine the mesh; a warning names the key, and without it the
+/// tolerance is met.
 #[test]
 fn settings_that_refinement_does_not_improve_are_named() {
     for (key, value, words) in [
@@ -212,8 +213,8 @@ fn a_tenth_of_a_per_cent_needs_one_mesh() {
     assert!(updates < 32_000_000, "{updates}");
 }
 
-/// The Richardson limit does not depend on the place of the contact's edge between two nodes: a force with an error of 0.05 %
-/// has bars below 0.15 %.
+/// The Richardson limit does not depend on the place of the contact's edge between two nodes: a force with an error of
+/// 0.05 % has bars below 0.15 %.
 #[test]
 fn bars_do_not_depend_on_the_place_of_the_edge() {
     for size in ["42.6 um", "40.665 um"] {

@@ -72,8 +72,8 @@ fn model_form_errors_agree_with_actual_errors() {
     assert!(n_compared > 30, "{n_compared}");
 }
 
-/// A named law that is computed has no model-form error. Without a name the error is the spread of the laws, at finite strain
-/// less than at small strain.
+/// A named law that is computed has no model-form error. Without a name the error is the spread of the laws, at finite
+/// strain less than at small strain.
 #[test]
 fn an_unnamed_law_has_a_model_form_error() {
     let unnamed = summary(GLASS, &[&FINITE[..], &[NO_SNAPSHOTS]].concat());
@@ -90,8 +90,8 @@ fn an_unnamed_law_has_a_model_form_error() {
     assert!(parts(&small.uncertainty).iter().all(|parts| parts.discretisation > Some(0.0)));
 }
 
-/// Finite strain changes the loss of a relaxing material independently of the contact time. The bar of small strain covers it,
-/// and is at most three times as wide.
+/// Finite strain changes the loss of a relaxing material independently of the contact time. The bar of small strain
+/// covers it, and is at most three times as wide.
 #[test]
 fn the_loss_at_large_strain_is_a_model_form_error() {
     let ball = "material.rubber = { density = 1100, youngs_modulus = '1 MPa', poissons_ratio = 0.3,
@@ -137,8 +137,9 @@ fn missing_quantities_have_no_error() {
     assert!(parts(&flat.uncertainty).iter().all(|parts| parts.model.is_none()));
 }
 
-/// If one part of an error is unknown, the known parts are a lower bound: for nylon on steel beyond its yield, whose contact
-/// time closed forms of plastic impact do not give. The restitution of a material without a published loss is unknown.
+/// If one part of an error is unknown, the known parts are a lower bound: for nylon on steel beyond its yield, whose
+/// contact time closed forms of plastic impact do not give. The restitution of a material without a published loss is
+/// unknown.
 #[test]
 fn known_parts_of_an_error_are_a_lower_bound() {
     let nylon = "[[body]]\nname = 'steel'\nsphere = { diameter = '12 mm' }\nmaterial = 'lib:steel'\n\

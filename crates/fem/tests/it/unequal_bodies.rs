@@ -92,9 +92,9 @@ fn moved_mass_is_within_the_bars() {
     }
 }
 
-/// A stiff half-space gets as much moved mass as the ball, which saves four fifths of the steps with the same results. With a
-/// share of the ball's mass alone the step would be 1.6 times the unscaled one. The allowed change of the contact time is a
-/// sixth of its bar, that of the force a fifth.
+/// A stiff half-space gets as much moved mass as the ball, which saves four fifths of the steps with the same results.
+/// With a share of the ball's mass alone the step would be 1.6 times the unscaled one. The allowed change of the
+/// contact time is a sixth of its bar, that of the force a fifth.
 #[test]
 fn a_stiff_half_space_gets_more_moved_mass() {
     let scene = [

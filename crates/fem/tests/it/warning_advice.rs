@@ -1,7 +1,8 @@
 //! Advice of warnings: each advised change is parsed from the warning and made in the case. The warning then disappears or
 //! its number becomes smaller, and no warning of the same cause replaces it.
 //!
-//! Advice after stops and rejections is tested in `stop_advice.rs`, on an energy residual and on limits in `failure_messages.rs`.
+//! Advice after stops and rejections is tested in `stop_advice.rs`, on an energy residual and on limits in
+//! `failure_messages.rs`.
 
 use fem::{Simulation, WarningKinds};
 
@@ -96,8 +97,8 @@ fn computed_warnings(case: &str, set: &[String]) -> (Simulation, Vec<String>) {
     (computed.simulation, all)
 }
 
-/// Returns the sets of overrides that follow each advised change: keys after `write`, `set`, `use` and `name` are added, keys
-/// after `leave` are removed, and keys after `smaller` are halved.
+/// Returns the sets of overrides that follow each advised change: keys after `write`, `set`, `use` and `name` are
+/// added, keys after `leave` are removed, and keys after `smaller` are halved.
 fn remedies(warning: &str, simulation: &Simulation, set: &[&str]) -> Vec<Vec<String>> {
     let own = || set.iter().map(ToString::to_string);
     let with = |more: String| own().chain([more]).collect::<Vec<_>>();

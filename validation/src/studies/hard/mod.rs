@@ -1,11 +1,11 @@
 //! Hard scenes: each axis of `validation/hard` goes from one extreme to the other, with every model that
 //! supports the scene.
 //!
-//! An axis is a file next to the claim, [`Axis`]. The invariants of every run are measured, the worst of all runs
-//! as `growth`, `momentum`, `excess`, `no_number` and `cost` ([`Trial`]); a run that may gain energy must
-//! warn of it. `endurance.flight` and `endurance.vibration` concern one body ([`endurance`]). `AXIS.difference` is the largest
-//! difference of a run from its reference, over the tolerance of its scene; `AXIS.unexpected` counts
-//! the runs that did not end as the scene expects, or lack an expected warning.
+//! An axis is a file next to the claim, [`Axis`]. The invariants of every run are measured, the worst of all runs as
+//! `growth`, `momentum`, `excess`, `no_number` and `cost` ([`Trial`]); a run that may gain energy must warn of it.
+//! `endurance.flight` and `endurance.vibration` concern one body ([`endurance`]). `AXIS.difference` is the largest
+//! difference of a run from its reference, over the tolerance of its scene; `AXIS.unexpected` counts the runs that did
+//! not end as the scene expects, or lack an expected warning.
 
 mod axis;
 mod endurance;

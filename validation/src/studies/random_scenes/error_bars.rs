@@ -2,15 +2,16 @@
 //!
 //! Half of the scenes are the same each time, half are drawn anew. The limit is that of condensed bodies over the
 //! element size. For explicit elements it includes their difference to condensed bodies on a mesh that is finer than
-//! the one under test ([`Limit`]); its uncertainty is added to the bar before the comparison. The result under test has the mesh and the mass scaling
-//! of the default tolerance. A scene is `covered` if all six quantities are within their bars, and `met` if
-//! restitution, contact time, peak force and pressure are within the tolerance. `MODEL.bar` is the median of
-//! bar / max(error, uncertainty of the limit).
+//! the one under test ([`Limit`]); its uncertainty is added to the bar before the comparison. The result under test has
+//! the mesh and the mass scaling of the default tolerance. A scene is `covered` if all six quantities are within their
+//! bars, and `met` if restitution, contact time, peak force and pressure are within the tolerance. `MODEL.bar` is the
+//! median of bar / max(error, uncertainty of the limit).
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 
-use fem::accuracy::{Limit, Setting};
+use fem::accuracy::Limit;
+use fem::error::Setting;
 use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 

@@ -13,7 +13,7 @@ mod linear_scenes;
 mod model_differences;
 mod soft_scenes;
 
-use fem::accuracy::BarParts;
+use fem::error::BarParts;
 use fem_case::{Case, CaseError};
 use fem_collision::QuantityOfInterest;
 use rayon::prelude::*;

@@ -1,11 +1,11 @@
 //! Differences of explicit elements, condensed bodies and Ting's model of finite spheres in random scenes.
 //!
 //! Two models may differ by the tolerances of the claim, plus three times the estimated changes by effects that one
-//! model has and the other lacks (closed forms that are good within a factor of three), plus a share of the energy of waves that
-//! a model has only as a term. Scenes of `default_seeds` and `extreme_seeds` have the default settings, and both error
-//! bars take the place of the tolerances; bodies of `extreme_seeds` differ much. Scenes with larger differences count as
-//! `unexplained`, those with default settings as `beyond_bars`, unless the cheaper model warned of its result.
-//! `NAME.median` is the median |Δe| of a pair of models.
+//! model has and the other lacks (closed forms that are good within a factor of three), plus a share of the energy of
+//! waves that a model has only as a term. Scenes of `default_seeds` and `extreme_seeds` have the default settings, and
+//! both error bars take the place of the tolerances; bodies of `extreme_seeds` differ much. Scenes with larger
+//! differences count as `unexplained`, those with default settings as `beyond_bars`, unless the cheaper model warned of
+//! its result. `NAME.median` is the median |Δe| of a pair of models.
 
 use fem::effects::{EffectDecision, NeglectError, PartnerWaves};
 use fem::{Estimate, Simulation};

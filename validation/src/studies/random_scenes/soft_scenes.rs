@@ -1,5 +1,5 @@
-//! Random collisions of soft balls at finite strain: whether tolerance and error bars hold, and whether the estimated effect of
-//! finite strain is right.
+//! Random collisions of soft balls at finite strain: whether tolerance and error bars hold, and whether the estimated
+//! effect of finite strain is right.
 //!
 //! A ball strikes a rigid wall, or one time in three a ball of another size and stiffness. Poisson's ratios are 0 to
 //! 0.495. Laws are all but that of St Venant and Kirchhoff, which collapses. Half of the scenes relax. At the speed of a
@@ -14,8 +14,8 @@
 use std::f64::consts::PI;
 
 use fem::Simulation;
-use fem::accuracy::Setting;
 use fem::effects::{Effect, FiniteStrain};
+use fem::error::Setting;
 use fem_case::{Case, CaseError};
 use fem_collision::{Collision, QuantityOfInterest};
 

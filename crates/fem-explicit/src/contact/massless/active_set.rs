@@ -7,12 +7,12 @@
 //!   + \sum_j \tfrac12\, k_j \langle -(g_j + b_j \cdot x) \rangle^2
 //! ```
 //!
-//! over the changes x of the nodes without mass, with their stiffness K in a step, the forces R that are missing to their
-//! balance, and gaps g that the change opens by b·x. φ is convex and piecewise quadratic. For a given active set x solves one
-//! linear system; the springs whose gap is negative there are the next active set. The iteration ends where the set does not
-//! change, which is exactly the minimum: after one iteration in most steps, more where the contact grows or shrinks (Newton's
-//! method; Qi & Sun 1993). Should the sets repeat in a cycle, steps are damped so that φ falls, which converges for any convex
-//! φ of this kind (Sun 1997).
+//! over the changes x of the nodes without mass, with their stiffness K in a step, the forces R that are missing to
+//! their balance, and gaps g that the change opens by b·x. φ is convex and piecewise quadratic. For a given active set
+//! x solves one linear system; the springs whose gap is negative there are the next active set. The iteration ends
+//! where the set does not change, which is exactly the minimum: after one iteration in most steps, more where the
+//! contact grows or shrinks (Newton's method; Qi & Sun 1993). Should the sets repeat in a cycle, steps are damped so
+//! that φ falls, which converges for any convex φ of this kind (Sun 1997).
 
 use super::skyline::Skyline;
 

@@ -52,8 +52,8 @@ impl Skyline {
         self.values[place..].copy_from_slice(&other.values[place..]);
     }
 
-    /// Overwrites the rows from a row on with those of Cholesky's factor, with its diagonal inverted; earlier rows have been
-    /// factored before. The entries do not depend on where the factorisation begins.
+    /// Overwrites the rows from a row on with those of Cholesky's factor, with its diagonal inverted; earlier rows have
+    /// been factored before. The entries do not depend on where the factorisation begins.
     ///
     /// Returns `None` if the matrix is not positive.
     pub fn factor(&mut self, from: usize) -> Option<()> {

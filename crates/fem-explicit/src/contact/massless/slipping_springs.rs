@@ -9,9 +9,9 @@
 //!
 //! In each pass the gaps are linearised about the x of the pass before, and the balance is that of springs that do not
 //! turn ([`ActiveSet`]). The remaining error is of second order in the change of a pass. Passes are repeated while it
-//! is more than [`LARGEST_IMBALANCE`] of the force; two suffice in most steps. The potential differs from that of [`ActiveSet`]
-//! by curvatures of a force over the length of a segment, which are small compared with the stiffness of elements at small
-//! strain: it is convex there, and energy is conserved as well.
+//! is more than [`LARGEST_IMBALANCE`] of the force; two suffice in most steps. The potential differs from that of
+//! [`ActiveSet`] by curvatures of a force over the length of a segment, which are small compared with the stiffness of
+//! elements at small strain: it is convex there, and energy is conserved as well.
 
 use fem_contact::{Displacement, SlippingInterface};
 

@@ -8,8 +8,8 @@
 //! \lambda_{max} \le \left( \mathrm{tr} (D Q)^{16} \right)^{1/16},
 //! ```
 //!
-//! since all are real. The bound is at most 7^(1/16) = 1.13 times too large, usually some per cent. D is computed by differences of
-//! the stress.
+//! since all are real. The bound is at most 7^(1/16) = 1.13 times too large, usually some per cent. D is computed by
+//! differences of the stress.
 
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
@@ -22,8 +22,8 @@ use super::law::Law;
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use crate::part::{Field, NodalField};
 
-/// Number of strains of an element: rr, ry, θθ and the radial amplitude by radial displacements; yr, yy and the axial amplitude by
-/// axial displacements.
+/// Number of strains of an element: rr, ry, θθ and the radial amplitude by radial displacements; yr, yy and the axial
+/// amplitude by axial displacements.
 const N_STRAINS: usize = 7;
 /// Index of the first strain by axial displacements.
 const FIRST_AXIAL: usize = 4;

@@ -148,7 +148,7 @@ fn imbalance(solid: &Viscoelastic, direction: &AxisymmetricTensor, n: usize) -> 
         let next = path(direction, dt * i as f64);
         step.advance(&h, &next, &mut history);
         let new_stress = components(&solid.first_piola(&next, &history).unwrap());
-        let new_power = solid.dissipation_rate(&next, &history).unwrap();
+        let new_power = solid.energy_and_dissipation_rate(&next, &history).1;
         let moved = components(&next).into_iter().zip(components(&h)).map(|(a, b)| a - b);
         let mean = stress.iter().zip(new_stress).map(|(a, b)| 0.5 * (a + b));
         work += moved.zip(mean).map(|(u, p)| u * p).sum::<f64>();

@@ -1,7 +1,7 @@
 //! Weight of the bodies.
 //!
-//! Within a contact the weight matters little if it is small compared with the contact force and a fall through the approach is
-//! slow compared with the impact:
+//! Within a contact the weight matters little if it is small compared with the contact force and a fall through the
+//! approach is slow compared with the impact:
 //!
 //! ```math
 //! \frac{m g}{F_{\max}}, \qquad \frac{\sqrt{g\,\delta_{\max}}}{v},

@@ -41,8 +41,8 @@ const RADIATION_ERROR: f64 = 0.15;
 /// of this times the radiated share of the energy over κ. Balls on blocks that keep 0.1: 0.8 of the loss of Ting's model
 /// and 1.0 of that of condensed bodies are missing, where elements lose 0.027 of the restitution.
 const LOSS_BY_SMOOTHING: f64 = 2.0;
-/// Relative change of contact time and peak force over the change of restitution; 0.1 was found for balls on a half-space of
-/// their own material at a/R* = 0.7.
+/// Relative change of contact time and peak force over the change of restitution; 0.1 was found for balls on a
+/// half-space of their own material at a/R* = 0.7.
 const SHARE_OF_LOSS: f64 = 0.2;
 
 impl PartnerWaves {
@@ -69,8 +69,8 @@ impl PartnerWaves {
     }
 
     /// Returns the materials of the radiating bodies of the condensed model ([`PartnerWaves::radiating`]). A body that
-    /// radiates must be so heavy that the energy of its own motion is small compared with the loss, since it moves as a whole
-    /// without delay. Vibration modes replace the term.
+    /// radiates must be so heavy that the energy of its own motion is small compared with the loss, since it moves as a
+    /// whole without delay. Vibration modes replace the term.
     pub(crate) fn radiating_at_rest(scene: &Scene, estimate: &Estimate) -> [Option<Material>; 2] {
         let radiating = Self::radiating(scene, estimate);
         let is_forced = scene.effects().partner_waves == Some(Switch::On);

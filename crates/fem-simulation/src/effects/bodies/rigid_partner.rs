@@ -1,9 +1,9 @@
-//! A body that is much stiffer than its partner is computed as rigid, with its own mass and curvature: one degree of freedom
-//! replaces its elements. A stiff half-space becomes a wall.
+//! A body that is much stiffer than its partner is computed as rigid, with its own mass and curvature: one degree of
+//! freedom replaces its elements. A stiff half-space becomes a wall.
 //!
-//! Decided by the body's share s of the contact's compliance, s = k/(k₁+k₂), k = (1 − ν²)/E. Neglecting the share multiplies
-//! the contact modulus by 1/(1 − s), and Hertz' powers give the change for elastic bodies ([`fem_laws::rigid_partner`]). The
-//! relaxation and radiation of the body are neglected, too.
+//! Decided by the body's share s of the contact's compliance, s = k/(k₁+k₂), k = (1 − ν²)/E. Neglecting the share
+//! multiplies the contact modulus by 1/(1 − s), and Hertz' powers give the change for elastic bodies
+//! ([`fem_laws::rigid_partner`]). The relaxation and radiation of the body are neglected, too.
 
 use fem_case::{Body, Scene, Switch};
 

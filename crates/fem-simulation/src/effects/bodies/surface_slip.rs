@@ -3,10 +3,10 @@
 //! include the slip in their step. Condensed bodies and Ting's model have its first order, a spring in series with the
 //! contact ([`fem_laws::SurfaceSlip`]).
 //!
-//! Decided by κβ, the curvature of the interface times Dundurs' second parameter. The effect is on unless κβ is rounding and
-//! the bodies relax alike; it is zero between like bodies and against a rigid plane. Neglecting it changes 0.24 aκβ of the
-//! contact time and 0.32 aκβ of the peak force, of first order in a/R. Above a/R* = 0.2 the second order, which explicit
-//! elements include, may be larger where β is small, as for rubber.
+//! Decided by κβ, the curvature of the interface times Dundurs' second parameter. The effect is on unless κβ is
+//! rounding and the bodies relax alike; it is zero between like bodies and against a rigid plane. Neglecting it changes
+//! 0.24 aκβ of the contact time and 0.32 aκβ of the peak force, of first order in a/R. Above a/R* = 0.2 the second
+//! order, which explicit elements include, may be larger where β is small, as for rubber.
 
 use fem_case::engineering::number;
 use fem_case::{Body, ModelChoice, Scene, Switch};
@@ -22,8 +22,8 @@ use crate::estimate::effective_modulus::left_at;
 use crate::estimate::quasi_static::materials_mismatch;
 use crate::quantity_errors::QuantityErrors;
 
-/// Relative error of the series spring over a/R*: explicit elements change approach, time and force less, by 3 % at 0.03 and
-/// by 7 to 26 % at 0.08 to 0.2.
+/// Relative error of the series spring over a/R*: explicit elements change approach, time and force less, by 3 % at
+/// 0.03 and by 7 to 26 % at 0.08 to 0.2.
 const NEXT_ORDER: f64 = 2.0;
 /// Neglected change of the contact time above which a warning is given.
 const SMALL_SHARE: f64 = 1e-3;

@@ -1,4 +1,5 @@
-//! Inertia of the bodies' own deformation. Elements include it; a quasi-static model has modes of free vibration or lacks it.
+//! Inertia of the bodies' own deformation. Elements include it; a quasi-static model has modes of free vibration or
+//! lacks it.
 //!
 //! Decided by the approach speed over the shear wave speed.
 
@@ -19,9 +20,9 @@ pub(super) const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
 const LARGEST_VIBRATION: f64 = 0.01;
 
-/// Least loss of restitution over the bodies' own speeds in shear wave speeds ([`own_mach`]). Explicit elements lost 0.06 to
-/// 0.1 of it more than quasi-static bodies on a wall at 0.3 to 20 %, and twice that at 40 %. A small ball leaves more in a
-/// large one, which hardly moves ([`PartnerWaves::left_ringing`]).
+/// Least loss of restitution over the bodies' own speeds in shear wave speeds ([`own_mach`]). Explicit elements lost
+/// 0.06 to 0.1 of it more than quasi-static bodies on a wall at 0.3 to 20 %, and twice that at 40 %. A small ball
+/// leaves more in a large one, which hardly moves ([`PartnerWaves::left_ringing`]).
 const LOSS_PER_MACH: f64 = 0.1;
 /// Relative increase of the contact time over the delay of the deformation ([`slowness`]), from explicit elements or twelve
 /// modes against none, within a factor of 2.5: elastic balls on a wall at 0.3 to 40 % of the shear wave speed, and pairs at

@@ -16,8 +16,8 @@ use crate::estimate::Estimate;
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do not yield: 1/32 for
 /// glass at 0.5 m/s, 1/13 for steel at 5 m/s.
 const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
-/// Largest Young's modulus (Pa) of elastomers, gels and foams, which tear and do not yield (Ashby 2011, chart of modulus and
-/// strength).
+/// Largest Young's modulus (Pa) of elastomers, gels and foams, which tear and do not yield (Ashby 2011, chart of
+/// modulus and strength).
 const LARGEST_MODULUS_OF_ELASTOMERS: f64 = 0.1e9;
 
 impl Effect for PlasticYield {

@@ -1,13 +1,14 @@
 //! Artificial viscosity that spreads steep fronts over several elements, a part of the step.
 //!
-//! Decided by the approach speed over the shear wave speed. The contact edge a = √(R* v t) first moves faster than shear
-//! waves, up to R* v/(2 c_s): a steep front, behind which a mesh rings. At the limit of the speed that is a third of an
-//! element, with eight elements across the contact radius, and it grows as v^(3/5). For an elastic glass pair with springs
-//! on nodes with mass, ringing raises the largest force of a step by 1.3 % at 6e-3, 6 % at the limit and 8 % at 0.05. With a
-//! massless boundary force and pressure agree with those with viscosity to 0.1 % up to 0.06, so it is not called for.
+//! Decided by the approach speed over the shear wave speed. The contact edge a = √(R* v t) first moves faster than
+//! shear waves, up to R* v/(2 c_s): a steep front, behind which a mesh rings. At the limit of the speed that is a third
+//! of an element, with eight elements across the contact radius, and it grows as v^(3/5). For an elastic glass pair
+//! with springs on nodes with mass, ringing raises the largest force of a step by 1.3 % at 6e-3, 6 % at the limit and 8
+//! % at 0.05. With a massless boundary force and pressure agree with those with viscosity to 0.1 % up to 0.06, so it is
+//! not called for.
 //!
-//! Its own loss grows as v^(3/5): the strain rate is (a/R*)(c_s/c_p)²/T in the volume a³ over the time T, and elements are a
-//! share of a, so that the share of the energy is
+//! Its own loss grows as v^(3/5): the strain rate is (a/R*)(c_s/c_p)²/T in the volume a³ over the time T, and elements
+//! are a share of a, so that the share of the energy is
 //!
 //! ```math
 //! \frac{\Delta e}{e_0} \propto \frac{\rho c_p h}{\frac12 m v^2}\Bigl(\frac a{R^*T}\,\frac{c_s^2}{c_p^2}\Bigr)^2 a^3 T
@@ -34,7 +35,8 @@ const FORCE_DECREASE_BY_SMOOTHING: f64 = 0.02;
 /// Loss of restitution over (v/c_s)^(3/5) (c_s/c_p)⁴.
 const LOSS_OF_RESTITUTION: f64 = 0.005;
 
-/// Largest approach speed over shear wave speed for these coefficients, which were measured on pairs, walls and half-spaces.
+/// Largest approach speed over shear wave speed for these coefficients, which were measured on pairs, walls and
+/// half-spaces.
 const LARGEST_MACH: f64 = 0.1;
 
 impl BulkViscosity {

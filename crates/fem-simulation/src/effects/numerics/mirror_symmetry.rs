@@ -1,14 +1,15 @@
-//! Identical bodies are mirror images of each other, so one of them against a rigid plane at rest gives the whole collision.
+//! Identical bodies are mirror images of each other, so one of them against a rigid plane at rest gives the whole
+//! collision.
 //!
-//! In the frame of the mass centre each body has the speed v/2, and no surface passes the plane between them. With ' for the
-//! half scene and the velocity V of the mass centre
+//! In the frame of the mass centre each body has the speed v/2, and no surface passes the plane between them. With '
+//! for the half scene and the velocity V of the mass centre
 //!
 //! ```math
 //! T = T', \quad F = F', \quad p = p', \quad \delta = 2\delta', \quad E = 2E' + \tfrac12 (2m) V^2,
 //! ```
 //!
-//! The pair's contact modulus is half of that of a body on a rigid plane, so penalty springs are twice as stiff over half of
-//! the overlap.
+//! The pair's contact modulus is half of that of a body on a rigid plane, so penalty springs are twice as stiff over
+//! half of the overlap.
 
 use fem_case::{Scene, Switch};
 
@@ -20,8 +21,8 @@ use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
 impl MirrorSymmetry {
-    /// Returns the lower half of a scene with identical bodies, a body against a rigid plane; `None` if the bodies differ or
-    /// the case switches the symmetry off.
+    /// Returns the lower half of a scene with identical bodies, a body against a rigid plane; `None` if the bodies
+    /// differ or the case switches the symmetry off.
     pub(crate) fn half_of(scene: &Scene) -> Result<Option<Scene>, Rejection> {
         let switch = scene.effects().mirror_symmetry;
         match scene.half() {

@@ -1,5 +1,5 @@
-//! Linear finite elements condensed to their contact nodes, with the meshes and materials of the explicit model. A collision
-//! takes milliseconds instead of seconds.
+//! Linear finite elements condensed to their contact nodes, with the meshes and materials of the explicit model. A
+//! collision takes milliseconds instead of seconds.
 
 pub(crate) mod cost;
 
@@ -106,8 +106,8 @@ pub struct Condensed {
 }
 
 impl Condensed {
-    /// Meshes and condenses the bodies, or takes the same pair from the shared ones without a mesh. A scene of another model
-    /// is condensed with default options.
+    /// Meshes and condenses the bodies, or takes the same pair from the shared ones without a mesh. A scene of another
+    /// model is condensed with default options.
     ///
     /// # Errors
     /// A scene that the plan rejects; meshes that cannot be made or read; more elements or memory than the limits allow; a

@@ -14,7 +14,8 @@ use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_
 use crate::plan::penalty_compliance::lengthening;
 use crate::rejection::Rejection;
 
-/// Seconds per element update at small strain on one core of 3 GHz, from docs/effects.md. Other machines differ by a factor.
+/// Seconds per element update at small strain on one core of 3 GHz, from docs/effects.md. Other machines differ by a
+/// factor.
 const SECONDS_AN_UPDATE: f64 = 6e-9;
 /// Additional seconds per Prony term at small strain.
 const SECONDS_A_BRANCH: f64 = 1e-9;

@@ -30,8 +30,7 @@ use crate::estimate::{Estimate, mach};
 use crate::models::method::{ElementSetup, Method, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::stepper::{RestartState, Stepper, stopped, to_the_end};
 use crate::plan::body_source::BodySource;
-use crate::plan::contact_method::ContactNoiseAdvice;
-use crate::plan::contact_method::ignored_method_warning;
+use crate::plan::contact_method::{ContactNoiseAdvice, ignored_method_warning};
 use crate::plan::{Plan, candidate_radius};
 use crate::rejection::Rejection;
 

@@ -71,10 +71,10 @@
 //! \eta = \frac{2\sqrt{k\,m^*}\,|\ln e_n|}{\sqrt{\pi^2+\ln^2e_n}}
 //! ```
 //!
-//! (`check_solids_dem.f`), the linear model with k = `KN`, for which it is exact; the Hertzian one with k = K of
-//! F = K ξ^(3/2), times ξ^(1/4) (`calc_force_dem.f`). That is Tsuji's dashpot with α = 2 sin θ for e_n = e^(−π tan θ), where
-//! √5 sin θ would make e_n: it damps too little, 0.9 entered makes 0.910, so that what is entered is corrected. A contact
-//! ends at zero overlap. Restitutions below 0.002 cannot be made. Read, not run.
+//! (`check_solids_dem.f`), the linear model with k = `KN`, for which it is exact; the Hertzian one with k = K of F = K
+//! ξ^(3/2), times ξ^(1/4) (`calc_force_dem.f`). That is Tsuji's dashpot with α = 2 sin θ for e_n = e^(−π tan θ), where
+//! √5 sin θ would make e_n: it damps too little, 0.9 entered makes 0.910, so that what is entered is corrected. A
+//! contact ends at zero overlap. Restitutions below 0.002 cannot be made. Read, not run.
 //!
 //! **Drake**, point contact with Hunt & Crossley's dissipation d:
 //!
@@ -99,9 +99,9 @@
 //! \ddot\xi = -\kappa\,\xi - \beta\,\dot\xi,
 //! ```
 //!
-//! while that pushes them apart (*MuJoCo documentation*, Computation, Solver parameters): a linear spring and dashpot whose
-//! masses cancel, κ = k/m*, β = c/m*, and whose contact ends at zero force. So one `solref` makes one e and one contact time
-//! for all sizes. Run in MuJoCo by `.ci/check_robotics.py`.
+//! while that pushes them apart (*MuJoCo documentation*, Computation, Solver parameters): a linear spring and dashpot
+//! whose masses cancel, κ = k/m*, β = c/m*, and whose contact ends at zero force. So one `solref` makes one e and one
+//! contact time for all sizes. Run in MuJoCo by `.ci/check_robotics.py`.
 
 use std::f64::consts::PI;
 

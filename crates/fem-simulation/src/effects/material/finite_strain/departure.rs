@@ -32,8 +32,8 @@ pub(super) struct Deformation {
 }
 
 impl Departure {
-    /// Returns the change for an elastic body. Its first order is proportional to the strain, and higher orders depend on the
-    /// flatness.
+    /// Returns the change for an elastic body. Its first order is proportional to the strain, and higher orders depend
+    /// on the flatness.
     pub fn of(law: HyperelasticLaw, poissons_ratio: f64, body: Deformation) -> Self {
         let first_order = Self::on_a_wall(law, poissons_ratio, STRAINS[0]);
         let less = (body.flatness - body.strain) / STRAINS[0];

@@ -9,8 +9,8 @@ pub(super) const STRAINS: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85
 pub(super) const POISSONS_RATIOS: [f64; 5] = [0.0, 0.2, 0.33, 0.45, 0.49];
 
 /// Absolute change of the restitution, and relative changes of contact time, peak force and peak pressure (true against
-/// nominal), by law in the order of [`HyperelasticLaw::ALL`](fem_material::finite::HyperelasticLaw::ALL), Poisson's ratio and
-/// strain. `None` where the sphere collapsed.
+/// nominal), by law in the order of [`HyperelasticLaw::ALL`](fem_material::finite::HyperelasticLaw::ALL), Poisson's
+/// ratio and strain. `None` where the sphere collapsed.
 #[rustfmt::skip]
 pub(super) const CHANGES: [[[Option<[f64; 4]>; 8]; 5]; 4] = [
     // neo-hooke

@@ -83,9 +83,9 @@ impl FiniteStrain {
         Self::laws(scene, estimate) != [None; 2]
     }
 
-    /// Returns the distance from first touch (m) within which elements are at finite strain; the change by farther elements
-    /// falls with its third power (`fem-explicit/src/stress/partly_finite.rs`). It is `None` if all elements are: if the case
-    /// forces the effect on, in flat contacts and with waves.
+    /// Returns the distance from first touch (m) within which elements are at finite strain; the change by farther
+    /// elements falls with its third power (`fem-explicit/src/stress/partly_finite.rs`). It is `None` if all elements
+    /// are: if the case forces the effect on, in flat contacts and with waves.
     pub(crate) fn within(scene: &Scene, estimate: &Estimate) -> Option<f64> {
         let is_near = estimate.strain < STRAIN_OF_ALL_ELEMENTS
             && estimate.mach < MACH_OF_ALL_ELEMENTS
