@@ -49,7 +49,7 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
         let help = match (table, found) {
             _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
-            ("", "body" | "material") if allowed.contains(&"vary") => {
+            ("", _) if allowed.contains(&"vary") && document.has("body") => {
                 "a file with bodies is a case: fem-run FILE; a sweep names it, case = \"FILE\""
                     .to_string()
             }

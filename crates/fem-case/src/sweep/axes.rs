@@ -181,7 +181,8 @@ pub(crate) fn read_axes(
         }
         None => {}
     }
-    if axes.is_empty() && faults.len() == n_before {
+    // A case in place of a sweep has faults of its own.
+    if axes.is_empty() && faults.len() == n_before && !document.has("body") {
         faults.push(document.error_at("vary", "the sweep varies no key").with_help(EXAMPLE));
     }
     let keys = axes.iter().flat_map(|axis| axis.keys.iter().map(|key| (key, &axis.span)));
