@@ -6,7 +6,7 @@
 
 use fem_collision::{Approach, BodyInput, Expectation, OutputRequest, SnapshotRequest};
 use fem_explicit::{
-    BulkViscosity, ExplicitBodies, NodeForce, Parts, Settings, SmallStrainContact,
+    BulkViscosity, ExplicitBodies, ModelParts, NodeForce, Settings, SmallStrainContact,
     ViscosityCoefficients, Weight, collide,
 };
 use fem_material::finite::HyperelasticLaw;
@@ -21,7 +21,7 @@ struct Scene {
     materials: [Material; 2],
     on_wall: bool,
     speed: f64,
-    parts: Parts,
+    parts: ModelParts,
 }
 
 fn material(youngs_modulus: f64, terms: &[f64], acts_on: ActsOn) -> Result<Material, Error> {
@@ -77,10 +77,10 @@ impl Scene {
 fn main() -> Result<(), Error> {
     let glass = || material(63e9, &[], ActsOn::All);
     let relaxing = |acts_on| material(63e9, &[0.4, 0.3], acts_on);
-    let at_finite_strain = |law, within| Parts {
+    let at_finite_strain = |law, within| ModelParts {
         finite_strain: [Some(law), Some(law)],
         finite_strain_within: within,
-        ..Parts::default()
+        ..ModelParts::default()
     };
     let scene = |name, material: Material, parts| Scene {
         name,
@@ -89,7 +89,7 @@ fn main() -> Result<(), Error> {
         speed: 0.5,
         parts,
     };
-    let method = |method| Parts { method, penalty_factor: 1.0, ..Parts::default() };
+    let method = |method| ModelParts { method, penalty_factor: 1.0, ..ModelParts::default() };
     scene("penalty springs", glass()?, method(SmallStrainContact::Penalty)).run()?;
     scene("node to surface", glass()?, method(SmallStrainContact::NodeToSurface)).run()?;
     scene("massless boundary", glass()?, method(SmallStrainContact::Massless)).run()?;
@@ -98,7 +98,8 @@ fn main() -> Result<(), Error> {
     scene("shear relaxes", relaxing(ActsOn::Shear)?, massless()).run()?;
     let unlike = |name, method| -> Result<Scene, Error> {
         let materials = [material(63e9, &[], ActsOn::All)?, material(6e9, &[], ActsOn::All)?];
-        let parts = Parts { surface_slip: true, method, penalty_factor: 1.0, ..Parts::default() };
+        let parts =
+            ModelParts { surface_slip: true, method, penalty_factor: 1.0, ..ModelParts::default() };
         Ok(Scene { name, materials, on_wall: false, speed: 0.5, parts })
     };
     unlike("slipping surfaces, massless", SmallStrainContact::Massless)?.run()?;

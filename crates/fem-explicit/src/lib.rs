@@ -9,7 +9,7 @@
 //! hourglass stiffness ([`fem_element`]), masses are lumped, and time is advanced by central differences, with a step
 //! that is proved stable for bodies and contact ([`ExplicitBodies`]).
 //!
-//! A body may be at finite strain instead, by a law of [`fem_material::finite`] ([`Parts::finite_strain`]). Its
+//! A body may be at finite strain instead, by a law of [`fem_material::finite`] ([`ModelParts::finite_strain`]). Its
 //! elements are total Lagrangian and read the undeformed geometry too. Their stiffness changes, and the time step
 //! follows the critical step of the deformed bodies.
 //!
@@ -89,7 +89,7 @@ pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;
 #[doc(hidden)]
 pub use lanes::limit_lanes;
-pub use model::{ExplicitBodies, Parts};
+pub use model::{ExplicitBodies, ModelParts};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{Run, RunState, collide};
 pub use settings::Settings;

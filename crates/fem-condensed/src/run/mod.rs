@@ -161,10 +161,30 @@ impl<'a> ImpactRun<'a> {
 
     /// Advances by one step and returns the ending, if the run has ended.
     fn advance(&mut self, monitor: &mut dyn Monitor) -> Result<Option<Ending>, Stop> {
+        let opens = self.advance_motion()?;
+        let stays = self.record();
+        if opens {
+            self.sample_opening();
+        }
+        if let Some(ending) = self.ending(stays) {
+            return Ok(Some(ending));
+        }
+        self.check_energy()?;
+        self.check_duration()?;
+        self.report(monitor)?;
+        Ok(None)
+    }
+
+    /// Returns the instant of the current step since the start of the case.
+    fn now(&self) -> StepInstant {
+        StepInstant { time: self.time_of_case(), step: self.motion.step as u64 }
+    }
+
+    /// Advances the motion by one step, counts the contacts, and returns whether the contact opens in this step.
+    fn advance_motion(&mut self) -> Result<bool, Stop> {
         let overlap_before = if self.motion.step == 0 { 0.0 } else { self.motion.axis_overlap() };
         let first_touch = self.frame.approach.first_touch();
         self.motion.advance().map_err(|stop| stop.later_by(first_touch))?;
-        let (time, step) = (self.motion.time(), self.motion.step as u64);
         if !(self.motion.force.is_finite() && self.motion.rate.is_finite()) {
             return Err(Stop::NoContactState { time: self.time_of_case() });
         }
@@ -174,94 +194,139 @@ impl<'a> ImpactRun<'a> {
             // The overlap on the axis passes through zero between the steps.
             let now = self.motion.axis_overlap();
             let part = (overlap_before / (overlap_before - now)).clamp(0.0, 1.0);
-            self.last_contact = time - (1.0 - part) * self.motion.time_step;
+            self.last_contact = self.motion.time() - (1.0 - part) * self.motion.time_step;
         }
         self.episodes += u64::from(is_closed && !self.was_closed);
         self.was_closed = is_closed;
-        let stays = self.record();
-        if let (true, Some(before), Some(after)) = (opens, self.before_last, self.last) {
-            let share = (self.last_contact - before.time) / self.motion.time_step;
-            let end = MotionSample::within(None, &before, &after, Some(share), share);
-            self.opening = Some([before, self.with_residual(end), after]);
-        }
-        let flight = time - self.last_contact;
-        if !is_closed
-            && self.motion.rate < 0.0
-            && flight >= POST_CONTACT_FRACTION * self.last_contact
-        {
-            return Ok(Some(Ending::Parted));
-        }
-        // Under gravity bodies do not necessarily separate farther than this.
-        self.has_receded |= self.motion.rate < 0.0;
+        Ok(opens)
+    }
+
+    /// Keeps the samples around the end of the contact, which lies within this step.
+    fn sample_opening(&mut self) {
+        let (Some(before), Some(after)) = (self.before_last, self.last) else { return };
+        let share = (self.last_contact - before.time) / self.motion.time_step;
+        let end = MotionSample::within(None, &before, &after, Some(share), share);
+        self.opening = Some([before, self.with_residual(end), after]);
+    }
+
+    /// Returns the ending, if the bodies have separated or stay together.
+    fn ending(&mut self, stays: bool) -> Option<Ending> {
+        let is_receding = self.motion.rate < 0.0;
+        let flight = self.motion.time() - self.last_contact;
+        let has_flown = is_receding && flight >= POST_CONTACT_FRACTION * self.last_contact;
+        self.has_receded |= is_receding;
+        // Under gravity bodies do not necessarily separate that far.
         let is_at_top = self.frame.gravity > 0.0 && self.has_receded && self.motion.rate >= 0.0;
-        if !is_closed && is_at_top {
-            return Ok(Some(Ending::Parted));
+        match stays {
+            _ if !self.was_closed && (has_flown || is_at_top) => Some(Ending::Parted),
+            true => Some(Ending::Together),
+            false => None,
         }
-        if stays {
-            return Ok(Some(Ending::Together));
-        }
+    }
+
+    fn check_energy(&self) -> Result<(), Stop> {
+        let relative = self.worst_residual;
         // NaN is above every limit.
-        let is_balanced = self.worst_residual <= LARGEST_IMBALANCE;
-        let time_of_case = self.time_of_case();
-        if !is_balanced {
-            let relative = self.worst_residual;
-            return Err(Stop::EnergyImbalance { time: time_of_case, relative });
+        match relative <= LARGEST_IMBALANCE {
+            true => Ok(()),
+            false => Err(Stop::EnergyImbalance { time: self.time_of_case(), relative }),
         }
+    }
+
+    /// Checks that the run is within its time limit, or that its bodies still creep apart.
+    fn check_duration(&self) -> Result<(), Stop> {
+        let time = self.motion.time();
         let creeps = self.motion.rate.abs() < CREEPING_RATE * self.frame.speed()
             && time <= (1.0 + SLOWEST_PARTING) * self.turned;
-        if time > self.give_up && !creeps {
-            let (time, approach) = (time_of_case, self.motion.approach);
-            return Err(match self.episodes {
-                0 => Stop::NoContact { at: StepInstant { time, step }, approach },
-                _ => Stop::NoSeparation { at: StepInstant { time, step } },
-            });
+        let (at, approach) = (self.now(), self.motion.approach);
+        match self.episodes {
+            _ if time <= self.give_up || creeps => Ok(()),
+            0 => Err(Stop::NoContact { at, approach }),
+            _ => Err(Stop::NoSeparation { at }),
         }
-        if step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
-            let progress = Progress {
-                time: time_of_case,
-                step,
-                fraction: Progress::share(time, self.expected_end),
-                contact_force: self.motion.force,
-            };
-            if !monitor.report(progress) {
-                return Err(Stop::Interrupted { at: StepInstant { time: time_of_case, step } });
-            }
+    }
+
+    /// Reports the progress every few steps.
+    fn report(&self, monitor: &mut dyn Monitor) -> Result<(), Stop> {
+        let at = self.now();
+        if !at.step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
+            return Ok(());
         }
-        Ok(None)
+        let progress = Progress {
+            time: at.time,
+            step: at.step,
+            fraction: Progress::share(self.motion.time(), self.expected_end),
+            contact_force: self.motion.force,
+        };
+        if monitor.report(progress) { Ok(()) } else { Err(Stop::Interrupted { at }) }
     }
 
     /// Records a step and returns whether the bodies stay together.
     fn record(&mut self) -> bool {
+        self.observe_extremes();
+        let touches = self.was_closed || self.motion.step == 0;
+        let begin = self.last;
+        // Parabolas do not extend across a first touch or the end of a contact.
+        let is_same = |other: &MotionSample| other.touches == touches;
+        let before =
+            self.before_last.filter(|before| is_same(before) && begin.is_some_and(|b| is_same(&b)));
+        let sample = self.sample(touches);
+        let sample = self.integrated(before.as_ref(), begin.as_ref(), sample);
+        self.observe_balance(&sample);
+        if self.episodes > 0 {
+            self.vibration_after.observe(self.was_closed, sample.vibration);
+        }
+        let approach = self.motion.approach;
+        self.trace.push(RunTrace { approach, is_closed: self.was_closed });
+        self.observe_within(before, begin, sample);
+        (self.before_last, self.last) = (begin, Some(sample));
+        let potential = self.frame.potential(approach).unwrap_or(0.0);
+        let [lower, upper] = sample.vibration;
+        self.rest_criterion.observe(&RelativeMotion {
+            time: sample.time,
+            is_closed: self.was_closed,
+            force: sample.contact_force,
+            rate: self.motion.rate,
+            inner_energy: lower + upper + sample.strain + sample.contact + potential,
+        })
+    }
+
+    /// Observes the largest approach, force and overlap, the noise of the force, and the end of the compression.
+    fn observe_extremes(&mut self) {
+        let at = self.now();
         let motion = &self.motion;
-        let (time, rate) = (motion.time(), motion.rate);
         self.approach.observe(motion.approach);
         self.force.observe(motion.force);
-        let now = StepInstant {
-            time: self.frame.approach.first_touch() + time,
-            step: motion.step as u64,
-        };
-        self.force_noise.observe(motion.force, now);
+        self.force_noise.observe(motion.force, at);
         if let Some((overlap, radius)) = motion.largest_overlap() {
-            self.deepest_overlap = DeepestOverlap::of(
-                self.deepest_overlap,
-                DeepestOverlap { overlap, radius, at: now },
-            );
+            let deepest = DeepestOverlap { overlap, radius, at };
+            self.deepest_overlap = DeepestOverlap::of(self.deepest_overlap, deepest);
         }
-        if rate > 0.0 {
-            self.turned = time;
+        if motion.rate > 0.0 {
+            self.turned = motion.time();
         }
-        let touches = self.was_closed || motion.step == 0;
+    }
+
+    /// Returns the sample of a step, with the losses of the previous one.
+    fn sample(&mut self, touches: bool) -> MotionSample {
+        let motion = &self.motion;
         let MotionEnergies { stored, contact, power, vibration, radiated_power } =
             motion.energies();
-        let mut sample = MotionSample {
-            time,
+        let (contact_radius, centre_pressure) = self.pair.radius_and_pressure(
+            &motion.contact,
+            &motion.forces,
+            motion.slipped(),
+            &mut self.pressures,
+        );
+        MotionSample {
+            time: motion.time(),
             touches,
             contact_force: motion.force,
             even_force: motion.force - motion.force_oscillation(),
-            contact_radius: 0.0,
+            contact_radius,
             approach: motion.approach,
-            centre_pressure: 0.0,
-            rate,
+            centre_pressure,
+            rate: motion.rate,
             strain: stored,
             contact,
             power,
@@ -270,46 +335,22 @@ impl<'a> ImpactRun<'a> {
             radiated: None,
             residual: 0.0,
             vibration,
-        };
-        (sample.contact_radius, sample.centre_pressure) = self.pair.radius_and_pressure(
-            &motion.contact,
-            &motion.forces,
-            motion.slipped(),
-            &mut self.pressures,
-        );
-        let begin = self.last;
-        // Parabolas do not extend across a first touch or the end of a contact.
-        let is_same = |other: &MotionSample| other.touches == touches;
-        let before =
-            self.before_last.filter(|before| is_same(before) && begin.is_some_and(|b| is_same(&b)));
-        sample = self.integrated(before.as_ref(), begin.as_ref(), sample);
+        }
+    }
+
+    /// Observes the residuals of energy and momentum, and the spurious energy growth.
+    fn observe_balance(&mut self, sample: &MotionSample) {
         let lost = sample.dissipated + sample.radiated.unwrap_or(0.0);
-        let residual = sample.residual;
         let energy_scale = self.frame.energy_scale(self.approach.highest);
+        let residual = sample.residual;
         self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / energy_scale);
         self.growth = nan_aware_max(self.growth, (residual - lost) / energy_scale);
         if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
-            self.residual_since = Some(now);
+            self.residual_since = Some(self.now());
         }
-        let given = self.frame.weight() * time;
-        let drift = self.frame.impulse(rate) + given - self.impulse;
+        let given = self.frame.weight() * sample.time;
+        let drift = self.frame.impulse(self.motion.rate) + given - self.impulse;
         self.worst_momentum = nan_aware_max_abs(self.worst_momentum, drift);
-        if self.episodes > 0 {
-            self.vibration_after.observe(self.was_closed, vibration);
-        }
-        let approach = self.motion.approach;
-        self.trace.push(RunTrace { approach, is_closed: self.was_closed });
-        let potential = self.frame.potential(approach).unwrap_or(0.0);
-        let held = RelativeMotion {
-            time,
-            is_closed: self.was_closed,
-            force: sample.contact_force,
-            rate,
-            inner_energy: vibration[0] + vibration[1] + stored + contact + potential,
-        };
-        self.observe_within(before, begin, sample);
-        (self.before_last, self.last) = (begin, Some(sample));
-        self.rest_criterion.observe(&held)
     }
 
     /// Returns the collision of the run with its ending.

@@ -24,7 +24,7 @@ use crate::settings::Settings;
 /// restitution.
 const DAMPING_RATIO: f64 = 0.3;
 
-/// Contact between the surfaces of two bodies in their present places, for [`Parts`](crate::Parts).
+/// Contact between the surfaces of two bodies in their present places, for [`ModelParts`](crate::ModelParts).
 #[derive(Debug, Clone)]
 pub struct MovedContact {
     interface: MovedInterface,

@@ -12,7 +12,7 @@ pub use gravity::Weight;
 /// A force on the nodes of a body, from first touch on.
 ///
 /// Implement it for effects that act from outside or depend on the motion: gravity, drag, a prescribed load, bulk
-/// viscosity. A body has a list of such forces, empty by default ([`Parts`](crate::Parts)), which are added in its
+/// viscosity. A body has a list of such forces, empty by default ([`ModelParts`](crate::ModelParts)), which are added in its
 /// order. A rigid sphere is one node with all of its mass; a wall has no forces. No force acts in the flight before
 /// first touch, which is not stepped.
 ///

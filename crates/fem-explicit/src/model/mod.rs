@@ -26,7 +26,7 @@ pub(crate) use fingerprint::fingerprint;
 /// The stress of a body follows from its material and, at finite strain, from a law. The contact follows from the
 /// settings; it acts between the moved surfaces if either body is at finite strain.
 #[derive(Debug, Default)]
-pub struct Parts {
+pub struct ModelParts {
     /// Forces on the nodes of the lower and of the upper body, in the order in which they are added.
     pub node_forces: [Vec<Box<dyn NodeForce>>; 2],
     /// Whether the mass centre of the lower and of the upper sphere is held in place, by forces on its nodes in
@@ -75,7 +75,7 @@ impl ExplicitBodies {
         approach: Approach,
         settings: &Settings,
     ) -> Result<Self, ModelError> {
-        Self::with_parts(inputs, approach, settings, Parts::default())
+        Self::with_parts(inputs, approach, settings, ModelParts::default())
     }
 
     /// Builds a model as [`ExplicitBodies::new`] does, with parts of the caller.
@@ -86,7 +86,7 @@ impl ExplicitBodies {
         inputs: [BodyInput; 2],
         approach: Approach,
         settings: &Settings,
-        parts: Parts,
+        parts: ModelParts,
     ) -> Result<Self, ModelError> {
         settings.check()?;
         let mut contact: Box<dyn Contact> = match parts.contact {

@@ -7,7 +7,7 @@ use super::phases::is_closed_next;
 use super::*;
 use crate::state::{Scratch, State};
 use crate::test_support::{settings, sphere, unit_glass};
-use crate::{Parts, Settings, SmallStrainContact};
+use crate::{ModelParts, Settings, SmallStrainContact};
 
 /// Unit spheres at a hundredth of the wave's speed, two elements a block's side.
 fn model() -> ExplicitBodies {
@@ -216,7 +216,7 @@ fn every_step_has_the_energy_of_a_balance() {
                 |side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() };
             let lower = if wall { BodyInput::Wall } else { sphere(Side::Below) };
             let settings = Settings { contact_stiffness: stiffness, ..settings() };
-            let parts = Parts { method, ..Parts::default() };
+            let parts = ModelParts { method, ..ModelParts::default() };
             let approach = Approach::at(0.01).unwrap();
             let model = ExplicitBodies::with_parts(
                 [lower, sphere(Side::Above)],

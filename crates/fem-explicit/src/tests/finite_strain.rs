@@ -7,7 +7,7 @@ use fem_mesh::{Side, SphereMesh};
 use nalgebra::DMatrix;
 
 use crate::contact::{Contact, Springs};
-use crate::model::{ExplicitBodies, Parts};
+use crate::model::{ExplicitBodies, ModelParts};
 use crate::run::{advance, step_demand, update_forces, update_time_step};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
@@ -17,7 +17,7 @@ use crate::test_support::{largest_eigenvalue, ragged, settings, unit_glass, unit
 fn free(law: HyperelasticLaw, n: f64) -> (ExplicitBodies, State) {
     let sphere = glass_sphere(n, Side::Above);
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
-    let parts = Parts { finite_strain: [None, Some(law)], ..Parts::default() };
+    let parts = ModelParts { finite_strain: [None, Some(law)], ..ModelParts::default() };
     let bodies = [BodyInput::Wall, sphere];
     let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
     let state = State::at_first_touch(&model);
@@ -88,8 +88,10 @@ fn the_critical_step_of_a_deformed_body_is_safe_and_tight() {
 fn with_deformed_upper(bodies: [BodyInput; 2], contact_stiffness: f64) -> ExplicitBodies {
     let settings =
         Settings { contact_stiffness, candidate_radius: 0.7, step_factor: 1.0, ..settings() };
-    let parts =
-        Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
+    let parts = ModelParts {
+        finite_strain: [None, Some(HyperelasticLaw::NeoHooke)],
+        ..ModelParts::default()
+    };
     ExplicitBodies::with_parts(bodies, Approach::at(1.0).unwrap(), &settings, parts).unwrap()
 }
 
@@ -188,7 +190,8 @@ fn every_step_of_a_collision_is_stable() {
         let upper = Surface::of_sphere(mesh);
         let springs = ContactInterface::new(Surface::wall(), upper, 1.0, 0.0, 0.9).unwrap();
         let contact = Some(Box::new(Springs::Straight(springs)) as Box<dyn Contact>);
-        let parts = Parts { finite_strain: [None, Some(law)], contact, ..Parts::default() };
+        let parts =
+            ModelParts { finite_strain: [None, Some(law)], contact, ..ModelParts::default() };
         let settings = Settings { contact_stiffness: 1.0, candidate_radius: 0.9, ..settings() };
         let bodies = [BodyInput::Wall, sphere.clone()];
         let model = ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap();
@@ -217,7 +220,7 @@ fn every_step_of_a_collision_is_stable() {
 fn critical_step_is_computed_at_most_every_tenth_step() {
     let sphere = glass_sphere(16.0, Side::Above);
     let law = Some(HyperelasticLaw::NeoHooke);
-    let parts = Parts { finite_strain: [None, law], ..Parts::default() };
+    let parts = ModelParts { finite_strain: [None, law], ..ModelParts::default() };
     let settings = Settings { candidate_radius: 0.9, ..settings() };
     let approach = Approach::new([0.0, -0.3], 0.0).unwrap();
     let model =
@@ -242,7 +245,7 @@ fn every_step_of_bulging_spheres_is_stable() {
         let bodies = [glass_sphere(4.0, Side::Below), glass_sphere(5.0, Side::Above)];
         let approach = Approach::new([0.6, -0.6], 0.0).unwrap();
         let law = Some(HyperelasticLaw::NeoHooke);
-        let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
+        let parts = ModelParts { finite_strain: [law; 2], ..ModelParts::default() };
         let settings =
             Settings { contact_stiffness: stiffness, candidate_radius: 0.999, ..settings() };
         let model = ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap();
@@ -279,7 +282,7 @@ fn too_short_a_step_names_the_contact_on_steep_flanks() {
     let sphere =
         |side: Side| BodyInput::Sphere { mesh: unit_sphere(4.0, side), material: unit_glass() };
     let law = Some(HyperelasticLaw::NeoHooke);
-    let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
+    let parts = ModelParts { finite_strain: [law; 2], ..ModelParts::default() };
     let settings = Settings { candidate_radius: 0.999, ..settings() };
     let bodies = [sphere(Side::Below), sphere(Side::Above)];
     let model =

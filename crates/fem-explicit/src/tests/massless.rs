@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::stability::{both_closed, partly_closed, tangent};
 use crate::contact::SmallStrainContact;
-use crate::model::{ExplicitBodies, Parts};
+use crate::model::{ExplicitBodies, ModelParts};
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
@@ -25,7 +25,7 @@ fn pair(
         BodyInput::Sphere { mesh, material: glass.clone() }
     };
     let bodies = [body(sizes[0], Side::Below), body(sizes[1], Side::Above)];
-    let parts = Parts { method, ..Parts::default() };
+    let parts = ModelParts { method, ..ModelParts::default() };
     ExplicitBodies::with_parts(bodies, Approach::at(1.0).unwrap(), settings, parts).unwrap()
 }
 
@@ -104,7 +104,7 @@ fn worst_lack(stiffness: f64, materials: [&Material; 2], slips_at: Option<f64>) 
             let mesh = sphere(size, 2.0 * size, side);
             BodyInput::Sphere { mesh, material: materials[k].clone() }
         };
-        let parts = Parts { method, surface_slip, ..Parts::default() };
+        let parts = ModelParts { method, surface_slip, ..ModelParts::default() };
         let approach = Approach::at(slips_at.unwrap_or(1.0)).unwrap();
         ExplicitBodies::with_parts([body(0), body(1)], approach, &settings, parts).unwrap()
     };

@@ -6,7 +6,7 @@ use fem_mesh::Side;
 
 use crate::energy::Ledger;
 use crate::forces::{NodeForce, Weight};
-use crate::model::{ExplicitBodies, Parts};
+use crate::model::{ExplicitBodies, ModelParts};
 use crate::part::Accounts;
 use crate::run::ContactLog;
 use crate::run::{advance, update_forces};
@@ -21,7 +21,7 @@ fn rising() -> (ExplicitBodies, State) {
     let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let weights = [0.25, 0.75].map(|share| Box::new(Weight::new(-share * ACCELERATION)) as Box<_>);
-    let parts = Parts { node_forces: [Vec::new(), weights.into()], ..Parts::default() };
+    let parts = ModelParts { node_forces: [Vec::new(), weights.into()], ..ModelParts::default() };
     let bodies = [BodyInput::Wall, sphere];
     let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
     let mut state = State::at_first_touch(&model);
@@ -77,7 +77,7 @@ fn rigid_sphere_under_weight_has_the_closed_form_motion() {
     let bodies = [sphere, BodyInput::Rigid { radius: 0.5, mass: 3.0 }];
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let weight: Box<dyn NodeForce> = Box::new(Weight::new(-ACCELERATION));
-    let parts = Parts { node_forces: [Vec::new(), vec![weight]], ..Parts::default() };
+    let parts = ModelParts { node_forces: [Vec::new(), vec![weight]], ..ModelParts::default() };
     let model = ExplicitBodies::with_parts(bodies, approach, &settings(), parts).unwrap();
     let mut state = State::at_first_touch(&model);
     // Back from first touch to the start.
@@ -111,8 +111,11 @@ fn mass_scaling_leaves_weight_and_potential_unchanged() {
         let sphere =
             BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
         let weight: Box<dyn NodeForce> = Box::new(Weight::new(gravity));
-        let parts =
-            Parts { node_forces: [Vec::new(), vec![weight]], contact: None, ..Parts::default() };
+        let parts = ModelParts {
+            node_forces: [Vec::new(), vec![weight]],
+            contact: None,
+            ..ModelParts::default()
+        };
         let settings = Settings { mass_scaling, ..settings() };
         let approach = Approach::at(1.0).unwrap();
         let model =

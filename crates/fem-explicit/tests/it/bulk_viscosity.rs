@@ -2,7 +2,7 @@
 
 use fem_collision::{Account, Collision, HistoryRow};
 use fem_explicit::{
-    BulkViscosity, ExplicitBodies, ModelError, NodeForce, Parts, Run, ViscosityCoefficients,
+    BulkViscosity, ExplicitBodies, ModelError, ModelParts, NodeForce, Run, ViscosityCoefficients,
 };
 
 use crate::common::{Pair, quantities};
@@ -14,7 +14,7 @@ fn model(pair: &Pair, coefficients: ViscosityCoefficients) -> ExplicitBodies {
         let part = BulkViscosity::new(mesh, &pair.material(), coefficients, drop).unwrap();
         vec![Box::new(part) as Box<dyn NodeForce>]
     });
-    let parts = Parts { node_forces, ..Parts::default() };
+    let parts = ModelParts { node_forces, ..ModelParts::default() };
     ExplicitBodies::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
 }
 

@@ -4,8 +4,8 @@ use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, StepInstant, Stop,
 };
 use fem_explicit::{
-    Contact, ExplicitBodies, FreeMotion, ModelError, MovedContact, Parts, Run, RunState, Settings,
-    collide,
+    Contact, ExplicitBodies, FreeMotion, ModelError, ModelParts, MovedContact, Run, RunState,
+    Settings, collide,
 };
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -93,7 +93,7 @@ impl Ball {
             mass_times: [1.0; 2],
         };
         let approach = Approach::new([0.0, -self.speed], 0.0).unwrap();
-        let parts = Parts { finite_strain: [None, self.law], ..Parts::default() };
+        let parts = ModelParts { finite_strain: [None, self.law], ..ModelParts::default() };
         ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
     }
 
@@ -108,7 +108,7 @@ fn on_moved_surfaces(pair: &Pair, finite_strain: [Option<HyperelasticLaw>; 2]) -
     let (approach, settings) = (pair.approach(), pair.settings());
     let contact = MovedContact::new(&bodies, approach.gap(), &settings).unwrap();
     let contact = Some(Box::new(contact) as Box<dyn Contact>);
-    let parts = Parts { finite_strain, contact, ..Parts::default() };
+    let parts = ModelParts { finite_strain, contact, ..ModelParts::default() };
     ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
 }
 
@@ -356,7 +356,7 @@ fn run_pressed_flat(bodies: [BodyInput; 2], speed: f64) -> Collision {
         mass_times: [1.0; 2],
     };
     let law = Some(HyperelasticLaw::NeoHooke);
-    let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
+    let parts = ModelParts { finite_strain: [law; 2], ..ModelParts::default() };
     let approach = Approach::new([0.0, -speed], 0.0).unwrap();
     let model = ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap();
     let expected = Expectation { contact_time: 2e-3, approach: 10e-3 };

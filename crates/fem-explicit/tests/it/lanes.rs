@@ -2,7 +2,7 @@
 
 use fem_collision::{Approach, BodyInput, Expectation, OutputRequest};
 use fem_explicit::{
-    BulkViscosity, ExplicitBodies, NodeForce, Parts, Run, Settings, ViscosityCoefficients,
+    BulkViscosity, ExplicitBodies, ModelParts, NodeForce, Run, Settings, ViscosityCoefficients,
     limit_lanes,
 };
 use fem_material::finite::HyperelasticLaw;
@@ -11,14 +11,14 @@ use fem_material::{ActsOn, PronySeries, PronyTerm};
 use crate::common::{unit_glass, unit_sphere};
 
 /// A unit sphere that hits a wall at a tenth of the shear wave speed, with relaxation terms of these weights.
-fn model(weights: &[f64], acts_on: ActsOn, parts: Parts, viscosity: bool) -> ExplicitBodies {
+fn model(weights: &[f64], acts_on: ActsOn, parts: ModelParts, viscosity: bool) -> ExplicitBodies {
     let term = |(k, &weight): (usize, &f64)| PronyTerm { weight, relaxation_time: 0.2 + k as f64 };
     let terms = weights.iter().enumerate().map(term).collect();
     let (mesh, material) = (unit_sphere(10.0), unit_glass(PronySeries::new(terms, acts_on).ok()));
     let coefficients = ViscosityCoefficients::default();
     let force = BulkViscosity::new(&mesh, &material, coefficients, 0.7).unwrap();
     let forces = viscosity.then(|| Box::new(force) as Box<dyn NodeForce>);
-    let parts = Parts { node_forces: [Vec::new(), Vec::from_iter(forces)], ..parts };
+    let parts = ModelParts { node_forces: [Vec::new(), Vec::from_iter(forces)], ..parts };
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
     let settings = Settings {
         contact_stiffness: 5.0,
@@ -51,10 +51,10 @@ fn lanes_of_every_kind_give_the_same_bits() {
     let laws = [None].into_iter().chain(HyperelasticLaw::ALL.map(Some));
     for (law, weights) in laws.flat_map(|law| [&[][..], &[0.3], &[0.3, 0.5]].map(|w| (law, w))) {
         for (acts_on, within) in [(ActsOn::All, None), (ActsOn::Shear, Some(0.4))] {
-            let parts = Parts {
+            let parts = ModelParts {
                 finite_strain: [None, law],
                 finite_strain_within: law.and(within),
-                ..Parts::default()
+                ..ModelParts::default()
             };
             let model = model(weights, acts_on, parts, within.is_some());
             let plain = state_on(0, &model);
@@ -70,7 +70,7 @@ fn lanes_of_every_kind_give_the_same_bits() {
 fn single_relaxation_term_gives_the_bits_of_several() {
     for law in HyperelasticLaw::ALL {
         let history = |weights: &[f64]| {
-            let parts = Parts { finite_strain: [None, Some(law)], ..Parts::default() };
+            let parts = ModelParts { finite_strain: [None, Some(law)], ..ModelParts::default() };
             let model = model(weights, ActsOn::All, parts, false);
             let mut run = Run::new(&model, EXPECTED, &OutputRequest::history());
             assert_eq!(run.advance(50), None);

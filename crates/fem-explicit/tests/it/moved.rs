@@ -4,7 +4,7 @@ use crate::common::{Pair, Quantities, quantities};
 use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
 };
-use fem_explicit::{Contact, ExplicitBodies, MovedContact, Parts, Run, Settings, collide};
+use fem_explicit::{Contact, ExplicitBodies, ModelParts, MovedContact, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side};
@@ -18,8 +18,13 @@ fn model(
 ) -> ExplicitBodies {
     let moved = is_moved.then(|| MovedContact::new(&bodies, approach.gap(), settings).unwrap());
     let contact = moved.map(|contact| Box::new(contact) as Box<dyn Contact>);
-    ExplicitBodies::with_parts(bodies, approach, settings, Parts { contact, ..Parts::default() })
-        .unwrap()
+    ExplicitBodies::with_parts(
+        bodies,
+        approach,
+        settings,
+        ModelParts { contact, ..ModelParts::default() },
+    )
+    .unwrap()
 }
 
 fn of_pair(pair: &Pair, bodies: [BodyInput; 2]) -> [ExplicitBodies; 2] {
@@ -235,7 +240,7 @@ fn finite_strain_selects_deformed_surface_contact_by_default() {
     for lower in [BodyInput::Wall, rigid, stiff] {
         let bodies = [lower, ball.clone()];
         let with = |law: Option<HyperelasticLaw>| {
-            let parts = Parts { finite_strain: [None, law], ..Parts::default() };
+            let parts = ModelParts { finite_strain: [None, law], ..ModelParts::default() };
             let approach = Approach::new([0.0, -3.0], 0.0).unwrap();
             ExplicitBodies::with_parts(bodies.clone(), approach, &settings, parts).unwrap()
         };

@@ -6,8 +6,8 @@ use crate::common::{Pair, quantities};
 use fem_collision::{Account, BodyInput, CandidateRegion, SnapshotInstant, SnapshotRequest};
 use fem_contact::{ContactForces, ContactInterface, Profile, Surface};
 use fem_explicit::{
-    Accounts, Contact, ExplicitBodies, Field, ModelError, Motion, MotionMut, NodalField, NodeForce,
-    Part, Parts, Run, Springs,
+    Accounts, Contact, ExplicitBodies, Field, ModelError, ModelParts, Motion, MotionMut,
+    NodalField, NodeForce, Part, Run, Springs,
 };
 
 fn small() -> Pair {
@@ -15,14 +15,14 @@ fn small() -> Pair {
     Pair { snapshots, ..Pair::small() }
 }
 
-fn model(pair: &Pair, parts: Parts) -> ExplicitBodies {
+fn model(pair: &Pair, parts: ModelParts) -> ExplicitBodies {
     let bodies = [pair.sphere(0), pair.sphere(1)];
     ExplicitBodies::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
 }
 
-fn on_both<F: NodeForce + Clone>(force: &F) -> Parts {
+fn on_both<F: NodeForce + Clone>(force: &F) -> ModelParts {
     let list = || vec![Box::new(force.clone()) as Box<dyn NodeForce>];
-    Parts { node_forces: [list(), list()], contact: None, ..Parts::default() }
+    ModelParts { node_forces: [list(), list()], contact: None, ..ModelParts::default() }
 }
 
 /// Returns the size of the restart state before the first step, in bytes.
@@ -35,7 +35,7 @@ fn n_bytes(pair: &Pair, model: &ExplicitBodies) -> usize {
 #[test]
 fn default_parts_change_neither_bits_nor_restart_size() {
     let pair = small();
-    let (plain, other) = (pair.model(), model(&pair, Parts::default()));
+    let (plain, other) = (pair.model(), model(&pair, ModelParts::default()));
     assert_eq!(pair.run_model(&plain), pair.run_model(&other));
     assert_eq!(n_bytes(&pair, &plain), n_bytes(&pair, &other));
     let n_nodes: usize = plain.bodies().iter().map(|body| body.n_nodes()).sum();
@@ -296,8 +296,10 @@ fn custom_contact_replaces_the_penalty_contact_and_resumes() {
     for relaxation in [None, Some(fem_material::ActsOn::Shear)] {
         let pair = Pair { relaxation, ..small() };
         let contact = || Some(Box::new(Counting::of(&pair)) as Box<dyn Contact>);
-        let (plain, other) =
-            (pair.model(), model(&pair, Parts { contact: contact(), ..Parts::default() }));
+        let (plain, other) = (
+            pair.model(),
+            model(&pair, ModelParts { contact: contact(), ..ModelParts::default() }),
+        );
         assert!(plain.interface().is_some() && other.interface().is_none());
         assert_eq!(other.candidate_radius(), plain.candidate_radius());
         let run = pair.run_model(&plain);
@@ -310,7 +312,7 @@ fn custom_contact_replaces_the_penalty_contact_and_resumes() {
         assert_eq!(Run::resume(&plain, saved.clone()).err(), Some(ModelError::ForeignRestartState));
         // So does one with the same fields, of a contact with another number.
         let later = Counting { first_touch: 1e-9, ..Counting::of(&pair) };
-        let later = Parts { contact: Some(Box::new(later)), ..Parts::default() };
+        let later = ModelParts { contact: Some(Box::new(later)), ..ModelParts::default() };
         let refused = Run::resume(&model(&pair, later), saved).err();
         assert_eq!(refused, Some(ModelError::ForeignRestartState));
     }

@@ -1,7 +1,7 @@
 //! Collisions of unlike bodies whose surfaces slip on each other.
 
 use fem_collision::BodyInput;
-use fem_explicit::{ExplicitBodies, ModelError, Parts, Run, Settings, SmallStrainContact};
+use fem_explicit::{ExplicitBodies, ModelError, ModelParts, Run, Settings, SmallStrainContact};
 use fem_material::{ElasticModuli, Material};
 
 use crate::common::{Pair, quantities};
@@ -29,7 +29,7 @@ fn model(pair: &Pair, material: Option<Material>, surface_slip: bool) -> Explici
     if let (BodyInput::Sphere { material: own, .. }, Some(material)) = (&mut bodies[0], material) {
         *own = material;
     }
-    let parts = Parts { surface_slip, method: pair.method, ..Parts::default() };
+    let parts = ModelParts { surface_slip, method: pair.method, ..ModelParts::default() };
     let settings = Settings { contact_stiffness: 60e9, ..pair.settings() };
     ExplicitBodies::with_parts(bodies, pair.approach(), &settings, parts).unwrap()
 }
@@ -96,7 +96,7 @@ fn massless_slipping_boundary_is_stable_at_any_stiffness() {
         if let BodyInput::Sphere { material, .. } = &mut bodies[0] {
             *material = soft();
         }
-        let parts = Parts { surface_slip: true, method: pair.method, ..Parts::default() };
+        let parts = ModelParts { surface_slip: true, method: pair.method, ..ModelParts::default() };
         let settings = Settings { contact_stiffness: factor * 3e9, ..pair.settings() };
         let model = ExplicitBodies::with_parts(bodies, pair.approach(), &settings, parts).unwrap();
         (model.time_step(), pair.run_model(&model))

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, SVector};
 
 use super::*;
 use crate::energy::Ledger;
-use crate::model::{ExplicitBodies, Parts};
+use crate::model::{ExplicitBodies, ModelParts};
 use crate::run::{advance, update_forces};
 use crate::settings::Settings;
 use crate::state::{Scratch, State};
@@ -264,7 +264,7 @@ fn the_work_of_viscosity_is_what_the_motion_loses() {
         let velocities = ragged(&mesh, 3).iter().map(|v| v.map(|v| 100.0 * v)).collect();
         let sphere = BodyInput::Sphere { mesh, material: glass };
         let node_forces = [Vec::new(), vec![Box::new(viscosity) as Box<dyn NodeForce>]];
-        let parts = Parts { node_forces, ..Parts::default() };
+        let parts = ModelParts { node_forces, ..ModelParts::default() };
         let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
         let settings = Settings { step_factor: 1.0, ..settings() };
         let model =

@@ -3,7 +3,7 @@ use fem_material::finite::HyperelasticLaw;
 use fem_mesh::Side;
 
 use super::*;
-use crate::model::{ExplicitBodies, Parts};
+use crate::model::{ExplicitBodies, ModelParts};
 use crate::state::State;
 use crate::test_support::{settings, unit_glass, unit_sphere};
 
@@ -14,7 +14,7 @@ fn model(law: Option<HyperelasticLaw>) -> ExplicitBodies {
 /// The sphere at a speed of approach; pressure waves have the speed 1.1.
 fn at_speed(law: Option<HyperelasticLaw>, speed: f64) -> ExplicitBodies {
     let sphere = BodyInput::Sphere { mesh: unit_sphere(4.0, Side::Above), material: unit_glass() };
-    let parts = Parts { finite_strain: [None, law], ..Parts::default() };
+    let parts = ModelParts { finite_strain: [None, law], ..ModelParts::default() };
     let approach = Approach::new([speed, 0.0], 1e3 * speed).unwrap();
     ExplicitBodies::with_parts([BodyInput::Wall, sphere], approach, &settings(), parts).unwrap()
 }

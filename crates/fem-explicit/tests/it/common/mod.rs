@@ -5,7 +5,9 @@
 use std::sync::LazyLock;
 
 use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
-use fem_explicit::{ExplicitBodies, Parts, Run, RunState, Settings, SmallStrainContact, collide};
+use fem_explicit::{
+    ExplicitBodies, ModelParts, Run, RunState, Settings, SmallStrainContact, collide,
+};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
@@ -127,7 +129,7 @@ impl Pair {
 
     pub fn model_of(&self, bodies: [BodyInput; 2]) -> ExplicitBodies {
         let finite_strain = bodies.each_ref().map(|body| body.mesh().and(self.law));
-        let parts = Parts { finite_strain, method: self.method, ..Parts::default() };
+        let parts = ModelParts { finite_strain, method: self.method, ..ModelParts::default() };
         ExplicitBodies::with_parts(bodies, self.approach(), &self.settings(), parts).unwrap()
     }
 

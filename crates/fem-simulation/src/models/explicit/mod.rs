@@ -10,7 +10,7 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, StaticContact, Stop,
 };
 use fem_explicit::{
-    ExplicitBodies, ModelError, NodeForce, Parts, Run, Settings, SmallStrainContact,
+    ExplicitBodies, ModelError, ModelParts, NodeForce, Run, Settings, SmallStrainContact,
     ViscosityCoefficients, Weight,
 };
 use fem_mesh::SphereMesh;
@@ -230,7 +230,8 @@ impl RebuildData {
             approach.speed(),
             approach.speed() / self.speed_share,
         )?;
-        let parts = Parts { method: self.method, penalty_factor: self.penalty_factor, ..parts };
+        let parts =
+            ModelParts { method: self.method, penalty_factor: self.penalty_factor, ..parts };
         ExplicitBodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
@@ -354,10 +355,10 @@ fn parts(
     inputs: &[BodyInput; 2],
     approach_speed: f64,
     speed: f64,
-) -> Result<Parts, ModelError> {
+) -> Result<ModelParts, ModelError> {
     let held = scene.bodies().each_ref().map(Body::is_held);
     let surface_slip = surfaces_slip(scene);
-    let mut parts = Parts { held, surface_slip, ..Parts::default() };
+    let mut parts = ModelParts { held, surface_slip, ..ModelParts::default() };
     if let Ok(estimate) = Estimate::at(scene, approach_speed) {
         parts.finite_strain = FiniteStrain::laws(scene, &estimate);
         parts.finite_strain_within = FiniteStrain::within(scene, &estimate);
