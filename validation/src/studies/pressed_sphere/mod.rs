@@ -16,7 +16,7 @@ use std::sync::Arc;
 use fem_collision::{
     Account, Approach, BodyInput, Expectation, HistoryRow, OutputRequest, nan_aware_max_abs,
 };
-use fem_explicit::{ExplicitBodies, ModelError, MovedContact, NodeForce, Parts, Run, Settings};
+use fem_explicit::{ExplicitBodies, ModelError, MovedContact, NodeForce, ModelParts, Run, Settings};
 use fem_figure::{Axis, Chart, Curve};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
@@ -85,11 +85,11 @@ fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<HistoryRow>, u64), Stu
     let approach = Approach::new([0.0, -speed], 0.0)?;
     let contact = MovedContact::new(&bodies, 0.0, &settings).map_err(ModelError::from)?;
     let far: Box<dyn NodeForce> = Box::new(far_plate);
-    let parts = Parts {
+    let parts = ModelParts {
         node_forces: [Vec::new(), vec![far]],
         finite_strain: [None, Some(HyperelasticLaw::NeoHooke)],
         contact: Some(Box::new(contact)),
-        ..Parts::default()
+        ..ModelParts::default()
     };
     let model = Arc::new(ExplicitBodies::with_parts(bodies, approach, &settings, parts)?);
     let deepest = 1.03 * depths.iter().copied().fold(0.0, f64::max);
