@@ -16,7 +16,9 @@ use std::sync::Arc;
 use fem_collision::{
     Account, Approach, BodyInput, Expectation, HistoryRow, OutputRequest, nan_aware_max_abs,
 };
-use fem_explicit::{ExplicitBodies, ModelError, MovedContact, NodeForce, ModelParts, Run, Settings};
+use fem_explicit::{
+    ExplicitBodies, ModelError, ModelParts, MovedContact, NodeForce, Run, Settings,
+};
 use fem_figure::{Axis, Chart, Curve};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
