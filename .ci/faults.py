@@ -116,7 +116,7 @@ FAULTS = [
      "let slip = place.radial[0] - place.radial[1];"),
     # The command
     ("exit_status_of_bad_input", "fem-run:bad_input", "BadInput = 2,", "BadInput = 3,"),
-    ("exit_status_of_an_interrupt", "fem-run:stopping", "Interrupted = 130,", "Interrupted = 1,"),
+    ("exit_status_of_an_interrupt", "fem-run:stopping", "Interrupted = 130,", "Interrupted = 131,"),
     # Claims
     ("claim_bound", "fem-validate", "(Tolerance::AtMost(most), _) => value <= most,",
      "(Tolerance::AtMost(most), _) => value >= most,"),

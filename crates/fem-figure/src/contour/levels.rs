@@ -73,6 +73,7 @@ mod tests {
         assert_eq!((levels.step(), levels.edges().len()), (0.1, 13));
         assert_eq!((levels.edges()[0], levels.edges()[12]), (-11.0 * 0.1, 0.2));
         assert_eq!(levels.neutral(), 10);
+        assert_eq!(Levels::about_zero(-0.3, 4.4, 10).step(), 0.5);
         assert_eq!(Levels::about_zero(-3e9, 3e9, 3).edges(), [-3e9, -2e9, -1e9, 1e9, 2e9, 3e9]);
     }
 
