@@ -20,7 +20,7 @@ use crate::source::explain::{explain, listed};
 use crate::validate::validate;
 
 /// The largest size of a case file, bytes: more than any case needs.
-const LARGEST_FILE: u64 = 16 << 20;
+const MAX_FILE: u64 = 16 << 20;
 
 /// A valid case: as written, as a scene, and with the origins of its keys.
 #[derive(Clone, Debug)]
@@ -287,9 +287,9 @@ fn open(path: &Path, name: &str) -> Result<fs::File, CaseError> {
 fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {
     let fail = |message: &str| CaseError::new(name, message);
     let mut bytes = Vec::new();
-    let read = source.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
+    let read = source.take(MAX_FILE + 1).read_to_end(&mut bytes);
     read.map_err(|error| unreadable(name, &error))?;
-    if bytes.len() as u64 > LARGEST_FILE {
+    if bytes.len() as u64 > MAX_FILE {
         return Err(fail("this file is larger than 16 MiB, the limit for a case"));
     }
     String::from_utf8(bytes).map_err(|error| {

@@ -73,7 +73,7 @@ pub use scene::defaults;
 pub use scene::model::{CondensedOptions, ModelChoice};
 pub use scene::{Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, impact_speed};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
-pub use source::explain::nearest;
+pub use source::similar_words::nearest;
 pub use sweep::Sweep;
 pub use sweep::axes::{Axis, AxisValue, SweptKey};
 pub use sweep::file::{Combine, Keep, PlotTable};

@@ -38,7 +38,7 @@ pub use request::{
     POST_CONTACT_FRACTION, far_radius_at_rest, far_radius_of_waves,
 };
 pub use result::{
-    BodyResult, Bounce, CandidateRegion, Collision, Ending, LARGEST_RESIDUAL, QuantityOfInterest,
+    BodyResult, Bounce, CandidateRegion, Collision, Ending, MAX_RESIDUAL, QuantityOfInterest,
     RestState, STAY_TOGETHER, StaticContact, Stop,
 };
 pub use run::{

@@ -15,9 +15,9 @@ use crate::settings::Damping;
 /// more points is run again with all of them.
 const INCLUDED_OVER_CONTACT_RADIUS: f64 = 1.3;
 /// Largest ω Δt of a mode of vibration; the error of its period is (ω Δt)⁴/480 = 1e-4.
-const LARGEST_PHASE: f64 = 0.5;
+const MAX_PHASE: f64 = 0.5;
 /// Smallest number of steps per elastic contact time.
-const FEWEST_STEPS: usize = 8;
+const MIN_STEPS: usize = 8;
 /// Share of steps with a contact area that is not a disc above which a warning is given.
 const MANY_REPEATED: f64 = 0.01;
 
@@ -63,7 +63,7 @@ impl CondensedPair {
     ) -> Result<Collision, CondensedError> {
         let (speed, damping) = (frame.speed(), damping.into());
         damping.check()?;
-        if n_steps < FEWEST_STEPS {
+        if n_steps < MIN_STEPS {
             let (name, value) = ("number of steps", n_steps as f64);
             return Err(CondensedError::Setting { name, value, allowed: "at least 8" });
         }
@@ -167,7 +167,7 @@ impl CondensedPair {
         let squared = self.sides.iter().flatten().filter_map(|side| {
             side.vibrations.as_ref()?.modes.squared_frequency.iter().copied().reduce(f64::max)
         });
-        squared.map(|squared| LARGEST_PHASE / squared.sqrt()).fold(asked, f64::min)
+        squared.map(|squared| MAX_PHASE / squared.sqrt()).fold(asked, f64::min)
     }
 }
 

@@ -55,7 +55,7 @@ pub struct ContactInterface {
 
 /// Intervals shorter than this share of a segment are joined to the next: their springs would carry nothing
 /// and cost as much as others.
-const LEAST_INTERVAL_SHARE: f64 = 1e-3;
+const MIN_INTERVAL_SHARE: f64 = 1e-3;
 
 /// Factor on the stiffness of the penalty springs in the critical time step. A closed spring is
 /// stable with one. One that opens and closes within a few steps changes the energy by up to the
@@ -226,7 +226,7 @@ fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
     // Nodes that all but lie on each other make one cut: those of like meshes on unlike spheres do.
     radii.dedup_by(|outer, inner| {
         let length = mean_length(surfaces, surfaces.each_ref().map(|s| s.locate(*inner).0));
-        let sliver = if length.is_finite() { LEAST_INTERVAL_SHARE * length } else { 0.0 };
+        let sliver = if length.is_finite() { MIN_INTERVAL_SHARE * length } else { 0.0 };
         *outer - *inner <= sliver.max(1e-9 * *outer)
     });
     let common = surfaces[0].extent().min(surfaces[1].extent());

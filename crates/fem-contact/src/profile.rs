@@ -19,7 +19,7 @@ const N_PLACES: usize = 32;
 /// Number of nodes beyond the candidate region.
 pub(crate) const N_BEYOND: usize = 5;
 /// Least distance of such a radius from a node, over the contact radius.
-const LEAST_DISTANCE_FROM_NODE: f64 = 1e-3;
+const MIN_DISTANCE_FROM_NODE: f64 = 1e-3;
 
 /// The contact at one distance from the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,7 +112,7 @@ impl Profile {
         let is_free = |radius: &f64| {
             self.points
                 .iter()
-                .all(|point| (point.radius - radius).abs() > LEAST_DISTANCE_FROM_NODE * edge)
+                .all(|point| (point.radius - radius).abs() > MIN_DISTANCE_FROM_NODE * edge)
         };
         let free = places_inside(edge, N_PLACES).filter(is_free);
         let between: Vec<ProfilePoint> = free.filter_map(|radius| self.between(radius)).collect();

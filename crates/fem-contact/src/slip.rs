@@ -18,8 +18,8 @@
 //! arcs up to 1.
 
 use crate::interface::{ContactInterface, ContactPoint};
-use crate::straight_forces::ContactForces;
 use crate::surface::SurfaceProjection;
+use crate::undeformed_forces::ContactForces;
 
 /// Displacement (u_r, u_y) of a node, m.
 pub type Displacement = [f64; 2];

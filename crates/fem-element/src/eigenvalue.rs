@@ -17,7 +17,7 @@ use crate::stiffness::ElementMatrix;
 const N: usize = 8;
 /// Upper limit on the number of steps. A double root takes about thirty, because each step leaves three fifths of the
 /// error.
-const MOST_STEPS: usize = 60;
+const MAX_STEPS: usize = 60;
 /// Relative size below which a step is rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -54,9 +54,9 @@ fn largest_of_tridiagonal(diagonal: &SVector<f64, N>, beside: &SVector<f64, { N 
     let bound = (0..N).map(reach).fold(0.0, f64::max);
     let (diagonal, beside) = (diagonal / bound, beside / bound);
     let mut root = 1.0;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let [p, slope, bend] = characteristic(&diagonal, &beside, root);
-        // On the root, or by a rounding below it.
+        // At the root, or below it by rounding.
         if p <= 0.0 {
             break;
         }

@@ -83,7 +83,7 @@ mod tests;
 mod time;
 
 pub use body::Body;
-pub use contact::{Contact, Massless, MovedContact, SmallStrainContact, Springs};
+pub use contact::{Contact, DeformedContact, Massless, SmallStrainContact, Springs};
 pub use error::ModelError;
 pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;
@@ -94,4 +94,4 @@ pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{Run, RunState, collide};
 pub use settings::Settings;
 pub use snapshots::n_states;
-pub use stress::{Collapse, MOST_FINITE_STRAIN_TERMS};
+pub use stress::{Collapse, MAX_FINITE_STRAIN_TERMS};

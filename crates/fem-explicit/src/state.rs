@@ -12,7 +12,7 @@ use crate::part::{Motion, NodalField};
 use crate::time::StepControl;
 
 /// More steps than any run takes; up to here step numbers are exact as floating-point numbers.
-const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
+const MAX_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 
 /// The state of both bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -83,7 +83,7 @@ impl State {
     /// Returns whether its fields have the sizes of the model, and its time is that of its step.
     pub fn fits(&self, model: &ExplicitBodies) -> bool {
         let n_contact = model.contact().n_history();
-        self.step <= MOST_STEPS
+        self.step <= MAX_STEPS
             && self.step_control.is_some() == model.changes_stiffness()
             && self.step_control.is_none_or(|control| control.is_valid_at(self.step))
             && self.time == self.time_after(self.step, model)

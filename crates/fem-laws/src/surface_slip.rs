@@ -105,7 +105,7 @@ pub struct SurfaceSlip {
     faces: [SlipSurface; 2],
     /// Curvature κ of the interface, 1/m.
     curvature: f64,
-    /// s of both.
+    /// Shares s of both bodies in the slip.
     shares: [f64; 2],
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// The legend entry of the reference.
 const HERTZ: &str = "Hertz";
 /// Least share of the largest energy from which an account gets a curve.
-const LEAST_ENERGY_SHARE: f64 = 1e-3;
+const MIN_ENERGY_SHARE: f64 = 1e-3;
 
 /// Charts over time as SVG; `None` if there is nothing to draw.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -76,7 +76,7 @@ fn energy(run: &[HistoryRow], common: Option<f64>) -> Option<String> {
     let (time, own) = (time_unit(run), unit(all(), "J"));
     let mut chart = Chart::new(axis("time", &time), axis("energy", &own));
     let is_seen = |curve: &&EnergyCurve| {
-        curve.energies.iter().flatten().any(|energy| energy.abs() > LEAST_ENERGY_SHARE * largest)
+        curve.energies.iter().flatten().any(|energy| energy.abs() > MIN_ENERGY_SHARE * largest)
     };
     for curve in curves.iter().filter(is_seen) {
         let point = |(row, energy): (&HistoryRow, &Option<f64>)| {

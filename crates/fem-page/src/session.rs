@@ -18,12 +18,12 @@ use crate::sharing::{EnergyShares, common_of};
 /// The name of the text in errors.
 const SOURCE: &str = "the case";
 /// Memory limit of a run in bytes: a 32-bit module has 4 GB, which other cases and their results share.
-const MOST_MEMORY: f64 = 2.5e9;
+const MAX_MEMORY: f64 = 2.5e9;
 /// Memory limit of the condensed bodies that are kept for the next case, in bytes.
-const MOST_KEPT: usize = 200_000_000;
+const MAX_KEPT: usize = 200_000_000;
 
 /// Largest progress of an unfinished run.
-const MOST_UNDER_WAY: f64 = 0.999;
+const MAX_UNDER_WAY: f64 = 0.999;
 
 /// The amount that a run records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +45,7 @@ pub struct Session {
 
 impl Default for Session {
     fn default() -> Self {
-        let pairs = || Arc::new(PairCache::with_max_bytes(MOST_KEPT));
+        let pairs = || Arc::new(PairCache::with_max_bytes(MAX_KEPT));
         let shared =
             SharedModels { pairs: pairs(), reference_pairs: pairs(), ..SharedModels::default() };
         Self { shared, simulation: None, ask: None, stepper: None, collision: None }
@@ -57,7 +57,7 @@ fn within_memory(case: Case) -> Result<Case, CaseError> {
     match case.gives("limits.memory") {
         true => Ok(case),
         false => case.edited(|file| {
-            file.limits.get_or_insert_default().memory = Some(MOST_MEMORY.into());
+            file.limits.get_or_insert_default().memory = Some(MAX_MEMORY.into());
         }),
     }
 }
@@ -93,7 +93,7 @@ impl Session {
                 return 1.0;
             }
         }
-        stepper.progress().fraction.min(MOST_UNDER_WAY)
+        stepper.progress().fraction.min(MAX_UNDER_WAY)
     }
 
     /// Returns the outcome after this time in seconds; an unfinished run is interrupted. `None` if nothing

@@ -3,7 +3,7 @@
 use fem_case::engineering::Unit;
 
 /// Digits of a number whose error is known: as many as give the error two, but no more than this.
-const MOST_DIGITS: usize = 6;
+const MAX_DIGITS: usize = 6;
 
 /// Returns three digits: `0.0718`, `9.09 × 10⁻⁵`.
 pub fn power_of_ten(value: f64) -> String {
@@ -41,7 +41,7 @@ fn with_digits(text: &str) -> String {
 /// Returns a number with its error: `62.46 ± 0.21`.
 pub fn with_error(value: f64, error: Option<f64>) -> String {
     let before = if value == 0.0 { 1 } else { value.abs().log10().floor() as i64 + 1 };
-    let most = (MOST_DIGITS as i64 - before.max(1)).max(0);
+    let most = (MAX_DIGITS as i64 - before.max(1)).max(0);
     let plain = (4 - before.max(0)).clamp(0, 8) as usize;
     match error.filter(|error| *error > 0.0 && error.is_finite()) {
         None => format!("{value:.plain$}"),

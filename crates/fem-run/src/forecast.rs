@@ -10,9 +10,9 @@ use fem_collision::{Monitor, OutputRequest, Phase, Progress};
 use indicatif::HumanCount;
 
 /// Least time for which steps are timed.
-const LEAST_TIMING: Duration = Duration::from_millis(1);
+const MIN_TIMING: Duration = Duration::from_millis(1);
 /// Least number of reports for which they are timed, within [`LONGEST_TIMING`].
-const LEAST_REPORTS: u32 = 5;
+const MIN_REPORTS: u32 = 5;
 /// Longest time for which they are timed.
 const LONGEST_TIMING: Duration = Duration::from_millis(50);
 /// Longest time for which steps of condensed bodies are timed.
@@ -139,7 +139,7 @@ fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
     let (mut fewest, mut before) = (None, (Duration::ZERO, 0));
     let mut n_reports = 0;
     let goes_on = |spent: Duration, n_reports: u32| {
-        spent < LEAST_TIMING || (n_reports < LEAST_REPORTS && spent < LONGEST_TIMING)
+        spent < MIN_TIMING || (n_reports < MIN_REPORTS && spent < LONGEST_TIMING)
     };
     while goes_on(begin.elapsed(), n_reports) && stepper.advance(&mut ()) {
         let now = (begin.elapsed(), stepper.progress().step);

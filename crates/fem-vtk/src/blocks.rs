@@ -21,16 +21,16 @@ const LEVEL: Compression = Compression::new(1);
 const SAMPLE_SIZE: usize = 4096;
 
 /// Largest compressed fraction of a sample; other arrays are stored. Deflate makes noisy mantissas 5 % larger.
-const LARGEST_SHARE: f64 = 0.9;
+const MAX_SHARE: f64 = 0.9;
 
 /// Size of the output buffer of a stream, bytes.
 const ROOM: usize = 32768;
 
 /// Upper bound of the bytes that a stored stream adds to its block.
-const MOST_ADDED: usize = 64;
+const MAX_ADDED: usize = 64;
 
 /// Largest compression ratio of zlib (Technical Details, zlib.net).
-const LARGEST_RATIO: usize = 1032;
+const MAX_RATIO: usize = 1032;
 
 /// The two parts of a compressed array, which base64 encodes separately.
 #[derive(Debug)]
@@ -77,7 +77,7 @@ impl Deflate {
             true => &mut self.shrinking,
             false => &mut self.storing,
         };
-        let mut blocks = Vec::with_capacity(bytes.len() + MOST_ADDED * n_blocks);
+        let mut blocks = Vec::with_capacity(bytes.len() + MAX_ADDED * n_blocks);
         for block in bytes.chunks(BLOCK_SIZE) {
             let start = blocks.len();
             append_stream(state, &mut self.room, block, &mut blocks)?;
@@ -92,7 +92,7 @@ impl Deflate {
         let sample = &bytes[start..bytes.len().min(start + SAMPLE_SIZE)];
         let mut compressed = Vec::with_capacity(2 * SAMPLE_SIZE);
         append_stream(&mut self.shrinking, &mut self.room, sample, &mut compressed)?;
-        Ok(compressed.len() as f64 <= LARGEST_SHARE * sample.len() as f64)
+        Ok(compressed.len() as f64 <= MAX_SHARE * sample.len() as f64)
     }
 }
 
@@ -155,7 +155,7 @@ impl Layout {
     /// Decompresses the blocks; `None` if one is not zlib data of the size in the header. Memory grows with the
     /// decompressed bytes, never with the sizes in the header.
     pub(crate) fn decompress(&self, mut blocks: &[u8], sizes: &[usize]) -> Option<Vec<u8>> {
-        if self.n_bytes() / LARGEST_RATIO > blocks.len() {
+        if self.n_bytes() / MAX_RATIO > blocks.len() {
             return None;
         }
         let mut bytes = Vec::new();

@@ -22,7 +22,7 @@ pub struct DataTable {
 
 impl DataTable {
     /// # Panics
-    /// A case of the repository that is none.
+    /// A shipped case is invalid.
     pub fn new() -> Self {
         let mut seeds: Vec<Vec<u8>> =
             files("validation/data", "csv").into_iter().map(|(_, text)| text).collect();

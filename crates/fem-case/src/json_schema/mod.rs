@@ -79,11 +79,6 @@ impl Transform for WithoutNull {
     }
 }
 
-/// Allows any keys in a table `[material."lib:NAME"]`, since the library gives the others.
-pub(crate) fn library_tables() -> Value {
-    json!({ "^lib:": { "type": "object" } })
-}
-
 impl<K: QuantityKind> JsonSchema for Quantity<K> {
     /// Returns the name of the kind without its article: "length" for "a length".
     fn schema_name() -> Cow<'static, str> {

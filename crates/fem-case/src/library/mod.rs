@@ -13,7 +13,7 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use crate::quantity::{Quantity, QuantityKind};
 use crate::schema::{CaseFile, MaterialTable, TermTable};
-use crate::source::explain::nearest;
+use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::shift;
 
 /// The prefix of the library's materials in a case.

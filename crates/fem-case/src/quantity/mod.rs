@@ -90,7 +90,7 @@ impl QuantityKind for Count {
 }
 
 /// The largest count: above it `f64` does not represent all whole numbers.
-const LARGEST_COUNT: f64 = 9e15;
+const MAX_COUNT: f64 = 9e15;
 
 /// Returns the name of a dimension: "a length", or "in kg m^2" if it has none.
 fn name_dimension(dimension: Dimension) -> String {
@@ -167,7 +167,7 @@ impl<K: QuantityKind> Quantity<K> {
 
     /// Returns the value of a count that is a whole number.
     fn whole(value: f64) -> Option<i64> {
-        let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST_COUNT;
+        let is_whole = value.fract() == 0.0 && value.abs() <= MAX_COUNT;
         (K::INFO.is_count && is_whole).then_some(value as i64)
     }
 

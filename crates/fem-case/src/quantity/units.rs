@@ -114,7 +114,7 @@ fn split_number(text: &str) -> Result<(Decimal<'_>, &str), UnitError> {
 }
 
 const DEEPEST_PARENTHESIS: usize = 8;
-const LARGEST_POWER: i32 = 30;
+const MAX_POWER: i32 = 30;
 
 struct Parser<'a> {
     rest: &'a str,
@@ -210,12 +210,12 @@ impl Parser<'_> {
             return Ok(None);
         }
         match text.parse() {
-            Ok(power) if (-LARGEST_POWER..=LARGEST_POWER).contains(&power) => {
+            Ok(power) if (-MAX_POWER..=MAX_POWER).contains(&power) => {
                 self.rest = &self.rest[length..];
                 Ok(Some(power))
             }
             _ => Err(UnitError::Malformed(format!(
-                "a power is an integer from -{LARGEST_POWER} to {LARGEST_POWER}"
+                "a power is an integer from -{MAX_POWER} to {MAX_POWER}"
             ))),
         }
     }

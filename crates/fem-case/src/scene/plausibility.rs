@@ -7,17 +7,17 @@ use crate::scene::body::{Body, Shape};
 use crate::scene::model::ModelChoice;
 
 /// Diameters above this, m, are unlikely.
-const LARGEST_DIAMETER: f64 = 100.0;
+const MAX_DIAMETER: f64 = 100.0;
 /// Diameters from this, m, are unlikely if the other sphere is smaller by the ratio below.
 const LARGE: f64 = 1.0;
-const LARGEST_RATIO: f64 = 100.0;
+const MAX_RATIO: f64 = 100.0;
 /// Plausible densities, kg/m³: aerogel has 1 to 100, osmium 22,590.
 const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
 /// Plausible Young's moduli, Pa: the softest gels have about 100 Pa, diamond has 1.2 TPa.
 const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 
 /// Share of the contact compliance above which the losses of a body matter.
-const LEAST_SHARE: f64 = 1e-3;
+const MIN_SHARE: f64 = 1e-3;
 
 impl Scene {
     /// Returns the library's materials, without `lib:`, that have no published loss and no relaxation in the case, so
@@ -28,7 +28,7 @@ impl Scene {
             return Vec::new();
         }
         let deforms = self.bodies.iter().zip(self.compliance_shares());
-        let deforms = deforms.filter(|(_, share)| *share > LEAST_SHARE).map(|(body, _)| body);
+        let deforms = deforms.filter(|(_, share)| *share > MIN_SHARE).map(|(body, _)| body);
         let mut names: Vec<&str> = deforms.filter_map(Body::unpublished_loss).collect();
         names.dedup();
         names
@@ -52,8 +52,7 @@ impl Scene {
     /// `None` if one of them is [implausible](Self::implausible_numbers).
     pub fn large_spheres(&self) -> Option<String> {
         let spheres: Vec<f64> = self.bodies.iter().filter_map(Body::diameter).collect();
-        let are_large =
-            spheres.iter().all(|diameter| (LARGE..=LARGEST_DIAMETER).contains(diameter));
+        let are_large = spheres.iter().all(|diameter| (LARGE..=MAX_DIAMETER).contains(diameter));
         let sizes: Vec<String> = spheres.iter().map(|diameter| show(*diameter, "m")).collect();
         are_large
             .then(|| format!("spheres of {} (bare numbers are in metres)", sizes.join(" and ")))
@@ -68,14 +67,14 @@ impl Scene {
             let key = format!("body.{k}.sphere.diameter");
             let other = diameters[1 - k];
             if let Some(diameter) = diameters[k] {
-                if diameter > LARGEST_DIAMETER {
+                if diameter > MAX_DIAMETER {
                     found.push(format!(
                         "the diameter of {name} is {} ({key}); a bare number is in metres",
                         show(diameter, "m")
                     ));
                 } else if let Some(other) = other
                     && diameter >= LARGE
-                    && diameter > LARGEST_RATIO * other
+                    && diameter > MAX_RATIO * other
                 {
                     found.push(format!(
                         "the diameter of {name} is {} ({key}), that of the other body {}; a \

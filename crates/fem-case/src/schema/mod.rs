@@ -31,7 +31,8 @@ pub struct CaseFile {
     pub title: Option<String>,
     /// The tables `[material.NAME]`, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    #[cfg_attr(feature = "schema", schemars(extend("patternProperties" = crate::json_schema::library_tables())))]
+    // A table `[material."lib:NAME"]` may have any keys, since the library gives the others.
+    #[cfg_attr(feature = "schema", schemars(extend("patternProperties" = serde_json::json!({ "^lib:": { "type": "object" } }))))]
     pub material: BTreeMap<String, MaterialTable>,
     /// `[[body]]`, exactly two; the first lies below the second on the axis y.
     #[serde(default)]

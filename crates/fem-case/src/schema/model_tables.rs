@@ -3,15 +3,11 @@
 use fem_laws::{EndRule, KeyRange, LawFamily};
 use serde::{Deserialize, Serialize};
 
-use crate::error::CaseError;
-use crate::quantity::range::Range;
 use crate::quantity::{
     Count, Damping, Number, Quantity, QuantityInfo, QuantityKind, Speed, Stiffness, Time, Viscosity,
 };
 use crate::schema::body_tables::EmptyTable;
 use crate::schema::macros::{keywords, optional_keys};
-use crate::source::toml_syntax::join;
-use crate::validate::Check;
 
 optional_keys! {
     /// `[model]`: exactly one key.
@@ -245,25 +241,6 @@ macro_rules! law_tables {
                 (None, None)
             }
 
-            /// Returns the values (SI) of the keys of the law that is given.
-            ///
-            /// # Errors
-            /// A value is no number of its kind, or is out of its range.
-            pub(crate) fn values(&self, check: &Check<'_>, path: &str) -> Result<KeyValues, CaseError> {
-                let mut values = KeyValues::new();
-                $(if let Some(_table) = &self.$law {
-                    $(
-                        let value = check.optional(
-                            &join(path, stringify!($key)),
-                            _table.$key.as_ref(),
-                            Range::from(KeyRange::$range),
-                        )?;
-                        values.extend(value.map(|value| (stringify!($key), value)));
-                    )*
-                })+
-                Ok(values)
-            }
-
             /// Returns this law with `end` and `tolerance` in its own table.
             #[must_use]
             pub fn filled(mut self, end: End, tolerance: f64) -> Self {
@@ -291,9 +268,6 @@ pub(crate) struct LawKey {
     #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema reads it"))]
     pub range: KeyRange,
 }
-
-/// Keys and their values in SI.
-type KeyValues = Vec<(&'static str, f64)>;
 
 /// Returns whether a table may have only one of these two keys, so that an override with one replaces the other.
 pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool {

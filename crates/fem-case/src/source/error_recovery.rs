@@ -9,7 +9,7 @@ use crate::source::overrides::parse_path;
 use crate::source::toml_syntax::join;
 
 /// The largest number of faults that are reported after the first one.
-pub(crate) const MOST_FAULTS: usize = 20;
+pub(crate) const MAX_FAULTS: usize = 20;
 
 /// Valid values of keys that a case needs, by their last part; other keys are left out.
 const VALID_VALUES: [(&str, &str); 14] = [
@@ -54,7 +54,7 @@ pub(crate) fn read_repaired<T>(
             faults.push(fault);
         }
         let is_repaired = wanted.is_some_and(|key| repairs.add(&key));
-        if !is_repaired || faults.len() > MOST_FAULTS {
+        if !is_repaired || faults.len() > MAX_FAULTS {
             return (None, faults);
         }
     }

@@ -6,4 +6,5 @@ pub(crate) mod explain;
 pub(crate) mod key_origins;
 pub(crate) mod number_at;
 pub(crate) mod overrides;
+pub(crate) mod similar_words;
 pub(crate) mod toml_syntax;

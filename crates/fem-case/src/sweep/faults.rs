@@ -2,20 +2,20 @@
 
 use crate::case::Case;
 use crate::error::CaseError;
-use crate::source::error_recovery::MOST_FAULTS;
+use crate::source::error_recovery::MAX_FAULTS;
 use crate::sweep::Sweep;
 use crate::sweep::axes::Axis;
 use crate::sweep::file::Combine;
 
 /// The largest number of values of a list that are tried.
-const MOST_TRIED: usize = 2000;
+const MAX_TRIED: usize = 2000;
 
 /// Returns the different faults among these in the order of the text, as many as are reported.
 pub(crate) fn in_order(mut faults: Vec<CaseError>) -> Vec<CaseError> {
     let place = |fault: &CaseError| fault.span().map_or(usize::MAX, |span| span.start);
     faults.sort_by_key(place);
     faults.dedup();
-    faults.truncate(MOST_FAULTS);
+    faults.truncate(MAX_FAULTS);
     faults
 }
 
@@ -36,7 +36,7 @@ impl Sweep {
         if !points_here(&first) || attempt(&[]).is_some() {
             return first;
         }
-        let tried = |axis: usize| 0..self.axes[axis].values.len().min(MOST_TRIED);
+        let tried = |axis: usize| 0..self.axes[axis].values.len().min(MAX_TRIED);
         let alone = |axis: usize| tried(axis).find(|value| attempt(&[(axis, *value)]).is_none());
         // If an axis has no valid value, the base case's own value is used.
         let valid: Vec<Option<usize>> = match self.combine {
@@ -46,7 +46,7 @@ impl Sweep {
         let mut faults = vec![first.clone()];
         for axis in 0..self.axes.len() {
             for value in tried(axis) {
-                if faults.len() > MOST_FAULTS || attempt(&[(axis, value)]).is_none() {
+                if faults.len() > MAX_FAULTS || attempt(&[(axis, value)]).is_none() {
                     continue;
                 }
                 let others = valid.iter().enumerate().filter(|(other, _)| *other != axis);
@@ -71,8 +71,8 @@ impl Sweep {
         let stay = of_base.iter().filter(|fault| of_member.contains(fault)).cloned();
         let mut faults: Vec<CaseError> = Vec::new();
         for (axis, values) in self.axes.iter().map(|axis| axis.values.len()).enumerate() {
-            for value in 0..values.min(MOST_TRIED) {
-                if faults.len() > MOST_FAULTS {
+            for value in 0..values.min(MAX_TRIED) {
+                if faults.len() > MAX_FAULTS {
                     break;
                 }
                 let added = self.faults(&[(axis, value)]);
@@ -90,7 +90,7 @@ impl Sweep {
         if !all.iter().any(|fault| place(fault) == place(&first)) {
             all.insert(0, first.clone());
         }
-        all.truncate(MOST_FAULTS);
+        all.truncate(MAX_FAULTS);
         CaseError::joined(all).unwrap_or(first)
     }
 

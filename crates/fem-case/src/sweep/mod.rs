@@ -27,7 +27,7 @@ use crate::sweep::values::ReadRows;
 /// The default of the largest number of members.
 const MAX_MEMBERS: u64 = 10_000;
 /// The largest number of members with a folder each by default, since file systems are slow with more.
-const MOST_FOLDERS: usize = 10_000;
+const MAX_FOLDERS: usize = 10_000;
 
 /// A sweep with a valid file; its members are validated one by one.
 #[derive(Clone, Debug)]
@@ -100,7 +100,7 @@ impl Sweep {
             axes,
             combine: file.combine,
             keep: file.keep.unwrap_or(match n_members {
-                0..=MOST_FOLDERS => Keep::Summary,
+                0..=MAX_FOLDERS => Keep::Summary,
                 _ => Keep::Packed,
             }),
             plot: file.plot,

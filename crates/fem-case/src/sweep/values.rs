@@ -21,7 +21,7 @@ use crate::source::explain::explain;
 use crate::sweep::axes::AxisValue;
 
 /// The largest number of values of a range.
-const MOST_VALUES: u64 = 10_000_000;
+const MAX_VALUES: u64 = 10_000_000;
 const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perhaps with log = true";
 
 /// An error in a table of values.
@@ -112,9 +112,9 @@ impl ValuesReader<'_> {
         };
         let to = last.number;
         let n = *range.n.get_ref();
-        if !(2..=MOST_VALUES).contains(&n) {
+        if !(2..=MAX_VALUES).contains(&n) {
             let help =
-                format!("n must be from 2 to {MOST_VALUES}; write a single value as a list, [1.0]");
+                format!("n must be from 2 to {MAX_VALUES}; write a single value as a list, [1.0]");
             return Err(self.fault(range.n.span(), format!("n is {n}"), &help));
         }
         if range.log && !(start > 0.0 && to > 0.0) {

@@ -23,6 +23,40 @@ impl From<KeyRange> for Range {
     }
 }
 
+macro_rules! law_values {
+    ($(
+        $(#[$doc:meta])*
+        $variant:ident, $law:ident, $table:ident, $example:literal;
+        formula($($formula:tt)*) = $value:expr;
+        given by $([$($set_key:ident $(: $need:expr)?),*])+ $(, values $values:path)?;
+        $(ends at $ends:ident;)?
+        keys { $($(#[$key_doc:meta])* $key:ident: $kind:ident, $range:ident $(, $role:expr)?;)* }
+    )+) => {
+        impl Check<'_> {
+            /// Returns the keys of the law that is given, with their values in SI.
+            ///
+            /// # Errors
+            /// A value is no number of its kind, or is out of its range.
+            fn values_of(&self, table: &LawTable, path: &str) -> Result<Vec<(&'static str, f64)>, CaseError> {
+                let mut values = Vec::new();
+                $(if let Some(_table) = &table.$law {
+                    $(
+                        let value = self.optional(
+                            &join(path, stringify!($key)),
+                            _table.$key.as_ref(),
+                            Range::from(KeyRange::$range),
+                        )?;
+                        values.extend(value.map(|value| (stringify!($key), value)));
+                    )*
+                })+
+                Ok(values)
+            }
+        }
+    };
+}
+
+fem_laws::contact_laws!(law_values);
+
 impl Check<'_> {
     /// Returns the model that `[model]` selects; the default without the table.
     pub(super) fn model(&self, table: Option<&ModelTable>) -> Result<ModelChoice, CaseError> {
@@ -128,7 +162,7 @@ impl Check<'_> {
         let inner = self.tolerance(&join(&path, "tolerance"), tolerance)?;
         let outer = self.tolerance("model.law.tolerance", table.tolerance.as_ref())?;
         let end_rule = end.or(table.end).map_or(defaults::LAW_END, EndRule::from);
-        let law = self.law_input(family, &path, table.values(self, &path)?)?;
+        let law = self.law_input(family, &path, self.values_of(table, &path)?)?;
         if family.end_rule().is_some_and(|own| own != end_rule) {
             let place = if end.is_some() { join(&path, "end") } else { join("model.law", "end") };
             let message = format!("{name} ends at zero force by its definition");

@@ -11,7 +11,7 @@ use crate::source::explain::near;
 use crate::source::toml_syntax::join;
 
 /// The largest number of probes: each stores a few thousand instants.
-const MOST_PROBES: usize = 100;
+const MAX_PROBES: usize = 100;
 /// Relative tolerance of a radius, for the rounding of units.
 const ROUNDING: f64 = 1e-9;
 
@@ -71,11 +71,11 @@ impl Check<'_> {
         tables: &[ProbeTable],
         bodies: &[Body; 2],
     ) -> Result<Vec<Probe>, CaseError> {
-        if tables.len() > MOST_PROBES {
+        if tables.len() > MAX_PROBES {
             let message = format!("the case has {} probes", tables.len());
             return Err(self
-                .error(&format!("output.probe.{MOST_PROBES}"), message)
-                .with_help(format!("at most {MOST_PROBES} are allowed")));
+                .error(&format!("output.probe.{MAX_PROBES}"), message)
+                .with_help(format!("at most {MAX_PROBES} are allowed")));
         }
         tables.iter().enumerate().map(|(k, table)| self.probe(k, table, bodies)).collect()
     }

@@ -38,10 +38,10 @@ pub struct OutputRequest {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum OutputRequestError {
     /// The history has too many rows for any memory.
-    #[error("{0} rows of the history; at most {most} are allowed", most = OutputRequest::MOST_ROWS)]
+    #[error("{0} rows of the history; at most {most} are allowed", most = OutputRequest::MAX_ROWS)]
     HistoryRows(usize),
     /// There are too many snapshots for any memory.
-    #[error("{0} snapshots; at most {most} are allowed", most = OutputRequest::MOST_SNAPSHOTS)]
+    #[error("{0} snapshots; at most {most} are allowed", most = OutputRequest::MAX_SNAPSHOTS)]
     Snapshots(usize),
     /// The time of a snapshot is negative or not finite.
     #[error("a snapshot is at {0} s; the time must be finite and at least 0")]
@@ -57,9 +57,9 @@ impl OutputRequest {
     /// Default number of expected contact times; relaxing bodies have separated by then or never do.
     pub const MAX_CONTACT_TIMES: f64 = 50.0;
     /// Largest number of rows.
-    pub const MOST_ROWS: usize = 1_000_000;
+    pub const MAX_ROWS: usize = 1_000_000;
     /// Largest number of snapshots.
-    pub const MOST_SNAPSHOTS: usize = 1_000_000;
+    pub const MAX_SNAPSHOTS: usize = 1_000_000;
 
     /// Requests the quantities of the collision and its history, without snapshots.
     pub fn history() -> Self {
@@ -80,14 +80,14 @@ impl OutputRequest {
     /// Validates the request.
     ///
     /// # Errors
-    /// There are more than [`OutputRequest::MOST_ROWS`] rows or [`OutputRequest::MOST_SNAPSHOTS`] snapshots, the time of a
+    /// There are more than [`OutputRequest::MAX_ROWS`] rows or [`OutputRequest::MAX_SNAPSHOTS`] snapshots, the time of a
     /// snapshot is negative or not finite, or `max_contact_times` is not positive; it may be infinite.
     pub fn check(&self) -> Result<(), OutputRequestError> {
-        if self.history_rows > Self::MOST_ROWS {
+        if self.history_rows > Self::MAX_ROWS {
             return Err(OutputRequestError::HistoryRows(self.history_rows));
         }
         let n_snapshots = self.snapshots.len();
-        if n_snapshots > Self::MOST_SNAPSHOTS {
+        if n_snapshots > Self::MAX_SNAPSHOTS {
             return Err(OutputRequestError::Snapshots(n_snapshots));
         }
         if let SnapshotRequest::Times(times) = &self.snapshots
@@ -123,12 +123,12 @@ mod tests {
     #[test]
     fn output_request_rejects_more_than_the_maximum_rows_and_snapshots() {
         let rows = |history_rows| OutputRequest { history_rows, ..OutputRequest::history() };
-        assert_eq!(rows(OutputRequest::MOST_ROWS).check(), Ok(()));
-        for n in [OutputRequest::MOST_ROWS + 1, usize::MAX] {
+        assert_eq!(rows(OutputRequest::MAX_ROWS).check(), Ok(()));
+        for n in [OutputRequest::MAX_ROWS + 1, usize::MAX] {
             assert_eq!(rows(n).check(), Err(OutputRequestError::HistoryRows(n)));
         }
         let (count, times) = (SnapshotRequest::Count, |n| SnapshotRequest::Times(vec![0.0; n]));
-        let most = OutputRequest::MOST_SNAPSHOTS;
+        let most = OutputRequest::MAX_SNAPSHOTS;
         for request in [count(0), count(most), times(0), times(most)] {
             assert_eq!(snapshots(request).check(), Ok(()));
         }

@@ -8,7 +8,7 @@ use crate::result::{Ending, Stop};
 use crate::run::{DeepestOverlap, EnergyLedger, HistoryRow, StepInstant};
 
 /// Largest energy residual of a valid run, as a fraction of the initial energy.
-pub const LARGEST_RESIDUAL: f64 = 1e-3;
+pub const MAX_RESIDUAL: f64 = 1e-3;
 
 /// The result of a collision, complete or up to the stop. `None` means that the model does not
 /// compute the quantity or that it has no value.
@@ -58,7 +58,7 @@ pub struct Collision {
     /// Largest energy residual, over the initial kinetic energy in the frame of the mass centre; with gravity over the
     /// sum of that and the work of the weight on the approach.
     pub residual_relative: Option<f64>,
-    /// The instant at which that first exceeded [`LARGEST_RESIDUAL`], for models with time steps.
+    /// The instant at which that first exceeded [`MAX_RESIDUAL`], for models with time steps.
     pub residual_since: Option<StepInstant>,
     /// Largest spurious energy growth at any step, over the initial kinetic energy in the frame of
     /// the mass centre; for a bouncing ball that of its worst contact. `None` for models with one

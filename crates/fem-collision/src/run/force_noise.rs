@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::run::StepInstant;
 
 /// Number of forces that an estimate needs.
-const FEWEST_FORCES: u64 = 100;
+const MIN_FORCES: u64 = 100;
 
 /// Running scatter of a contact force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,7 +48,7 @@ impl ForceNoise {
 
     /// Returns the scatter so far, N; `None` if there are too few forces.
     pub fn force(&self) -> Option<f64> {
-        (self.n > FEWEST_FORCES).then(|| (self.sum / self.n as f64 / 1.5).sqrt())
+        (self.n > MIN_FORCES).then(|| (self.sum / self.n as f64 / 1.5).sqrt())
     }
 }
 

@@ -16,7 +16,7 @@ pub enum RowKind {
 }
 
 /// Largest number of rows for which memory is reserved at the start.
-const MOST_RESERVED: usize = 1 << 16;
+const MAX_RESERVED: usize = 1 << 16;
 
 /// Rows at a constant stride that adapts to the length of the contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ impl History {
     /// Creates a history of about `n_rows` rows over `expected_steps` steps; it has at most four times as many.
     pub fn new(n_rows: usize, expected_steps: f64) -> Self {
         let interval = SamplingInterval::nearest(n_rows, expected_steps);
-        let capacity = interval.most().saturating_add(1).min(MOST_RESERVED);
+        let capacity = interval.most().saturating_add(1).min(MAX_RESERVED);
         Self {
             rows: Vec::with_capacity(capacity),
             essential: Vec::with_capacity(capacity),
@@ -230,7 +230,7 @@ mod tests {
         for n_rows in [1_000_000, usize::MAX / 4, usize::MAX] {
             for expected_steps in [0.0, 1e3, f64::INFINITY, f64::NAN] {
                 let mut history = History::new(n_rows, expected_steps);
-                assert!(history.rows.capacity() <= MOST_RESERVED);
+                assert!(history.rows.capacity() <= MAX_RESERVED);
                 let steps = run(&mut history, 20, [3, 17]);
                 assert!(history.is_consistent());
                 assert!(expected_steps.is_infinite() || steps.len() == 21, "{steps:?}");

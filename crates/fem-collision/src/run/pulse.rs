@@ -32,7 +32,7 @@ pub const RESOLVING_ELEMENTS: f64 = 2.0;
 /// Largest window of an early pressure over the time since first touch.
 const WINDOW_OVER_TIME_SINCE_TOUCH: f64 = 1.0 / 8.0;
 /// Largest number of samples; beyond it every second one is dropped.
-const MOST_SAMPLES: usize = 4096;
+const MAX_SAMPLES: usize = 4096;
 /// Largest distance of two samples in windows; beyond it a mean is worse than the largest value of a step.
 const WIDEST_GAP_IN_WINDOWS: f64 = 2.0;
 
@@ -69,7 +69,7 @@ pub struct PulsePeaks {
 
 impl Default for ForcePulse {
     fn default() -> Self {
-        Self { samples: Vec::with_capacity(MOST_SAMPLES), n_observed: 0, stride: 1 }
+        Self { samples: Vec::with_capacity(MAX_SAMPLES), n_observed: 0, stride: 1 }
     }
 }
 
@@ -81,7 +81,7 @@ impl ForcePulse {
         if !is_due {
             return;
         }
-        if self.samples.len() >= MOST_SAMPLES {
+        if self.samples.len() >= MAX_SAMPLES {
             let mut k = 0;
             self.samples.retain(|_| {
                 k += 1;
@@ -162,7 +162,7 @@ impl ForcePulse {
     /// Returns whether a restart state is consistent.
     pub fn is_consistent(&self) -> bool {
         self.stride > 0
-            && self.samples.len() <= MOST_SAMPLES
+            && self.samples.len() <= MAX_SAMPLES
             && self.samples.is_sorted_by(|one, next| one.time <= next.time)
     }
 
@@ -313,7 +313,7 @@ mod tests {
             impulse += force / n as f64;
         }
         assert!(
-            long.is_consistent() && long.samples.len() > MOST_SAMPLES / 2 - 1,
+            long.is_consistent() && long.samples.len() > MAX_SAMPLES / 2 - 1,
             "{}",
             long.samples.len()
         );

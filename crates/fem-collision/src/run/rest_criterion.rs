@@ -46,7 +46,7 @@ const NOTHING_LEFT: f64 = 1e-4;
 /// elements separate bodies with 1e-4.
 const AT_REST: f64 = 1e-3;
 /// Largest bound by energy for bodies that are at rest by their momentum.
-const LARGEST_BOUND_BY_ENERGY: f64 = 0.03;
+const MAX_BOUND_BY_ENERGY: f64 = 0.03;
 /// A ball is at its static approach if its rate is below this fraction of the largest one.
 const CREEPING_RATE: f64 = 0.01;
 /// A ball flows under its weight if it still sinks after this many times the time at which its energy bounded e.
@@ -128,7 +128,7 @@ impl RestCriterion {
         let force = if self.weight > 0.0 { (now.force - self.weight).abs() } else { now.force };
         let by_energy = |restitution: f64| left < restitution * restitution * initial;
         let by_momentum = || now.rate.abs() + force * now.time / self.reduced_mass;
-        let is_at_rest = by_energy(LARGEST_BOUND_BY_ENERGY) && by_momentum() < AT_REST * self.speed;
+        let is_at_rest = by_energy(MAX_BOUND_BY_ENERGY) && by_momentum() < AT_REST * self.speed;
         self.since = is_at_rest.then(|| self.since.unwrap_or(now.time));
         let lasts =
             self.since.is_some_and(|since| now.time - since >= REST_DURATION_SHARE * now.time);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Ratio of samples to the expected number above which every second sample is dropped.
 const SAMPLES_OVER_EXPECTED: usize = 4;
 /// Smallest number of samples.
-const FEWEST_SAMPLES: usize = 16;
+const MIN_SAMPLES: usize = 16;
 
 /// An even stride over the steps of a run that doubles whenever there are too many samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -24,7 +24,7 @@ impl SamplingInterval {
         Self {
             stride,
             n: 0,
-            most: SAMPLES_OVER_EXPECTED.saturating_mul(n_instants.max(FEWEST_SAMPLES)),
+            most: SAMPLES_OVER_EXPECTED.saturating_mul(n_instants.max(MIN_SAMPLES)),
         }
     }
 

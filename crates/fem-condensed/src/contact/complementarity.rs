@@ -16,7 +16,7 @@ pub(crate) const ROUNDING: f64 = 1e-11;
 /// Number of rounds without progress before points are moved one at a time.
 const ROUNDS_WITHOUT_PROGRESS: usize = 8;
 /// Largest number of points that are closed one at a time, over that of all points; more are a cycle by rounding.
-const MOST_ROUNDS: usize = 10;
+const MAX_ROUNDS: usize = 10;
 
 /// Error: no state without tension and overlap was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,7 +67,7 @@ fn descend(
     let n = overlap.len();
     let (mut closed, mut next) = (vec![false; n], vec![0.0; n]);
     forces.fill(0.0);
-    for round in 0..MOST_ROUNDS * n.max(1) {
+    for round in 0..MAX_ROUNDS * n.max(1) {
         let open = (0..n).filter(|&k| !closed[k]);
         let left = open.map(|k| (k, left_overlap(compliance, overlap, forces, k)));
         let Some((worst, _)) =

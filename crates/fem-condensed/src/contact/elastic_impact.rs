@@ -16,7 +16,7 @@ use faer::Mat;
 use crate::condensation::dense::cholesky;
 
 /// Largest number of doublings of the compliance of springs: sufficient for any penalty factor of a case.
-const MOST_SOFTENINGS: usize = 20;
+const MAX_SOFTENINGS: usize = 20;
 
 /// Force against approach, piecewise linear.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,7 +69,7 @@ impl ElasticCurve {
     pub fn of_springs(compliance: &Mat<f64>, springs: &[f64], gaps: &[f64]) -> Option<Self> {
         let mut softened = compliance.to_owned();
         let mut added = 1.0;
-        for _ in 0..MOST_SOFTENINGS {
+        for _ in 0..MAX_SOFTENINGS {
             let curve = Self::new(&softened, gaps)?;
             if curve.touch.len() == gaps.len() {
                 return Some(curve);

@@ -6,7 +6,7 @@ pub(crate) mod sample;
 
 use fem_collision::{
     BodyResult, Collision, DeepestOverlap, Ending, EnergyLedger, ForceNoise, ForcePulse, Frame,
-    History, HistoryRow, LARGEST_RESIDUAL, Monitor, OutputRequest, POST_CONTACT_FRACTION,
+    History, HistoryRow, MAX_RESIDUAL, Monitor, OutputRequest, POST_CONTACT_FRACTION,
     PostContactVibration, Progress, RelativeMotion, RestCriterion, STEPS_BETWEEN_REPORTS,
     StepInstant, Stop, longest_at_pole, nan_aware_max, nan_aware_max_abs,
 };
@@ -19,7 +19,7 @@ use crate::run::instants::RunTrace;
 use crate::run::sample::MotionSample;
 
 /// Relative energy residual above which a run is stopped.
-const LARGEST_IMBALANCE: f64 = 0.1;
+const MAX_IMBALANCE: f64 = 0.1;
 /// Rate of approach over the initial one below which bodies creep. Creeping bodies get more time to separate.
 const CREEPING_RATE: f64 = 0.1;
 /// Largest time that creeping bodies may take to separate, over the time of compression.
@@ -27,12 +27,12 @@ const SLOWEST_PARTING: f64 = 2.0;
 
 /// Smallest number of samples of force, radius and pressure in a contact; the window of their peaks
 /// is a 64th of it.
-const FEWEST_SAMPLES: usize = 1000;
+const MIN_SAMPLES: usize = 1000;
 /// Largest number of samples per step.
-const MOST_WITHIN_STEP: f64 = 8.0;
+const MAX_WITHIN_STEP: f64 = 8.0;
 
 /// Largest number of steps for which memory is reserved at the beginning.
-const MOST_RESERVED: usize = 1 << 16;
+const MAX_RESERVED: usize = 1 << 16;
 
 /// A collision that is being computed.
 pub(crate) struct ImpactRun<'a> {
@@ -100,8 +100,8 @@ impl<'a> ImpactRun<'a> {
         elastic_contact_time: f64,
     ) -> Self {
         let steps = elastic_contact_time / motion.time_step;
-        let instants = request.history_rows.max(FEWEST_SAMPLES) as f64;
-        let per_step = (instants / steps).round().clamp(1.0, MOST_WITHIN_STEP) as u64;
+        let instants = request.history_rows.max(MIN_SAMPLES) as f64;
+        let per_step = (instants / steps).round().clamp(1.0, MAX_WITHIN_STEP) as u64;
         Self {
             give_up: request.max_contact_times * elastic_contact_time,
             expected_end: (1.0 + POST_CONTACT_FRACTION) * elastic_contact_time,
@@ -135,7 +135,7 @@ impl<'a> ImpactRun<'a> {
             last: None,
             before_last: None,
             opening: None,
-            trace: Vec::with_capacity(n_steps.saturating_mul(2).min(MOST_RESERVED)),
+            trace: Vec::with_capacity(n_steps.saturating_mul(2).min(MAX_RESERVED)),
             pressures: Pressures::default(),
             motion,
         }
@@ -227,7 +227,7 @@ impl<'a> ImpactRun<'a> {
     fn check_energy(&self) -> Result<(), Stop> {
         let relative = self.worst_residual;
         // NaN is above every limit.
-        match relative <= LARGEST_IMBALANCE {
+        match relative <= MAX_IMBALANCE {
             true => Ok(()),
             false => Err(Stop::EnergyImbalance { time: self.time_of_case(), relative }),
         }
@@ -345,7 +345,7 @@ impl<'a> ImpactRun<'a> {
         let residual = sample.residual;
         self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / energy_scale);
         self.growth = nan_aware_max(self.growth, (residual - lost) / energy_scale);
-        if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
+        if self.residual_since.is_none() && self.worst_residual > MAX_RESIDUAL {
             self.residual_since = Some(self.now());
         }
         let given = self.frame.weight() * sample.time;

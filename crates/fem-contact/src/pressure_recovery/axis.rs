@@ -12,7 +12,7 @@
 use super::{ContactEnforcement, HatMoments, NodalMean, nodal_means};
 
 /// Largest number of fitted nodes, from the axis outward.
-const MOST_FITTED_NODES: usize = 64;
+const MAX_FITTED_NODES: usize = 64;
 /// Fits in the order of preference: number of terms, reach over the contact radius, least number of nodes. The
 /// weights fall to zero at the reach, so that a node that enters or leaves causes no jump.
 const FITS: [(usize, f64, usize); 2] = [(3, 0.6, 4), (2, 0.8, 2)];
@@ -29,7 +29,7 @@ const DECREASE_BY_SPRINGS: f64 = 0.022;
 /// Remaining relative excess of the fit, times a²/h², for 4 to 8 elements per radius.
 const EXCESS_OF_FIT: f64 = 0.15;
 /// Largest h/a for which these constants are valid.
-const LARGEST_SIZE_OVER_RADIUS: f64 = 0.5;
+const MAX_SIZE_OVER_RADIUS: f64 = 0.5;
 
 /// Coefficients of a fit of p² over x/a².
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +55,7 @@ pub fn centre_pressure(
     let means = nodal_means(nodes);
     let Some(axis) = means.clone().next().filter(|axis| axis.pressure != 0.0) else { return 0.0 };
     let size = axis.neighbours[1].unwrap_or(0.0);
-    let coarseness = (size / contact_radius).min(LARGEST_SIZE_OVER_RADIUS);
+    let coarseness = (size / contact_radius).min(MAX_SIZE_OVER_RADIUS);
     if !(axis.pressure.is_finite() && coarseness > 0.0) {
         return axis.pressure;
     }
@@ -65,11 +65,10 @@ pub fn centre_pressure(
             ContactEnforcement::Rigid => 0.0,
         };
     // The moments are evaluated once for all fits and passes.
-    let mut room = [FittedNode::default(); MOST_FITTED_NODES];
+    let mut room = [FittedNode::default(); MAX_FITTED_NODES];
     let widest = (FITS[1].1 * contact_radius).powi(2);
     let mut n_inside = 0;
-    for (k, cell) in
-        means.take_while(|cell| cell.pressure > 0.0).take(MOST_FITTED_NODES).enumerate()
+    for (k, cell) in means.take_while(|cell| cell.pressure > 0.0).take(MAX_FITTED_NODES).enumerate()
     {
         let weight = cell.hat_moments();
         if weight.square >= widest {
@@ -104,7 +103,7 @@ pub fn pressure_profile(
 ) -> impl Iterator<Item = f64> + Clone {
     let on_axis = centre_pressure(nodes.clone(), contact_radius, enforcement);
     let size = nodes.clone().nth(1).map_or(0.0, |(radius, _)| radius);
-    let coarseness = (size / contact_radius).min(LARGEST_SIZE_OVER_RADIUS);
+    let coarseness = (size / contact_radius).min(MAX_SIZE_OVER_RADIUS);
     nodal_means(nodes).enumerate().map(move |(k, cell)| match k {
         0 => on_axis,
         _ if coarseness > 0.0 => without_layer(k, cell, coarseness).pressure,

@@ -34,7 +34,7 @@ const EDGE_BY_PRESSURE_RATIO: [[f64; 4]; 14] = [
 /// with 16, 4.4 without overlap.
 const EDGE_PER_STEEPNESS: f64 = 2.3;
 /// Upper limit on that correction, in elements.
-const LARGEST_CORRECTION: f64 = 0.5;
+const MAX_CORRECTION: f64 = 0.5;
 /// Share of the first element that is in contact as long as only the axis node has a force.
 const FIRST_ELEMENT_SHARE: f64 = 0.5;
 
@@ -73,7 +73,7 @@ pub fn contact_radius(
         }
         _ => 0.0,
     };
-    ellipse - width * correction.clamp(-LARGEST_CORRECTION, LARGEST_CORRECTION)
+    ellipse - width * correction.clamp(-MAX_CORRECTION, MAX_CORRECTION)
 }
 
 /// Interpolates the table: distance of the edge from the outermost node, and excess of the ratio inside of it.

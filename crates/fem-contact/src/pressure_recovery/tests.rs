@@ -21,7 +21,7 @@ fn hat_means(profile: impl Fn(f64) -> f64, n: usize) -> Vec<(f64, f64)> {
     (0..n).map(mean).collect()
 }
 
-/// HatMoments, mean and variance of x of the hat on the axis, 2π∫(1 − r)r: π/3, 3/10 and 1/5 − 9/100 h⁴; a hat
+/// The area, mean and variance of x of the hat function on the axis, 2π∫(1 − r)r: π/3, 3/10 and 1/5 − 9/100 h⁴; a hat
 /// between two lengths has the areas that its force is divided by.
 #[test]
 fn hats_have_their_moments() {

@@ -6,7 +6,7 @@ use crate::common::{
     STIFFNESS, assert_balance, assert_gradient, flat, forces, glass_pair, interface, noise, ragged,
     rigid, sphere,
 };
-use fem_contact::{ContactError, ContactInterface, MovedInterface, Surface};
+use fem_contact::{ContactError, ContactInterface, DeformedInterface, Surface};
 use fem_mesh::{Side, SphereMesh, segment_measures};
 
 /// Load at a node under unit pressure, ∫N 2πr dr over the plane, from the nodes alone; `None`
@@ -205,7 +205,7 @@ fn impossible_interfaces_are_refused() {
     let makes: [Make; 3] = [
         |a, b, stiffness, r| ContactInterface::new(a, b, stiffness, 0.0, r).map(|_| ()),
         |a, b, stiffness, r| ContactInterface::node_to_surface(a, b, stiffness, 0.0, r).map(|_| ()),
-        |a, b, stiffness, r| MovedInterface::new(a, b, stiffness, 0.0, r).map(|_| ()),
+        |a, b, stiffness, r| DeformedInterface::new(a, b, stiffness, 0.0, r).map(|_| ()),
     ];
     for make in makes {
         let on_wall = |stiffness, radius| make(Surface::wall(), sphere.clone(), stiffness, radius);

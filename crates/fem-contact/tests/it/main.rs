@@ -1,8 +1,8 @@
 //! The contact from outside, in one program: linked once, its tests run side by side.
 
 mod common;
+mod deformed;
 mod forces;
-mod moved;
 mod node_to_surface;
 mod pressure;
 mod rigid;

@@ -50,7 +50,7 @@ use super::massless_boundary_mass::BoundaryMass;
 use crate::stress::{FiniteStrainStress, LumpedElement, Stress};
 
 /// Largest share of their spare mass that is taken from nodes.
-const MOST_OF_SPARE: f64 = 0.5;
+const MAX_OF_SPARE: f64 = 0.5;
 /// Ratio of missing to spare mass that counts as rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -131,7 +131,7 @@ impl NodalBound {
         let plain = self.critical_time_step();
         let has = |time_step: f64| {
             let [missing, spare] = self.missing_and_spare(time_step);
-            missing <= budget && missing <= MOST_OF_SPARE * spare
+            missing <= budget && missing <= MAX_OF_SPARE * spare
         };
         if !(plain > 0.0 && plain.is_finite() && has(plain * (1.0 + 1e-9))) {
             return plain;

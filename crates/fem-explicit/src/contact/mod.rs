@@ -7,8 +7,8 @@
 //! pushed_nodes  forces of the contact on the nodes, for the balance of energy
 //! ```
 
+mod deformed;
 mod massless;
-mod moved;
 mod pushed_nodes;
 mod springs;
 
@@ -20,14 +20,15 @@ use fem_contact::{ContactForces, Profile};
 use crate::error::ModelError;
 use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 
+pub use deformed::DeformedContact;
 pub use massless::Massless;
-pub use moved::MovedContact;
 pub(crate) use pushed_nodes::PushedNodes;
 pub use springs::Springs;
 pub(crate) use springs::contact_between;
 
-/// The contact of bodies at small strain: where springs act between the surfaces. Bodies alone have [`Self::Penalty`] by
-/// default; a case has its own default.
+/// The contact of bodies at small strain: where springs act between the surfaces. The default of this type is
+/// [`Self::Penalty`], for bodies that are stepped without contact; the plan of a case selects [`Self::Massless`] unless
+/// the case says otherwise.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum SmallStrainContact {
     /// Springs at the Gauss points of both surfaces, between nodes that have mass.

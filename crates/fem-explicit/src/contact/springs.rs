@@ -17,7 +17,7 @@ use crate::settings::Settings;
 #[derive(Debug)]
 pub enum Springs {
     /// Springs along y, whose gap is a linear function of the displacements.
-    Straight(ContactInterface),
+    Undeformed(ContactInterface),
     /// Springs between surfaces that slip on each other: they turn, and their gap is a function of second order.
     Slipping(SlippingInterface),
 }
@@ -45,7 +45,7 @@ pub(crate) fn contact_between(
     let interface = interface.with_stability_factor(stability_factor);
     let springs = match surface_slip {
         true => Springs::Slipping(SlippingInterface::new(interface)),
-        false => Springs::Straight(interface),
+        false => Springs::Undeformed(interface),
     };
     Ok(match method {
         SmallStrainContact::Massless => Box::new(Massless::new(inputs, springs)?),
@@ -80,7 +80,7 @@ impl Springs {
     /// Returns the springs without their slip.
     pub fn interface(&self) -> &ContactInterface {
         match self {
-            Self::Straight(interface) => interface,
+            Self::Undeformed(interface) => interface,
             Self::Slipping(slipping) => slipping.interface(),
         }
     }
@@ -88,7 +88,7 @@ impl Springs {
     /// Returns the springs if their surfaces slip.
     pub fn slipping(&self) -> Option<&SlippingInterface> {
         match self {
-            Self::Straight(_) => None,
+            Self::Undeformed(_) => None,
             Self::Slipping(slipping) => Some(slipping),
         }
     }
@@ -96,7 +96,7 @@ impl Springs {
     /// Returns the contact force (N) at the displacements of the nodes.
     pub fn force(&self, u: [&dyn Fn(u32) -> Displacement; 2]) -> f64 {
         match self {
-            Self::Straight(interface) => interface.force(u.map(|u| move |node| u(node)[1])),
+            Self::Undeformed(interface) => interface.force(u.map(|u| move |node| u(node)[1])),
             Self::Slipping(slipping) => slipping.force(u),
         }
     }
@@ -113,7 +113,7 @@ impl Contact for Springs {
 
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
         match self {
-            Self::Straight(interface) => interface.add_stiffness_bound(side, bound),
+            Self::Undeformed(interface) => interface.add_stiffness_bound(side, bound),
             Self::Slipping(slipping) => slipping.add_stiffness_bound(side, bound),
         }
     }
@@ -126,7 +126,7 @@ impl Contact for Springs {
     ) -> ContactForces {
         let u = motions.each_ref().map(|motion| motion.displacement);
         match self {
-            Self::Straight(interface) => interface.add_forces(u, forces),
+            Self::Undeformed(interface) => interface.add_forces(u, forces),
             Self::Slipping(slipping) => slipping.add_forces(u, forces),
         }
     }
@@ -142,7 +142,7 @@ impl Contact for Springs {
         _: [&[NodalField]; 2],
     ) -> bool {
         match self {
-            Self::Straight(interface) => {
+            Self::Undeformed(interface) => {
                 interface.is_closed(next.map(|displacement| move |node| displacement(node)[1]))
             }
             Self::Slipping(slipping) => slipping.is_closed(next),
@@ -152,7 +152,7 @@ impl Contact for Springs {
     fn radius_and_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> (f64, f64) {
         let u = motions.each_ref().map(|motion| motion.displacement);
         match self {
-            Self::Straight(interface) => interface.radius_and_pressure(u),
+            Self::Undeformed(interface) => interface.radius_and_pressure(u),
             Self::Slipping(slipping) => slipping.radius_and_pressure(u),
         }
     }
@@ -160,7 +160,7 @@ impl Contact for Springs {
     fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
         let u = motions.each_ref().map(|motion| motion.displacement);
         match self {
-            Self::Straight(interface) => interface.profile(u),
+            Self::Undeformed(interface) => interface.profile(u),
             Self::Slipping(slipping) => slipping.profile(u),
         }
     }

@@ -17,8 +17,8 @@
 //! energy.
 
 use fem_collision::{
-    Account, BalanceSide, DissipatedEnergies, HistoryRow, LARGEST_RESIDUAL, StepInstant,
-    nan_aware_max, nan_aware_max_abs,
+    Account, BalanceSide, DissipatedEnergies, HistoryRow, MAX_RESIDUAL, StepInstant, nan_aware_max,
+    nan_aware_max_abs,
 };
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
@@ -161,7 +161,7 @@ impl Ledger {
             nan_aware_max_abs(self.worst_residual, residual / self.initial_relative);
         self.growth = nan_aware_max(self.growth, (residual - lost) / self.initial_relative);
         // A residual that is not a number is above every limit.
-        let is_balanced = self.worst_residual <= LARGEST_RESIDUAL;
+        let is_balanced = self.worst_residual <= MAX_RESIDUAL;
         if self.beyond.is_none() && !is_balanced {
             self.beyond = Some(StepInstant { time: state.time, step: state.step });
         }

@@ -12,7 +12,7 @@ use fem_material::finite::HyperelasticLaw;
 
 use crate::body::{Body, UnscaledBody};
 use crate::contact::{
-    Contact, Massless, MovedContact, SmallStrainContact, Springs, contact_between,
+    Contact, DeformedContact, Massless, SmallStrainContact, Springs, contact_between,
 };
 use crate::error::ModelError;
 use crate::forces::NodeForce;
@@ -24,7 +24,7 @@ pub(crate) use fingerprint::fingerprint;
 /// Parts of a model beyond those that follow from its bodies and settings: none by default.
 ///
 /// The stress of a body follows from its material and, at finite strain, from a law. The contact follows from the
-/// settings; it acts between the moved surfaces if either body is at finite strain.
+/// settings; it acts between the deformed surfaces if either body is at finite strain.
 #[derive(Debug, Default)]
 pub struct ModelParts {
     /// Forces on the nodes of the lower and of the upper body, in the order in which they are added.
@@ -92,7 +92,7 @@ impl ExplicitBodies {
         let mut contact: Box<dyn Contact> = match parts.contact {
             Some(contact) => contact,
             None if parts.finite_strain.iter().any(Option::is_some) => {
-                Box::new(MovedContact::new(&inputs, approach.gap(), settings)?)
+                Box::new(DeformedContact::new(&inputs, approach.gap(), settings)?)
             }
             None => {
                 let times = parts.method.stability_factor(parts.penalty_factor);
@@ -171,7 +171,7 @@ impl ExplicitBodies {
         let contact = self.contact() as &dyn Any;
         let massless = contact.downcast_ref::<Massless>().map(Massless::springs);
         match contact.downcast_ref().or(massless)? {
-            Springs::Straight(interface) => Some(interface),
+            Springs::Undeformed(interface) => Some(interface),
             Springs::Slipping(_) => None,
         }
     }

@@ -1,7 +1,7 @@
 //! The collision that a run returns.
 
 use fem_collision::{
-    BodyResult, Collision, Ending, EnergyLedger, History, LARGEST_RESIDUAL, Stop, longest_at_pole,
+    BodyResult, Collision, Ending, EnergyLedger, History, MAX_RESIDUAL, Stop, longest_at_pole,
 };
 use fem_material::Material;
 use fem_material::engineering::show;
@@ -26,7 +26,7 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> 
     let frame = model.frame();
     let scale = frame.initial() / frame.energy_scale(log.max_approach);
     // A residual that is not a number is above every limit.
-    let is_balanced = scale * ledger.worst_residual <= LARGEST_RESIDUAL;
+    let is_balanced = scale * ledger.worst_residual <= MAX_RESIDUAL;
     Collision {
         restitution: velocity_after
             .and_then(|[lower, upper]| ending.restitution(upper - lower, model.approach().speed())),

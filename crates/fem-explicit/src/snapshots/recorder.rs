@@ -279,7 +279,7 @@ fn nearest_to_even(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) ->
         if is_before { before } else { after }
     };
     // More times than this select every state.
-    let times = evenly(n.min(OutputRequest::MOST_SNAPSHOTS), start, length);
+    let times = evenly(n.min(OutputRequest::MAX_SNAPSHOTS), start, length);
     let mut is_chosen = vec![false; kept.len()];
     times.into_iter().for_each(|time| is_chosen[nearest(time)] = true);
     let mut chosen = is_chosen.into_iter();

@@ -28,7 +28,7 @@ use fem_mesh::SphereMesh;
 use crate::error::ModelError;
 use elastic::Elastic;
 use elements::PackedElements;
-pub use finite::MOST_FINITE_STRAIN_TERMS;
+pub use finite::MAX_FINITE_STRAIN_TERMS;
 pub(crate) use kernel::Moduli;
 use partly_finite::finite_strain_within;
 use prony::{AllModuliRelax, LinearViscoelastic, ShearRelaxes};
@@ -57,8 +57,8 @@ pub(crate) fn stress_of_body(
         return Ok(small_strain(mesh.nodes().len(), mesh.quads(), geometries, material));
     };
     let n_terms = material.relaxation().map_or(0, |series| series.terms().len());
-    if n_terms > MOST_FINITE_STRAIN_TERMS {
-        return Err(ModelError::TooManyTerms { n_terms, most: MOST_FINITE_STRAIN_TERMS });
+    if n_terms > MAX_FINITE_STRAIN_TERMS {
+        return Err(ModelError::TooManyTerms { n_terms, most: MAX_FINITE_STRAIN_TERMS });
     }
     let radius = within.unwrap_or(f64::INFINITY);
     Ok(finite_strain_within(radius, mesh, geometries, material, law))

@@ -189,7 +189,7 @@ fn every_step_of_a_collision_is_stable() {
         let mesh = sphere.mesh().unwrap();
         let upper = Surface::of_sphere(mesh);
         let springs = ContactInterface::new(Surface::wall(), upper, 1.0, 0.0, 0.9).unwrap();
-        let contact = Some(Box::new(Springs::Straight(springs)) as Box<dyn Contact>);
+        let contact = Some(Box::new(Springs::Undeformed(springs)) as Box<dyn Contact>);
         let parts =
             ModelParts { finite_strain: [None, Some(law)], contact, ..ModelParts::default() };
         let settings = Settings { contact_stiffness: 1.0, candidate_radius: 0.9, ..settings() };

@@ -26,7 +26,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Highest level: a thousandth of the model's step. Bodies that need shorter steps have collapsed.
-const MOST_LEVELS: u32 = 160;
+const MAX_LEVELS: u32 = 160;
 /// Steps before the first bound; by then the contact has stopped the nodes that touch first.
 const FIRST_PAUSE: u64 = 4;
 /// Largest strain of any element in a step. A rubber sphere of ν = 0 that hits a wall at a third of the wave speed
@@ -42,7 +42,7 @@ const CHANGE_BETWEEN_BOUNDS: f64 = 0.02;
 /// take more ([`StepDemand::strain_allowance`]).
 const STRAIN_BETWEEN_BOUNDS: f64 = 0.05;
 /// Largest strain of any element from one bound to the next: a softening law can lose its stiffness suddenly.
-const MOST_STRAIN_BETWEEN_BOUNDS: f64 = 0.15;
+const MAX_STRAIN_BETWEEN_BOUNDS: f64 = 0.15;
 /// Margin by which a longer step has to be below the allowed one.
 const MARGIN_TO_LENGTHEN: f64 = 1.01;
 /// The step of the undeformed bodies is allowed despite rounding.
@@ -158,7 +158,7 @@ impl StepControl {
         let by_change = CHANGE_BETWEEN_BOUNDS / change * n_steps;
         let time_step = model_step * level_factor(level);
         let by_strain =
-            (1.0 / allowance_rate).min(MOST_STRAIN_BETWEEN_BOUNDS / strain_rate) / time_step;
+            (1.0 / allowance_rate).min(MAX_STRAIN_BETWEEN_BOUNDS / strain_rate) / time_step;
         let pause = by_change.min(by_strain).clamp(1.0, LONGEST_PAUSE);
         let next_bound = step + pause as u64;
         let next_rate_check = next_bound.min(step + pause_of_rate_check(strain_rate * time_step));
@@ -168,7 +168,7 @@ impl StepControl {
     /// Returns whether this can be the control of a run at a step.
     pub fn is_valid_at(&self, step: u64) -> bool {
         let critical = self.last_bound.1;
-        self.level <= MOST_LEVELS
+        self.level <= MAX_LEVELS
             && self.since.0 <= step
             && self.last_bound.0 <= step
             && critical > 0.0
@@ -178,7 +178,7 @@ impl StepControl {
 
 /// Returns all time steps (s) that a run with a model's step (s) may take.
 pub(crate) fn step_levels(model_step: f64) -> impl Iterator<Item = f64> {
-    (0..=MOST_LEVELS).map(move |level| model_step * level_factor(level))
+    (0..=MAX_LEVELS).map(move |level| model_step * level_factor(level))
 }
 
 /// Returns the number of steps until the next rate check, from the strain in a step.
@@ -188,13 +188,13 @@ fn pause_of_rate_check(strain_per_step: f64) -> u64 {
 
 /// Returns the lowest level whose step times a margin is within a time, s; `None` if no level is.
 fn level_within(model_step: f64, allowed: f64, margin: f64) -> Option<u32> {
-    (0..=MOST_LEVELS).find(|&level| model_step * level_factor(level) * margin <= allowed)
+    (0..=MAX_LEVELS).find(|&level| model_step * level_factor(level) * margin <= allowed)
 }
 
 /// Returns the lowest level whose step times a margin follows a strain rate, 1/s. Elements that are strained faster
 /// than the shortest step can follow collapse.
 fn level_for_strain_rate(model_step: f64, strain_rate: f64, margin: f64) -> u32 {
-    level_within(model_step, STRAIN_PER_STEP / strain_rate, margin).unwrap_or(MOST_LEVELS)
+    level_within(model_step, STRAIN_PER_STEP / strain_rate, margin).unwrap_or(MAX_LEVELS)
 }
 
 /// Returns 2^(−level/16) by roots and products alone, which give the same bits on all machines.

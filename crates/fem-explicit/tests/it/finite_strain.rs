@@ -4,7 +4,7 @@ use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, StepInstant, Stop,
 };
 use fem_explicit::{
-    Contact, ExplicitBodies, FreeMotion, ModelError, ModelParts, MovedContact, Run, RunState,
+    Contact, DeformedContact, ExplicitBodies, FreeMotion, ModelError, ModelParts, Run, RunState,
     Settings, collide,
 };
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
@@ -103,10 +103,13 @@ impl Ball {
 }
 
 /// A pair of these laws, or at small strain, on the contact of bodies at finite strain.
-fn on_moved_surfaces(pair: &Pair, finite_strain: [Option<HyperelasticLaw>; 2]) -> ExplicitBodies {
+fn on_deformed_surfaces(
+    pair: &Pair,
+    finite_strain: [Option<HyperelasticLaw>; 2],
+) -> ExplicitBodies {
     let bodies = [pair.sphere(0), pair.sphere(1)];
     let (approach, settings) = (pair.approach(), pair.settings());
-    let contact = MovedContact::new(&bodies, approach.gap(), &settings).unwrap();
+    let contact = DeformedContact::new(&bodies, approach.gap(), &settings).unwrap();
     let contact = Some(Box::new(contact) as Box<dyn Contact>);
     let parts = ModelParts { finite_strain, contact, ..ModelParts::default() };
     ExplicitBodies::with_parts(bodies, approach, &settings, parts).unwrap()
@@ -117,7 +120,7 @@ fn on_moved_surfaces(pair: &Pair, finite_strain: [Option<HyperelasticLaw>; 2]) -
 fn slopes(law: HyperelasticLaw) -> [f64; 3] {
     let coarse = Pair { element_size: 55e-6, ..Pair::default() };
     let read = |law: Option<HyperelasticLaw>| {
-        let run = quantities(&coarse.run_model(&on_moved_surfaces(&coarse, [law; 2])));
+        let run = quantities(&coarse.run_model(&on_deformed_surfaces(&coarse, [law; 2])));
         [run.contact_time, run.peak_force, run.max_approach]
     };
     let (small, finite) = (read(None), read(Some(law)));
@@ -192,7 +195,7 @@ fn a_rubber_ball_bounces_and_balances() {
 fn a_body_at_finite_strain_meets_one_at_small_strain() {
     let pair = Pair { element_size: 110e-6, candidate_radius: 0.45e-3, ..Pair::default() };
     let approach = |finite_strain: [Option<HyperelasticLaw>; 2]| {
-        let run = quantities(&pair.run_model(&on_moved_surfaces(&pair, finite_strain)));
+        let run = quantities(&pair.run_model(&on_deformed_surfaces(&pair, finite_strain)));
         assert!(run.residual < 1e-4 && run.momentum_residual < 1e-9, "{:e}", run.residual);
         run.max_approach
     };

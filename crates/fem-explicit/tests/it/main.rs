@@ -3,11 +3,11 @@
 mod bulk_viscosity;
 mod collision;
 mod common;
+mod deformed;
 mod finite_strain;
 mod half_space;
 mod lanes;
 mod massless;
-mod moved;
 mod outputs;
 mod parts;
 mod resume;

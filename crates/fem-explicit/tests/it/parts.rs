@@ -210,7 +210,7 @@ impl Counting {
             settings.candidate_radius,
         );
         Self {
-            penalty: Springs::Straight(penalty.unwrap()),
+            penalty: Springs::Undeformed(penalty.unwrap()),
             first_touch: approach.first_touch(),
             time_step: 0.0,
         }

@@ -21,7 +21,7 @@ const FONT_SIZE: f64 = 12.5;
 const N_TICKS: usize = 9;
 const BAR_HEIGHT: f64 = 12.0;
 /// Most numbers on a bar.
-const MOST_NUMBERS: usize = 9;
+const MAX_NUMBERS: usize = 9;
 
 impl Contour {
     /// Draws each panel of half sections as a picture.
@@ -122,7 +122,7 @@ impl Contour {
                 fill(&self.levels, band)
             );
         }
-        let stride = edges.len().div_ceil(MOST_NUMBERS);
+        let stride = edges.len().div_ceil(MAX_NUMBERS);
         // Counted from zero, which is between the edges of the neutral band.
         let first = self.levels.neutral() % stride;
         for (k, edge) in edges.iter().enumerate().skip(first).step_by(stride) {

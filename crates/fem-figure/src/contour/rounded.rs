@@ -12,7 +12,7 @@ impl Section {
     /// `tolerance` (in the units of the points). Corners stay, and so do sides that would be bent inward.
     ///
     /// The curve is that of Catmull and Rom (1974) over the lengths of the sides; an outline that ends on
-    /// the axis is continued by its mirror image. Two points per side leave a ninth of the deviation of a
+    /// the axis is continued by its mirror image. Two points per side reduce the deviation to a ninth of a
     /// straight side.
     pub fn rounded(&self, tolerance: f64) -> Self {
         let mut rounded = Self { outline: Vec::new(), ..self.clone() };

@@ -30,7 +30,7 @@ pub fn hunt_crossley(
     power(stiffness, 1.5, 0.75 * stiffness * ((1.0 - e) * (1.0 + e) / speed), 1.5)
 }
 
-/// Returns the restitution and the speed at which it is wanted: the approach speed if none is given.
+/// Returns the restitution and the speed for which it is specified: the approach speed if none is given.
 ///
 /// # Errors
 /// There are none.

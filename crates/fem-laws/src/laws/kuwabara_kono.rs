@@ -33,7 +33,7 @@ use crate::pair::Pair;
 /// Returns the law of a pair and its dissipation time A, s.
 ///
 /// # Errors
-/// A negative or not finite.
+/// `dissipation_time` is negative or not finite.
 pub fn kuwabara_kono(pair: &Pair, dissipation_time: f64) -> Result<ContactLaw, LawError> {
     let stiffness = hertz_stiffness(pair);
     let time = not_negative("dissipation_time", dissipation_time)?;

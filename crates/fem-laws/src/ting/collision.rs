@@ -36,7 +36,7 @@ const SETTLED: f64 = 1e-3;
 const MAX_STEPS: f64 = 5_000.0;
 /// Steps that a collision may take at any tolerance: the span from the fastest relaxation to the slowest
 /// contact. Estimates of contacts with ten decades between the two take up to 930.
-const FEWEST_STEPS: f64 = 1_000.0;
+const MIN_STEPS: f64 = 1_000.0;
 
 /// Index of the Gauss point at θ = 1/2.
 const MIDDLE: usize = N / 2;
@@ -103,8 +103,8 @@ impl<'a> Collision<'a> {
             finite_size,
             interpolation: Interpolation::new(),
             local_tolerance: LOCAL_SHARE * tolerance,
-            max_steps: (MAX_STEPS * power(Ting::DEFAULT_TOLERANCE / tolerance, 0.2))
-                .max(FEWEST_STEPS) as usize,
+            max_steps: (MAX_STEPS * power(Ting::DEFAULT_TOLERANCE / tolerance, 0.2)).max(MIN_STEPS)
+                as usize,
             state: State { time: 0.0, approach: 0.0, rate, force: 0.0, slow_force: 0.0, memory },
             // δ^(3/2) is not smooth at first touch: begin far below all time scales.
             length: 1e-5 / fastest,

@@ -1,4 +1,4 @@
-//! FastSlowLimits terms: Ting's model with and without them.
+//! Prony terms that relax much faster or slower than the contact: Ting's model with and without them.
 
 use fem_laws::{
     FastSlowLimits, HertzImpact, Impact, ImpactDifference, LawError, Pair, PairRelaxation, Partner,

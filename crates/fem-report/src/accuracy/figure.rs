@@ -8,7 +8,7 @@ use super::AccuracyResult;
 use crate::quantity_axis::range;
 
 /// Smaller errors are drawn here; no limit is known better.
-const LEAST_DRAWN_ERROR: f64 = 1e-6;
+const MIN_DRAWN_ERROR: f64 = 1e-6;
 /// Series that are drawn with a line, over the element size.
 const LINES: [Series; 7] = [
     Series::Condensed,
@@ -26,26 +26,24 @@ const POINTS: [Series; 3] = [Series::Hertz, Series::Ting, Series::AsWritten];
 pub fn figure(result: &AccuracyResult<'_>) -> Option<String> {
     let uncertainty = |quantity: QuantityOfInterest| {
         let limit = result.study.limits[quantity as usize]?;
-        Some((limit.uncertainty / quantity.scale(limit.value)).max(LEAST_DRAWN_ERROR))
+        Some((limit.uncertainty / quantity.scale(limit.value)).max(MIN_DRAWN_ERROR))
     };
     let three = [
         QuantityOfInterest::Restitution,
         QuantityOfInterest::ContactTime,
         QuantityOfInterest::PeakForce,
     ];
-    let worst = three.into_iter().filter_map(uncertainty).fold(LEAST_DRAWN_ERROR, f64::max);
+    let worst = three.into_iter().filter_map(uncertainty).fold(MIN_DRAWN_ERROR, f64::max);
     let runs = &result.study.runs;
     let of = |quantity: QuantityOfInterest, label: &str| {
-        let known = uncertainty(quantity).unwrap_or(LEAST_DRAWN_ERROR);
+        let known = uncertainty(quantity).unwrap_or(MIN_DRAWN_ERROR);
         panel(runs, label, known, |errors| errors.monotone[quantity as usize])
     };
     fem_figure::svg(&[
         panel(runs, "worst error of e, T and F", worst, |errors| errors.worst),
         of(QuantityOfInterest::PeakPressure, "error of the peak pressure"),
         of(QuantityOfInterest::MaxContactRadius, "error of the contact radius"),
-        panel(runs, "error of the stress field", LEAST_DRAWN_ERROR, |errors| {
-            errors.monotone_stress
-        }),
+        panel(runs, "error of the stress field", MIN_DRAWN_ERROR, |errors| errors.monotone_stress),
     ])
 }
 
@@ -57,7 +55,7 @@ fn panel(
     error: impl Fn(&VariantErrors) -> Option<f64>,
 ) -> Chart {
     let point =
-        |run: &VariantRun<'_>| Some((run.seconds, error(&run.errors)?.max(LEAST_DRAWN_ERROR)));
+        |run: &VariantRun<'_>| Some((run.seconds, error(&run.errors)?.max(MIN_DRAWN_ERROR)));
     let of = |series| -> Vec<(f64, f64)> {
         runs.iter().filter(|run| run.variant.series == series).filter_map(point).collect()
     };
@@ -75,7 +73,7 @@ fn panel(
     let chart = Chart::new(axis("time of a run [s]"), axis(label));
     let mut chart = curves.fold(chart, |chart, (curve, _)| chart.with(curve));
     let (from, to) = range(runs.iter().map(|run| run.seconds));
-    if known > LEAST_DRAWN_ERROR && from < to {
+    if known > MIN_DRAWN_ERROR && from < to {
         let limit = vec![(from, known), (to, known)];
         chart = chart.with(Curve::dashed("uncertainty of the limit", limit).coloured(GREY));
     }

@@ -17,7 +17,7 @@ use crate::number_text::{rounded, with_error};
 const SCENE_TABLES: [&str; 6] = ["material", "body", "start", "model", "gravity", "stop"];
 
 /// Most results that get a column each; more get a row each.
-const MOST_COLUMNS: usize = 3;
+const MAX_COLUMNS: usize = 3;
 
 /// From this ratio on, a difference is written as a multiple.
 const MULTIPLE: f64 = 3.0;
@@ -60,7 +60,7 @@ pub fn comparison_page(results: &[StoredResult]) -> Result<String, ReportError> 
     let numbers =
         QuantityOfInterest::ALL.iter().map(|quantity| numbers(results, *quantity)).collect();
     let (heads, numbers) = match results.len() {
-        0..=MOST_COLUMNS => (names.clone(), numbers),
+        0..=MAX_COLUMNS => (names.clone(), numbers),
         _ => transposed(&names, numbers),
     };
     let page = Comparison {

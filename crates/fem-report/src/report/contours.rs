@@ -63,10 +63,10 @@ pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Co
 
 /// Returns the names of the bodies, shortened to the room beside an axis.
 fn short_names(result: &StoredResult) -> Vec<String> {
-    const MOST_LETTERS: usize = 14;
+    const MAX_LETTERS: usize = 14;
     let short = |name: String| match name.chars().count() {
-        0..=MOST_LETTERS => name,
-        _ => name.chars().take(MOST_LETTERS - 1).chain(['\u{2026}']).collect(),
+        0..=MAX_LETTERS => name,
+        _ => name.chars().take(MAX_LETTERS - 1).chain(['\u{2026}']).collect(),
     };
     result.body_names().into_iter().map(short).collect()
 }

@@ -92,9 +92,9 @@ const KINK: &str = "The contact radius has a kink at its maximum. While it grows
 /// Interval before and after the maximum of the contact radius, over the contact time.
 const KINK_INTERVAL: f64 = 1.0 / 16.0;
 /// Least fall of the radius in that interval, over the maximum; that of an elastic contact is 0.01.
-const LEAST_FALL: f64 = 0.05;
+const MIN_FALL: f64 = 0.05;
 /// Least ratio of the fall after the maximum to the rise before it.
-const LEAST_RATIO: f64 = 3.0;
+const MIN_RATIO: f64 = 3.0;
 
 /// Returns the explanation if the radius of this result has a kink, and else an empty text.
 pub fn contact_radius_kink(result: &StoredResult) -> &'static str {
@@ -106,7 +106,7 @@ pub fn contact_radius_kink(result: &StoredResult) -> &'static str {
     let interval = KINK_INTERVAL * (end - start);
     let below = |time: f64| radius - result.history.at("contact_radius_m", time);
     let (rise, fall) = (below(top - interval), below(top + interval));
-    match fall > LEAST_FALL * radius && fall > LEAST_RATIO * rise && top + interval < end {
+    match fall > MIN_FALL * radius && fall > MIN_RATIO * rise && top + interval < end {
         true => KINK,
         false => "",
     }

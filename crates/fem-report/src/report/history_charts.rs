@@ -8,15 +8,15 @@ use super::stored_result::{ContactSnapshot, StoredResult};
 use crate::quantity_axis::{QuantityAxis, chart_axes, range};
 
 /// Largest number of pressure profiles of one result, so that they can be distinguished.
-const MOST_PROFILES: usize = 4;
+const MAX_PROFILES: usize = 4;
 /// Energies below this share of the largest get no curve.
 const FAINT: f64 = 5e-3;
 /// Extension of the time axis beyond the contact, over the contact time.
 const BEYOND: f64 = 0.06;
 /// End of the time axis over the longest contact time, if Hertz' contact time is longer.
-const MOST_OF_HERTZ: f64 = 1.5;
+const MAX_OF_HERTZ: f64 = 1.5;
 /// End of the vertical axis over the largest computed value, if Hertz' is larger.
-const MOST_OVER_DATA: f64 = 1.3;
+const MAX_OVER_DATA: f64 = 1.3;
 
 /// A quantity that is drawn over time.
 #[derive(Clone, Copy)]
@@ -74,7 +74,7 @@ impl TimeAxis {
         };
         let hertz = hertz.and_then(|hertz| Some(hertz.history().last()?.time)).unwrap_or(own);
         let end = match own > 0.0 {
-            true => (1.0 + BEYOND) * hertz.clamp(own, MOST_OF_HERTZ * own),
+            true => (1.0 + BEYOND) * hertz.clamp(own, MAX_OF_HERTZ * own),
             false => hertz,
         };
         let axis = QuantityAxis::linear("time since first touch t", "s", end).from_to(0.0, end);
@@ -107,11 +107,11 @@ fn vertical_axis(
 ) -> (QuantityAxis, String) {
     let axis = QuantityAxis::linear(name, symbol, to.max(-from));
     let largest = range_with_zero(hertz).1;
-    if largest <= MOST_OVER_DATA * to {
+    if largest <= MAX_OVER_DATA * to {
         return (axis, hertz_name.to_string());
     }
     let label = format!("{hertz_name}, up to {}", show(largest, symbol));
-    (axis.from_to(MOST_OVER_DATA * from, MOST_OVER_DATA * to), label)
+    (axis.from_to(MAX_OVER_DATA * from, MAX_OVER_DATA * to), label)
 }
 
 fn with_hertz(chart: Chart, points: Vec<(f64, f64)>, label: String) -> Chart {
@@ -198,7 +198,7 @@ pub fn energy_chart(result: &StoredResult) -> Option<Chart> {
 /// Returns the contacts that are drawn: all if there are few, and else those nearest to half the largest
 /// approach, to the peak force, to half the largest approach again, and to the last contact.
 pub fn drawn_contacts(result: &StoredResult) -> Vec<&ContactSnapshot> {
-    if result.contacts.len() <= MOST_PROFILES {
+    if result.contacts.len() <= MAX_PROFILES {
         return result.contacts.iter().collect();
     }
     let (times, approach) = (result.history.get("time_s"), result.history.get("approach_m"));

@@ -33,7 +33,7 @@ pub use stored_result::{ReportError, StoredResult};
 /// The name of the page in a result folder.
 pub const REPORT_FILE: &str = "report.html";
 /// Most frames of the film on a page, which limits its size and the time to draw it.
-const MOST_FRAMES: usize = 12;
+const MAX_FRAMES: usize = 12;
 
 #[derive(Template)]
 #[template(path = "report.html")]
@@ -68,7 +68,7 @@ struct FilmFrame {
 
 /// Returns the report page of one result as HTML.
 pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
-    let contour = contour_of_result(result, MOST_FRAMES);
+    let contour = contour_of_result(result, MAX_FRAMES);
     let of_one = std::slice::from_ref(result);
     let charts = [
         history_chart(of_one, Quantity::Force),
@@ -119,7 +119,7 @@ fn film(contour: &Contour) -> Vec<FilmFrame> {
 /// Returns the index of the frame nearest to the peak force.
 fn opening(result: &StoredResult) -> usize {
     let peak = result.peak_time();
-    let shown = contours::chosen_frames(result, MOST_FRAMES);
+    let shown = contours::chosen_frames(result, MAX_FRAMES);
     let distance = |k: &usize| (result.frames[shown[*k]].time - peak).abs();
     (0..shown.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }

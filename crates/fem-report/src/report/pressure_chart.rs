@@ -11,7 +11,7 @@ use super::stored_result::{ContactSnapshot, StoredResult};
 use crate::quantity_axis::{QuantityAxis, chart_axes};
 
 /// End of the pressure axis over the largest computed pressure; Hertz' curves may go beyond.
-const MOST_OVER_DATA: f64 = 1.2;
+const MAX_OVER_DATA: f64 = 1.2;
 /// Intervals of Hertz' profile from the axis to its edge.
 const N_INTERVALS: u32 = 40;
 
@@ -26,7 +26,7 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
     }
     let x = QuantityAxis::linear("distance from the axis r", "m", reach);
     let y =
-        QuantityAxis::linear("Contact pressure p", "Pa", peak).from_to(0.0, MOST_OVER_DATA * peak);
+        QuantityAxis::linear("Contact pressure p", "Pa", peak).from_to(0.0, MAX_OVER_DATA * peak);
     let mut chart = chart_axes(&x, &y);
     let mut curves = Vec::new();
     for (k, result) in results.iter().enumerate() {
@@ -64,7 +64,7 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
     let largest = hertz_profiles.iter().flat_map(|(_, points)| points);
     let largest = largest.fold(0.0, |most: f64, point| most.max(point.1));
     let mut name = "dashed: Hertz under the same force".to_string();
-    if largest > MOST_OVER_DATA * peak {
+    if largest > MAX_OVER_DATA * peak {
         name += &format!(", up to {}", show(largest, "Pa"));
     }
     // Each profile has the colour of the computed curve.

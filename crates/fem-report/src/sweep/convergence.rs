@@ -9,13 +9,13 @@ use super::curves::SweepCurve;
 use crate::quantity_axis::QuantityAxis;
 
 /// Smaller errors are rounding and noise; they are drawn here.
-const LEAST_DRAWN_ERROR: f64 = 1e-6;
+const MIN_DRAWN_ERROR: f64 = 1e-6;
 /// Smallest ratio of errors that an axis spans.
-const LEAST_RATIO: f64 = 10.0;
+const MIN_RATIO: f64 = 10.0;
 /// Most orders that a title lists one by one.
-const MOST_ORDERS: usize = 3;
+const MAX_ORDERS: usize = 3;
 /// Fewest levels that show convergence.
-const FEWEST_LEVELS: usize = 3;
+const MIN_LEVELS: usize = 3;
 
 /// Keys that control the resolution, by their last parts, and whether a larger value is finer.
 const KEYS: [(&[&str], bool); 7] = [
@@ -68,7 +68,7 @@ impl ConvergingCurve {
         let mut sizes: Vec<f64> = levels.iter().map(|(h, _)| *h).collect();
         sizes.sort_by(f64::total_cmp);
         sizes.dedup();
-        if sizes.len() < FEWEST_LEVELS || sizes.len() < levels.len() {
+        if sizes.len() < MIN_LEVELS || sizes.len() < levels.len() {
             return None;
         }
         let found = Convergence::of(&levels)?;
@@ -76,7 +76,7 @@ impl ConvergingCurve {
         // The finest level is the reference and has no error.
         let estimated = levels.iter().filter(|(h, _)| found.is_extrapolated || *h > sizes[0]);
         let error = |(h, q): &(f64, f64)| {
-            (resolution.of_value(*h), ((q - found.limit).abs() / scale).max(LEAST_DRAWN_ERROR))
+            (resolution.of_value(*h), ((q - found.limit).abs() / scale).max(MIN_DRAWN_ERROR))
         };
         let mut errors: Vec<(f64, f64)> = estimated.map(error).collect();
         errors.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -94,7 +94,7 @@ impl ConvergingCurve {
         let reference = if self.found.is_extrapolated { 0.0 } else { finest };
         let error = |x: f64| (power(x) - reference) / self.scale;
         let places = self.errors.iter().map(|(x, _)| (*x, error(*x)));
-        places.filter(|(_, error)| *error >= LEAST_DRAWN_ERROR).collect()
+        places.filter(|(_, error)| *error >= MIN_DRAWN_ERROR).collect()
     }
 
     /// Returns the extrapolated limit over the key's values; empty if the limit is the finest member itself.
@@ -115,20 +115,18 @@ pub fn convergence_chart(
     coloured: &dyn Fn(Line, usize) -> Line,
 ) -> Chart {
     let all = || converging.iter().flatten();
-    let largest = all()
-        .flat_map(|one| &one.errors)
-        .map(|(_, error)| *error)
-        .fold(LEAST_DRAWN_ERROR, f64::max);
+    let largest =
+        all().flat_map(|one| &one.errors).map(|(_, error)| *error).fold(MIN_DRAWN_ERROR, f64::max);
     let smallest = all().flat_map(|one| &one.errors).map(|(_, error)| *error);
     let smallest =
-        smallest.fold(f64::INFINITY, f64::min).min(largest / LEAST_RATIO).max(LEAST_DRAWN_ERROR);
+        smallest.fold(f64::INFINITY, f64::min).min(largest / MIN_RATIO).max(MIN_DRAWN_ERROR);
     let words = column_words(column);
     let against = if all().any(|one| one.found.is_extrapolated) { "limit" } else { "finest" };
     let label = match column {
         "restitution" => format!("|{words} − {against}|"),
         _ => format!("|{words} / {against} − 1|"),
     };
-    let largest = largest.max(LEAST_RATIO * smallest);
+    let largest = largest.max(MIN_RATIO * smallest);
     let y_axis = Axis::new(label).logarithmic().from_to(smallest / 1.5, largest * 1.5);
     let mut chart = Chart::new(x.axis(), y_axis).titled(title(&words, converging));
     let placed = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
@@ -155,8 +153,8 @@ pub fn convergence_chart(
 /// Returns the title of a panel: the quantity and its observed orders.
 fn title(words: &str, converging: &[Option<ConvergingCurve>]) -> String {
     let all = || converging.iter().flatten();
-    if all().all(|one| one.errors.iter().all(|(_, error)| *error <= LEAST_DRAWN_ERROR)) {
-        return format!("{words}: all within {LEAST_DRAWN_ERROR:e}");
+    if all().all(|one| one.errors.iter().all(|(_, error)| *error <= MIN_DRAWN_ERROR)) {
+        return format!("{words}: all within {MIN_DRAWN_ERROR:e}");
     }
     let mut orders: Vec<ObservedOrder> = all().filter_map(|one| one.found.order).collect();
     orders.sort_by(|a, b| a.order.total_cmp(&b.order));
@@ -164,7 +162,7 @@ fn title(words: &str, converging: &[Option<ConvergingCurve>]) -> String {
     match orders.as_slice() {
         [] => format!("{words}: no order observed"),
         [one] => format!("{words}: order {}", said(one)),
-        few if few.len() <= MOST_ORDERS => {
+        few if few.len() <= MAX_ORDERS => {
             let few: Vec<String> = few.iter().map(said).collect();
             format!("{words}: orders {}", few.join(", "))
         }

@@ -9,7 +9,7 @@ use super::choice::FigureChoice;
 use super::labels::{key_symbol, plain};
 
 /// Most members that are drawn.
-const MOST_MEMBERS: usize = 4_000;
+const MAX_MEMBERS: usize = 4_000;
 
 /// A complete member.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub struct PanelValues {
 
 /// Returns n if every n-th member is drawn.
 fn stride(n_members: usize) -> usize {
-    n_members.div_ceil(MOST_MEMBERS).max(1)
+    n_members.div_ceil(MAX_MEMBERS).max(1)
 }
 
 impl FigurePoint {
@@ -129,10 +129,10 @@ mod tests {
 
     #[test]
     fn a_figure_has_a_bounded_number_of_members() {
-        assert_eq!([0, 1, MOST_MEMBERS].map(stride), [1; 3]);
-        for n in [MOST_MEMBERS + 1, 10 * MOST_MEMBERS + 3, 1_000_000] {
+        assert_eq!([0, 1, MAX_MEMBERS].map(stride), [1; 3]);
+        for n in [MAX_MEMBERS + 1, 10 * MAX_MEMBERS + 3, 1_000_000] {
             let n_drawn = n.div_ceil(stride(n));
-            assert!(n_drawn <= MOST_MEMBERS && n_drawn > MOST_MEMBERS / 2, "{n}: {n_drawn}");
+            assert!(n_drawn <= MAX_MEMBERS && n_drawn > MAX_MEMBERS / 2, "{n}: {n_drawn}");
         }
     }
 }

@@ -32,7 +32,7 @@ const LONGEST_LABEL: usize = 60;
 /// Free space above and below the data over their range.
 const MARGIN: f64 = 0.06;
 /// The reference is left outside the axis if the data would fill less than this share of it.
-const LEAST_SHARE: f64 = 0.2;
+const MIN_SHARE: f64 = 0.2;
 /// Smallest relative range of an axis; smaller differences are noise.
 const NOISE: f64 = 1e-4;
 
@@ -265,7 +265,7 @@ fn shown_range(
         return None;
     }
     let (least, most) = range(reference);
-    if to - from > LEAST_SHARE * (most.max(to) - least.min(from)) {
+    if to - from > MIN_SHARE * (most.max(to) - least.min(from)) {
         (from, to) = (from.min(least), to.max(most));
     }
     let least_span = NOISE * from.abs().max(to.abs());

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-/// OverwritePolicy the text between the marks `<!-- NAME -->` and `<!-- end of NAME -->`, each on a line of its
+/// Replaces the text between the marks `<!-- NAME -->` and `<!-- end of NAME -->`, each on a line of its
 /// own, by a table.
 pub fn put(page: &Path, name: &str, table: &str) -> io::Result<()> {
     let text = std::fs::read_to_string(page)?;

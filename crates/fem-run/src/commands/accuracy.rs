@@ -25,7 +25,7 @@ const N_TIMES: usize = 3;
 /// Time of an element update, s, until one is measured.
 const UPDATE: f64 = 2e-8;
 /// Fewest element updates from which their time is measured.
-const FEWEST_UPDATES: u64 = 200_000;
+const MIN_UPDATES: u64 = 200_000;
 /// Largest ratio of the times of condensed bodies on a mesh and on the next coarser one.
 const NEXT_LEVEL: f64 = 4.0;
 
@@ -198,7 +198,7 @@ impl Forecast {
     fn learn(&mut self, variant: &Variant, (measurement, seconds): &(Measurement, f64)) {
         match measurement.element_updates {
             None => self.condensed = if variant.value.is_some() { *seconds } else { 0.0 },
-            Some(updates) if updates > FEWEST_UPDATES => self.update = seconds / updates as f64,
+            Some(updates) if updates > MIN_UPDATES => self.update = seconds / updates as f64,
             Some(_) => {}
         }
     }

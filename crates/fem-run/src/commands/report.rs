@@ -62,7 +62,7 @@ const PICTURE: OwnedFileKind = OwnedFileKind {
     option: "--out",
 };
 /// Most panels of contours.
-const MOST_PANELS: usize = 6;
+const MAX_PANELS: usize = 6;
 
 /// Draw one figure of a result as SVG
 #[derive(clap::Args, Debug)]
@@ -120,7 +120,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     };
     let svg = match figure {
         Figure::Contours => {
-            contour_of_result(of_one("contours")?, MOST_PANELS).map(|c| mirrored(c).svg())
+            contour_of_result(of_one("contours")?, MAX_PANELS).map(|c| mirrored(c).svg())
         }
         _ => chart.and_then(|chart| fem_figure::panel(&chart)),
     };

@@ -65,7 +65,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-const MOST_IMPLAUSIBLE: usize = 5;
+const MAX_IMPLAUSIBLE: usize = 5;
 
 struct Work<'a> {
     arguments: &'a Arguments,
@@ -231,7 +231,7 @@ impl Work<'_> {
 
 /// Returns the implausible values that are reported before the sweep.
 fn reported(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
-    checked.implausible.iter().take(MOST_IMPLAUSIBLE)
+    checked.implausible.iter().take(MAX_IMPLAUSIBLE)
 }
 
 pub fn thread_pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {

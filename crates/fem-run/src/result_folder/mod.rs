@@ -267,7 +267,7 @@ fn put_in_place(
     Err(io::Error::other("other runs keep writing to it"))
 }
 
-/// OverwritePolicy an old result; returns false if another run was faster. If it is killed on the way, the next run
+/// Replaces an old result; returns false if another run has replaced it first. If it is killed on the way, the next run
 /// recovers the hidden folders that it leaves.
 fn replace(hidden: &mut HiddenFolder, target: &Path) -> io::Result<bool> {
     let mut aside = HiddenFolder::beside(target)?;

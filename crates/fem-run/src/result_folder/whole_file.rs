@@ -13,13 +13,13 @@ pub const SUFFIX: &str = ".tmp";
 /// Bytes at the beginning of a file in which its marker is searched.
 const HEAD: u64 = 600;
 
-/// OverwritePolicy a file in one step: readers see the old content or the new one. The temporary file is in the folder
+/// Replaces a file in one step: readers see the old content or the new one. The temporary file is in the folder
 /// `beside`, on the same file system.
 pub fn write_whole(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
     write_streamed(path, beside, |file| file.write_all(bytes))
 }
 
-/// OverwritePolicy a file in one step by the output of `write`; see [`write_whole`].
+/// Replaces a file in one step by the output of `write`; see [`write_whole`].
 pub fn write_streamed(
     path: &Path,
     beside: &Path,
@@ -31,7 +31,7 @@ pub fn write_streamed(
     Ok(())
 }
 
-/// OverwritePolicy a file that must survive a crash of the machine in one step; see [`write_whole`].
+/// Replaces a file that must survive a crash of the machine in one step; see [`write_whole`].
 pub fn write_lasting(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = temporary_file(beside)?;
     file.write_all(bytes)?;

@@ -14,8 +14,8 @@ use serde_json::Value;
 use super::folder::{FIGURE_FILE, SweepFolder};
 use crate::text::{Failure, one_line};
 
-const MOST_SHOWN: usize = 40;
-const MOST_NAMED: usize = 40;
+const MAX_SHOWN: usize = 40;
+const MAX_NAMED: usize = 40;
 
 #[derive(Clone, Debug, Default)]
 pub struct SweepOutcome {
@@ -142,7 +142,7 @@ impl SweepOutcome {
         self.n_own_done += usize::from(is_own);
         if is_own && !row.is_complete() {
             self.n_failed += 1;
-            if self.failed.len() < MOST_NAMED {
+            if self.failed.len() < MAX_NAMED {
                 let reason = row.summary["stopped_because"].as_str().unwrap_or("unknown");
                 self.failed.push(one_line(&format!("{}: {reason}", sweep.describe(row.index))));
             }
@@ -153,7 +153,7 @@ impl SweepOutcome {
                 self.warnings.add(row.index, warning);
             }
         }
-        if self.shown.len() < MOST_SHOWN {
+        if self.shown.len() < MAX_SHOWN {
             self.shown.push(row);
         }
     }

@@ -88,7 +88,7 @@ impl SweepFolder {
         })
     }
 
-    /// Claims a folder that may hold this sweep already, filter manifest is then left unchanged.
+    /// Claims a folder that may already hold this sweep; its manifest is then left unchanged.
     pub fn join(&self, mark: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         match self.path.join(MANIFEST_FILE).is_file() && is_ours(&self.path).unwrap_or(false) {
             true => Ok(()),
@@ -159,7 +159,7 @@ impl SweepFolder {
         (summary["program"] == PROGRAM && summary["complete"].is_boolean()).then_some(summary)
     }
 
-    /// OverwritePolicy a file in one step: readers see the old content or the new one.
+    /// Replaces a file in one step: readers see the old content or the new one.
     pub fn write(
         &self,
         name: &str,

@@ -129,7 +129,7 @@ pub fn conclude(
     )))
 }
 
-const MOST_KINDS: usize = 20;
+const MAX_KINDS: usize = 20;
 
 /// Returns one line per kind, the most frequent first, and the number of kinds left out. Kinds that were
 /// printed `before` are skipped.
@@ -148,8 +148,8 @@ pub fn warning_lines<'t>(
             n => format!("{text} (in {n} members, first in {first})"),
         })
     };
-    let mut lines: Vec<String> = kinds.iter().take(MOST_KINDS).map(line).collect();
-    let n_omitted = kinds.len().saturating_sub(MOST_KINDS) + warnings.n_others();
+    let mut lines: Vec<String> = kinds.iter().take(MAX_KINDS).map(line).collect();
+    let n_omitted = kinds.len().saturating_sub(MAX_KINDS) + warnings.n_others();
     if n_omitted > 0 {
         lines.push(format!("… and {n_omitted} more, in the column `warnings` of sweep.csv"));
     }

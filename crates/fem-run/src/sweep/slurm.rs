@@ -24,7 +24,7 @@ const SCRIPT_FILE: &str = "sweep.sbatch";
 /// Target time of a task, s: long for a scheduler, short enough to be lost.
 const TASK_SECONDS: f64 = 300.0;
 /// Most tasks of an array: Slurm's MaxArraySize is 1001 by default.
-const MOST_TASKS: usize = 1000;
+const MAX_TASKS: usize = 1000;
 /// Options of sbatch that the script sets itself.
 const OWN_OPTIONS: [&str; 5] = ["--array", "-a", "--dependency", "-d", "--wrap"];
 
@@ -81,13 +81,13 @@ impl SlurmBatch {
             let help = "the array runs over the shards: set their number with --shards N";
             return refuse(format!("--slurm: {own} is set by the sweep itself"), help);
         }
-        let most = MOST_TASKS.min(sweep.n_members());
+        let most = MAX_TASKS.min(sweep.n_members());
         let threads = cpus_per_task(&text) as f64;
         let wanted = (expected.all.seconds / (TASK_SECONDS * threads)).ceil() as usize;
         let n_shards = match options.shards.map(NonZeroUsize::get) {
             Some(n) if n > most => {
                 let help = format!(
-                    "the sweep has {} members, and an array at most {MOST_TASKS} tasks",
+                    "the sweep has {} members, and an array at most {MAX_TASKS} tasks",
                     sweep.n_members()
                 );
                 return refuse(format!("--shards {n}"), &help);

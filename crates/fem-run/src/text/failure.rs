@@ -182,7 +182,7 @@ impl Place {
     }
 }
 
-/// OverwritePolicy control characters, keeping the number of bytes: a terminal must not obey a file.
+/// Replaces control characters, keeping the number of bytes: a terminal must not obey a file.
 fn tame(text: &str) -> String {
     let mut tame = String::with_capacity(text.len());
     for c in text.chars() {

@@ -19,10 +19,10 @@ const UNKNOWN: &str = "?";
 /// Within this distance from 1 a restitution is also printed as 1 − e.
 const NEARLY_ELASTIC: f64 = 1e-3;
 /// Smallest loss of restitution by mesh and settings that is printed.
-const LEAST_LOSS: f64 = 1e-6;
+const MIN_LOSS: f64 = 1e-6;
 /// Relative errors below this are rounding.
 const ROUNDING: f64 = 1e-9;
-const MOST_BOUNCES: usize = 12;
+const MAX_BOUNCES: usize = 12;
 
 /// Returns the report with the warnings that are not among those `printed` before the run.
 pub fn report(summary: &Summary, place: Option<&Path>, printed: &[String]) -> String {
@@ -141,10 +141,10 @@ fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
             quantity(bounce.peak_force_n, "N"),
         ]
     };
-    let rows = bounces.iter().enumerate().take(MOST_BOUNCES).map(row);
+    let rows = bounces.iter().enumerate().take(MAX_BOUNCES).map(row);
     let mut text = headed("bounce|>at|>before|>restitution|>contact time|>peak force", rows);
-    if bounces.len() > MOST_BOUNCES {
-        text += &format!("and {} more\n", bounces.len() - MOST_BOUNCES);
+    if bounces.len() > MAX_BOUNCES {
+        text += &format!("and {} more\n", bounces.len() - MAX_BOUNCES);
     }
     if let Some(rest) = rest {
         text += &format!(
@@ -199,7 +199,7 @@ fn balances(summary: &Summary) -> String {
     });
     let null = summary.elastic_null.map(|null| {
         let lost = match null.one_minus_restitution {
-            lost if lost.abs() < LEAST_LOSS => format!("less than {}", number(LEAST_LOSS, 1)),
+            lost if lost.abs() < MIN_LOSS => format!("less than {}", number(MIN_LOSS, 1)),
             lost => number(lost, 1),
         };
         let how = match null.estimated {

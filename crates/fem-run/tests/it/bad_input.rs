@@ -24,7 +24,7 @@ fn position(message: &str) -> (String, usize, usize) {
     (source.to_string(), number(line), number(column))
 }
 
-/// OverwritePolicy `old` by `new` in the case. The message must point at the line with `new` (or, for a deleted
+/// Replaces `old` by `new` in the case. The message must point at the line with `new` (or, for a deleted
 /// line, into the file) and contain `expected`.
 #[track_caller]
 fn check(old: &str, new: &str, expected: &str) {

@@ -1,7 +1,7 @@
 //! The structure of the workspace, which docs/architecture.md shows, what crates may not depend on, and how docstrings
 //! are written.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -192,8 +192,75 @@ fn docstrings(source: &str) -> Vec<(usize, String)> {
 #[test]
 fn docstrings_are_sentences() {
     const FRAGMENTS: [&str; 3] = ["Of ", "What a ", "What an "];
+    let (mut faults, mut n_read) = (Vec::new(), 0);
+    for (path, source) in sources() {
+        for (line, text) in docstrings(&source) {
+            n_read += 1;
+            let starts = FRAGMENTS.iter().any(|start| text.starts_with(start));
+            if text.split_whitespace().count() <= 2 || starts {
+                faults.push(format!("{}:{line}: {text}", path.display()));
+            }
+        }
+    }
+    assert!(n_read > 5000, "{n_read}");
+    assert!(faults.is_empty(), "{} fragments:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Comments name types in backticks. A type's name without them stands where renaming a type has replaced a word of the
+/// sentence.
+#[test]
+fn comments_name_types_in_backticks() {
+    let sources = sources();
+    let words = |text: &str| -> Vec<String> {
+        let words =
+            text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+        words.map(String::from).collect()
+    };
+    let is_of_two_words = |name: &String| {
+        let pairs = name.chars().zip(name.chars().skip(1));
+        name.starts_with(char::is_uppercase)
+            && pairs.into_iter().any(|(a, b)| a.is_lowercase() && b.is_uppercase())
+    };
+    let mut types = HashSet::new();
+    for (_, source) in &sources {
+        let words = words(source);
+        let named = words
+            .windows(2)
+            .filter(|pair| ["struct", "enum", "trait", "type"].contains(&&*pair[0]));
+        types.extend(named.map(|pair| pair[1].clone()).filter(is_of_two_words));
+    }
+    assert!(types.len() > 300, "{}", types.len());
     let mut faults = Vec::new();
-    let (mut open, mut n_read) = (vec![root()], 0);
+    for (path, source) in &sources {
+        let mut is_code = false;
+        for (line, text) in (1..).zip(source.lines()) {
+            let Some(text) = text.trim_start().strip_prefix("//") else {
+                is_code = false;
+                continue;
+            };
+            let text = text.trim_start_matches(['/', '!']);
+            is_code ^= text.trim_start().starts_with("```");
+            // Tables and lists of items are indented; a link's target follows its name.
+            if is_code || text.starts_with("     ") || text.trim_start().starts_with("[`") {
+                continue;
+            }
+            let prose: String = text.split('`').step_by(2).collect::<Vec<_>>().join(" ");
+            let prose = prose.split("](").enumerate().map(|(i, part)| match i {
+                0 => part,
+                _ => part.split_once(')').map_or("", |(_, after)| after),
+            });
+            for part in prose {
+                let found = words(part).into_iter().filter(|word| types.contains(word));
+                faults.extend(found.map(|word| format!("{}:{line}: {word}", path.display())));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{} names without backticks:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Returns all source files of the repository with their paths.
+fn sources() -> Vec<(PathBuf, String)> {
+    let (mut sources, mut open) = (Vec::new(), vec![root()]);
     while let Some(path) = open.pop() {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.is_dir() {
@@ -201,15 +268,9 @@ fn docstrings_are_sentences() {
             let entries = fs::read_dir(&path).expect("a folder").filter(|_| !is_left);
             open.extend(entries.map(|entry| entry.expect("an entry").path()));
         } else if name.ends_with(".rs") {
-            for (line, text) in docstrings(&fs::read_to_string(&path).expect("a source file")) {
-                n_read += 1;
-                let starts = FRAGMENTS.iter().any(|start| text.starts_with(start));
-                if text.split_whitespace().count() <= 2 || starts {
-                    faults.push(format!("{}:{line}: {text}", path.display()));
-                }
-            }
+            let source = fs::read_to_string(&path).expect("a source file");
+            sources.push((path, source));
         }
     }
-    assert!(n_read > 5000, "{n_read}");
-    assert!(faults.is_empty(), "{} fragments:\n{}", faults.len(), faults.join("\n"));
+    sources
 }

@@ -25,7 +25,7 @@ use crate::simulation::Simulation;
 /// Time for which vibrations relax, over the contact time.
 const RELAXATION_TIME_OVER_CONTACT_TIME: f64 = 0.8;
 /// Decay of the vibrations above which the run does not show them, ...
-const LARGEST_DECAY: f64 = 8.0;
+const MAX_DECAY: f64 = 8.0;
 /// ... unless even the undecayed ones were at most this share of the energy.
 const LITTLE_VIBRATION_ENERGY: f64 = 1e-5;
 /// Element size of that elastic run over that of the collision.
@@ -66,7 +66,7 @@ pub(super) fn elastic_null(
         let rate: f64 = terms.map(|term| term.weight / term.relaxation_time).sum();
         let relaxed = (RELAXATION_TIME_OVER_CONTACT_TIME * contact_time * rate).exp();
         let vibrations = body.vibration_energy.unwrap_or(0.0) * relaxed;
-        is_gone |= relaxed > LARGEST_DECAY
+        is_gone |= relaxed > MAX_DECAY
             && vibrations.is_nan() | (vibrations > LITTLE_VIBRATION_ENERGY * initial);
         lost += vibrations;
     }

@@ -45,8 +45,8 @@ pub use elastic_null::ElasticNull;
 pub use estimate::{BarParts, ErrorEstimate};
 pub use estimator::ErrorEstimator;
 pub(crate) use noise_floor::{
-    LARGEST_NOISE, LARGEST_PENETRATION, Overlap, excess_of_restitution, is_unresolved, noise,
-    overlap, unbalanced_energy, widest_contact,
+    MAX_NOISE, MAX_PENETRATION, Overlap, excess_of_restitution, is_unresolved, noise, overlap,
+    unbalanced_energy, widest_contact,
 };
 pub use reference_runs::{CONDENSED_REFERENCE_TIME, first_contact};
 pub use refinement::{ComputedCollision, RefinedBeforeRun, collide};

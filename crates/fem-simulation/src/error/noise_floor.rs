@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, longest_at_pole};
+use fem_collision::{Collision, MAX_RESIDUAL, QuantityOfInterest, longest_at_pole};
 
 use super::calibration::{
     CLOSED_FORM_PRESSURE, EARLY, FEW_AT_PRESSURE, RADIUS_PER_SCATTER, RESTITUTION_PER_ROOT_SCATTER,
@@ -15,11 +15,11 @@ use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
 
 /// Scatter of the force over its peak above which a warning is given.
-pub(crate) const LARGEST_NOISE: f64 = 0.005;
+pub(crate) const MAX_NOISE: f64 = 0.005;
 /// Largest overlap of the surfaces over the approach without a warning.
-pub(crate) const LARGEST_PENETRATION: f64 = 0.01;
+pub(crate) const MAX_PENETRATION: f64 = 0.01;
 /// Excess of the restitution over 1 that is more than rounding.
-const LARGEST_EXCESS: f64 = 1e-5;
+const MAX_EXCESS: f64 = 1e-5;
 
 /// Returns the floor that the finished run shows, for each quantity.
 pub(super) fn floor_of_run(
@@ -28,7 +28,7 @@ pub(super) fn floor_of_run(
 ) -> impl Fn(QuantityOfInterest) -> f64 {
     let is_unresolved = is_unresolved(simulation, collision);
     let overlap = overlap(simulation, collision).map_or(0.0, |overlap| overlap.of_approach);
-    let overlap = if overlap > LARGEST_PENETRATION { overlap } else { 0.0 };
+    let overlap = if overlap > MAX_PENETRATION { overlap } else { 0.0 };
     let is_early = early_pressure_radius(simulation, collision).is_some();
     let pressure = match is_early || noise(collision).is_some() {
         true => distance_from_closed_form(simulation, collision),
@@ -66,7 +66,7 @@ pub(super) fn of_chatter(collision: &Collision, quantity: QuantityOfInterest) ->
 /// Returns the scatter of the contact force from step to step over its peak, if it is too large.
 pub(crate) fn noise(collision: &Collision) -> Option<f64> {
     let scatter = collision.force_scatter? / collision.peak_force?;
-    (scatter > LARGEST_NOISE).then_some(scatter)
+    (scatter > MAX_NOISE).then_some(scatter)
 }
 
 /// Overlap of the surfaces that penalty springs allow.
@@ -94,14 +94,14 @@ pub(crate) fn overlap(simulation: &Simulation, collision: &Collision) -> Option<
 /// Returns the unbalanced energy over the initial one, if it is too large or not a number.
 pub(crate) fn unbalanced_energy(collision: &Collision) -> Option<f64> {
     let residual = collision.residual_relative?;
-    let is_balanced = residual <= LARGEST_RESIDUAL;
+    let is_balanced = residual <= MAX_RESIDUAL;
     (!is_balanced).then_some(residual)
 }
 
 /// Returns the restitution minus 1, if that is positive by more than rounding or not a number.
 pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
     let restitution = collision.restitution?;
-    let is_possible = restitution <= 1.0 + LARGEST_EXCESS;
+    let is_possible = restitution <= 1.0 + MAX_EXCESS;
     (!is_possible).then_some(restitution - 1.0)
 }
 

@@ -27,7 +27,7 @@ const STEPS_FOR_CONDENSED: f64 = 160.0;
 /// Elements across the contact of a mesh file below which its limit is taken from finer elements than its own.
 const FEW_ACROSS: f64 = 9.0;
 /// A reference run stops after this multiple of its expected element updates.
-const LARGEST_UPDATES_OVER_EXPECTED: f64 = 4.0;
+const MAX_UPDATES_OVER_EXPECTED: f64 = 4.0;
 
 /// Returns the stop table that limits a bouncing ball to its first contact.
 pub fn first_contact(file: &CaseFile) -> Option<StopTable> {
@@ -162,7 +162,7 @@ impl ReferenceRuns {
         };
         let ratio = (element_updates as f64 / most as f64).cbrt().max(COARSER_ELEMENT_RATIOS[0]);
         let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
-        let most = (LARGEST_UPDATES_OVER_EXPECTED * most as f64) as u64;
+        let most = (MAX_UPDATES_OVER_EXPECTED * most as f64) as u64;
         let run = self.run(subject, &settings, FarMesh::AsGiven, most)?;
         run.values.map(|_| run.updates_over_expected)
     }

@@ -9,7 +9,7 @@
 //!
 //! between the first order of bulk viscosity and the second order of elements, and the collision is computed again. The
 //! ratio is 2 at once if condensed reference runs, which show the error before the collision, find a smaller one
-//! insufficient. There are at most [`MOST_LEVELS`] finer meshes, each of at most [`MOST_UPDATES`] element updates or
+//! insufficient. There are at most [`MAX_LEVELS`] finer meshes, each of at most [`MAX_UPDATES`] element updates or
 //! `limits.element_updates`. No mesh is refined for errors of other settings of the case (moved mass, soft springs, a
 //! coarse mesh away from the contact). A warning gives the reason why a mesh stays. Every decision follows from numbers
 //! of the case and of its runs, so it is the same on all machines.
@@ -39,11 +39,11 @@ const EXPECTED_ORDER: f64 = 1.5;
 /// Least and largest ratio of element sizes of one refinement.
 pub(super) const REFINEMENT_RATIOS: [f64; 2] = [1.25, 2.0];
 /// Largest number of finer meshes.
-pub(super) const MOST_LEVELS: usize = 4;
+pub(super) const MAX_LEVELS: usize = 4;
 /// Most element updates of a finer mesh if the case gives no limit, which take some seconds.
-pub(super) const MOST_UPDATES: u64 = 150_000_000;
+pub(super) const MAX_UPDATES: u64 = 150_000_000;
 /// Most elements of a finer mesh of condensed bodies, which take a second.
-pub(super) const MOST_ELEMENTS: u64 = 60_000;
+pub(super) const MAX_ELEMENTS: u64 = 60_000;
 
 /// Computes the collision of a case with its model, within its tolerance.
 ///
@@ -255,7 +255,7 @@ impl ErrorEstimator {
         if scene.gravity().is_some() || met.is_some_and(is_other) {
             return Err(NotRefined::Gravity);
         }
-        if simulation.levels().len() >= MOST_LEVELS {
+        if simulation.levels().len() >= MAX_LEVELS {
             return Err(NotRefined::TooExpensive { updates: None });
         }
         let by = refinement_ratio(miss.excess_of_mesh())
@@ -281,13 +281,13 @@ impl ErrorEstimator {
         };
         match finer.setup().cost {
             Cost::Steps { element_updates, .. } => {
-                let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);
+                let most = scene.limits().element_updates.unwrap_or(MAX_UPDATES);
                 match element_updates > most {
                     true => Err(NotRefined::TooExpensive { updates: Some(element_updates) }),
                     false => Ok(finer),
                 }
             }
-            Cost::Factors { elements, .. } if elements > MOST_ELEMENTS => {
+            Cost::Factors { elements, .. } if elements > MAX_ELEMENTS => {
                 Err(NotRefined::TooExpensive { updates: None })
             }
             _ => Ok(finer),

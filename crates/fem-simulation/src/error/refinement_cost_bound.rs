@@ -2,7 +2,7 @@
 
 use std::iter::successors;
 
-use super::refinement::{MOST_ELEMENTS, MOST_LEVELS, MOST_UPDATES, may_be_refined};
+use super::refinement::{MAX_ELEMENTS, MAX_LEVELS, MAX_UPDATES, may_be_refined};
 use crate::models::method::Cost;
 use crate::simulation::Simulation;
 
@@ -30,14 +30,14 @@ impl Simulation {
         let (one, most, growth, power) = match self.setup().cost {
             Cost::Steps { element_updates, .. } => {
                 let limit = self.case().scene().limits().element_updates;
-                (element_updates, limit.unwrap_or(MOST_UPDATES), GROWTH_OF_UPDATES, 1.0)
+                (element_updates, limit.unwrap_or(MAX_UPDATES), GROWTH_OF_UPDATES, 1.0)
             }
             Cost::Factors { elements, .. } => {
-                (elements, MOST_ELEMENTS, GROWTH_OF_ELEMENTS, TIME_POWER_OF_ELEMENTS)
+                (elements, MAX_ELEMENTS, GROWTH_OF_ELEMENTS, TIME_POWER_OF_ELEMENTS)
             }
             Cost::ClosedForm { .. } => return None,
         };
-        let left = MOST_LEVELS.saturating_sub(self.levels().len());
+        let left = MAX_LEVELS.saturating_sub(self.levels().len());
         let of_levels = |n| of_levels(n, most as f64 / one as f64, growth, power);
         let meshes = (1..=left).rev().find(|n| of_levels(*n) > 0.0)?;
         let over_first = (1..=meshes).map(of_levels).fold(0.0, f64::max);

@@ -16,7 +16,7 @@ const OF_SPRINGS: f64 = 4.0;
 /// Scatter over the tolerance below which it is neglected in the choice of a finer mesh.
 const SCATTER_OF_TOLERANCE: f64 = 0.25;
 /// Errors above this are printed as "more than half".
-const LARGEST_PRINTED: f64 = 0.5;
+const MAX_PRINTED: f64 = 0.5;
 
 /// A quantity whose estimated error exceeds its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +80,7 @@ impl ToleranceMiss {
     }
 
     fn printed_error(&self) -> String {
-        match self.error < LARGEST_PRINTED {
+        match self.error < MAX_PRINTED {
             true => self.printed(self.error),
             false => "more than half".to_string(),
         }

@@ -12,9 +12,9 @@ use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
 
 /// Larger ratios of element sizes are not advised: the error there is not known.
-const LARGEST_RATIO: f64 = 100.0;
+const MAX_RATIO: f64 = 100.0;
 /// Elements across the contact below which a mesh is reported as too coarse before the run.
-const FEWEST_ACROSS: f64 = 3.0;
+const MIN_ACROSS: f64 = 3.0;
 /// Elements across the contact that are advised: most estimates are then below 1 %.
 const ADVISED_ACROSS: f64 = 5.5;
 
@@ -31,8 +31,10 @@ pub(crate) fn unresolved_warning(simulation: &Simulation, contact_radius: f64) -
         true => format!("set mesh.contact_element_size = \"{size}\" or less, or leave it out"),
         false => format!("use meshes with edges of {size} or less there"),
     };
-    (across < FEWEST_ACROSS).then(|| {
-        format!("the contact radius spans only {across:.1} elements ({FEWEST_ACROSS} are needed); {advice}")
+    (across < MIN_ACROSS).then(|| {
+        format!(
+            "the contact radius spans only {across:.1} elements ({MIN_ACROSS} are needed); {advice}"
+        )
     })
 }
 
@@ -85,7 +87,7 @@ pub(crate) fn tolerance_warning(
             cause = setting.described();
             format!("leave {} out, or ", setting.key())
         }
-        _ if finer > LARGEST_RATIO => {
+        _ if finer > MAX_RATIO => {
             cause = "the mesh, and no mesh is known to be fine enough";
             String::new()
         }

@@ -16,7 +16,7 @@ use crate::estimate::effective_modulus::EffectiveModuli;
 use crate::rejection::Rejection;
 
 /// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
-const LEAST_MODULUS: f64 = 0.05;
+const MIN_MODULUS: f64 = 0.05;
 /// Loss of the moduli during the contact above which Ting's impact gives the effective moduli.
 const LARGE_LOSS_OF_MODULI: f64 = 0.5;
 
@@ -106,12 +106,12 @@ impl Estimate {
     /// # Errors
     /// Those of [`Estimate::of`].
     pub fn at(scene: &Scene, speed: f64) -> Result<Self, LawError> {
-        let hertz = HertzImpact::new(&pair_at(scene, 0.0, LEAST_MODULUS)?, speed)?;
+        let hertz = HertzImpact::new(&pair_at(scene, 0.0, MIN_MODULUS)?, speed)?;
         let mut relaxed_impact = hertz;
         // The contact time depends weakly on the moduli: a few passes converge.
         for _ in 0..8 {
             let half = 0.5 * relaxed_impact.contact_time();
-            let pair = pair_at(scene, half, LEAST_MODULUS);
+            let pair = pair_at(scene, half, MIN_MODULUS);
             match pair.and_then(|pair| HertzImpact::new(&pair, speed)) {
                 Ok(next) => relaxed_impact = next,
                 Err(_) => break,

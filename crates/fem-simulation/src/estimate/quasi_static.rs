@@ -76,7 +76,7 @@ pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawErro
 }
 
 /// Effective radius times mismatch below which surfaces slip only by the rounding of their moduli.
-const LARGEST_ROUNDING: f64 = 1e-9;
+const MAX_ROUNDING: f64 = 1e-9;
 
 /// Returns whether the surfaces slip on each other, at any speed, in a model that has surface slip.
 pub(crate) fn surfaces_slip(scene: &Scene) -> bool {
@@ -97,7 +97,7 @@ pub(crate) fn materials_mismatch(scene: &Scene) -> bool {
     let effective_radius = 0.5 / (radii[0] + radii[1]);
     let [first, second] =
         scene.bodies().each_ref().map(|body| body.material().and_then(Material::relaxation));
-    let differs = scene.surface_slip().mismatch().abs() * effective_radius > LARGEST_ROUNDING;
+    let differs = scene.surface_slip().mismatch().abs() * effective_radius > MAX_ROUNDING;
     differs || first != second
 }
 

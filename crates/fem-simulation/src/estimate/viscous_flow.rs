@@ -21,11 +21,11 @@ const LOSS_OF_MODULI_OF_FLOW: f64 = 0.5;
 /// Contact radius over the smallest sphere's radius above which flowing spheres are rejected.
 const WIDEST_CONTACT_OVER_RADIUS: f64 = 0.3;
 /// Widening of the contact by relaxation below which the speed is the cause of a wide contact.
-const LEAST_WIDENING_BY_FLOW: f64 = 3.0;
+const MIN_WIDENING_BY_FLOW: f64 = 3.0;
 /// Multiple of the predicted duration after which runs stop.
 const DURATION_OVER_PREDICTED: f64 = 3.0;
 /// Approach over that of the elastic bodies below which relaxation does not slow the contact.
-const LEAST_APPROACH_OVER_ELASTIC: f64 = 3.0;
+const MIN_APPROACH_OVER_ELASTIC: f64 = 3.0;
 
 /// Returns the largest contact radius, m: Hertz' radius with instantaneous moduli, plus that by the weight, or the radius
 /// after relaxation.
@@ -57,7 +57,7 @@ pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection>
     };
     let radius = impact.max_contact_radius;
     let share = radius / estimate.smallest_radius;
-    let is_widened = radius > LEAST_WIDENING_BY_FLOW * estimate.hertz.max_contact_radius();
+    let is_widened = radius > MIN_WIDENING_BY_FLOW * estimate.hertz.max_contact_radius();
     if impact.contact_time.is_some() || share <= WIDEST_CONTACT_OVER_RADIUS || !is_widened {
         return Ok(());
     }
@@ -109,7 +109,7 @@ pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slow
     let hertz = &estimate.hertz;
     let stop = Some(impact.max_approach / hertz.max_approach());
     let stop =
-        stop.filter(|stop| *stop > LEAST_APPROACH_OVER_ELASTIC && stop.is_finite()).unwrap_or(1.0);
+        stop.filter(|stop| *stop > MIN_APPROACH_OVER_ELASTIC && stop.is_finite()).unwrap_or(1.0);
     let end = duration_of(scene, estimate, met, &impact)
         .map_or(stop, |end| end / ((1.0 + POST_CONTACT_FRACTION) * hertz.contact_time()));
     SlowdownFactors { stop, end: end.max(1.0) }

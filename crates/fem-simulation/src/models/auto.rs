@@ -199,7 +199,7 @@ const CANDIDATES: [Candidate; 6] = [
 ];
 
 /// Share of the default tolerances down to which meshes are made as fine as a case asks.
-const LEAST_SHARE_OF_TOLERANCE: f64 = 0.05;
+const MIN_SHARE_OF_TOLERANCE: f64 = 0.05;
 
 /// The expected error of a candidate.
 struct CandidateVerdict {
@@ -304,7 +304,7 @@ impl Candidate {
                 return Some(0.0);
             };
             let share = tolerance_of(&asked, quantity)? / tolerance_of(&usual, quantity)?;
-            let is_followed = is_made_finer && (LEAST_SHARE_OF_TOLERANCE..1.0).contains(&share);
+            let is_followed = is_made_finer && (MIN_SHARE_OF_TOLERANCE..1.0).contains(&share);
             let error = self.own_errors[k] * scale(quantity, estimate);
             Some(error * if is_followed { share } else { 1.0 })
         })

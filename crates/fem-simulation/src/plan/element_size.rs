@@ -41,9 +41,9 @@ const TOLERANCE_SHARE_OF_MESH: f64 = 0.75;
 /// Moved mass over the tolerance: the force changes by half of its share.
 const MASS_OVER_TOLERANCE: f64 = 0.5;
 /// Most mass that is moved by default: bodies with relaxation times near the time step are more sensitive.
-const MOST_MOVED_MASS: f64 = 1e-2;
+const MAX_MOVED_MASS: f64 = 1e-2;
 /// Most elements across the contact radius: 0.01 % of the force with springs and the whole oscillation.
-const MOST_ACROSS: f64 = 45.0;
+const MAX_ACROSS: f64 = 45.0;
 /// Share of the tolerance at finite strain on one mesh: contact time and pressure of soft balls on walls have twice the
 /// error above.
 const TOLERANCE_SHARE_AT_FINITE_STRAIN: f64 = 0.5;
@@ -52,9 +52,9 @@ const TOLERANCE_SHARE_AT_FINITE_STRAIN: f64 = 0.5;
 /// at 0.06, 0.17 and 0.56, ν = 0.2 to 0.49, are within the tolerance with 7, 11 and 17 elements across the contact.
 const MACH_OF_SLOW_IMPACTS: f64 = 0.03;
 /// Fewest elements across the contact radius: with 3.5 the radius of relaxing bodies has an error of 8 %.
-const FEWEST_ACROSS: f64 = 4.0;
+const MIN_ACROSS: f64 = 4.0;
 /// Fewest elements for nodes that touch exactly: with 4.5 the error of the radius is up to 1.2 %, with 5.5 0.7 %.
-const FEWEST_ACROSS_AT_NODES: f64 = 5.45;
+const MIN_ACROSS_AT_NODES: f64 = 5.45;
 /// Least share of the elements that later contacts under gravity have, for nodes that touch exactly: the mesh stays.
 const ELEMENT_SHARE_OF_LATER_CONTACTS: f64 = 0.75;
 /// Place of the edge between two nodes at which the oscillation passes through zero.
@@ -94,8 +94,8 @@ impl MeshRule {
         let share = if is_finite && !is_staggered { TOLERANCE_SHARE_AT_FINITE_STRAIN } else { 1.0 };
         let at_nodes = touches_at_nodes(scene.model());
         let (bounds, fewest) = match at_nodes {
-            true => (&ERRORS_OVER_FORCE_ERROR_AT_NODES, FEWEST_ACROSS_AT_NODES),
-            false => (&ERRORS_OVER_FORCE_ERROR, FEWEST_ACROSS),
+            true => (&ERRORS_OVER_FORCE_ERROR_AT_NODES, MIN_ACROSS_AT_NODES),
+            false => (&ERRORS_OVER_FORCE_ERROR, MIN_ACROSS),
         };
         let later = if at_nodes && scene.gravity().is_some() {
             ELEMENT_SHARE_OF_LATER_CONTACTS
@@ -116,18 +116,18 @@ impl MeshRule {
         let for_waves = (estimate.mach / MACH_OF_SLOW_IMPACTS).cbrt().max(1.0);
         let for_tolerance = asked_for.max(fewest);
         let asked_for = scene.refinement() * for_waves * for_tolerance;
-        let across = asked_for.min(MOST_ACROSS);
+        let across = asked_for.min(MAX_ACROSS);
         let across = match is_staggered || at_nodes {
             true => across,
             false => (across - ZERO_OF_OSCILLATION).ceil() + ZERO_OF_OSCILLATION,
         };
-        let error_on_finest_mesh = error / (TOLERANCE_SHARE_OF_MESH * MOST_ACROSS * MOST_ACROSS);
+        let error_on_finest_mesh = error / (TOLERANCE_SHARE_OF_MESH * MAX_ACROSS * MAX_ACROSS);
         Self {
             across,
             mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(error_on_finest_mesh))
-                .min(MOST_MOVED_MASS),
-            error_on_finest_mesh: (asked_for > MOST_ACROSS).then_some(error_on_finest_mesh),
-            is_for_tolerance: for_tolerance > MOST_ACROSS,
+                .min(MAX_MOVED_MASS),
+            error_on_finest_mesh: (asked_for > MAX_ACROSS).then_some(error_on_finest_mesh),
+            is_for_tolerance: for_tolerance > MAX_ACROSS,
             limiting_quantity,
         }
     }
@@ -136,7 +136,7 @@ impl MeshRule {
     pub fn mass_scaling_beside(across: f64) -> f64 {
         let tolerance =
             (SMOOTH_ERROR + OSCILLATING_ERROR) / (TOLERANCE_SHARE_OF_MESH * across * across);
-        (MASS_OVER_TOLERANCE * tolerance).min(MOST_MOVED_MASS)
+        (MASS_OVER_TOLERANCE * tolerance).min(MAX_MOVED_MASS)
     }
 }
 
@@ -214,7 +214,7 @@ mod tests {
             for k in 0..60 {
                 let tolerance = format!("accuracy.tolerance={:e}", 0.4 * 0.8_f64.powi(k));
                 let now = mesh_rule(&[set, &[tolerance.as_str()]].concat());
-                assert!(now.across <= MOST_ACROSS + 1.0 && now.across >= FEWEST_ACROSS);
+                assert!(now.across <= MAX_ACROSS + 1.0 && now.across >= MIN_ACROSS);
                 if let Some(before) = before {
                     assert!(now.across >= before.across && now.mass_scaling <= before.mass_scaling);
                 }

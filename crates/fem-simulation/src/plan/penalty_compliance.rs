@@ -5,7 +5,7 @@ use fem_case::defaults::PENALTY_FACTOR;
 use crate::plan::Plan;
 
 /// Ratios below this are neglected: the estimate is not more accurate.
-const LEAST_LENGTHENING: f64 = 1.05;
+const MIN_LENGTHENING: f64 = 1.05;
 /// Integration steps over Hertz' approach.
 const INTEGRATION_STEPS: f64 = 400.0;
 
@@ -20,7 +20,7 @@ const INTEGRATION_STEPS: f64 = 400.0;
 /// F = π k R o² (Johnson 1985, § 4.3), for soft ones. Bodies and springs together store the kinetic energy.
 pub(crate) fn lengthening(plan: &Plan) -> f64 {
     let ratio = ratio(plan);
-    if ratio > LEAST_LENGTHENING { ratio } else { 1.0 }
+    if ratio > MIN_LENGTHENING { ratio } else { 1.0 }
 }
 
 /// Returns the relative lengthening by springs softer than the default; `None` for default springs, whose compliance is
@@ -29,7 +29,7 @@ pub(crate) fn softness(plan: &Plan) -> Option<f64> {
     (plan.penalty_factor < PENALTY_FACTOR).then(|| ratio(plan) - 1.0)
 }
 
-/// Returns the ratio without the bound [`LEAST_LENGTHENING`]; 1 if it is not a number.
+/// Returns the ratio without the bound [`MIN_LENGTHENING`]; 1 if it is not a number.
 fn ratio(plan: &Plan) -> f64 {
     let hertz = &plan.estimate.hertz;
     let (stiff, radius) = (hertz.max_approach(), hertz.pair().effective_radius());

@@ -15,11 +15,11 @@
 use fem_case::ModelChoice;
 use fem_case::defaults::PENALTY_FACTOR;
 use fem_case::engineering::show;
-use fem_collision::{Collision, LARGEST_RESIDUAL, QuantityOfInterest, Stop};
+use fem_collision::{Collision, MAX_RESIDUAL, QuantityOfInterest, Stop};
 
 use crate::effects::{EFFECTS, Effect, Vibration};
 use crate::error::{
-    ErrorEstimate, LARGEST_NOISE, LARGEST_PENETRATION, Overlap, early_pressure_warning,
+    ErrorEstimate, MAX_NOISE, MAX_PENETRATION, Overlap, early_pressure_warning,
     excess_of_restitution, is_unresolved, noise, overlap, tolerance_warning, unbalanced_energy,
     unresolved_warning, widest_contact,
 };
@@ -197,7 +197,7 @@ fn energy_residual(collision: &Collision, remedy: &str) -> Option<String> {
     }
     let residual = unbalanced_energy(collision)?;
     Some(format!(
-        "the energy balance has an error of {residual:.1e} of the initial energy{} (limit {LARGEST_RESIDUAL:e}); {remedy}",
+        "the energy balance has an error of {residual:.1e} of the initial energy{} (limit {MAX_RESIDUAL:e}); {remedy}",
         collision.residual_since.map_or(String::new(), |since| format!(" since {since}"))
     ))
 }
@@ -210,7 +210,7 @@ fn restitution(collision: &Collision) -> Option<String> {
 
 /// Returns a warning that the surfaces overlap too much.
 fn penetration(collision: &Collision, plan: &Plan, overlap: &Overlap) -> Option<String> {
-    let excess = overlap.of_approach / LARGEST_PENETRATION;
+    let excess = overlap.of_approach / MAX_PENETRATION;
     let factor = ROOM_OF_ADVICE * excess.powf(1.5) * plan.penalty_factor;
     let size = plan.contact_element_size / (ROOM_OF_ADVICE * excess.powf(ELEMENT_SIZE_PER_OVERLAP));
     let shorter = match plan.makes_meshes {
@@ -227,7 +227,7 @@ fn penetration(collision: &Collision, plan: &Plan, overlap: &Overlap) -> Option<
              approach); write contact.penalty_factor = {}{shorter}",
             100.0 * overlap.of_approach,
             100.0 * overlap.of_element,
-            100.0 * LARGEST_PENETRATION,
+            100.0 * MAX_PENETRATION,
             two_digits(factor.max(PENALTY_FACTOR)),
         )
     })
@@ -239,7 +239,7 @@ fn scatter(collision: &Collision, elements: &ElementSetup) -> Option<String> {
         "the contact force scatters by {:.1} % of its peak{} (limit {} %), so peaks are too high; {}",
         100.0 * noise(collision)?,
         collision.noisiest_instant.map_or(String::new(), |at| format!(", most about {at}")),
-        100.0 * LARGEST_NOISE,
+        100.0 * MAX_NOISE,
         elements.noise_advice.advice()
     ))
 }

@@ -1,7 +1,7 @@
 //! Collects the warnings of many runs, each kind once.
 
 /// Most kinds that are kept.
-const MOST_KINDS: usize = 100;
+const MAX_KINDS: usize = 100;
 
 /// Warnings that differ only in their numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,7 +42,7 @@ impl WarningKinds {
         let kind = without_numbers(warning);
         if let Some(known) = self.kinds.iter_mut().find(|known| known.kind == kind) {
             known.count += 1;
-        } else if self.kinds.len() < MOST_KINDS {
+        } else if self.kinds.len() < MAX_KINDS {
             let first = warning.to_string();
             self.kinds.push(WarningKind { kind, first, run, count: 1 });
         } else {
@@ -89,11 +89,11 @@ mod tests {
     #[test]
     fn kinds_that_are_not_kept_are_counted() {
         let mut kinds = WarningKinds::default();
-        for k in 0..MOST_KINDS + 5 {
+        for k in 0..MAX_KINDS + 5 {
             let letters: String = format!("{k}").chars().map(|c| (c as u8 + 49) as char).collect();
             kinds.add(k, &format!("a kind {letters}"));
         }
-        assert_eq!((kinds.all().len(), kinds.n_others()), (MOST_KINDS, 5));
+        assert_eq!((kinds.all().len(), kinds.n_others()), (MAX_KINDS, 5));
         assert!(kinds.all()[0].is_of("a kind a 7") && !kinds.all()[1].is_of("a kind a"));
     }
 }

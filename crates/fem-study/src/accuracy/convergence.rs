@@ -125,9 +125,9 @@ const ROUNDING: f64 = 1e-6;
 const SEARCHED_ORDERS: (f64, f64) = (0.1, 8.0);
 const DERIVATIVE_STEP: f64 = 1e-5;
 /// Fewest levels in addition to the finest that determine an order.
-const FEWEST_LEVELS: usize = 3;
+const MIN_LEVELS: usize = 3;
 /// Largest standard error of an order.
-const LARGEST_STANDARD_ERROR: f64 = 0.75;
+const MAX_STANDARD_ERROR: f64 = 0.75;
 /// Relative uncertainty of the remaining distance to the limit.
 const EXTRAPOLATION_UNCERTAINTY: f64 = 0.2;
 
@@ -205,7 +205,7 @@ impl ObservedOrder {
         let differences = others.iter().map(|(h, q)| (h / finest, (q - of_finest).abs()));
         let points: Vec<(f64, f64)> =
             differences.filter(|(_, difference)| *difference > least).collect();
-        if points.len() < FEWEST_LEVELS {
+        if points.len() < MIN_LEVELS {
             return None;
         }
         let n = points.len() as f64;
@@ -226,7 +226,7 @@ impl ObservedOrder {
         let squares = spread(&residual(order));
         let standard_error = (squares / (n - 2.0) / spread(&slope)).sqrt();
         let factor = mean(&residual(order)).exp() / finest.powf(order);
-        let is_seen = ORDERS.contains(&order) && standard_error < LARGEST_STANDARD_ERROR;
+        let is_seen = ORDERS.contains(&order) && standard_error < MAX_STANDARD_ERROR;
         is_seen.then_some(Self { order, standard_error, factor })
     }
 }

@@ -10,7 +10,7 @@ const RADII: [f64; 7] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.3, 1.7];
 /// Depths below the surface over the contact radius.
 const DEPTHS: [f64; 7] = [0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0];
 /// All places are nearer to the pole than this multiple of the contact radius.
-const LARGEST_DISTANCE_OVER_RADIUS: f64 = 6.0;
+const MAX_DISTANCE_OVER_RADIUS: f64 = 6.0;
 
 /// Returns σ_yy (Pa, tension positive) at each place around a contact of this radius (m) in each body that has
 /// elements, interpolated between nodal stresses. Returns `None` without elements, or if a place is not in its body.
@@ -22,7 +22,7 @@ pub(super) fn axial_stresses(
     let mut all = Vec::new();
     for side in [0, 1] {
         let Some(stress) = simulation.stress(snapshot, side) else { continue };
-        let near = elements_near(stress.mesh, LARGEST_DISTANCE_OVER_RADIUS * contact_radius);
+        let near = elements_near(stress.mesh, MAX_DISTANCE_OVER_RADIUS * contact_radius);
         for depth in DEPTHS {
             for radius in RADII {
                 let r = radius * contact_radius;

@@ -11,7 +11,7 @@ use super::stress_samples::relative_difference;
 use super::variants::{Variant, Variants};
 
 /// Fewest elements across the contact of levels that are used for orders and limits.
-const FEWEST_ACROSS: f64 = 4.5;
+const MIN_ACROSS: f64 = 4.5;
 /// Error of the coarser result as a multiple of the difference: for second order in a step that was halved,
 /// or first order in a compliance that was quartered.
 const QUARTERED: f64 = 4.0 / 3.0;
@@ -172,7 +172,7 @@ fn levels(
     quantity: QuantityOfInterest,
 ) -> Vec<(f64, f64)> {
     let level = |run: &VariantRun<'_>| {
-        run.variant.elements_across.filter(|across| *across >= FEWEST_ACROSS)?;
+        run.variant.elements_across.filter(|across| *across >= MIN_ACROSS)?;
         Some((run.variant.value?, run.measurement.value(quantity)?))
     };
     of_series(runs, series).filter_map(level).collect()

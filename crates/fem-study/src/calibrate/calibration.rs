@@ -24,7 +24,7 @@ const REGULARISATION: f64 = 1e-3;
 /// Keys of a case's condensed model that a calibration replaces.
 pub(super) const UNUSED_STEPS: &str = "model.condensed.steps";
 /// Smaller weights are rounding.
-const LEAST_WEIGHT: f64 = 1e-9;
+const MIN_WEIGHT: f64 = 1e-9;
 
 /// A Prony series, the data that it was found from, and how well they determine it.
 ///
@@ -235,7 +235,7 @@ fn restitutions(
 
 /// Returns the terms of these times and weights, without those of weight 0.
 fn terms(times: &[f64], weights: &[f64]) -> Vec<PronyTerm> {
-    let both = times.iter().zip(weights).filter(|(_, weight)| **weight > LEAST_WEIGHT);
+    let both = times.iter().zip(weights).filter(|(_, weight)| **weight > MIN_WEIGHT);
     both.map(|(&relaxation_time, &weight)| PronyTerm { weight, relaxation_time }).collect()
 }
 

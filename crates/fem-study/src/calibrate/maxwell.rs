@@ -13,7 +13,7 @@ const SEARCH: (f64, f64) = (0.2, 1e4);
 /// Largest number of further steps to shorter relaxation times if the loss there is still too small; softer bodies have
 /// deeper contacts, which the model may reject.
 const STEP_DOWN: f64 = 4.0;
-const MOST_STEPS_DOWN: usize = 4;
+const MAX_STEPS_DOWN: usize = 4;
 /// Means of e that differ by less are the same.
 const SAME: f64 = 1e-6;
 
@@ -72,7 +72,7 @@ impl Maxwell {
         };
         let (mut first, last) = (SEARCH.0 * contacts.0, SEARCH.1 * contacts.1);
         let mut of_first = lack(first)?;
-        for _ in 0..MOST_STEPS_DOWN {
+        for _ in 0..MAX_STEPS_DOWN {
             if of_first > 0.0 {
                 break;
             }

@@ -10,7 +10,7 @@ use fem_simulation::effects::QUASI_STATIC_LIMIT;
 use fem_simulation::{WarningKind, WarningKinds};
 
 /// Fewest elements that resolve a contact radius.
-const FEWEST_ELEMENTS: f64 = 3.0;
+const MIN_ELEMENTS: f64 = 3.0;
 /// Larger misfits, in multiples of the uncertainties, are not scatter.
 const LARGE_MISFIT: f64 = 2.0;
 /// Larger rms errors of e are not those of the model or the mesh.
@@ -34,8 +34,7 @@ impl Calibration {
     /// Returns the warning about the coarsest of the meshes that are too coarse.
     fn coarse(&self) -> Option<String> {
         let across = self.experiments.iter().filter_map(|experiment| experiment.elements_across);
-        let few: Vec<f64> =
-            across.map(|(least, _)| least).filter(|n| *n < FEWEST_ELEMENTS).collect();
+        let few: Vec<f64> = across.map(|(least, _)| least).filter(|n| *n < MIN_ELEMENTS).collect();
         let least = few.iter().copied().reduce(f64::min)?;
         let others = match few.len() {
             1 => String::new(),

@@ -25,7 +25,7 @@ const DECADES: f64 = 8.0;
 const DECADES_OF_A_RATE: f64 = 5.0;
 const STEPS_PER_DECADE: f64 = 4.0;
 /// Smaller restitutions count as 0.
-const LEAST_RESTITUTION: f64 = 1e-7;
+const MIN_RESTITUTION: f64 = 1e-7;
 /// Number of steps over the limits of a plain number.
 const SEARCH_STEPS: f64 = 60.0;
 
@@ -80,7 +80,7 @@ pub fn invert(
         }
         previous = Some((theta, here));
         // More damping leaves a smaller restitution, and its creep takes long to compute.
-        if parameter.role == ParameterRole::Damping && here + restitution < LEAST_RESTITUTION {
+        if parameter.role == ParameterRole::Damping && here + restitution < MIN_RESTITUTION {
             break;
         }
     }

@@ -54,7 +54,7 @@ pub struct Problem<'a> {
 }
 
 /// Factor by which a logarithmic parameter may differ from its natural size.
-const LARGEST_FACTOR_FROM_NATURAL_SIZE: f64 = 1e8;
+const MAX_FACTOR_FROM_NATURAL_SIZE: f64 = 1e8;
 
 impl<'a> Problem<'a> {
     /// Creates the problem with these parameters free and all others at their defaults.
@@ -130,7 +130,7 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// Returns θ of the free parameters at values of all.
+    /// Returns the free parameters, scaled as θ, of values of all parameters.
     pub(crate) fn theta_of(&self, values: &[f64]) -> Vec<f64> {
         let theta = |free: &Free| self.theta(free, values[free.index]);
         self.free.iter().map(theta).collect()
@@ -234,10 +234,10 @@ impl<'a> Problem<'a> {
             ParameterRole::Number => parameter.limits,
             // C of ξⁿ spans many decades with n: its natural size at n = 0.5 is far from that at n = 3.
             ParameterRole::Damping => (
-                size / LARGEST_FACTOR_FROM_NATURAL_SIZE.powi(2),
-                size * LARGEST_FACTOR_FROM_NATURAL_SIZE.powi(2),
+                size / MAX_FACTOR_FROM_NATURAL_SIZE.powi(2),
+                size * MAX_FACTOR_FROM_NATURAL_SIZE.powi(2),
             ),
-            _ => (size / LARGEST_FACTOR_FROM_NATURAL_SIZE, size * LARGEST_FACTOR_FROM_NATURAL_SIZE),
+            _ => (size / MAX_FACTOR_FROM_NATURAL_SIZE, size * MAX_FACTOR_FROM_NATURAL_SIZE),
         }
     }
 }

@@ -13,7 +13,7 @@ use super::impact_curve::ImpactCurve;
 use super::law_fault::LawFault;
 
 /// Largest number of pairs in a table: that of 45 grains.
-const MOST_GRAINS: usize = 45;
+const MAX_GRAINS: usize = 45;
 
 /// A cell of the table; `None` stands for an empty one.
 type Cell = Option<f64>;
@@ -223,13 +223,13 @@ fn kinds(
         materials.iter().flat_map(of).collect()
     };
     let all = once(all);
-    if all.len() > MOST_GRAINS {
+    if all.len() > MAX_GRAINS {
         let message = format!(
             "{} materials and sizes are {} pairs",
             all.len(),
             all.len() * (all.len() + 1) / 2
         );
-        let help = format!("name {MOST_GRAINS} or fewer");
+        let help = format!("name {MAX_GRAINS} or fewer");
         return Err(LawFault::Grains(message, help));
     }
     Ok(all)

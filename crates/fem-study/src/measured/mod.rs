@@ -34,7 +34,7 @@ pub use csv_dialect::decode;
 pub use data_error::DataError;
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
-pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError, UnevenUncertainties};
+pub use restitutions::{MAX_UNCERTAINTY, Restitutions, UncertaintyError, UnevenUncertainties};
 #[cfg(feature = "csv")]
 pub use rows::rows_below;
 #[cfg(feature = "csv")]

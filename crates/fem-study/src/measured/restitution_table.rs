@@ -4,7 +4,7 @@
 use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, UNCERTAINTIES};
 use super::data_error::DataError;
 use super::pairs::MeasuredPairs;
-use super::restitutions::{LARGEST_UNCERTAINTY, Restitutions, UnevenUncertainties};
+use super::restitutions::{MAX_UNCERTAINTY, Restitutions, UnevenUncertainties};
 use super::table::Table;
 use crate::fit::Point;
 use crate::sweep::COLUMNS;
@@ -134,7 +134,7 @@ const TIME: [i32; 3] = [0, 0, 1];
 const LENGTH: [i32; 3] = [1, 0, 0];
 const NUMBER: [i32; 3] = [0; 3];
 /// Larger restitutions are not the scatter of a measurement.
-const LARGEST_RESTITUTION: f64 = 1.2;
+const MAX_RESTITUTION: f64 = 1.2;
 
 /// The columns that are read in addition to speeds and restitutions.
 #[derive(Clone, Copy, Debug, Default)]
@@ -216,7 +216,7 @@ impl Columns {
                 .with_help("it must be greater than 0"));
         }
         let restitution = table.number(row, self.restitution, NUMBER)?;
-        if !(0.0..=LARGEST_RESTITUTION).contains(&restitution) {
+        if !(0.0..=MAX_RESTITUTION).contains(&restitution) {
             return Err(table
                 .fault(row, format!("the restitution is {restitution:?}"))
                 .in_column(&table.header()[self.restitution])
@@ -271,9 +271,7 @@ fn uncertainty(table: &Table, row: usize, column: usize) -> Result<Option<f64>, 
     let help = "the uncertainty of a restitution is at most 1; name the column \
                 restitution_uncertainty_percent for per cents";
     match found {
-        Some(found) if found > LARGEST_UNCERTAINTY => {
-            Err(table.cell_fault(row, column, found, help))
-        }
+        Some(found) if found > MAX_UNCERTAINTY => Err(table.cell_fault(row, column, found, help)),
         found => Ok(found),
     }
 }

@@ -5,7 +5,7 @@ use crate::fit::Point;
 use super::data_error::DataError;
 
 /// Larger uncertainties carry no information about a number between 0 and 1.
-pub const LARGEST_UNCERTAINTY: f64 = 1.0;
+pub const MAX_UNCERTAINTY: f64 = 1.0;
 
 /// Restitutions over speeds, each with its place in the data.
 ///
@@ -50,7 +50,7 @@ pub enum UnevenUncertainties {
 /// The reason why an uncertainty cannot be set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UncertaintyError {
-    /// The uncertainty is not greater than 0, or above [`LARGEST_UNCERTAINTY`].
+    /// The uncertainty is not greater than 0, or above [`MAX_UNCERTAINTY`].
     #[error("the uncertainty of a restitution is {0:?}")]
     OutOfRange(f64),
     /// The data have their own uncertainties.
@@ -71,7 +71,7 @@ impl Restitutions {
     /// # Errors
     /// The uncertainty is out of range, or the data have their own.
     pub fn set_uncertainty(&mut self, uncertainty: f64) -> Result<(), UncertaintyError> {
-        if !(uncertainty > 0.0 && uncertainty <= LARGEST_UNCERTAINTY) {
+        if !(uncertainty > 0.0 && uncertainty <= MAX_UNCERTAINTY) {
             return Err(UncertaintyError::OutOfRange(uncertainty));
         }
         if self.points.iter().any(|point| point.restitution_uncertainty.is_some()) {

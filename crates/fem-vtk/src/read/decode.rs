@@ -135,7 +135,7 @@ impl<'a> Stream<'a> {
         Ok(bytes)
     }
 
-    /// Returns the header integers in `bytes`; one that does not fit into `usize` cannot be a valid length.
+    /// Returns the header integers in `bytes`; one that does not fit into `usize` is no valid length and an error.
     fn integers(&self, bytes: &[u8]) -> Result<Vec<usize>, Claim> {
         let wide = |&chunk: &[u8; 8]| usize::try_from(u64::from_le_bytes(chunk));
         let narrow = |&chunk: &[u8; 4]| usize::try_from(u32::from_le_bytes(chunk));

@@ -10,7 +10,7 @@ const MASSLESS: &str = "contact.method='massless'";
 const PENALTY: &str = "contact.method='penalty'";
 const NODES: &str = "contact.method='node_to_surface'";
 const VISCOUS: &str = "effects.bulk_viscosity='on'";
-/// Small strain; contact between moved surfaces at finite strain has its own springs.
+/// Small strain; contact between deformed surfaces at finite strain has its own springs.
 const SMALL: &str = "effects.finite_strain='off'";
 /// A speed beyond a fiftieth of the shear wave speed, with a mesh for it.
 const FAST: [&str; 3] = [

@@ -245,7 +245,7 @@ fn natural_rubber_is_computed_at_finite_strain() {
     assert!((-6e-3..0.0).contains(&change), "{change}");
 }
 
-/// Contact between moved surfaces includes slip, so switching it off is rejected with this reason.
+/// Contact between deformed surfaces includes slip, so switching it off is rejected with this reason.
 #[test]
 fn slip_cannot_be_switched_off_at_finite_strain() {
     let error = simulation(&[STEEL_BALL, "effects.surface_slip='off'"]).unwrap_err();

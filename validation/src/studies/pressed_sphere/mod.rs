@@ -17,7 +17,7 @@ use fem_collision::{
     Account, Approach, BodyInput, Expectation, HistoryRow, OutputRequest, nan_aware_max_abs,
 };
 use fem_explicit::{
-    ExplicitBodies, ModelError, ModelParts, MovedContact, NodeForce, Run, Settings,
+    DeformedContact, ExplicitBodies, ModelError, ModelParts, NodeForce, Run, Settings,
 };
 use fem_figure::{Axis, Chart, Curve};
 use fem_material::finite::HyperelasticLaw;
@@ -85,7 +85,7 @@ fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<HistoryRow>, u64), Stu
         mass_times: [1.0; 2],
     };
     let approach = Approach::new([0.0, -speed], 0.0)?;
-    let contact = MovedContact::new(&bodies, 0.0, &settings).map_err(ModelError::from)?;
+    let contact = DeformedContact::new(&bodies, 0.0, &settings).map_err(ModelError::from)?;
     let far: Box<dyn NodeForce> = Box::new(far_plate);
     let parts = ModelParts {
         node_forces: [Vec::new(), vec![far]],

@@ -31,7 +31,7 @@ const CONDENSED: [f64; 5] = [8.0, 11.0, 16.0, 23.0, 32.0];
 /// Number of scenes in each table.
 const N_SHOWN: usize = 8;
 /// Largest number of scenes drawn per scene that is computed.
-const MOST_DRAWN: usize = 8;
+const MAX_DRAWN: usize = 8;
 
 type Numbers = [Option<f64>; 6];
 
@@ -43,7 +43,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     for seed in [seed, drawn] {
         let mut random = Random::new(seed);
         let draw = || overrides(&mut random, Ratios::Usual);
-        let both = computed(scenes, MOST_DRAWN, draw, |set| {
+        let both = computed(scenes, MAX_DRAWN, draw, |set| {
             let Ok(case) = load(laboratory, set)? else { return Ok(None) };
             let compute = || compute(&case, &set.join(" "), element_updates).ok().flatten();
             laboratory.work(|| Ok((compute(), 0)))

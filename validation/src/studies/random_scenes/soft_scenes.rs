@@ -32,7 +32,7 @@ const ESTIMATED_WITHIN: f64 = 3.0;
 /// Relative difference of two meshes.
 const NOISE: f64 = 0.01;
 /// Largest number of scenes drawn per scene that is run.
-const MOST_DRAWN: usize = 12;
+const MAX_DRAWN: usize = 12;
 
 struct SoftTrial {
     parted: Parted,
@@ -45,7 +45,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut random = Random::new(seed);
     let trials = computed(
         scenes,
-        MOST_DRAWN,
+        MAX_DRAWN,
         || overrides(&mut random),
         |set| {
             let case = load(laboratory, set)??;

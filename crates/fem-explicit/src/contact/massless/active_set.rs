@@ -16,10 +16,10 @@
 
 use super::skyline::Skyline;
 
-/// ActiveSet without a search along the line; three are the most that has been seen.
+/// Number of iterations without a line search; at most three have been seen.
 const FREE_ITERATIONS: usize = 10;
-/// ActiveSet at most; one that is not over by then is taken up again in the next step.
-const MOST_ITERATIONS: usize = 100;
+/// Largest number of iterations; a solution that has not converged by then continues in the next step.
+const MAX_ITERATIONS: usize = 100;
 /// Bisections of the line search, down to rounding.
 const HALVINGS: usize = 60;
 
@@ -166,7 +166,7 @@ impl ActiveSet {
         self.line.start.fill(0.0);
         self.line.pull.fill(0.0);
         self.close_by_gaps();
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             self.solve_closed(problem)?;
             self.line.aim(problem, &self.lacking, &self.gaps, &self.is_closed, &self.change);
             if !self.close_by_change(problem) {

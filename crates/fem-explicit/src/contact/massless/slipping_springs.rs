@@ -9,7 +9,7 @@
 //!
 //! In each pass the gaps are linearised about the x of the pass before, and the balance is that of springs that do not
 //! turn ([`ActiveSet`]). The remaining error is of second order in the change of a pass. Passes are repeated while it
-//! is more than [`LARGEST_IMBALANCE`] of the force; two suffice in most steps. The potential differs from that of
+//! is more than [`MAX_IMBALANCE`] of the force; two suffice in most steps. The potential differs from that of
 //! [`ActiveSet`] by curvatures of a force over the length of a segment, which are small compared with the stiffness of
 //! elements at small strain: it is convex there, and energy is conserved as well.
 
@@ -21,9 +21,9 @@ use crate::part::MotionMut;
 
 /// Largest error in the balance of a node over the force of the contact. It acts on the next node, and its work is in
 /// no account: at most this share of the stored energy.
-const LARGEST_IMBALANCE: f64 = 1e-7;
+const MAX_IMBALANCE: f64 = 1e-7;
 /// Largest number of passes: 4 are needed at a contact radius of a twentieth of the radius, 11 at strains of a third.
-const MOST_PASSES: usize = 20;
+const MAX_PASSES: usize = 20;
 
 /// Buffers for a solution.
 #[derive(Debug)]
@@ -54,11 +54,11 @@ impl Massless {
         let u = motions.each_ref().map(|motion| &*motion.displacement);
         active_set.change.fill(0.0);
         slipping_springs.turn(self, slipping, u, active_set);
-        for _ in 0..MOST_PASSES {
+        for _ in 0..MAX_PASSES {
             active_set.forget_closed();
             active_set.solve(&slipping_springs.problem)?;
             let force = slipping_springs.turn(self, slipping, u, active_set);
-            if slipping_springs.lacking.iter().all(|lack| lack.abs() <= LARGEST_IMBALANCE * force) {
+            if slipping_springs.lacking.iter().all(|lack| lack.abs() <= MAX_IMBALANCE * force) {
                 break;
             }
         }

@@ -9,7 +9,7 @@ mod of_avx2 {
     use super::super::super::RowLanes;
     use super::super::{Avx2, TwoRegisters};
 
-    /// Nodes of a register of pairs.
+    /// Number of nodes whose (r, y) pairs fit into one register.
     const NODES: usize = 2;
 
     /// Returns eight pairs, two per register.
@@ -107,7 +107,7 @@ mod of_avx512 {
     use super::super::super::RowLanes;
     use super::super::Avx512;
 
-    /// Nodes of a register of pairs.
+    /// Number of nodes whose (r, y) pairs fit into one register.
     const NODES: usize = 4;
 
     /// Returns the last pair of a register and the first three of the next.

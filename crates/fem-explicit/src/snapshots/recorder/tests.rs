@@ -161,7 +161,7 @@ fn bodies_that_stay_together_have_no_last_contact() {
 #[test]
 fn recorder_handles_extreme_counts_and_nan_times() {
     let model = model();
-    for n in [OutputRequest::MOST_SNAPSHOTS, usize::MAX] {
+    for n in [OutputRequest::MAX_SNAPSHOTS, usize::MAX] {
         let (recorder, _) = record(&SnapshotRequest::Count(n), &model, 1.0, 1.0, 200);
         assert!(recorder.fits(&model, &SnapshotRequest::Count(n)));
         let (snapshots, missing) = recorder.finish();

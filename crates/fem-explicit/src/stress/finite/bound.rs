@@ -199,7 +199,7 @@ fn eigenvalues<L: Lanes<WIDE>, W: Law>(
             before = after;
             continue;
         };
-        // HistoryRow i of D Q takes column k of D with row k of Q, which has its own block alone.
+        // Row i of D Q takes column k of D with row k of Q, which has its own block alone.
         let own = if k < FIRST_AXIAL { 0..FIRST_AXIAL } else { FIRST_AXIAL..N_STRAINS };
         for i in 0..N_STRAINS {
             let slope = (after[i] - before[i]) * per_step;

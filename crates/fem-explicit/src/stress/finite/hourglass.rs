@@ -170,7 +170,7 @@ impl<N: Number> Deformed<N> {
             twice * (stiffness[0] * mean.0).plus_product(stiffness[2], mean.1),
             twice * (stiffness[2] * mean.0).plus_product(stiffness[1], mean.1),
         ));
-        // TwoRegisters the derivative by C where q̂ stays.
+        // Twice the derivative with respect to C at constant q̂.
         let hoop = N::splat(5.0 / 9.0) * dot(*measures, *square);
         let [rr, yy, ry] = turned(*measures, *square);
         let (b_rr, b_yy, b_ry) = (twice * (rr + hoop), twice * (yy + hoop), twice * ry);

@@ -22,7 +22,7 @@ use crate::part::{Field, NodalField};
 
 /// Largest number of Prony terms of a material at finite strain. They lie on the stack in the element loops. A longer
 /// series is tabulated data, which this many terms represent as well.
-pub const MOST_FINITE_STRAIN_TERMS: usize = 32;
+pub const MAX_FINITE_STRAIN_TERMS: usize = 32;
 /// Fields of history per term.
 pub(super) const FIELDS_PER_TERM: usize = 3;
 
@@ -32,7 +32,7 @@ pub(super) fn n_element_fields(n_terms: usize) -> usize {
 }
 
 /// Internal variables of the elements of a block, for up to `MOST` terms.
-pub(super) struct InternalVariables<L, const MOST: usize = MOST_FINITE_STRAIN_TERMS> {
+pub(super) struct InternalVariables<L, const MOST: usize = MAX_FINITE_STRAIN_TERMS> {
     pub metrics: [InverseMetric<L>; MOST],
     pub amplitudes: [(L, L); MOST],
 }
@@ -103,7 +103,7 @@ pub(super) fn store_term<L: Lanes<WIDE>>(
 
 /// Returns whether a history has fields for a number of terms and elements.
 pub(super) fn is_valid(history: &[NodalField], n_terms: usize, n_elements: usize) -> bool {
-    n_terms <= MOST_FINITE_STRAIN_TERMS
+    n_terms <= MAX_FINITE_STRAIN_TERMS
         && history.len() >= FIELDS_PER_TERM * n_terms
         && history[..FIELDS_PER_TERM * n_terms].iter().all(|field| field.len() >= n_elements)
 }
@@ -113,9 +113,9 @@ pub(super) fn of_element(
     history: &[NodalField],
     n_terms: usize,
     (slots, lane): (Slots, usize),
-) -> ([ViscousStrain; MOST_FINITE_STRAIN_TERMS], [(f64, f64); MOST_FINITE_STRAIN_TERMS]) {
-    let mut strains = [ViscousStrain::default(); MOST_FINITE_STRAIN_TERMS];
-    let mut amplitudes = [(0.0, 0.0); MOST_FINITE_STRAIN_TERMS];
+) -> ([ViscousStrain; MAX_FINITE_STRAIN_TERMS], [(f64, f64); MAX_FINITE_STRAIN_TERMS]) {
+    let mut strains = [ViscousStrain::default(); MAX_FINITE_STRAIN_TERMS];
+    let mut amplitudes = [(0.0, 0.0); MAX_FINITE_STRAIN_TERMS];
     for term in 0..n_terms {
         let [[rr, yy], [ry, volume_change], [r, y]] =
             of_term(history, term).map(|field| slots.pair(lane, field));

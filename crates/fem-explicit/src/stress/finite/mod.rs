@@ -56,7 +56,7 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use block::{Blocks, Slots};
 use bound::Metrics;
 use elastic::ElasticResponse;
-pub use internal_variables::MOST_FINITE_STRAIN_TERMS;
+pub use internal_variables::MAX_FINITE_STRAIN_TERMS;
 use law::Law;
 use relaxing::RelaxingResponse;
 
@@ -110,7 +110,7 @@ trait ElementResponse: fmt::Debug + Send + Sync + 'static {
 }
 
 /// Makes the stress of a material at finite strain on some elements of a mesh, which it numbers by their places in the
-/// list. The material has at most [`MOST_FINITE_STRAIN_TERMS`] relaxation terms.
+/// list. The material has at most [`MAX_FINITE_STRAIN_TERMS`] relaxation terms.
 pub(super) fn finite_strain(
     mesh: &SphereMesh,
     geometries: &[QuadGeometry],

@@ -60,7 +60,7 @@ fn components<L: Lanes<WIDE>>(deformed: &Deformation<L>, rate: &Deformation<L>) 
     let (one, h, d) = (L::splat(1.0), &deformed.h, &rate.h);
     let (rr, yy) = (one + h.rr, one + h.yy);
     let inverse = one / (rr * yy - h.ry * h.yr);
-    // HistoryRow by row: of Ḟ with F⁻ᵀ.
+    // Row by row: Ḟ with F⁻ᵀ.
     let [a, b] = [inverse * (yy * d.rr - h.yr * d.ry), inverse * (rr * d.ry - h.ry * d.rr)];
     let [e, f] = [inverse * (yy * d.yr - h.yr * d.yy), inverse * (rr * d.yy - h.ry * d.yr)];
     let hoop = d.tt / (one + h.tt);

@@ -17,7 +17,7 @@ use fem_material::{PronySeries, RelaxationStep};
 use super::ElementResponse;
 use super::block::{Blocks, Slots};
 use super::hourglass::Amplitudes;
-use super::internal_variables::{self, InternalVariables, MOST_FINITE_STRAIN_TERMS};
+use super::internal_variables::{self, InternalVariables, MAX_FINITE_STRAIN_TERMS};
 use super::kernel::{self, BlockResponse, BlockStress, Deformation, Volumes};
 use super::law::{Law, RelaxingLaw};
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
@@ -149,7 +149,7 @@ impl LaneKernel<WIDE> for Energies<'_> {
         assert!(internal_variables::is_valid(self.history, n_terms, blocks.n_elements()));
         let zero = L::splat(0.0);
         let none = ViscousStrain { rr: zero, yy: zero, ry: zero, volume_change: zero };
-        let mut strains = [none; MOST_FINITE_STRAIN_TERMS];
+        let mut strains = [none; MAX_FINITE_STRAIN_TERMS];
         let (mut stored, mut power, mut volumes) = (zero, zero, Volumes::<L>::new());
         for (place, block) in blocks.checked(&[self.u.len()]).iter().enumerate() {
             let slots = blocks.slots(place);
@@ -214,7 +214,7 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
         // The internal variables of one term stay in registers.
         match self.law.weights().len() {
             ..=1 => self.of_terms::<L, 1>(advanced),
-            _ => self.of_terms::<L, MOST_FINITE_STRAIN_TERMS>(advanced),
+            _ => self.of_terms::<L, MAX_FINITE_STRAIN_TERMS>(advanced),
         }
     }
 }

@@ -63,7 +63,7 @@ fn small_strain_has_no_step_control() {
 
 #[test]
 fn levels_are_powers_of_the_sixteenth_root_of_two() {
-    for level in 0..=MOST_LEVELS {
+    for level in 0..=MAX_LEVELS {
         let exact = 0.5f64.powf(f64::from(level) / 16.0);
         // Rounding of the power, which grows with it.
         assert!((level_factor(level) / exact - 1.0).abs() < 1e-13, "{level}");
@@ -140,7 +140,7 @@ fn a_step_strains_no_element_by_much() {
         assert!((share_of(&next, &model) / share - 1.0).abs() < 1e-9, "{rate}");
     }
     let next = strained(&control, &model, 10, 1.0, 1e9).unwrap();
-    assert_eq!(next.level, MOST_LEVELS);
+    assert_eq!(next.level, MAX_LEVELS);
     assert!(strained(&control, &model, 10, 1.0, f64::INFINITY).is_some());
 }
 

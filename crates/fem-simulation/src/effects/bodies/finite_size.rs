@@ -22,10 +22,10 @@ const PRESSURE_ERROR_PER_STRAIN: f64 = 0.15;
 
 /// Largest share of the spheres' own compliance in Hertz' approach up to which its first order has errors of 1 % in contact
 /// time and force, and half-spaces without it errors of 5 %. Poisson's ratios below −0.9 exceed it.
-const LARGEST_SHARE: f64 = 0.1;
+const MAX_SHARE: f64 = 0.1;
 
 /// Largest share up to which the error is estimated; spheres up to 0.18 were compared.
-const LARGEST_KNOWN: f64 = 0.25;
+const MAX_KNOWN: f64 = 0.25;
 
 impl FiniteSizeEffect {
     /// Returns the support of a model that includes the first order of the effect, or does not, with the
@@ -36,7 +36,7 @@ impl FiniteSizeEffect {
         (is_there, reason): (bool, &str),
     ) -> Support {
         let share = Self::share(scene, estimate).unwrap_or_default();
-        let warning = (share > LARGEST_SHARE).then(|| {
+        let warning = (share > MAX_SHARE).then(|| {
             let inaccurate = match is_there {
                 true => "the first order, which this model uses, is not accurate",
                 false => "half-spaces, which this model uses, are not accurate",
@@ -44,7 +44,7 @@ impl FiniteSizeEffect {
             format!(
                 "the spheres' own compliance adds {} to Hertz' approach; above {} {inaccurate}: use model {}",
                 percent(share),
-                percent(LARGEST_SHARE),
+                percent(MAX_SHARE),
                 Vibration::models_that_serve(estimate)
             )
         });
@@ -56,7 +56,7 @@ impl FiniteSizeEffect {
     /// For spheres that relax to 3 % and less it gives 6 to 12 % where 5 to 10 % were computed. The loss of restitution
     /// by relaxation changes with the contact time.
     fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let share = Self::share(scene, estimate).filter(|share| *share < LARGEST_KNOWN)?;
+        let share = Self::share(scene, estimate).filter(|share| *share < MAX_KNOWN)?;
         let change = 0.6 * share;
         let restitution = Some(change * relaxed_loss(scene, estimate));
         Some(NeglectError { restitution, ..NeglectError::shares(estimate, change, change) })

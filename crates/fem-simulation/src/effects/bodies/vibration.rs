@@ -18,7 +18,7 @@ use crate::estimate::effective_modulus::left_at;
 /// Number of modes per body that carry the inertia of its deformation.
 pub(super) const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
-const LARGEST_VIBRATION: f64 = 0.01;
+const MAX_VIBRATION: f64 = 0.01;
 
 /// Least loss of restitution over the bodies' own speeds in shear wave speeds ([`own_mach`]). Explicit elements lost
 /// 0.06 to 0.1 of it more than quasi-static bodies on a wall at 0.3 to 20 %, and twice that at 40 %. A small ball
@@ -80,7 +80,7 @@ impl Effect for Vibration {
         let left = collision.bodies.iter().filter(|body| body.mass.is_some());
         let left = left.filter_map(|body| body.vibration_energy);
         let share = left.sum::<f64>() / initial;
-        let warning = (share > LARGEST_VIBRATION).then(|| {
+        let warning = (share > MAX_VIBRATION).then(|| {
             format!(
                 "{:.1} % of the initial kinetic energy stays in vibrations of the bodies; closed \
                  forms do not include this loss",

@@ -18,7 +18,7 @@ use crate::estimate::Estimate;
 const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
 /// Largest Young's modulus (Pa) of elastomers, gels and foams, which tear and do not yield (Ashby 2011, chart of
 /// modulus and strength).
-const LARGEST_MODULUS_OF_ELASTOMERS: f64 = 0.1e9;
+const MAX_MODULUS_OF_ELASTOMERS: f64 = 0.1e9;
 
 impl Effect for PlasticYield {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
@@ -71,7 +71,7 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevanc
 /// Returns whether a material can yield. Materials as soft as rubber and hyperelastic ones cannot.
 fn may_yield(material: &Material) -> bool {
     material.named_law().is_none()
-        && material.instantaneous().youngs_modulus() >= LARGEST_MODULUS_OF_ELASTOMERS
+        && material.instantaneous().youngs_modulus() >= MAX_MODULUS_OF_ELASTOMERS
 }
 
 fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {

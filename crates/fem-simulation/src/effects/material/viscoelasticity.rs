@@ -19,11 +19,11 @@ use crate::rejection::Rejection;
 
 /// Largest error by all folded terms in restitution (absolute), contact time and peak force: a hundredth of the default
 /// tolerance.
-const LARGEST_FOLDED: f64 = 1e-4;
+const MAX_FOLDED: f64 = 1e-4;
 /// Largest error by folded terms over the loss of restitution by relaxation, which keeps small losses accurate.
 const SHARE_OF_LOSS: f64 = 0.01;
 /// Smallest tolerance of the folded terms.
-const LEAST_FOLDED: f64 = 1e-7;
+const MIN_FOLDED: f64 = 1e-7;
 /// Accuracy of the loss that decides on the tolerance.
 const LOSS_TOLERANCE: f64 = 1e-5;
 
@@ -113,9 +113,9 @@ impl Viscoelasticity {
             (n_folded > 0).then_some(folded)
         };
         // The loss is expensive to compute, and most scenes have no term to fold.
-        fold(LARGEST_FOLDED)?;
+        fold(MAX_FOLDED)?;
         let loss = loss(scene, estimate)?;
-        fold((SHARE_OF_LOSS * loss).clamp(LEAST_FOLDED, LARGEST_FOLDED))
+        fold((SHARE_OF_LOSS * loss).clamp(MIN_FOLDED, MAX_FOLDED))
     }
 }
 

@@ -37,7 +37,7 @@ const LOSS_OF_RESTITUTION: f64 = 0.005;
 
 /// Largest approach speed over shear wave speed for these coefficients, which were measured on pairs, walls and
 /// half-spaces.
-const LARGEST_MACH: f64 = 0.1;
+const MAX_MACH: f64 = 0.1;
 
 impl BulkViscosity {
     /// Returns whether a model that supports it computes it, for an approach speed over the shear wave
@@ -99,7 +99,7 @@ impl Effect for BulkViscosity {
             (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
         };
         let largest = materials.map(squared_ratio).fold(0.0, f64::max);
-        let growth = Some(estimate.mach).filter(|mach| *mach <= LARGEST_MACH)?.powf(0.6);
+        let growth = Some(estimate.mach).filter(|mach| *mach <= MAX_MACH)?.powf(0.6);
         let smoothing = if rings(scene, false) { FORCE_DECREASE_BY_SMOOTHING } else { 0.0 };
         let changes = NeglectError::shares(estimate, 0.0, smoothing * growth);
         let loss = NeglectError::restitution(LOSS_OF_RESTITUTION * growth * largest.powi(2));

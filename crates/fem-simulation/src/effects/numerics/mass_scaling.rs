@@ -16,7 +16,7 @@ use crate::effects::decision::{Effect, MassScaling};
 use crate::estimate::Estimate;
 
 /// Largest moved mass over the lighter body's mass; at 1 % the error of the peak force is up to half of that.
-const LARGEST_MOVED_MASS: f64 = 1e-2;
+const MAX_MOVED_MASS: f64 = 1e-2;
 /// Moved mass over that mass below which it is rounding of the node that determines the time step.
 const ROUNDING_OF_MASS: f64 = 1e-12;
 const NOTHING: &str = "no mass is moved";
@@ -99,13 +99,13 @@ impl Effect for MassScaling {
         let shares =
             collision.moved_shares().into_iter().zip(scene.bodies()).zip(Self::times(scene));
         let warnings = shares.filter_map(|((share, named), times)| {
-            let share = share.filter(|share| *share > LARGEST_MOVED_MASS * times)?;
+            let share = share.filter(|share| *share > MAX_MOVED_MASS * times)?;
             Some(format!(
                 "mass scaling moves {:.2} % of the lighter body's mass to light nodes of {}; above {} %, use a \
                  smaller time.mass_scaling",
                 100.0 * share,
                 named.name(),
-                100.0 * LARGEST_MOVED_MASS * times
+                100.0 * MAX_MOVED_MASS * times
             ))
         });
         warnings.collect()

@@ -190,7 +190,7 @@ impl Bounced {
         let left: f64 = bodies.filter_map(|body| body.vibration_energy).sum();
         let initial = collision.initial_energy.unwrap_or(f64::INFINITY);
         let bound = phase::bound(self.vibration, left, initial, bounce.restitution);
-        if bound > self.phase.map_or(phase::LARGEST_SILENT_BOUND, |(_, largest)| largest) {
+        if bound > self.phase.map_or(phase::MAX_SILENT_BOUND, |(_, largest)| largest) {
             self.phase = Some((self.bounces.len(), bound));
         }
         self.vibration = left;

@@ -39,13 +39,13 @@ pub(crate) use bounced::Bounces;
 use stepper::BouncingStepper;
 
 /// Largest contact radius at rest over effective radius.
-const LARGEST_DENT: f64 = 0.5;
+const MAX_DENT: f64 = 0.5;
 /// Contact radius over that for which a mesh was made below which the mesh is made again.
-const SMALLEST_SHARE: f64 = 0.75;
+const MIN_SHARE: f64 = 0.75;
 /// Largest number of rows of all later contacts over that of the first.
 const ROWS_OF_ALL: usize = 10;
 /// Least number of rows per contact.
-const FEWEST_ROWS: usize = 20;
+const MIN_ROWS: usize = 20;
 
 /// All contacts of a scene with gravity.
 #[derive(Debug)]
@@ -75,7 +75,7 @@ impl Bouncing {
         let pair = first.setup().estimate.hertz.pair();
         let weight = pair.effective_mass() * gravity.acceleration;
         match StaticHertz::new(pair, weight) {
-            Ok(pressed) if pressed.contact_radius <= LARGEST_DENT * pair.effective_radius() => {
+            Ok(pressed) if pressed.contact_radius <= MAX_DENT * pair.effective_radius() => {
                 let ball = Ball { scene: scene.clone(), gravity, first: Arc::from(first) };
                 Ok(Self { ball: Arc::new(ball) })
             }
@@ -118,7 +118,7 @@ impl Ball {
             return Ok(None);
         }
         let estimate = estimate_at(&self.scene, speed)?;
-        if estimate.contact_radius >= SMALLEST_SHARE * elements.plan.estimate.contact_radius {
+        if estimate.contact_radius >= MIN_SHARE * elements.plan.estimate.contact_radius {
             return Ok(None);
         }
         self.made_at(speed).map(Some)
@@ -203,11 +203,7 @@ fn first_request(request: &OutputRequest, time: f64) -> OutputRequest {
         ),
         other => other.clone(),
     };
-    OutputRequest {
-        history_rows: request.history_rows.max(FEWEST_ROWS),
-        snapshots,
-        ..request.clone()
-    }
+    OutputRequest { history_rows: request.history_rows.max(MIN_ROWS), snapshots, ..request.clone() }
 }
 
 /// Returns the output request of a later contact, after a number of element updates.
@@ -218,7 +214,7 @@ fn later_request(
 ) -> OutputRequest {
     let share = ROWS_OF_ALL.saturating_mul(request.history_rows) / n_contacts.max(1);
     OutputRequest {
-        history_rows: share.min(request.history_rows).max(FEWEST_ROWS),
+        history_rows: share.min(request.history_rows).max(MIN_ROWS),
         snapshots: SnapshotRequest::none(),
         probes: Vec::new(),
         most_element_updates: request.most_element_updates.saturating_sub(element_updates),

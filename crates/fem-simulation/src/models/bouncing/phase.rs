@@ -14,7 +14,7 @@
 //! order; vibrations that decay in flight have less influence.
 
 /// Bounds above this are reported.
-pub(super) const LARGEST_SILENT_BOUND: f64 = 1e-3;
+pub(super) const MAX_SILENT_BOUND: f64 = 1e-3;
 
 /// Returns the bound of Δe from the energies (J) that the contact before and this one leave in vibrations, and the kinetic
 /// energy (J) before this one. It is 0 if nothing vibrates or the bodies stay together.

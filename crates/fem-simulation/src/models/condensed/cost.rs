@@ -7,24 +7,24 @@ use fem_material::{ActsOn, Material};
 use crate::estimate::viscous_flow::SlowdownFactors;
 
 /// Least number of steps per elastic contact time for bodies that flow.
-const FEWEST_STEPS: usize = 10;
+const MIN_STEPS: usize = 10;
 
 /// Loss of the moduli over the contact above which the force peaks early and needs smaller steps.
 const LOSS_OF_MODULI_OF_EARLY_PEAK: f64 = 0.8;
 /// Factor on the number of steps of such bodies.
 const MORE_OF_SOFTENED: usize = 4;
 /// Largest number of steps that the factor leads to.
-const MOST_STEPS_BY_FACTOR: usize = 1000;
+const MAX_STEPS_BY_FACTOR: usize = 1000;
 
 /// Returns the number of steps per elastic contact time for bodies that lose a share of their moduli in it. The steps are
 /// longer if the bodies stop later, and shorter if they relax to little.
 pub(super) fn n_steps(options: CondensedOptions, slower: SlowdownFactors, relaxed: f64) -> usize {
     let steps = match relaxed > LOSS_OF_MODULI_OF_EARLY_PEAK {
-        true => (MORE_OF_SOFTENED * options.steps).min(MOST_STEPS_BY_FACTOR).max(options.steps),
+        true => (MORE_OF_SOFTENED * options.steps).min(MAX_STEPS_BY_FACTOR).max(options.steps),
         false => options.steps,
     };
     let slowed = (steps as f64 / slower.stop).ceil() as usize;
-    slowed.max(FEWEST_STEPS.min(steps))
+    slowed.max(MIN_STEPS.min(steps))
 }
 
 /// A monitor that reports the share of the expected duration.
@@ -55,7 +55,7 @@ const BYTES_PER_KEPT_ELEMENT: u64 = 2_800;
 /// Bytes per element with its share of the factor and of the springs of a relaxing shear modulus.
 const BYTES_PER_RELAXING_ELEMENT: u64 = 7_000;
 /// Largest number of bytes per element.
-pub(crate) const MOST_BYTES: u64 = 8_000;
+pub(crate) const MAX_BYTES: u64 = 8_000;
 
 /// Returns whether condensed bodies need springs for the relaxation of a body.
 pub(crate) fn relaxes_in_shear(body: &Body) -> bool {
@@ -87,6 +87,6 @@ mod tests {
         };
         assert_eq!([0.0, 0.5, 0.9].map(|relaxed| steps(250, 1.0, relaxed)), [250, 250, 1000]);
         assert_eq!([100, 400, 8000].map(|own| steps(own, 1.0, 1.0)), [400, 1000, 8000]);
-        assert_eq!([5.0, 1e4].map(|stop| steps(250, stop, 1.0)), [200, FEWEST_STEPS]);
+        assert_eq!([5.0, 1e4].map(|stop| steps(250, stop, 1.0)), [200, MIN_STEPS]);
     }
 }

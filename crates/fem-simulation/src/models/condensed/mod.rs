@@ -20,7 +20,7 @@ use fem_material::PronySeries;
 use fem_material::engineering::Unit;
 use fem_mesh::SphereMesh;
 
-use self::cost::{ExpectedProgress, MOST_BYTES, expected_bytes, n_steps, relaxes_in_shear};
+use self::cost::{ExpectedProgress, MAX_BYTES, expected_bytes, n_steps, relaxes_in_shear};
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::effects::{Effect, MirrorSymmetry, PartnerWaves, Support, Vibration, decide};
 use crate::estimate::Estimate;
@@ -405,7 +405,7 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
 
 fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Rejection> {
     let elements = sources[0].n_elements()? + sources[1].n_elements()?;
-    let bytes = MOST_BYTES.saturating_mul(elements as u64);
+    let bytes = MAX_BYTES.saturating_mul(elements as u64);
     if bytes <= plan.max_memory {
         return Ok(());
     }

@@ -7,7 +7,7 @@ use fem_material::{Material, PronySeries};
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::approach::expected_duration;
 use crate::estimate::{Estimate, mach};
-use crate::models::condensed::cost::{MOST_BYTES, expected_bytes};
+use crate::models::condensed::cost::{MAX_BYTES, expected_bytes};
 use crate::models::method::Cost;
 use crate::plan::Plan;
 use crate::plan::limits::{check_elements, check_memory, check_updates, explicit_memory};
@@ -25,7 +25,7 @@ const SECONDS_AT_FINITE_STRAIN: f64 = 20e-9;
 const SECONDS_A_BRANCH_AT_FINITE_STRAIN: f64 = 7e-9;
 /// Additional seconds per element update with bulk viscosity.
 const SECONDS_OF_BULK_VISCOSITY: f64 = 5e-9;
-/// Seconds per step of springs between moved surfaces.
+/// Seconds per step of springs between deformed surfaces.
 const SECONDS_OF_MOVED_CONTACT: f64 = 6e-6;
 /// Seconds of the condensed reference runs per element.
 const SECONDS_OF_CONDENSED_REFERENCE: f64 = 30e-6;
@@ -95,7 +95,7 @@ fn with_reference_runs(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) 
 fn reference_memory(scene: &Scene, model: &ExplicitBodies, plan: &Plan) -> Option<u64> {
     let [lower, upper] = scene.bodies();
     let [of_lower, of_upper] = model.bodies().each_ref().map(|body| 4 * body.n_elements() as u64);
-    let are_allowed = MOST_BYTES * (of_lower + of_upper) <= plan.max_memory;
+    let are_allowed = MAX_BYTES * (of_lower + of_upper) <= plan.max_memory;
     (plan.makes_meshes && are_allowed)
         .then(|| expected_bytes([(lower, of_lower), (upper, of_upper)], false))
 }

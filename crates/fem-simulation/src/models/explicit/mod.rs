@@ -63,7 +63,7 @@ impl Method for ExplicitMethod {
         let plan = Plan::of(scene)?;
         let is_finite = FiniteStrain::is_on(scene, &plan.estimate);
         let mut file = plan.resolve(file);
-        // Contact between moved surfaces has springs of its own.
+        // Contact between deformed surfaces has springs of its own.
         if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
             contact.method = None;
         }
@@ -426,7 +426,7 @@ fn support(
         PartnerWaves::NAME | Gravity::NAME => Support::Inherent { idle: "" },
         BulkViscosity::NAME => Support::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),
-        // Contact between moved surfaces has it.
+        // Contact between deformed surfaces has it.
         SurfaceSlip::NAME if FiniteStrain::is_on(scene, estimate) => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
         PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => Support::Lacks,

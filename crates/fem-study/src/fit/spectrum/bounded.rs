@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 /// Weight of the constraints, over the norm of the data's rows.
 const HEAVY: f64 = 1e3;
 /// Ridge over that norm that makes every set of columns independent.
-const LEAST_RIDGE: f64 = 1e-8;
+const MIN_RIDGE: f64 = 1e-8;
 
 /// Residuals a w − b of restitutions, linear in the weights.
 #[derive(Debug, Clone)]
@@ -49,7 +49,7 @@ impl Linear {
         a.view_mut((0, 0), (m, n)).copy_from(&self.a);
         b.rows_mut(0, m).copy_from(&self.b);
         for k in 0..n {
-            a[(m + k, k)] = ridge.max(LEAST_RIDGE * scale);
+            a[(m + k, k)] = ridge.max(MIN_RIDGE * scale);
         }
         a.row_mut(m + n).fill(heavy);
         b[m + n] = heavy;

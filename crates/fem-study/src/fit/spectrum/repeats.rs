@@ -4,7 +4,7 @@
 //! of squares about the means of repeats, over the number of measurements less that of collisions.
 
 /// With fewer degrees of freedom than this a misfit cannot be distinguished from chance.
-const FEWEST_DEGREES_OF_FREEDOM: usize = 3;
+const MIN_DEGREES_OF_FREEDOM: usize = 3;
 
 /// The scatter of repeats.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ impl PureError {
     pub(super) fn misfit(&self, sum: f64, freedom: usize) -> Option<f64> {
         let own = self.error.powi(2) * self.degrees_of_freedom as f64;
         let lack = ((sum - own).max(0.0) / freedom.max(1) as f64).sqrt();
-        (self.degrees_of_freedom >= FEWEST_DEGREES_OF_FREEDOM && self.error > 0.0)
+        (self.degrees_of_freedom >= MIN_DEGREES_OF_FREEDOM && self.error > 0.0)
             .then(|| lack / self.error)
     }
 }

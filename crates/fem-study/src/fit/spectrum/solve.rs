@@ -16,8 +16,8 @@ use crate::fit::error::FitError;
 const STEP: f64 = 1e-3;
 /// The search ends when weights change by less.
 const STANDS: f64 = 1e-6;
-const MOST_STEPS: usize = 40;
-const MOST_HALVINGS: usize = 8;
+const MAX_STEPS: usize = 40;
+const MAX_HALVINGS: usize = 8;
 
 impl SpectrumProblem<'_> {
     /// Returns the best weights and their intervals at this level of confidence (such as 0.95).
@@ -132,12 +132,12 @@ impl<'a> Solver<'a> {
         };
         let start = vec![0.0; self.problem.times.len()];
         let mut state = State { restitutions: self.evaluate(&start)?, weights: start };
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let jacobian = self.jacobian(&state)?;
             let target = self.linear(&state, &jacobian).solve(ridge, None);
             let mut share = 1.0;
             let mut better = None;
-            for _ in 0..MOST_HALVINGS {
+            for _ in 0..MAX_HALVINGS {
                 let toward = |(from, to): (&f64, &f64)| from + share * (to - from);
                 let weights: Vec<f64> = state.weights.iter().zip(&target).map(toward).collect();
                 let tried = State { restitutions: self.evaluate(&weights)?, weights };
@@ -157,7 +157,7 @@ impl<'a> Solver<'a> {
                 return Ok((state, jacobian));
             }
         }
-        let reason = format!("the weights still move after {MOST_STEPS} steps");
+        let reason = format!("the weights still move after {MAX_STEPS} steps");
         Err(FitError::NotConverged { reason })
     }
 

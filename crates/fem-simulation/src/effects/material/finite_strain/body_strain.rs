@@ -1,7 +1,7 @@
 //! Effect of finite strain on one body of a collision.
 
 use fem_case::Scene;
-use fem_explicit::MOST_FINITE_STRAIN_TERMS;
+use fem_explicit::MAX_FINITE_STRAIN_TERMS;
 use fem_material::Material;
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 
@@ -10,7 +10,7 @@ use crate::estimate::Estimate;
 
 /// Largest Poisson's ratio that elements can compute at large strain. Its time step is a seventh of that at 0.495, with
 /// K = 5000 G as for natural rubber; beyond it the volume is nearly fixed and the time step vanishes.
-const LARGEST_POISSONS_RATIO: f64 = 0.4999;
+const MAX_POISSONS_RATIO: f64 = 0.4999;
 /// Change over the tolerance below which a body stays at small strain.
 const OWN_SHARE: f64 = 0.1;
 
@@ -92,7 +92,7 @@ impl<'a> BodyStrain<'a> {
     pub fn is_supported(&self) -> bool {
         // A ratio that follows from two moduli is rounded.
         let nu = self.material.instantaneous().poissons_ratio();
-        nu <= LARGEST_POISSONS_RATIO + 1e-9 && self.n_terms() <= MOST_FINITE_STRAIN_TERMS
+        nu <= MAX_POISSONS_RATIO + 1e-9 && self.n_terms() <= MAX_FINITE_STRAIN_TERMS
     }
 
     /// Returns the number of Prony terms with a history.
@@ -102,16 +102,16 @@ impl<'a> BodyStrain<'a> {
 
     pub fn why_unsupported(&self) -> String {
         let n_terms = self.n_terms();
-        if n_terms > MOST_FINITE_STRAIN_TERMS {
+        if n_terms > MAX_FINITE_STRAIN_TERMS {
             return format!(
-                "{} relaxes with {n_terms} terms, but elements support only {MOST_FINITE_STRAIN_TERMS} at \
+                "{} relaxes with {n_terms} terms, but elements support only {MAX_FINITE_STRAIN_TERMS} at \
                  large strain",
                 self.name
             );
         }
         let nu = (self.material.instantaneous().poissons_ratio() * 1e9).round() / 1e9;
         format!(
-            "Poisson's ratio {nu} of {} is above {LARGEST_POISSONS_RATIO}, the largest that elements \
+            "Poisson's ratio {nu} of {} is above {MAX_POISSONS_RATIO}, the largest that elements \
              support at large strain",
             self.name
         )

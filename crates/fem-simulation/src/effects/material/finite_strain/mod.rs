@@ -41,7 +41,7 @@ use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
 /// Smallest difference between laws that is reported, as a share of the contact time.
-const LEAST_REPORTED_SPREAD: f64 = 5e-5;
+const MIN_REPORTED_SPREAD: f64 = 5e-5;
 /// Approximate ratio of d ln(1 − e) to −d ln T for the loss by relaxation.
 const RELAXED_OVER_TIME: f64 = 0.5;
 /// Largest relative change of that loss by large strain over the square of the flatness: 1.0 % was found at 0.2 and 3.6 %
@@ -61,7 +61,7 @@ const MACH_OF_ALL_ELEMENTS: f64 = 1e-3;
 /// five and a half: 0.6 to 0.9 of (a/R)³.
 const LEFT_FAR_AWAY: f64 = 0.03;
 /// Number of contact radii within which all elements are at finite strain at any tolerance.
-const LEAST_RADIUS_OVER_CONTACT: f64 = 3.0;
+const MIN_RADIUS_OVER_CONTACT: f64 = 3.0;
 
 impl FiniteStrain {
     /// Returns the laws of both bodies at the strains of an estimate; `None` for a body that is computed at small strain.
@@ -91,7 +91,7 @@ impl FiniteStrain {
             && estimate.mach < MACH_OF_ALL_ELEMENTS
             && !is_forced_on(scene);
         let change = departure(scene, estimate).over(&scene.accuracy());
-        let radii = (change / LEFT_FAR_AWAY).cbrt().max(LEAST_RADIUS_OVER_CONTACT);
+        let radii = (change / LEFT_FAR_AWAY).cbrt().max(MIN_RADIUS_OVER_CONTACT);
         is_near.then_some(radii * estimate.contact_radius)
     }
 
@@ -224,7 +224,7 @@ fn laws_text(scene: &Scene, estimate: &Estimate) -> String {
     names.dedup();
     let names = names.join(" and ");
     let spread = spread(scene, estimate);
-    match spread > LEAST_REPORTED_SPREAD {
+    match spread > MIN_REPORTED_SPREAD {
         false => format!("law {names}"),
         true => format!(
             "law {names} by default (other laws change the contact time by {} {})",

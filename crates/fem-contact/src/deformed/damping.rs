@@ -13,10 +13,10 @@
 //! nodes per area, ½ρh, with h. The pressure never pulls. Dashpots damp the motion of that mass, which vanishes
 //! with the element size.
 
-use super::MovedInterface;
+use super::DeformedInterface;
 use super::common_refinement::GAUSS;
 
-impl MovedInterface {
+impl DeformedInterface {
     /// Adds dashpots of an impedance c ≥ 0, Pa s/m. The stiffness bound relies on them to dissipate the energy that springs
     /// gain by opening and closing, which takes an impedance of a few tenths of the critical one, 2√(k ½ρh).
     #[must_use]

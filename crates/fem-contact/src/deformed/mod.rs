@@ -9,7 +9,7 @@
 //! g(r) = y^{upper}(r) - y^{lower}(r), \qquad k = f E^* / h
 //! ```
 //!
-//! over the radius r of the *moved* surfaces. The forces are −∂Π/∂u with all that depends on u: the shape
+//! over the radius r of the *deformed* surfaces. The forces are −∂Π/∂u with all that depends on u: the shape
 //! functions at a given r, and the Gauss points and their weights, which move with the ends of their interval. A
 //! surface that moves by δ changes its height at a given radius by δy − y' δr, so
 //!
@@ -19,7 +19,7 @@
 //!
 //! p is the true pressure, on the true area and along the true normal of either surface, though the overlap is
 //! measured along y. Along the normal the overlap is g cos φ and the penalty k / cos φ; at a slope of 1 the
-//! penalty factor is in effect 1.4 times as large. k is per *moved* area, so that p follows from g alone, and h is
+//! penalty factor is in effect 1.4 times as large. k is per *deformed* area, so that p follows from g alone, and h is
 //! a length of the undeformed meshes, so that compression does not stiffen a spring.
 //!
 //! The common refinement of both curves is rebuilt in every configuration. An interval of it appears and vanishes
@@ -34,7 +34,7 @@
 //! arc between two nodes is carried along y, not along the normal: where the surface turns by φ, the arc's height
 //! over its chord is 1/cos φ of the true one, of second order in h.
 //!
-//! Dashpots ([`MovedInterface::with_damping`]) damp the oscillation of nodes on the springs.
+//! Dashpots ([`DeformedInterface::with_damping`]) damp the oscillation of nodes on the springs.
 //!
 //! Three Gauss points integrate a closed interval exactly (r g² is of the fifth degree), so that Π has no kink
 //! where nodes pass each other in the contact. With two points, coincident nodes of like meshes were held
@@ -55,7 +55,7 @@ use crate::surface::Surface;
 
 /// The deformed surfaces of two bodies, and the springs between them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MovedInterface {
+pub struct DeformedInterface {
     surfaces: [Surface; 2],
     /// Number of nodes of each surface that can touch, one more than lie within the candidate
     /// radius.
@@ -70,7 +70,7 @@ pub struct MovedInterface {
     impedance: f64,
 }
 
-impl MovedInterface {
+impl DeformedInterface {
     /// Creates an interface like [`ContactInterface::new`](crate::ContactInterface::new); all
     /// lengths are those of the undeformed bodies.
     ///

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::MovedInterface;
+use super::DeformedInterface;
 use super::segment::{Segment, SurfacePoint};
 use crate::interface::mean_length;
-use crate::straight_forces::SurfaceFold;
+use crate::undeformed_forces::SurfaceFold;
 
 /// Gauss points of an interval: offsets from its middle over the half length, and weights.
 pub(super) const GAUSS: [[f64; 2]; 3] =
@@ -39,7 +39,7 @@ pub(super) struct GaussPoint {
 /// Iterator over the intervals, along both surfaces. `U` maps a node to its displacement, m.
 #[derive(Clone)]
 pub(super) struct RefinementWalk<'a, U> {
-    interface: &'a MovedInterface,
+    interface: &'a DeformedInterface,
     displacement: [U; 2],
     /// Current segments; none if a surface folds at the axis.
     segments: Option<[Segment<'a>; 2]>,
@@ -50,7 +50,7 @@ pub(super) struct RefinementWalk<'a, U> {
     folded: Option<usize>,
 }
 
-impl MovedInterface {
+impl DeformedInterface {
     /// Returns the intervals for displacements (m) of the nodes of the lower and the upper body.
     pub(super) fn intervals<U: Fn(u32) -> [f64; 2]>(
         &self,
@@ -225,7 +225,7 @@ mod tests {
             [sphere(1.0, 0.011, Side::Above), Surface::rigid_sphere(1.5).unwrap(), Surface::wall()];
         for upper in others {
             let lower = sphere(2.0, 0.01, Side::Below);
-            let interface = MovedInterface::new(lower, upper, 1.0, 1e-4, 0.3).unwrap();
+            let interface = DeformedInterface::new(lower, upper, 1.0, 1e-4, 0.3).unwrap();
             let radii = interface.surfaces.each_ref().map(|surface| {
                 let of = surface.nodes.iter().zip(&surface.radii);
                 let mut radii =

@@ -1,4 +1,4 @@
-//! The diagonal bound of the contact stiffness, of moved surfaces.
+//! The diagonal bound of the contact stiffness, of deformed surfaces.
 
 use fem_contact::Surface;
 use fem_mesh::Side;
@@ -14,7 +14,7 @@ fn largest_quotient(scene: &Scene, u: &[Field; 2], is_wall: [bool; 2]) -> f64 {
     let (mut bound, mut freedoms) = (Vec::new(), Vec::new());
     for side in (0..2).filter(|side| !is_wall[*side]) {
         let mut of_side = vec![0.0; u[side].len()];
-        scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], 0.0, side, &mut of_side);
+        scene.interface.add_deformed_stiffness_bound([&u[0], &u[1]], 0.0, side, &mut of_side);
         for (k, node) in scene.interface.candidate_nodes(side).enumerate() {
             for axis in usize::from(k == 0)..2 {
                 freedoms.push((side, node as usize, axis));
@@ -93,7 +93,7 @@ fn stiffness_bound_counts_slopes_within_reach_only() {
     let bound = |reach: f64, place: &dyn Fn(f64) -> [f64; 2]| {
         let u = [scene.at_rest()[0].clone(), displace(&scene, &meshes[1], 1, place)];
         let mut bound = vec![0.0; meshes[1].nodes().len()];
-        scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], reach, 1, &mut bound);
+        scene.interface.add_deformed_stiffness_bound([&u[0], &u[1]], reach, 1, &mut bound);
         scene.interface.candidate_nodes(1).map(|node| bound[node as usize]).collect::<Vec<_>>()
     };
     let level = bound(0.0, &flat);

@@ -1,12 +1,12 @@
-//! Forces and energy of the springs between moved surfaces.
+//! Forces and energy of the springs between deformed surfaces.
 
 use std::f64::consts::PI;
 
-use super::MovedInterface;
+use super::DeformedInterface;
 use super::common_refinement::{GAUSS, GaussPoint, Interval};
-use crate::straight_forces::ContactForces;
+use crate::undeformed_forces::ContactForces;
 
-impl MovedInterface {
+impl DeformedInterface {
     /// Adds the contact forces (N) of displacements `u` (m) to `f`; both are given for the lower and
     /// the upper body, one pair (r, y) per node.
     ///

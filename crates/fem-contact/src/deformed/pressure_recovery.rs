@@ -1,12 +1,12 @@
-//! Contact radius and pressure of moved surfaces in the deformed configuration.
+//! Contact radius and pressure of deformed surfaces in the deformed configuration.
 
-use super::MovedInterface;
+use super::DeformedInterface;
 use super::common_refinement::{GAUSS, Interval};
 use crate::pressure::{coarser, radius_and_pressure, recovery_surfaces};
 use crate::pressure_recovery::{ContactEnforcement, contact_radius};
 use crate::profile::{N_BEYOND, Profile};
 
-impl MovedInterface {
+impl DeformedInterface {
     /// Returns the current distance from the axis at which the pressure falls to zero, m; 0 without contact: see
     /// [`contact_radius`](crate::contact_radius).
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {

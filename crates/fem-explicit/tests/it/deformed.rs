@@ -4,7 +4,7 @@ use crate::common::{Pair, Quantities, quantities};
 use fem_collision::{
     Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
 };
-use fem_explicit::{Contact, ExplicitBodies, ModelParts, MovedContact, Run, Settings, collide};
+use fem_explicit::{Contact, DeformedContact, ExplicitBodies, ModelParts, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side};
@@ -16,7 +16,7 @@ fn model(
     settings: &Settings,
     is_moved: bool,
 ) -> ExplicitBodies {
-    let moved = is_moved.then(|| MovedContact::new(&bodies, approach.gap(), settings).unwrap());
+    let moved = is_moved.then(|| DeformedContact::new(&bodies, approach.gap(), settings).unwrap());
     let contact = moved.map(|contact| Box::new(contact) as Box<dyn Contact>);
     ExplicitBodies::with_parts(
         bodies,
@@ -219,7 +219,7 @@ fn folding_surface_stops_the_run() {
     assert!(run.history.iter().all(|row| row.contact_force.is_finite()));
 }
 
-/// A body at finite strain meets a wall, a rigid sphere or a body at small strain on moved surfaces, unasked;
+/// A body at finite strain meets a wall, a rigid sphere or a body at small strain on deformed surfaces, unasked;
 /// bodies at small strain do not. Energy and momentum are kept, the largest force is no ringing, and a run
 /// in pieces is the same.
 #[test]

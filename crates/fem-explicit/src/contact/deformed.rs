@@ -1,4 +1,4 @@
-//! Springs and dashpots of [`fem_contact`] between the moved surfaces, as a contact.
+//! Springs and dashpots of [`fem_contact`] between the deformed surfaces, as a contact.
 //!
 //! The springs have no history. The dashpots take the velocity of half a step before, as bulk viscosity does. Their
 //! force and the work done against it are the two fields of history. The work
@@ -12,7 +12,7 @@
 use std::any::Any;
 
 use fem_collision::{Account, BodyInput, CandidateRegion};
-use fem_contact::{ContactError, ContactForces, MovedInterface, Profile};
+use fem_contact::{ContactError, ContactForces, DeformedInterface, Profile};
 
 use super::Contact;
 use super::springs::{mass_ratio, surface};
@@ -26,11 +26,11 @@ const DAMPING_RATIO: f64 = 0.3;
 
 /// Contact between the surfaces of two bodies in their present places, for [`ModelParts`](crate::ModelParts).
 #[derive(Debug, Clone)]
-pub struct MovedContact {
-    interface: MovedInterface,
+pub struct DeformedContact {
+    interface: DeformedInterface,
 }
 
-impl MovedContact {
+impl DeformedContact {
     /// Makes the contact that settings ask for; `gap` (m) separates the poles.
     ///
     /// The impedance of the dashpots is 2ξ √(k m) = ξ √(2K / Σ 1/ρ), with k = K/h and the masses ½ρh of both sides of
@@ -47,7 +47,7 @@ impl MovedContact {
         let (lower, upper) = (surface(lower)?, surface(upper)?);
         let &Settings { contact_stiffness, candidate_radius, .. } = settings;
         let interface =
-            MovedInterface::new(lower, upper, contact_stiffness, gap, candidate_radius)?;
+            DeformedInterface::new(lower, upper, contact_stiffness, gap, candidate_radius)?;
         let materials = inputs.iter().filter_map(BodyInput::material);
         let inverse_density: f64 = materials.map(|material| material.density().recip()).sum();
         let impedance = DAMPING_RATIO * (2.0 * contact_stiffness / inverse_density).sqrt();
@@ -70,14 +70,14 @@ impl MovedContact {
     }
 }
 
-impl Part for MovedContact {
+impl Part for DeformedContact {
     /// Two: the force of the dashpots in the next step (N), and the work done against it so far (J).
     fn n_history(&self) -> usize {
         2
     }
 }
 
-impl Contact for MovedContact {
+impl Contact for DeformedContact {
     fn candidate_region(&self) -> CandidateRegion {
         let (radius, n_points) = (self.interface.candidate_radius(), self.interface.n_points());
         CandidateRegion { radius, n_points, at_nodes: false }

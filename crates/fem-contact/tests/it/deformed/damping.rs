@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use fem_contact::{MovedInterface, Surface};
+use fem_contact::{DeformedInterface, Surface};
 use fem_mesh::Side;
 use nalgebra::DMatrix;
 
@@ -30,7 +30,7 @@ fn power(f: &[Field; 2], v: &[Field; 2]) -> f64 {
     both.as_flattened().iter().zip(v.concat().as_flattened()).map(|(f, v)| f * v).sum()
 }
 
-/// A stretched disc comes down on a wall at v: cv on its moved area, whatever its depth. Sliding along the
+/// A stretched disc comes down on a wall at v: cv on its deformed area, whatever its depth. Sliding along the
 /// wall it is not damped. Moving off faster than kδ/c it takes all of the springs' force and never pulls.
 #[test]
 fn dashpot_force_of_a_disc_is_impedance_times_velocity() {
@@ -127,7 +127,7 @@ fn bound_is_never_below_the_dashpots() {
 #[test]
 fn dashpots_halve_the_stiffness_bound() {
     let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
-    let bound = |interface: &MovedInterface| {
+    let bound = |interface: &DeformedInterface| {
         let mut bound = vec![0.0; mesh.nodes().len()];
         interface.add_stiffness_bound(1, &mut bound);
         bound
@@ -138,7 +138,7 @@ fn dashpots_halve_the_stiffness_bound() {
     assert!(of_plain.iter().any(|bound| *bound > 0.0));
 }
 
-/// The bounds of the moved surfaces are those of the undeformed ones plus their growth, for a stretched disc that of
+/// The bounds of the deformed surfaces are those of the undeformed ones plus their growth, for a stretched disc that of
 /// its area.
 #[test]
 fn stiffness_and_damping_bounds_grow_with_the_stretched_area() {
@@ -152,7 +152,7 @@ fn stiffness_and_damping_bounds_grow_with_the_stretched_area() {
     let before = [stiffness.clone(), damping.clone()];
     scene.interface.add_bound_growth([&u[0], &u[1]], 0.0, 1, &mut stiffness, &mut damping);
     let mut moved = vec![0.0; mesh.nodes().len()];
-    scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], 0.0, 1, &mut moved);
+    scene.interface.add_deformed_stiffness_bound([&u[0], &u[1]], 0.0, 1, &mut moved);
     for (k, [after, expected]) in stiffness.iter().zip(&moved).map(|(a, b)| [a, b]).enumerate() {
         assert!((after - expected).abs() <= 1e-14 * expected, "{k}: {after} {expected}");
     }

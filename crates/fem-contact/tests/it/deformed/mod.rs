@@ -1,4 +1,4 @@
-//! Contact between moved surfaces.
+//! Contact between deformed surfaces.
 
 mod bound;
 mod damping;
@@ -6,21 +6,21 @@ mod forces;
 mod geometry;
 mod search;
 
-use fem_contact::{ContactForces, MovedInterface, Surface};
+use fem_contact::{ContactForces, DeformedInterface, Surface};
 use fem_mesh::SphereMesh;
 
 use crate::common::{Field, STIFFNESS, noise};
 
 /// Two surfaces and the numbers of nodes of their bodies.
 pub struct Scene {
-    pub interface: MovedInterface,
+    pub interface: DeformedInterface,
     pub n_nodes: [usize; 2],
 }
 
 impl Scene {
     pub fn new(surfaces: [Surface; 2], n_nodes: [usize; 2], candidate_radius: f64) -> Self {
         let [lower, upper] = surfaces;
-        let interface = MovedInterface::new(lower, upper, STIFFNESS, 0.0, candidate_radius);
+        let interface = DeformedInterface::new(lower, upper, STIFFNESS, 0.0, candidate_radius);
         Self { interface: interface.unwrap(), n_nodes }
     }
 

@@ -1,4 +1,4 @@
-//! A segment of a moved surface.
+//! A segment of a deformed surface.
 
 use crate::surface::Surface;
 

@@ -1,6 +1,6 @@
 //! The limits of the candidate region, and folds of the surface.
 
-use fem_contact::{MovedInterface, Surface};
+use fem_contact::{DeformedInterface, Surface};
 use fem_mesh::Side;
 
 use super::Scene;
@@ -33,7 +33,7 @@ fn is_closed_agrees_with_the_moved_contact_forces() {
 fn the_gap_separates_the_poles() {
     let meshes = glass_pair([30e-6, 30e-6]);
     let [lower, upper] = meshes.each_ref().map(Surface::of_sphere);
-    let apart = MovedInterface::new(lower, upper, STIFFNESS, 3e-6, 0.4e-3).unwrap();
+    let apart = DeformedInterface::new(lower, upper, STIFFNESS, 3e-6, 0.4e-3).unwrap();
     let together = Scene::pair(&meshes, 0.4e-3);
     let u = [rigid(&meshes[0], 8e-6), rigid(&meshes[1], 0.0)];
     let mut f = together.at_rest();

@@ -1,6 +1,6 @@
 //! A bound of the stiffness and damping of the contact, for the critical time step.
 
-use super::MovedInterface;
+use super::DeformedInterface;
 use super::common_refinement::{GaussPoint, Interval};
 use super::segment::Segment;
 use crate::interface::OPENING_SAFETY;
@@ -12,10 +12,10 @@ use crate::surface::STEEPEST;
 /// step. A factor of 4 keeps it equally well with 1.28 times as many steps.
 const DAMPED_OPENING_SAFETY: f64 = 2.0;
 
-impl MovedInterface {
+impl DeformedInterface {
     /// Adds a bound of the contact stiffness of the undeformed surfaces at each node (N/m) of a side (0
     /// lower, 1 upper), for any closed points and slopes up to 1, the limit of a contact at small strain. See
-    /// [`MovedInterface::add_moved_stiffness_bound`].
+    /// [`DeformedInterface::add_deformed_stiffness_bound`].
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
         let per_area = self.springs_per_area();
         self.add_bound(AT_REST, side, steepness_at_rest, per_area, bound);
@@ -34,7 +34,7 @@ impl MovedInterface {
     /// Two terms are neglected: geometric stiffness by the pressure (p A over the length of a segment, so −g/h
     /// of the spring) and the motion of the intervals' ends. Up to overlaps of a segment's length, or half of
     /// one with dashpots, the safety factor for opening and closing covers them.
-    pub fn add_moved_stiffness_bound(
+    pub fn add_deformed_stiffness_bound(
         &self,
         u: [&[[f64; 2]]; 2],
         reach: f64,
