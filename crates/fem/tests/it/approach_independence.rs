@@ -45,7 +45,8 @@ fn a_summary_belongs_to_its_approach() {
                 let value = &found[key];
                 assert_eq!(value, &expected[key], "{name}: {key}");
             }
-            let strain = slow.warnings(&collision).iter().any(|w| w.contains("choice of an elastic law"));
+            let strain =
+                slow.warnings(&collision).iter().any(|w| w.contains("choice of an elastic law"));
             assert_eq!(strain, approach == fast(), "{name}");
         }
     }
