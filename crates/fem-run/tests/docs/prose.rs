@@ -76,7 +76,7 @@ const HARD: &str =
 const SAID: [Said; 13] = [
     Said {
         page: "README.md",
-        words: "about 7 % of the relative velocity is lost",
+        words: "about 7 % of the relative velocity and 3 % of the force",
         cases: &[GLASS],
         what: lost_speed,
         from_to: (0.065, 0.075),

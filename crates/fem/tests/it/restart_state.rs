@@ -106,7 +106,7 @@ fn a_checkpoint_keeps_every_field_and_bit() {
         all.extend(shown_fields(&format!("{:#?}", states[2])));
     }
     // The innermost fields are among those that were compared.
-    for name in ["contact", "bounces", "displacement", "history", "recorder", "standstill", "rows"]
+    for name in ["contact", "bounces", "displacement", "history", "recorder", "rest_criterion", "rows"]
     {
         assert!(all.contains(name), "{name} in {all:?}");
     }
@@ -241,8 +241,8 @@ fn parts_that_contradict_each_other_are_refused() {
     let resume = |state: &Value| simulation.resume(serde_json::from_value(state.clone()).unwrap());
     assert!(resume(&whole).is_ok());
     for (end, other) in [
-        ("/sampled/standstill/speed", 0.02.into()),
-        ("/sampled/standstill/reduced_mass", 1.0.into()),
+        ("/sampled/rest_criterion/speed", 0.02.into()),
+        ("/sampled/rest_criterion/reduced_mass", 1.0.into()),
         ("/request/history_rows", 0.into()),
         ("/recorder/request/Times/0", 2.5e-5.into()),
         ("/approach/gap", 1.0.into()),
