@@ -106,7 +106,8 @@ fn a_checkpoint_keeps_every_field_and_bit() {
         all.extend(shown_fields(&format!("{:#?}", states[2])));
     }
     // The innermost fields are among those that were compared.
-    for name in ["contact", "bounces", "displacement", "history", "recorder", "rest_criterion", "rows"]
+    for name in
+        ["contact", "bounces", "displacement", "history", "recorder", "rest_criterion", "rows"]
     {
         assert!(all.contains(name), "{name} in {all:?}");
     }
