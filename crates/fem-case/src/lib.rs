@@ -66,12 +66,14 @@ pub use fem_material::engineering;
 pub use quantity::units::{Dimension, UnitError, parse_quantity};
 pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Length, Number, Quantity, QuantityError,
-    QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
+    QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, SurfaceEnergy, Time, Viscosity,
 };
 pub use scene::body::{Body, Shape};
 pub use scene::defaults;
 pub use scene::model::{CondensedOptions, ModelChoice};
-pub use scene::{Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, impact_speed};
+pub use scene::{
+    Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, WorkOfAdhesion, impact_speed,
+};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
 pub use source::similar_words::nearest;
 pub use sweep::Sweep;

@@ -11,7 +11,8 @@
 //!
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. The error of a
 //! neglected effect is an [`ImpactDifference`] of two impacts, or a [`RelativeError`] in closed form: for
-//! relaxation that is not integrated in time ([`FastSlowLimits`]) and for a [`rigid_partner`]. One law a
+//! relaxation that is not integrated in time ([`FastSlowLimits`]) and for a [`rigid_partner`]. [`FirstYield`] and
+//! [`Adhesion`] give the [`ImpactQuantities`] of impacts that no law here computes in time. One law a
 //! file; [`LawFamily`] lists them by name, with their parameters. Everything is SI; forces and pressures of
 //! a closed contact are positive, stresses are positive in tension.
 //!
@@ -38,6 +39,7 @@
 //! # }
 //! ```
 
+mod adhesion;
 mod difference;
 mod error;
 mod family;
@@ -55,6 +57,7 @@ mod radiation;
 mod surface_slip;
 mod ting;
 
+pub use adhesion::{Adhesion, RANGE_OF_ATTRACTION};
 pub use difference::{ImpactDifference, RelativeError, rigid_partner};
 pub use error::LawError;
 pub use family::{
@@ -66,7 +69,7 @@ pub use finite_size::FiniteSize;
 pub use hertz::{
     AxisStress, HertzImpact, HertzInstant, HertzPressure, StaticHertz, contact_time_coefficient,
 };
-pub use impact::{Impact, ImpactInstant, ImpactPath};
+pub use impact::{Impact, ImpactInstant, ImpactPath, ImpactQuantities};
 pub use law_impact::LawImpact;
 pub use laws::EndRule;
 pub use numerics::bisection;

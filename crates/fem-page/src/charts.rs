@@ -129,7 +129,7 @@ fn colour(account: Account) -> usize {
         Account::Contact => 2,
         Account::ViscousDissipation => 3,
         Account::BulkViscosity | Account::Potential => 4,
-        Account::ContactDamping | Account::LeftBefore => 5,
+        Account::ContactDamping | Account::LeftBefore | Account::Adhesion => 5,
         Account::Radiated | Account::WallWork => 6,
     }
 }

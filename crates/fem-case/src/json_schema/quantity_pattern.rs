@@ -13,6 +13,7 @@ const LENGTH: [i32; 4] = [1, 0, 0, 0];
 const MASS: [i32; 4] = [0, 1, 0, 0];
 const TIME: [i32; 4] = [0, 0, 1, 0];
 const FORCE: [i32; 4] = [1, 1, -2, 0];
+const ENERGY: [i32; 4] = [2, 1, -2, 0];
 const VOLUME: [i32; 4] = [3, 0, 0, 0];
 
 /// Returns the regular expression for strings of a dimension (metre, kilogram, second, byte).
@@ -34,7 +35,10 @@ pub(crate) fn pattern(dimension: [i32; 4]) -> String {
             forms.push(per(&mass, &of(VOLUME)));
         }
         [-1, 1, -2, 0] => forms.push(per(&of(FORCE), &format!("{length}{square}"))),
-        [0, 1, -2, 0] => forms.push(per(&of(FORCE), &length)),
+        [0, 1, -2, 0] => {
+            forms.push(per(&of(FORCE), &length));
+            forms.push(per(&of(ENERGY), &format!("{length}{square}")));
+        }
         [0, 1, -1, 0] => forms.push(per(&mass, &time)),
         [0, 0, -1, 0] => forms.push(per("1?", &time)),
         _ => {}

@@ -13,7 +13,14 @@ use crate::schema::model_tables::{LawKey, LawTable};
 const RANGES: &[(&str, &[&str], Range)] = &[
     (
         "MaterialTable",
-        &["density", "youngs_modulus", "shear_modulus", "bulk_modulus", "yield_strength"],
+        &[
+            "density",
+            "youngs_modulus",
+            "shear_modulus",
+            "bulk_modulus",
+            "yield_strength",
+            "surface_energy",
+        ],
         Range::POSITIVE,
     ),
     ("MaterialTable", &["poissons_ratio"], Range::POISSONS_RATIO),
@@ -24,6 +31,7 @@ const RANGES: &[(&str, &[&str], Range)] = &[
     ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"], Range::POSITIVE),
     ("MeshTable", &["growth"], Range::GROWTH),
     ("ContactTable", &["penalty_factor"], Range::POSITIVE),
+    ("ContactTable", &["work_of_adhesion"], Range::NOT_NEGATIVE),
     ("TimeTable", &["step_factor"], Range::STEP_FACTOR),
     ("TimeTable", &["mass_scaling"], Range::MASS_SCALING),
     ("StopTable", &["bounces"], Range::BOUNCES),

@@ -130,6 +130,7 @@ pub fn table_text(name: &str) -> Option<String> {
     line("bulk_modulus", table.bulk_modulus.as_ref().map(written));
     line("poissons_ratio", table.poissons_ratio.as_ref().map(written));
     line("yield_strength", table.yield_strength.as_ref().map(written));
+    line("surface_energy", table.surface_energy.as_ref().map(written));
     line("hyperelastic", table.hyperelastic.map(|law| format!("{:?}", law.word())));
     if let Some(relaxation) = &table.relaxation {
         let acts_on = relaxation.acts_on.word();

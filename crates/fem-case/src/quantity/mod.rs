@@ -74,6 +74,7 @@ kinds! {
     Stress, "a pressure", [-1, 1, -2, 0], "Pa", "\"63 GPa\"";
     Time, "a time", [0, 0, 1, 0], "s", "\"10 us\"";
     Stiffness, "a stiffness", [0, 1, -2, 0], "N/m", "\"1e7 N/m\"";
+    SurfaceEnergy, "a surface energy", [0, 1, -2, 0], "J/m^2", "\"50 mJ/m^2\"";
     Damping, "a damping coefficient", [0, 1, -1, 0], "N s/m", "\"30 N s/m\"";
     Viscosity, "a viscosity", [-1, 1, -1, 0], "Pa s", "\"1e4 Pa s\"";
     Rate, "a rate", [0, 0, -1, 0], "1/s", "\"2708 1/s\"";

@@ -13,6 +13,7 @@ pub struct Body {
     pub(crate) velocity: f64,
     pub(crate) held: bool,
     pub(crate) yield_strength: Option<f64>,
+    pub(crate) surface_energy: Option<f64>,
     pub(crate) unpublished_loss: Option<String>,
 }
 
@@ -40,6 +41,11 @@ impl Body {
     /// Returns the yield strength of the material, Pa, > 0, if the case gives one.
     pub fn yield_strength(&self) -> Option<f64> {
         self.yield_strength
+    }
+
+    /// Returns the surface energy of the material, J/m², > 0, if the case gives one.
+    pub fn surface_energy(&self) -> Option<f64> {
+        self.surface_energy
     }
 
     /// Returns the name of the material, without `lib:`, if it is the library's, without a published loss, and the case

@@ -46,6 +46,10 @@ pub const LAW_TOLERANCE: f64 = LawImpact::DEFAULT_TOLERANCE;
 /// End of the contact of `model.law`.
 pub const LAW_END: EndRule = EndRule::ZeroForce;
 
+/// Typical surface energy of dry solids held by van der Waals forces, J/m². It only tells whether adhesion may matter in a
+/// case that gives none, and is written into no case.
+pub const TYPICAL_SURFACE_ENERGY: f64 = 0.05;
+
 /// Returns the default tolerances.
 pub fn accuracy() -> Accuracy {
     Accuracy::within(TOLERANCE)

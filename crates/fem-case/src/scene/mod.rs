@@ -24,6 +24,7 @@ pub struct Scene {
     pub(crate) mesh: MeshSettings,
     pub(crate) contact_method: Option<ContactMethod>,
     pub(crate) penalty_factor: Option<f64>,
+    pub(crate) work_of_adhesion: Option<f64>,
     pub(crate) step_factor: Option<f64>,
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
@@ -72,6 +73,21 @@ impl Scene {
     /// Returns the factor on the default normal penalty stiffness per area, > 0.
     pub fn penalty_factor(&self) -> Option<f64> {
         self.penalty_factor
+    }
+
+    /// Returns the work of adhesion of the pair: that of the case, or 2√(γ₁γ₂) of the surface energies of both materials,
+    /// twice that of like ones. A wall takes the surface energy of the other body.
+    pub fn work_of_adhesion(&self) -> WorkOfAdhesion {
+        let energies = [0, 1].map(|k| {
+            let (own, other) = (&self.bodies[k], &self.bodies[1 - k]);
+            own.surface_energy.or(other.surface_energy.filter(|_| own.shape == Shape::Wall))
+        });
+        let of_pair = match energies {
+            [Some(lower), Some(upper)] => Some(2.0 * lower.sqrt() * upper.sqrt()),
+            _ => None,
+        };
+        let typical = WorkOfAdhesion::Typical(2.0 * defaults::TYPICAL_SURFACE_ENERGY);
+        self.work_of_adhesion.or(of_pair).map_or(typical, WorkOfAdhesion::Given)
     }
 
     /// Returns the factor on the critical time step, in (0, 1].
@@ -277,6 +293,23 @@ impl Scene {
             let curvature = body.diameter().map_or(0.0, |diameter| 2.0 / diameter);
             SlipSurface::new(curvature, body.material())
         }))
+    }
+}
+
+/// The work of adhesion of a pair, J/m².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WorkOfAdhesion {
+    /// The work that the case gives, ≥ 0.
+    Given(f64),
+    /// A typical value, for a case that gives none.
+    Typical(f64),
+}
+
+impl WorkOfAdhesion {
+    /// Returns the work, J/m².
+    pub fn value(self) -> f64 {
+        let (Self::Given(work) | Self::Typical(work)) = self;
+        work
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::{Density, Number, Quantity, Rate, Stress, Time};
+use crate::quantity::{Density, Number, Quantity, Rate, Stress, SurfaceEnergy, Time};
 use crate::schema::macros::keywords;
 
 /// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation.
@@ -27,6 +27,9 @@ pub struct MaterialTable {
     /// Yield strength in uniaxial tension, > 0. It only serves a warning: no model includes plasticity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_strength: Option<Quantity<Stress>>,
+    /// Surface energy of one surface, > 0. It serves the estimate of adhesion and the decision whether bodies stick.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_energy: Option<Quantity<SurfaceEnergy>>,
     /// Hyperelastic law at finite strain; `"neo-hooke"` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hyperelastic: Option<HyperelasticLaw>,
@@ -76,6 +79,7 @@ impl MaterialTable {
             bulk_modulus: None,
             poissons_ratio: None,
             yield_strength: None,
+            surface_energy: None,
             hyperelastic: None,
             relaxation: None,
         }

@@ -13,7 +13,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::{Acceleration, Bytes, Count, Length, Number, Quantity, QuantityKind, Time};
+use crate::quantity::{
+    Acceleration, Bytes, Count, Length, Number, Quantity, QuantityKind, SurfaceEnergy, Time,
+};
 use crate::schema::macros::{keywords, optional_keys};
 
 pub use crate::schema::accuracy_table::*;
@@ -50,7 +52,7 @@ pub struct CaseFile {
     /// Element sizes of the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshTable>,
-    /// Contact method and penalty stiffness.
+    /// Contact method, penalty stiffness and work of adhesion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactTable>,
     /// Length of the time step.
@@ -156,12 +158,14 @@ optional_keys! {
 }
 
 optional_keys! {
-    /// `[contact]`: the contact method and the stiffness of its penalty springs.
+    /// `[contact]`: the contact method, the stiffness of its penalty springs, and the adhesion of the pair.
     ContactTable, "a table [contact]" {
         /// Positions of the penalty springs and the nodes that they act on.
         method: ContactMethod,
         /// Factor on the default normal penalty stiffness per area, > 0.
         penalty_factor: Quantity<Number>,
+        /// Work of adhesion of the pair, >= 0; by default it follows from the surface energies of the materials.
+        work_of_adhesion: Quantity<SurfaceEnergy>,
     }
 }
 

@@ -6,6 +6,7 @@ use fem_material::Material;
 use fem_material::engineering::show;
 
 use super::Check;
+use super::materials::CheckedMaterial;
 use crate::error::CaseError;
 use crate::library;
 use crate::quantity::range::Range;
@@ -29,8 +30,6 @@ impl Check<'_> {
         for (name, table) in &file.material {
             let path = join("material", &quote_key(name));
             materials.insert(name.as_str(), self.material(&path, table)?);
-            let strength = table.yield_strength.as_ref();
-            self.optional(&join(&path, "yield_strength"), strength, Range::POSITIVE)?;
         }
         let [lower, upper] = file.body.as_slice() else {
             let count = file.body.len();
@@ -83,24 +82,18 @@ impl Check<'_> {
         let lower = (lower, lower_shape, 0.0 + lower_speed);
         let upper = (upper, upper_shape, 0.0 - upper_speed);
         let body = |(table, shape, velocity): (&BodyTable, _, _)| {
-            Ok(Body {
+            let material = table.material.as_ref().and_then(|name| materials.get(name.as_str()));
+            Body {
                 name: table.name.clone(),
                 shape,
                 velocity,
                 held: table.held.unwrap_or_default(),
-                yield_strength: self.yield_strength(file, table)?,
+                yield_strength: material.and_then(|material| material.yield_strength),
+                surface_energy: material.and_then(|material| material.surface_energy),
                 unpublished_loss: unpublished_loss(file, table),
-            })
+            }
         };
-        Ok([body(lower)?, body(upper)?])
-    }
-
-    /// Returns the yield strength of a body's material, Pa.
-    fn yield_strength(&self, file: &CaseFile, body: &BodyTable) -> Result<Option<f64>, CaseError> {
-        let Some(name) = &body.material else { return Ok(None) };
-        let path = join(&join("material", &quote_key(name)), "yield_strength");
-        let given = file.material.get(name).and_then(|table| table.yield_strength.as_ref());
-        self.optional(&path, given, Range::POSITIVE)
+        Ok([body(lower), body(upper)])
     }
 
     /// Returns the shape and the approach speed, m/s.
@@ -108,7 +101,7 @@ impl Check<'_> {
         &self,
         path: &str,
         table: &BodyTable,
-        materials: &BTreeMap<&str, Material>,
+        materials: &BTreeMap<&str, CheckedMaterial>,
     ) -> Result<(Shape, f64), CaseError> {
         let at = |key: &str| join(path, key);
         if table.name.is_empty() || !table.name.chars().all(is_bare) {
@@ -184,7 +177,7 @@ impl Check<'_> {
         &self,
         path: &str,
         table: &BodyTable,
-        materials: &BTreeMap<&str, Material>,
+        materials: &BTreeMap<&str, CheckedMaterial>,
     ) -> Result<Material, CaseError> {
         let is_own = |name: &&str| !library::is_of_library(name);
         let names: Vec<_> = materials.keys().copied().filter(is_own).collect();
@@ -198,7 +191,8 @@ impl Check<'_> {
                 .lacking("material")
                 .with_help(format!("name a material; {known}")));
         };
-        materials.get(name.as_str()).cloned().ok_or_else(|| {
+        let material = materials.get(name.as_str()).map(|checked| checked.material.clone());
+        material.ok_or_else(|| {
             let error =
                 self.error(&join(path, "material"), format!("there is no material \"{name}\""));
             if library::is_of_library(name) {

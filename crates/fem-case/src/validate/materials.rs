@@ -8,13 +8,22 @@ use crate::quantity::range::Range;
 use crate::schema::{MaterialTable, RelaxationTable};
 use crate::source::toml_syntax::join;
 
+/// The numbers of a material's table.
+pub(super) struct CheckedMaterial {
+    pub material: Material,
+    /// Yield strength, Pa.
+    pub yield_strength: Option<f64>,
+    /// Surface energy, J/m².
+    pub surface_energy: Option<f64>,
+}
+
 impl Check<'_> {
-    /// Returns the material of the table at `path`.
+    /// Returns the numbers of the table at `path`.
     pub(super) fn material(
         &self,
         path: &str,
         table: &MaterialTable,
-    ) -> Result<Material, CaseError> {
+    ) -> Result<CheckedMaterial, CaseError> {
         let at = |key: &str| join(path, key);
         let density = self.number(&at("density"), &table.density, Range::ANY)?;
         let (youngs_modulus, shear_modulus) = (&table.youngs_modulus, &table.shear_modulus);
@@ -48,9 +57,15 @@ impl Check<'_> {
             None => None,
         };
         let material = Material::new(density, elastic, relaxation).map_err(place)?;
-        Ok(match table.hyperelastic {
+        let material = match table.hyperelastic {
             Some(law) => material.with_law(law.into()),
             None => material,
+        };
+        let (strength, energy) = (table.yield_strength.as_ref(), table.surface_energy.as_ref());
+        Ok(CheckedMaterial {
+            material,
+            yield_strength: self.optional(&at("yield_strength"), strength, Range::POSITIVE)?,
+            surface_energy: self.optional(&at("surface_energy"), energy, Range::POSITIVE)?,
         })
     }
 

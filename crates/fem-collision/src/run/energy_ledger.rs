@@ -36,6 +36,8 @@ pub enum Account {
     /// Energy that earlier contacts left in the bodies, in vibrations and in stress that had not
     /// relaxed. The next contact is computed as if the bodies were at rest.
     LeftBefore,
+    /// Kinetic energy of the separation that adhesion prevents.
+    Adhesion,
 }
 
 /// The side of the energy balance on which an account is entered.
@@ -74,6 +76,7 @@ const LINES: &[(Account, &str, BalanceSide, ShownIn)] = &[
     (Account::Radiated, "radiated", BalanceSide::Lost, ShownIn::WhereFilled),
     (Account::Potential, "potential", BalanceSide::Held, ShownIn::WhereFilled),
     (Account::LeftBefore, "left_before", BalanceSide::Held, ShownIn::WhereFilled),
+    (Account::Adhesion, "adhesion", BalanceSide::Lost, ShownIn::WhereFilled),
 ];
 
 impl Account {

@@ -1,8 +1,10 @@
 //! The result of a collision, of the same form for every model, and its interpolation in time.
 
 mod path;
+mod quantities;
 
 pub use path::ImpactPath;
+pub use quantities::ImpactQuantities;
 
 /// Summary and history of one collision, from first touch to the end of contact.
 #[derive(Debug, Clone, PartialEq)]

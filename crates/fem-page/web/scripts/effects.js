@@ -7,6 +7,7 @@ export const EFFECT_WORDS = {
   'finite strain': 'At strains of several per cent, the deformed shape matters for strains and contact.',
   'surface slip': 'Surfaces of different stiffness slide on each other as they are pressed together.',
   'plastic yield': 'Above its yield strength a material deforms permanently. No model here computes that; this says when it would happen.',
+  'adhesion': 'Surfaces attract each other. No model here computes that; this says below which speed the bodies would stick.',
   'partner waves': 'Waves in a large partner do not return within the contact: their energy is lost to the collision.',
   'mirror symmetry': 'Two equal bodies are mirror images of each other, so only one is computed.',
   'rigid partner': 'A much stiffer partner hardly deforms and is treated as rigid.',
@@ -35,4 +36,5 @@ export const ACCOUNT_WORDS = {
   radiated: 'waves that do not return',
   potential: 'height',
   left_before: 'energy left in the bodies by earlier contacts',
+  adhesion: 'held back by adhesion',
 };

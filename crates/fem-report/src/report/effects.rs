@@ -7,7 +7,7 @@ use super::stored_result::StoredResult;
 use crate::number_text::rounded;
 
 /// Explanation of each effect in one sentence.
-const EXPLANATIONS: [(&str, &str); 16] = [
+const EXPLANATIONS: [(&str, &str); 17] = [
     (
         "viscoelasticity",
         "The material relaxes while it is compressed and gives back less energy than it took.",
@@ -15,6 +15,7 @@ const EXPLANATIONS: [(&str, &str); 16] = [
     ("finite strain", "At large strains the change of shape changes stiffness and contact."),
     ("surface slip", "Surfaces of unlike materials slide on each other as they deform."),
     ("plastic yield", "Above its strength a material flows plastically; that is not computed."),
+    ("adhesion", "Surfaces attract each other; slow bodies stick, faster ones lose energy."),
     ("partner waves", "Waves that do not return from a large body in time carry energy away."),
     ("mirror symmetry", "Two equal bodies are computed as one body against a plane."),
     ("rigid partner", "A much stiffer partner is treated as rigid."),

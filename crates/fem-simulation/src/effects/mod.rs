@@ -30,9 +30,10 @@ pub(crate) use decision::simplified_scene::SimplifiedScene;
 pub use decision::simplified_scene::TransformedScene;
 pub use decision::support::Support;
 pub use decision::{
-    BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, FiniteSizeEffect, FiniteStrain,
-    Gravity, HourglassControl, MassScaling, MirrorSymmetry, NamedEffect, PartnerWaves,
-    PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
+    AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, FiniteSizeEffect,
+    FiniteStrain, Gravity, HourglassControl, MassScaling, MirrorSymmetry, NamedEffect,
+    PartnerWaves, PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration,
+    Viscoelasticity,
 };
 pub(crate) use decision::{effect_named, is_needed};
 

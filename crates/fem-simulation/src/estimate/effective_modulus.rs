@@ -14,8 +14,8 @@
 //! is right within some per cent.
 
 use fem_case::{Body, Scene, Shape};
-use fem_collision::Collision;
-use fem_laws::{HertzImpact, Impact, LawError};
+use fem_collision::{Collision, QuantityOfInterest};
+use fem_laws::{HertzImpact, Impact, ImpactQuantities, LawError};
 use fem_material::{ElasticModuli, Material};
 
 use crate::estimate::quasi_static::predicted_on_half_spaces;
@@ -26,21 +26,6 @@ const BISECTIONS: usize = 50;
 /// Decades on both sides of the contact time in which t_s is searched.
 const SEARCHED_DECADES: f64 = 12.0;
 
-/// The quantities of a collision that scale its effects, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sizes {
-    /// Contact time, in seconds.
-    pub contact_time: f64,
-    /// Peak force, in newtons.
-    pub peak_force: f64,
-    /// Largest approach, in metres.
-    pub max_approach: f64,
-    /// Largest contact radius, in metres.
-    pub max_contact_radius: f64,
-    /// Peak pressure, in pascals.
-    pub peak_pressure: f64,
-}
-
 /// The contact with the effective moduli of its bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectiveModuli {
@@ -48,8 +33,8 @@ pub struct EffectiveModuli {
     pub after: f64,
     /// Hertz' impact with these moduli.
     pub hertz: HertzImpact,
-    /// The expected quantities of the collision.
-    pub sizes: Sizes,
+    /// The expected quantities of the collision, by which its effects are scaled.
+    pub sizes: ImpactQuantities,
     /// Contact radius at the largest pressure, m.
     pub pressure_radius: f64,
 }
@@ -58,7 +43,7 @@ impl EffectiveModuli {
     /// Returns the effective moduli of weakly relaxing bodies, those at a time (s).
     pub(crate) fn little(hertz: &HertzImpact, after: f64) -> Self {
         let pressure_radius = hertz.max_contact_radius();
-        Self { after, hertz: *hertz, sizes: Sizes::from(hertz), pressure_radius }
+        Self { after, hertz: *hertz, sizes: hertz.into(), pressure_radius }
     }
 
     /// Returns the effective moduli of strongly relaxing bodies; `elastic` is the impact with instantaneous moduli.
@@ -81,7 +66,7 @@ impl EffectiveModuli {
         let pressed = pressures.max_by(|(one, _), (other, _)| one.total_cmp(other));
         let pressure_radius =
             pressed.map_or(impact.max_contact_radius, |(_, now)| now.contact_radius);
-        Ok(Self { after, hertz, sizes: Sizes::of(&impact, &hertz), pressure_radius })
+        Ok(Self { after, hertz, sizes: sizes_of(&impact, &hertz), pressure_radius })
     }
 
     /// Returns the scene with equally soft elastic bodies; the scene itself if nothing relaxes.
@@ -100,32 +85,28 @@ impl EffectiveModuli {
     }
 }
 
-impl Sizes {
-    /// Returns the quantities of an impact. Bodies that stay together get the contact time of equally soft elastic ones.
-    fn of(impact: &Impact, effective: &HertzImpact) -> Self {
-        Self {
-            contact_time: impact.contact_time.unwrap_or_else(|| effective.contact_time()),
-            peak_force: impact.peak_force,
-            max_approach: impact.max_approach,
-            max_contact_radius: impact.max_contact_radius,
-            peak_pressure: impact.peak_pressure.unwrap_or_else(|| effective.peak_pressure()),
-        }
-    }
-}
-
-impl From<&HertzImpact> for Sizes {
-    fn from(hertz: &HertzImpact) -> Self {
-        Self {
-            contact_time: hertz.contact_time(),
-            peak_force: hertz.peak_force(),
-            max_approach: hertz.max_approach(),
-            max_contact_radius: hertz.max_contact_radius(),
-            peak_pressure: hertz.peak_pressure(),
-        }
+/// Returns the quantities of an impact. Bodies that stay together get the contact time of equally soft elastic ones.
+fn sizes_of(impact: &Impact, effective: &HertzImpact) -> ImpactQuantities {
+    ImpactQuantities {
+        restitution: impact.restitution,
+        contact_time: impact.contact_time.unwrap_or_else(|| effective.contact_time()),
+        peak_force: impact.peak_force,
+        max_approach: impact.max_approach,
+        max_contact_radius: impact.max_contact_radius,
+        peak_pressure: impact.peak_pressure.unwrap_or_else(|| effective.peak_pressure()),
     }
 }
 
 impl Estimate {
+    /// Returns the value in SI units that a relative error of a quantity belongs to; 1 for the restitution, whose errors
+    /// are absolute.
+    pub(crate) fn scale(&self, quantity: QuantityOfInterest) -> f64 {
+        match quantity {
+            QuantityOfInterest::Restitution => 1.0,
+            _ => self.effective.sizes.in_order()[quantity as usize],
+        }
+    }
+
     /// Replaces the expected quantities of relaxing bodies by those of the finished collision.
     pub(crate) fn with_computed(&self, collision: &Collision) -> Self {
         let mut computed = *self;

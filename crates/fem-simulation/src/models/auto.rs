@@ -112,9 +112,20 @@ impl SelectedModel {
         }
         let estimate = Estimate::checked(scene)?;
         viscous_flow::check(scene, &estimate)?;
-        let judged = CANDIDATES.each_ref().map(|candidate| candidate.judge(scene, &estimate));
-        let serves = judged.iter().position(|judged| judged.rejection_reason.is_none());
-        let best = serves.unwrap_or_else(|| closest(&judged));
+        let mut judged = CANDIDATES.each_ref().map(|candidate| candidate.judge(scene, &estimate));
+        let (serves, best) = loop {
+            let serves = judged.iter().position(|judged| judged.rejection_reason.is_none());
+            let best = serves.unwrap_or_else(|| closest(&judged));
+            let chosen = scene.clone().with_model((CANDIDATES[best].choice)());
+            match method_of(&chosen).check(&chosen) {
+                // The next one may compute what this one would stop at.
+                Err(rejection) if judged[best].is_possible => {
+                    judged[best].is_possible = false;
+                    judged[best].rejection_reason = Some(rejection.message);
+                }
+                _ => break (serves, best),
+            }
+        };
         let excess = judged[best].excess;
         let considered = judged.into_iter().zip(&CANDIDATES).enumerate();
         let considered: Vec<ModelCandidate> = considered
@@ -305,7 +316,7 @@ impl Candidate {
             };
             let share = tolerance_of(&asked, quantity)? / tolerance_of(&usual, quantity)?;
             let is_followed = is_made_finer && (MIN_SHARE_OF_TOLERANCE..1.0).contains(&share);
-            let error = self.own_errors[k] * scale(quantity, estimate);
+            let error = self.own_errors[k] * estimate.scale(quantity);
             Some(error * if is_followed { share } else { 1.0 })
         })
     }
@@ -374,24 +385,11 @@ fn disobeyed(
     EFFECTS.into_iter().find(is_disobeyed).map(|effect| effect.name())
 }
 
-/// Returns the value in SI units that a relative tolerance belongs to; 1 for the restitution, whose tolerance is absolute.
-fn scale(quantity: QuantityOfInterest, estimate: &Estimate) -> f64 {
-    let sizes = &estimate.effective.sizes;
-    match quantity {
-        QuantityOfInterest::Restitution => 1.0,
-        QuantityOfInterest::ContactTime => sizes.contact_time,
-        QuantityOfInterest::PeakForce => sizes.peak_force,
-        QuantityOfInterest::MaxApproach => sizes.max_approach,
-        QuantityOfInterest::MaxContactRadius => sizes.max_contact_radius,
-        QuantityOfInterest::PeakPressure => sizes.peak_pressure,
-    }
-}
-
 /// Returns the largest error over its tolerance.
 fn excess(error: &QuantityErrors, scene: &Scene, estimate: &Estimate) -> f64 {
     let accuracy = scene.accuracy();
     let over = |quantity| {
-        let tolerance = tolerance_of(&accuracy, quantity)? * scale(quantity, estimate);
+        let tolerance = tolerance_of(&accuracy, quantity)? * estimate.scale(quantity);
         Some(error.size(quantity).unwrap_or(0.0) / tolerance)
     };
     QuantityOfInterest::ALL.into_iter().filter_map(over).fold(0.0, f64::max)

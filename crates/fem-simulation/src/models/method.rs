@@ -34,6 +34,14 @@ pub trait Method: Sync {
     /// [`Model::support`] but for the numbers of the meshes. `None` means that the method has no use for the effect.
     fn support(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Support>;
 
+    /// Checks a scene against the method's limits of validity that no closed form foretells.
+    ///
+    /// # Errors
+    /// A scene whose collision the method would stop.
+    fn check(&self, _: &Scene) -> Result<(), Rejection> {
+        Ok(())
+    }
+
     /// Returns the number of element updates, by which runs are ordered. Meshes are made, but no factors; models
     /// without steps count as zero.
     ///

@@ -10,6 +10,7 @@ mod own_frame;
 mod reduced;
 mod simplified;
 pub(crate) mod stepper;
+mod sticking;
 
 use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
@@ -20,6 +21,7 @@ use crate::rejection::Rejection;
 
 use bouncing::Bouncing;
 use simplified::Simplified;
+use sticking::{Bond, Sticking};
 
 pub use auto::{AutoMethod, ExpectedError, ModelCandidate, SelectedModel};
 pub use condensed::{Condensed, CondensedMethod};
@@ -76,9 +78,10 @@ impl ComputedScene {
     /// A scene that the method rejects.
     pub fn model(&self, given: &Scene, shared: &SharedModels) -> Result<Box<dyn Model>, Rejection> {
         let scene = &self.selected.scene;
-        let model = self.method().build(scene, shared)?;
+        let bond = Bond::of(given);
+        let model = Sticking::around(self.method().build(scene, shared)?, bond);
         let model = match given.gravity() {
-            Some(gravity) => Box::new(Bouncing::new(scene, gravity, model)?),
+            Some(gravity) => Box::new(Bouncing::new(scene, gravity, model, bond)?),
             None => model,
         };
         match self.supports.is_empty() {

@@ -231,6 +231,7 @@ impl Plan {
         file.contact = Some(ContactTable {
             method: Some(self.contact_method),
             penalty_factor: Some(self.penalty_factor.into()),
+            ..file.contact.unwrap_or_default()
         });
         file.time = Some(TimeTable {
             step_factor: Some(self.step_factor.into()),

@@ -24,6 +24,6 @@ pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summary::{
-    BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, Quantities, RestSummary,
-    SUMMARY_FILE, Summary, UncertaintySummary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, Quantities,
+    RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
 };

@@ -1,14 +1,15 @@
 //! Builds the summary of a collision.
 
-use fem_collision::{Collision, EnergyLedger, QuantityOfInterest, RestState};
-use fem_laws::HertzImpact;
+use fem_collision::{Collision, EnergyLedger, RestState};
+use fem_laws::ImpactQuantities;
 
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
-    BodySummary, BounceSummary, CostSummary, EffectSummary, Quantities, RestSummary, Summary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Quantities,
+    RestSummary, Summary,
 };
 use super::uncertainty::uncertainty;
-use crate::effects::{EffectDecision, FiniteStrain};
+use crate::effects::{AdhesionEffect, EffectDecision, FiniteStrain};
 use crate::error::{ComputedCollision, ErrorEstimate};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
@@ -65,6 +66,7 @@ impl Summary {
             momentum_residual_relative: numbers
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
             bounces: bounces(simulation, collision, &mut numbers),
+            adhesion: adhesion(simulation, collision, &mut numbers),
             rest: collision.rest.as_ref().map(|rest| at_rest(rest, &mut numbers)),
             bodies: [0, 1].map(|side| body(simulation, collision, side, &mut numbers)).to_vec(),
             time_step_s: numbers.finite_if_any("time_step_s", collision.time_step),
@@ -153,21 +155,11 @@ fn quantities(collision: &Collision, numbers: &mut Numbers) -> Quantities {
 
 /// Returns Hertz' quantities with instantaneous moduli; `None` if closed forms are not finite.
 fn hertz(estimate: Option<Estimate>, numbers: &mut Numbers) -> Quantities {
+    let hertz = estimate.map(|estimate| ImpactQuantities::from(&estimate.hertz).in_order());
     Quantities::by(|quantity| {
-        let number = estimate.as_ref().map(|estimate| of_hertz(quantity, &estimate.hertz));
+        let number = hertz.map(|hertz| hertz[quantity as usize]);
         numbers.finite_if_any(&format!("hertz.{}", quantity.key()), number)
     })
-}
-
-fn of_hertz(quantity: QuantityOfInterest, hertz: &HertzImpact) -> f64 {
-    match quantity {
-        QuantityOfInterest::Restitution => hertz.restitution(),
-        QuantityOfInterest::ContactTime => hertz.contact_time(),
-        QuantityOfInterest::PeakForce => hertz.peak_force(),
-        QuantityOfInterest::MaxApproach => hertz.max_approach(),
-        QuantityOfInterest::MaxContactRadius => hertz.max_contact_radius(),
-        QuantityOfInterest::PeakPressure => hertz.peak_pressure(),
-    }
 }
 
 fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
@@ -207,6 +199,23 @@ fn bounces(
         }
     });
     Some(contacts.collect())
+}
+
+/// Returns the adhesion that the case gives.
+fn adhesion(
+    simulation: &Simulation,
+    collision: &Collision,
+    numbers: &mut Numbers,
+) -> Option<AdhesionSummary> {
+    let adhesion = AdhesionEffect::given(simulation.case().scene())?;
+    let speed = simulation.estimate(collision)?.hertz.approach_speed();
+    let mut number = |key: &str, value| numbers.finite(&format!("adhesion.{key}"), value);
+    Some(AdhesionSummary {
+        sticking_speed_m_s: number("sticking_speed_m_s", adhesion.sticking_speed()),
+        work_of_adhesion_j_m2: number("work_of_adhesion_j_m2", adhesion.work_of_adhesion()),
+        tabor: number("tabor", adhesion.tabor()),
+        sticks: speed < adhesion.sticking_speed(),
+    })
 }
 
 fn at_rest(rest: &RestState, numbers: &mut Numbers) -> RestSummary {

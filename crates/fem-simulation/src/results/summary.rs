@@ -35,6 +35,8 @@ pub struct Summary {
     pub momentum_residual_relative: Option<f64>,
     /// Contacts under gravity; all keys above and the bodies belong to the first one.
     pub bounces: Option<Vec<BounceSummary>>,
+    /// Adhesion of the bodies; `None` if the case gives neither surface energies nor a work of adhesion.
+    pub adhesion: Option<AdhesionSummary>,
     /// Static equilibrium of a ball at rest, fully relaxed.
     pub rest: Option<RestSummary>,
     /// The lower and the upper body.
@@ -161,7 +163,7 @@ impl Serialize for UncertaintySummary {
 pub struct Parts {
     /// Discretisation error: the exact solution of the model's continuum problem is expected within it.
     pub discretisation: Option<f64>,
-    /// Model-form error: an experiment is expected within the sum of both parts.
+    /// Model-form error: the change by neglected effects, of this scene with these inputs.
     pub model: Option<f64>,
     /// Lower bound of the model-form error, if it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -209,6 +211,19 @@ pub struct RestSummary {
     pub approach_m: Option<f64>,
     /// Pressure on the axis.
     pub centre_pressure_pa: Option<f64>,
+}
+
+/// Adhesion of the bodies.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct AdhesionSummary {
+    /// Approach speed below which the bodies stay together.
+    pub sticking_speed_m_s: Option<f64>,
+    /// Work of adhesion of the pair.
+    pub work_of_adhesion_j_m2: Option<f64>,
+    /// Tabor's number: the deformation by the attraction over its range.
+    pub tabor: Option<f64>,
+    /// Whether the bodies stay together in the first contact.
+    pub sticks: bool,
 }
 
 /// One body. A wall has no mass and no vibration, a reduced model has no elements.

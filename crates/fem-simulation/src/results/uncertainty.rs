@@ -1,7 +1,7 @@
 //! Error bars of the summary: the discretisation error, and the model-form error by neglected effects.
 //!
 //! The discretisation error bounds the distance from the solution of the model's continuum problem; the model-form
-//! error bounds the distance of that problem from the physical one. It is the change by effects that the model lacks
+//! error is the change of that solution by effects that the model lacks
 //! ([`Effect::model_form_error`](crate::effects::Effect::model_form_error)), and the spread of the hyperelastic laws if
 //! the case names none. Closed forms estimate it within a factor of three. The restitution of a library material whose
 //! loss in an impact is not published is unknown. The parameters of contact laws are the user's.

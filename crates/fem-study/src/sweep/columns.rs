@@ -90,13 +90,14 @@ fn column_of(energy_key: &str) -> String {
 }
 
 /// Endings of column names and their units; if two end the same name, the longer one comes first.
-const ENDINGS: [(&str, &str); 14] = [
+const ENDINGS: [(&str, &str); 15] = [
     ("_m_s2", "m/s^2"),
     ("_m_s", "m/s"),
     ("_kg_m3", "kg/m^3"),
     ("_n_s_m", "N s/m"),
     ("_pa_s", "Pa s"),
     ("_per_s", "1/s"),
+    ("_j_m2", "J/m^2"),
     ("_n_m", "N/m"),
     ("_pa", "Pa"),
     ("_n", "N"),

@@ -1,6 +1,7 @@
 //! Tests of the library through its public interface, in one program.
 
 mod accuracy;
+mod adhesion;
 mod any_scene;
 mod approach_independence;
 mod auto;

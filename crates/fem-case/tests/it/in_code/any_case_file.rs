@@ -74,6 +74,7 @@ impl Random {
             material.youngs_modulus = None;
         }
         material.yield_strength = self.maybe(|random| random.quantity(&[1e9]));
+        material.surface_energy = self.maybe(|random| random.quantity(&[0.05]));
         material.hyperelastic = self.maybe(|random| {
             let words = HyperelasticLaw::WORDS;
             HyperelasticLaw::from_word(words[random.below(words.len())]).unwrap()
@@ -184,6 +185,7 @@ impl Random {
                     }
                 }),
                 penalty_factor: random.maybe(|random| random.quantity(&[1.0])),
+                work_of_adhesion: random.maybe(|random| random.quantity(&[0.1])),
             }),
             time: self.maybe(|random| TimeTable {
                 step_factor: random.maybe(|random| random.quantity(&[0.9])),

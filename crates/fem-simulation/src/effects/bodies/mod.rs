@@ -1,5 +1,6 @@
-//! Effects of the bodies as a whole and of their surfaces: size, inertia, waves, gravity, tangential slip.
+//! Effects of the bodies as a whole and of their surfaces: size, inertia, waves, gravity, tangential slip, adhesion.
 
+mod adhesion;
 mod finite_size;
 mod gravity;
 mod partner_waves;

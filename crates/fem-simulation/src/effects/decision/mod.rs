@@ -76,6 +76,8 @@ effects! {
     SurfaceSlip = "surface slip" surface_slip;
     /// Plastic yield of the bodies.
     PlasticYield = "plastic yield";
+    /// Attraction of the surfaces.
+    AdhesionEffect = "adhesion";
     /// Waves radiated into a large partner.
     PartnerWaves = "partner waves" partner_waves;
     /// Two identical bodies computed as one against a rigid plane.

@@ -98,6 +98,20 @@ impl NeglectError {
     pub(crate) fn restitution(change: f64) -> Self {
         Self::of([Some(change), None, None])
     }
+
+    /// Returns the magnitudes of changes of the quantities in order, relative to the estimate's; that of the restitution
+    /// is absolute. Changes that are not finite are unknown.
+    pub(in crate::effects) fn errors_of(estimate: &Estimate, changes: [f64; 6]) -> QuantityErrors {
+        let error = |quantity| Some(changes[quantity as usize].abs() * estimate.scale(quantity));
+        QuantityErrors::from_fn(error).checked()
+    }
+
+    /// Returns those of the first three such changes.
+    pub(in crate::effects) fn of_changes(estimate: &Estimate, changes: [f64; 6]) -> Self {
+        let errors = Self::errors_of(estimate, changes);
+        let [e, time, force, ..] = QuantityOfInterest::ALL.map(|quantity| errors.size(quantity));
+        Self { restitution: e, contact_time_s: time, peak_force_n: force }
+    }
 }
 
 /// "about 0.012 of the restitution, 1.3 µs of the contact time".

@@ -8,10 +8,11 @@ use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
-use crate::effects::decision::neglect_error::NeglectError;
+use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::{Effect, PlasticYield};
 use crate::estimate::Estimate;
+use crate::quantity_errors::QuantityErrors;
 
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do not yield: 1/32 for
 /// glass at 0.5 m/s, 1/13 for steel at 5 m/s.
@@ -22,24 +23,37 @@ const MAX_MODULUS_OF_ELASTOMERS: f64 = 0.1e9;
 
 impl Effect for PlasticYield {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
-        let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
-        let first = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure));
-        Some(match first {
+        Some(match earliest(scene, estimate) {
             Some((body, first)) => of_strength(body, &first, estimate),
             None => without_strength(scene, estimate),
         })
     }
 
-    /// Central estimate of the closed forms.
+    /// Central estimate of the closed forms for the restitution, and the farther one for contact time and force.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
-        let (_, first) = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))?;
-        if first.ratio() <= 1.0 {
-            return Some(NeglectError::NOTHING);
-        }
-        let (low, high) = first.restitutions();
-        Some(NeglectError::restitution(1.0 - 0.5 * (low + high)))
+        let (_, first) = earliest(scene, estimate)?;
+        Some(NeglectError::of_changes(estimate, first.change()))
     }
+
+    /// The change of all quantities by the closed forms. A flowing contact is wider and its pressure lower, so Hertz'
+    /// powers do not give them.
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        status: &EffectStatus,
+    ) -> QuantityErrors {
+        match earliest(scene, estimate).filter(|_| status.is_lacking) {
+            Some((_, first)) => NeglectError::errors_of(estimate, first.change()),
+            None => QuantityErrors::ZERO,
+        }
+    }
+}
+
+/// Returns the body that yields first, of those with a yield strength.
+fn earliest<'a>(scene: &'a Scene, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
+    let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
+    yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))
 }
 
 fn first_yield<'a>(body: &'a Body, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
@@ -50,7 +64,7 @@ fn first_yield<'a>(body: &'a Body, estimate: &Estimate) -> Option<(&'a Body, Fir
 fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevance {
     let (ratio, name) = (first.ratio(), body.name());
     let is_needed = ratio > 1.0;
-    let (low, high) = first.restitutions();
+    let [low, high] = first.impacts().map(|impact| impact.restitution);
     let warning = is_needed.then(|| {
         format!(
             "{name} yields from {} on, and the impact is at {}: no model computes plastic flow; closed forms give a \

@@ -87,7 +87,9 @@ impl Chain {
         }
         self.growth =
             [self.growth, collision.energy_growth].into_iter().flatten().reduce(nan_aware_max);
-        let end = rows.last().map_or(collision.energies, |row| row.energies);
+        // A history is that without adhesion.
+        let end = rows.last().filter(|_| !collision.energies.has(Account::Adhesion));
+        let end = end.map_or(collision.energies, |row| row.energies);
         self.energies = self.carried(&end);
         self.residual_at_end = collision.residual.map(|residual| residual + self.residual);
     }

@@ -33,6 +33,7 @@ use crate::estimate::Estimate;
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, estimate_at};
 use crate::models::method_of;
 use crate::models::stepper::{RestartState, Stepper, stopped};
+use crate::models::sticking::{Bond, Sticking};
 use crate::rejection::Rejection;
 use bounced::Bounced;
 pub(crate) use bounced::Bounces;
@@ -59,14 +60,21 @@ struct Ball {
     scene: Scene,
     gravity: Gravity,
     first: Arc<dyn Model>,
+    /// The bond of ball and floor, if they stick when they are slow.
+    bond: Option<Bond>,
 }
 
 impl Bouncing {
-    /// Builds the model of a scene with this gravity.
+    /// Builds the model of a scene with this gravity, from that of its first contact. Models of later contacts get the bond.
     ///
     /// # Errors
     /// A weight that presses the bodies so flat that no contact theory holds.
-    pub fn new(scene: &Scene, gravity: Gravity, first: Box<dyn Model>) -> Result<Self, Rejection> {
+    pub fn new(
+        scene: &Scene,
+        gravity: Gravity,
+        first: Box<dyn Model>,
+        bond: Option<Bond>,
+    ) -> Result<Self, Rejection> {
         let reject = |message: String| {
             Err(Rejection::new("gravity.acceleration", message).with_help(
                 "a ball bounces where its weight is small; check its unit, sizes and moduli",
@@ -76,7 +84,7 @@ impl Bouncing {
         let weight = pair.effective_mass() * gravity.acceleration;
         match StaticHertz::new(pair, weight) {
             Ok(pressed) if pressed.contact_radius <= MAX_DENT * pair.effective_radius() => {
-                let ball = Ball { scene: scene.clone(), gravity, first: Arc::from(first) };
+                let ball = Ball { scene: scene.clone(), gravity, first: Arc::from(first), bond };
                 Ok(Self { ball: Arc::new(ball) })
             }
             Ok(pressed) => reject(format!(
@@ -130,7 +138,8 @@ impl Ball {
         let no_speed = || Stop::NotMade(format!("the ball comes down at {speed:?} m/s"));
         let scene = scene.ok_or_else(no_speed)?;
         let model = method_of(&scene).build(&scene, &SharedModels::default());
-        model.map_err(|rejection| Stop::NotMade(rejection.to_string()))
+        let model = model.map_err(|rejection| Stop::NotMade(rejection.to_string()))?;
+        Ok(Sticking::around(model, self.bond))
     }
 
     /// Returns the static contact of the ball at rest, or why there is none.

@@ -5,8 +5,8 @@ use fem_condensed::CondensedPair;
 
 use super::options;
 use crate::effects::{
-    ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves, PenaltySprings,
-    PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
+    AdhesionEffect, ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves,
+    PenaltySprings, PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -34,9 +34,11 @@ pub(super) fn support(
         },
         ContactSearch::NAME => ContactSearch::within(&pair?.candidate_region()),
         MirrorSymmetry::NAME if pair.is_none() => MirrorSymmetry::support_by_elements(scene),
-        FiniteStrain::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
-            Support::Lacks
-        }
+        FiniteStrain::NAME
+        | PlasticYield::NAME
+        | AdhesionEffect::NAME
+        | MirrorSymmetry::NAME
+        | RigidPartner::NAME => Support::Lacks,
         _ => return None,
     })
 }

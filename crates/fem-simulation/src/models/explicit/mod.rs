@@ -20,8 +20,8 @@ use super::condensed::static_contact::of_elements;
 use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::effects::{
-    BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl, MassScaling,
-    MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, Support, SurfaceSlip,
+    AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
+    MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, Support, SurfaceSlip,
     Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
@@ -429,7 +429,9 @@ fn support(
         // Contact between deformed surfaces has it.
         SurfaceSlip::NAME if FiniteStrain::is_on(scene, estimate) => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
-        PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => Support::Lacks,
+        AdhesionEffect::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
+            Support::Lacks
+        }
         _ => return None,
     })
 }

@@ -5,8 +5,8 @@ use fem_laws::laws::ContactLaw;
 use fem_material::engineering::number;
 
 use crate::effects::{
-    DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves, PlasticYield,
-    RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
+    AdhesionEffect, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves,
+    PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -32,10 +32,12 @@ pub(super) fn support(
         }
         SurfaceSlip::NAME if is_ting => Support::Computes { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
+        AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene) => return None,
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
+        | AdhesionEffect::NAME
         | PartnerWaves::NAME
         | RigidPartner::NAME => Support::Lacks,
         _ => return None,

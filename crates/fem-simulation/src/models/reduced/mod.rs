@@ -53,6 +53,12 @@ impl Method for ReducedMethod {
         effects::support(effect, scene, estimate, None)
     }
 
+    /// Computes the collision, which takes milliseconds.
+    fn check(&self, scene: &Scene) -> Result<(), Rejection> {
+        let impact = Reduced::new(scene)?.impact(scene.approach_speed());
+        impact.map(|_| ()).map_err(|error| rejected(scene, &error))
+    }
+
     fn resolve(&self, scene: &Scene, mut file: CaseFile) -> Result<CaseFile, Rejection> {
         let table = match *scene.model() {
             ModelChoice::Hertz { finite_size } => {
