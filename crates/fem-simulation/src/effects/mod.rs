@@ -31,8 +31,8 @@ pub use decision::simplified_scene::TransformedScene;
 pub use decision::support::Support;
 pub use decision::{
     AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, FiniteSizeEffect,
-    FiniteStrain, Gravity, HourglassControl, MassScaling, MirrorSymmetry, NamedEffect,
-    PartnerWaves, PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration,
+    FiniteStrain, Gravity, HourglassControl, MassScaling, MaterialLoss, MirrorSymmetry,
+    NamedEffect, PartnerWaves, PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration,
     Viscoelasticity,
 };
 pub(crate) use decision::{effect_named, is_needed};
@@ -89,6 +89,7 @@ pub fn decide(
     support: impl Fn(&dyn Effect) -> Option<Support>,
 ) -> Result<EffectDecisions, Rejection> {
     let mut decisions = EffectDecisions::default();
+    let mut relevances = Vec::new();
     for effect in EFFECTS {
         let own = support(effect);
         let switch = effect.switch(scene.effects());
@@ -97,6 +98,13 @@ pub fn decide(
         }
         let Some(own) = own else { continue };
         let relevance = effect.relevance(scene, estimate).unwrap_or_default();
+        relevances.push((effect, own, switch, relevance));
+    }
+    let is_lacking =
+        |own: &Support, relevance: &Relevance| relevance.is_needed && *own == Support::Lacks;
+    let lacked = relevances.iter().filter(|(_, own, _, relevance)| is_lacking(own, relevance));
+    let silenced: Vec<&str> = lacked.flat_map(|(effect, ..)| effect.silences()).copied().collect();
+    for (effect, own, switch, relevance) in relevances {
         let obeys = own.obeys();
         let (is_needed, note) = (relevance.is_needed, relevance.warning.clone());
         let is_inherent = matches!(own, Support::Inherent { .. });
@@ -106,7 +114,9 @@ pub fn decide(
         }
         let is_lacking = !active && !is_inherent;
         decisions.all.push(EffectDecision { name: effect.name(), active, reason, is_lacking });
-        decisions.warnings.extend(warnings);
+        if !silenced.contains(&effect.name()) {
+            decisions.warnings.extend(warnings);
+        }
         if switch == Some(Switch::On) && obeys && !is_needed {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let name = effect.name();

@@ -3,7 +3,7 @@
 //!
 //! | warnings about | source |
 //! |---|---|
-//! | implausible numbers, unpublished loss | `fem-case/src/scene/plausibility.rs` |
+//! | implausible numbers | `fem-case/src/scene/plausibility.rs` |
 //! | the choice of the model | `models/auto.rs` |
 //! | effects, before a run and in its result | `effects`, one file per effect |
 //! | keys without effect, a tolerance out of reach | `plan/mod.rs`, `plan/contact_method.rs`, `models/condensed/effects.rs`, `models/reduced/effects.rs` |
@@ -42,7 +42,6 @@ impl Simulation {
     pub fn warnings_before(&self) -> Vec<String> {
         let scene = self.case().scene();
         (scene.implausible_numbers().into_iter())
-            .chain(scene.unpublished_loss())
             .chain(self.shear_waves_warning())
             .chain(self.choice_warning())
             .chain(self.setup().warnings())
@@ -56,7 +55,6 @@ impl Simulation {
     pub fn warnings_with(&self, collision: &Collision, errors: &ErrorEstimate) -> Vec<String> {
         let scene = self.case().scene();
         (scene.implausible_numbers().into_iter())
-            .chain(scene.unpublished_loss())
             .chain(self.choice_warning())
             .chain(self.decisions(collision).warnings)
             .chain(self.setup().unread_key_warnings.iter().cloned())

@@ -3,10 +3,9 @@
 //! The discretisation error bounds the distance from the solution of the model's continuum problem; the model-form
 //! error is the change of that solution by effects that the model lacks
 //! ([`Effect::model_form_error`](crate::effects::Effect::model_form_error)), and the spread of the hyperelastic laws if
-//! the case names none. Closed forms estimate it within a factor of three. The restitution of a library material whose
-//! loss in an impact is not published is unknown. The parameters of contact laws are the user's.
+//! the case names none. Closed forms estimate it within a factor of three. The parameters of contact laws are the user's.
 
-use fem_collision::{Collision, QuantityOfInterest};
+use fem_collision::Collision;
 
 use super::summary::{EffectSummary, Parts, Quantities, UncertaintySummary};
 use crate::effects::{EffectStatus, effect_named};
@@ -36,7 +35,7 @@ pub(super) fn uncertainty(
     })
 }
 
-/// Returns the change by each neglected effect, and an unpublished loss.
+/// Returns the change by each neglected effect.
 fn model_form_errors(
     simulation: &Simulation,
     collision: &Collision,
@@ -52,11 +51,5 @@ fn model_form_errors(
             EffectStatus { is_lacking: decision.is_lacking, neglect_error: *error_if_left_out };
         Some(effect_named(decision.name)?.model_form_error(&scene, &estimate, &status))
     };
-    let loss = simulation.case().scene().unpublished_loss().map(|_| {
-        // The other quantities depend on the moduli, whose scatter is not included.
-        QuantityErrors::from_fn(|quantity| {
-            (quantity != QuantityOfInterest::Restitution).then_some(0.0)
-        })
-    });
-    effects.iter().filter_map(error).chain(loss).collect()
+    effects.iter().filter_map(error).collect()
 }

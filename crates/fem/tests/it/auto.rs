@@ -271,6 +271,26 @@ auto = {}
     }
 }
 
+/// Where the contact of a first-order model is as wide as it may be, a run finds another width than the estimate, and no
+/// chosen model stops there.
+#[test]
+fn no_chosen_model_stops_at_its_own_limit() {
+    let is_first_order = |speed: f64| {
+        let text = scene(RUBBER, ["10 mm", "10 mm"], &format!("{speed:?} m/s"));
+        let auto = simulation(&text, &["model.auto={}", "accuracy.tolerance='20 %'"]);
+        let chosen = auto.considered().iter().find(|it| it.chosen).unwrap();
+        let is_first_order = chosen.model.contains("finite_size");
+        assert!(!is_first_order || auto.run(&mut ()).stop().is_none(), "{speed}");
+        is_first_order
+    };
+    let (mut low, mut high) = (0.1, 5.0);
+    assert!(is_first_order(low) && !is_first_order(high));
+    for _ in 0..20 {
+        let middle = 0.5 * (low + high);
+        if is_first_order(middle) { low = middle } else { high = middle }
+    }
+}
+
 /// Steel on rubber at 15 m/s, a contact as wide as the spheres, where the error of small strain cannot be estimated.
 const FLAT: &str = r#"
 [material.steel]

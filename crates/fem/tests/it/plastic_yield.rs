@@ -60,6 +60,20 @@ fn a_yield_strength_gives_the_speed_and_the_range() {
     }
 }
 
+/// Balls of steel that flow get the warning of yield alone; slow ones that of the loss that is not published.
+#[test]
+fn yield_silences_what_it_makes_pointless() {
+    let ball = |text: &str| text.replace("\"steel\"", "\"lib:steel\"");
+    for model in &MODELS[..4] {
+        let (_, fast) = decision_on(&ball(STEEL), &[model]);
+        assert!(fast.contains("yields from"), "{model}: {fast}");
+        assert_eq!(fast.lines().count(), 1, "{model}: {fast}");
+        let (_, slow) = decision_on(&ball(STEEL), &[model, "body.0.approach_speed='0.1 mm/s'"]);
+        assert!(slow.contains("is not published"), "{model}: {slow}");
+        assert_eq!(slow.lines().count(), 1, "{model}: {slow}");
+    }
+}
+
 #[test]
 fn no_warning_without_yield() {
     for overrides in [&[][..], &["material.glass.yield_strength='3 GPa'"]] {

@@ -66,6 +66,8 @@ macro_rules! effects {
 effects! {
     /// Relaxation of the materials.
     Viscoelasticity = "viscoelasticity" viscoelasticity;
+    /// Loss of a material whose relaxation is not known.
+    MaterialLoss = "material loss";
     /// The dashpot of a contact law.
     DashpotEffect = "dashpot";
     /// Compliance of the spheres beyond that of half-spaces.
@@ -149,6 +151,11 @@ pub trait Effect: NamedEffect {
             None if is_needed(self, scene, estimate) => QuantityErrors::default(),
             None => QuantityErrors::ZERO,
         }
+    }
+
+    /// Returns the names of effects whose warnings are pointless where this one is needed and the model lacks it.
+    fn silences(&self) -> &'static [&'static str] {
+        &[]
     }
 
     /// Returns the support that the finished collision shows, for an effect that depends on the bodies as

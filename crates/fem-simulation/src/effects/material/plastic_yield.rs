@@ -10,7 +10,7 @@ use fem_material::Material;
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::{Effect, PlasticYield};
+use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, PlasticYield};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 
@@ -27,6 +27,11 @@ impl Effect for PlasticYield {
             Some((body, first)) => of_strength(body, &first, estimate),
             None => without_strength(scene, estimate),
         })
+    }
+
+    /// A body that flows loses more than its material does, and is not strained as a hyperelastic one.
+    fn silences(&self) -> &'static [&'static str] {
+        &[MaterialLoss::NAME, FiniteStrain::NAME]
     }
 
     /// Central estimate of the closed forms for the restitution, and the farther one for contact time and force.

@@ -5,8 +5,9 @@ use fem_condensed::CondensedPair;
 
 use super::options;
 use crate::effects::{
-    AdhesionEffect, ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves,
-    PenaltySprings, PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
+    AdhesionEffect, ContactSearch, Effect, FiniteStrain, Gravity, MaterialLoss, MirrorSymmetry,
+    PartnerWaves, PenaltySprings, PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration,
+    Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -34,7 +35,9 @@ pub(super) fn support(
         },
         ContactSearch::NAME => ContactSearch::within(&pair?.candidate_region()),
         MirrorSymmetry::NAME if pair.is_none() => MirrorSymmetry::support_by_elements(scene),
-        FiniteStrain::NAME
+        MaterialLoss::NAME if !MaterialLoss::is_unknown(scene) => return None,
+        MaterialLoss::NAME
+        | FiniteStrain::NAME
         | PlasticYield::NAME
         | AdhesionEffect::NAME
         | MirrorSymmetry::NAME

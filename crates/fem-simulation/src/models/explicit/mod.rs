@@ -21,8 +21,8 @@ use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::effects::{
     AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, Support, SurfaceSlip,
-    Viscoelasticity, decide,
+    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, Support,
+    SurfaceSlip, Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
@@ -429,9 +429,12 @@ fn support(
         // Contact between deformed surfaces has it.
         SurfaceSlip::NAME if FiniteStrain::is_on(scene, estimate) => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
-        AdhesionEffect::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
-            Support::Lacks
-        }
+        MaterialLoss::NAME if !MaterialLoss::is_unknown(scene) => return None,
+        MaterialLoss::NAME
+        | AdhesionEffect::NAME
+        | PlasticYield::NAME
+        | MirrorSymmetry::NAME
+        | RigidPartner::NAME => Support::Lacks,
         _ => return None,
     })
 }

@@ -5,8 +5,8 @@ use fem_laws::laws::ContactLaw;
 use fem_material::engineering::number;
 
 use crate::effects::{
-    AdhesionEffect, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves,
-    PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
+    AdhesionEffect, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, MaterialLoss,
+    PartnerWaves, PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -34,7 +34,9 @@ pub(super) fn support(
         Gravity::NAME => Support::Inherent { idle: "" },
         AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene) => return None,
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-        FiniteStrain::NAME
+        MaterialLoss::NAME if !MaterialLoss::is_unknown(scene) => return None,
+        MaterialLoss::NAME
+        | FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
         | AdhesionEffect::NAME
