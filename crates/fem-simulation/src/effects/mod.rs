@@ -30,10 +30,10 @@ pub(crate) use decision::simplified_scene::SimplifiedScene;
 pub use decision::simplified_scene::TransformedScene;
 pub use decision::support::Support;
 pub use decision::{
-    AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, FiniteSizeEffect,
-    FiniteStrain, Gravity, HourglassControl, MassScaling, MaterialLoss, MirrorSymmetry,
-    NamedEffect, PartnerWaves, PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration,
-    Viscoelasticity,
+    AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, EffectKind,
+    FiniteSizeEffect, FiniteStrain, Gravity, HourglassControl, MassScaling, MaterialLoss,
+    MirrorSymmetry, NamedEffect, PartnerWaves, PenaltySprings, PlasticYield, RigidPartner,
+    SurfaceSlip, Vibration, Viscoelasticity,
 };
 pub(crate) use decision::{effect_named, is_needed};
 
@@ -46,6 +46,9 @@ pub struct EffectDecision {
     pub active: bool,
     /// The deciding number, as text.
     pub reason: String,
+    /// Whether the effect matters to what a reader should know: it is physics that the run computes, one that the scene needs
+    /// and the run lacks, or one that is warned of.
+    pub matters: bool,
     /// Whether the run lacks the effect: it is off in a model that could leave it out.
     #[serde(skip)]
     pub is_lacking: bool,
@@ -73,6 +76,8 @@ impl EffectDecisions {
                 .and_then(|effect| effect.support_in_result(scene, collision));
             if let Some(Support::Is { active, reason, .. }) = found {
                 (decision.active, decision.reason) = (active, reason);
+                let kind = effect_named(decision.name).map(|effect| effect.kind());
+                decision.matters |= active && kind == Some(EffectKind::Physical);
             }
         }
     }
@@ -113,10 +118,12 @@ pub fn decide(
             return Err(inherent(scene, effect, &reason));
         }
         let is_lacking = !active && !is_inherent;
-        decisions.all.push(EffectDecision { name: effect.name(), active, reason, is_lacking });
-        if !silenced.contains(&effect.name()) {
-            decisions.warnings.extend(warnings);
-        }
+        let is_physics = active && effect.kind() == EffectKind::Physical;
+        let is_warned = !warnings.is_empty() && !silenced.contains(&effect.name());
+        let matters = is_physics || is_lacking && is_needed || is_warned;
+        let name = effect.name();
+        decisions.all.push(EffectDecision { name, active, reason, matters, is_lacking });
+        decisions.warnings.extend(warnings.into_iter().filter(|_| is_warned));
         if switch == Some(Switch::On) && obeys && !is_needed {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let name = effect.name();

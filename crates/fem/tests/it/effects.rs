@@ -5,7 +5,7 @@ use fem::effects::EFFECTS;
 use fem_case::{EffectsTable, Switch};
 use serde_json::json;
 
-use crate::scene::{GLASS, case_of, refused_of, simulation_of};
+use crate::scene::{ELASTIC_GLASS, GLASS, case_of, refused_of, simulation_of};
 
 #[test]
 fn a_forced_effect_that_the_model_lacks_is_rejected() {
@@ -110,5 +110,22 @@ fn every_model_supports_or_excludes_every_effect() {
             let is_in = |list: &str| list.split(", ").any(|one| one == name);
             assert!(is_in(answered) != is_in(foreign), "{model}: {name}");
         }
+    }
+}
+
+/// Physics that is computed or that the scene needs matters; parts of the computation and idle effects do not.
+#[test]
+fn mattering_effects_are_those_of_the_scene() {
+    for (text, model, expected) in [
+        (ELASTIC_GLASS, "fem={}", &[][..]),
+        (GLASS, "fem={}", &["viscoelasticity"]),
+        (GLASS, "ting={}", &["viscoelasticity"]),
+        // It lacks what the scene needs.
+        (GLASS, "hertz={}", &["viscoelasticity"]),
+    ] {
+        let simulation = simulation_of(text, &[format!("model.{model}")]);
+        let decisions = simulation.setup().decisions.all.iter();
+        let mattering = decisions.filter(|decision| decision.matters);
+        assert_eq!(mattering.map(|decision| decision.name).collect::<Vec<_>>(), expected, "{model}");
     }
 }

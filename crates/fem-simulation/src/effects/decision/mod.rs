@@ -17,10 +17,22 @@ use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
-/// The name of an effect and its switch in a case.
+/// The kind of an effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EffectKind {
+    /// The effect changes what bodies do.
+    Physical,
+    /// The effect changes how a computation goes.
+    Numerical,
+}
+
+/// The name of an effect, its kind and its switch in a case.
 pub trait NamedEffect: Sync {
     /// Returns the effect's name in results.
     fn name(&self) -> &'static str;
+
+    /// Returns whether the effect is physics or a part of the computation.
+    fn kind(&self) -> EffectKind;
 
     /// Returns the case's switch for the effect, if `[effects]` has one.
     fn switch(&self, effects: &EffectsTable) -> Option<Switch>;
@@ -30,7 +42,7 @@ pub trait NamedEffect: Sync {
 }
 
 macro_rules! effects {
-    ($($(#[doc = $doc:literal])+ $effect:ident = $name:literal $($key:ident)?;)+) => {
+    ($($(#[doc = $doc:literal])+ $kind:ident $effect:ident = $name:literal $($key:ident)?;)+) => {
         $(
             $(#[doc = $doc])+
             #[derive(Clone, Copy, Debug)]
@@ -44,6 +56,10 @@ macro_rules! effects {
             impl NamedEffect for $effect {
                 fn name(&self) -> &'static str {
                     Self::NAME
+                }
+
+                fn kind(&self) -> EffectKind {
+                    EffectKind::$kind
                 }
 
                 fn switch(&self, _effects: &EffectsTable) -> Option<Switch> {
@@ -62,45 +78,45 @@ macro_rules! effects {
     };
 }
 
-// One row per effect: its name in results, and its key in `[effects]` if it can be switched.
+// One row per effect: its kind, its name in results, and its key in `[effects]` if it can be switched.
 effects! {
     /// Relaxation of the materials.
-    Viscoelasticity = "viscoelasticity" viscoelasticity;
+    Physical Viscoelasticity = "viscoelasticity" viscoelasticity;
     /// Loss of a material whose relaxation is not known.
-    MaterialLoss = "material loss";
+    Physical MaterialLoss = "material loss";
     /// The dashpot of a contact law.
-    DashpotEffect = "dashpot";
+    Physical DashpotEffect = "dashpot";
     /// Compliance of the spheres beyond that of half-spaces.
-    FiniteSizeEffect = "finite size";
+    Physical FiniteSizeEffect = "finite size";
     /// Finite strain and rotations.
-    FiniteStrain = "finite strain" finite_strain;
+    Physical FiniteStrain = "finite strain" finite_strain;
     /// Tangential slip between the surfaces of unlike materials.
-    SurfaceSlip = "surface slip" surface_slip;
+    Physical SurfaceSlip = "surface slip" surface_slip;
     /// Plastic yield of the bodies.
-    PlasticYield = "plastic yield";
+    Physical PlasticYield = "plastic yield";
     /// Attraction of the surfaces.
-    AdhesionEffect = "adhesion";
+    Physical AdhesionEffect = "adhesion";
     /// Waves radiated into a large partner.
-    PartnerWaves = "partner waves" partner_waves;
+    Physical PartnerWaves = "partner waves" partner_waves;
     /// Two identical bodies computed as one against a rigid plane.
-    MirrorSymmetry = "mirror symmetry" mirror_symmetry;
+    Numerical MirrorSymmetry = "mirror symmetry" mirror_symmetry;
     /// The stiffer body computed as a rigid one.
-    RigidPartner = "rigid partner" rigid_partner;
+    Physical RigidPartner = "rigid partner" rigid_partner;
     /// Inertia of the bodies' own deformation.
-    Vibration = "vibration";
+    Physical Vibration = "vibration";
     /// Hourglass control: the stiffness that elements with one integration point need against deformation modes
     /// without mean strain.
-    HourglassControl = "hourglass control" hourglass_control;
+    Numerical HourglassControl = "hourglass control" hourglass_control;
     /// Artificial viscosity that spreads steep fronts over several elements.
-    BulkViscosity = "bulk viscosity" bulk_viscosity;
+    Numerical BulkViscosity = "bulk viscosity" bulk_viscosity;
     /// Penalty springs at integration points, which resist penetration, in place of a contact that allows none.
-    PenaltySprings = "penalty springs";
+    Numerical PenaltySprings = "penalty springs";
     /// Weight of the bodies.
-    Gravity = "gravity";
+    Physical Gravity = "gravity";
     /// The candidate region of the contact search.
-    ContactSearch = "contact search";
+    Numerical ContactSearch = "contact search";
     /// Mass scaling: mass moved to light nodes for a longer time step.
-    MassScaling = "mass scaling";
+    Numerical MassScaling = "mass scaling";
 }
 
 /// Returns the effect of this name.
