@@ -49,6 +49,7 @@
 //! ```
 
 mod case;
+mod case_edit;
 mod error;
 #[cfg(feature = "schema")]
 pub mod json_schema;
@@ -72,7 +73,8 @@ pub use scene::body::{Body, Shape};
 pub use scene::defaults;
 pub use scene::model::{CondensedOptions, ModelChoice};
 pub use scene::{
-    Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, WorkOfAdhesion, impact_speed,
+    Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, UncertainInput,
+    WorkOfAdhesion, impact_speed,
 };
 pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
 pub use source::similar_words::nearest;

@@ -92,9 +92,21 @@ impl<K: QuantityKind> JsonSchema for Quantity<K> {
             "" => format!("{name}, such as {example}"),
             si => format!("{name}: a number in {si}, or a string with its unit, {example}"),
         };
+        let pattern = pattern(K::INFO.dimension.0);
+        let part = json!({ "type": ["number", "string"] });
         json_schema!({
             "description": bare,
-            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern(K::INFO.dimension.0) }],
+            "anyOf": [
+                { "type": "number" },
+                { "type": "string", "pattern": pattern.clone() },
+                {
+                    "type": "object",
+                    "description": "a value and its uncertainty",
+                    "properties": { "value": part.clone(), "uncertainty": part },
+                    "required": ["value", "uncertainty"],
+                    "additionalProperties": false,
+                },
+            ],
         })
     }
 }

@@ -44,7 +44,10 @@ pub(crate) fn pattern(dimension: [i32; 4]) -> String {
         _ => {}
     }
     forms.retain(|form| !form.is_empty() || dimension == [0; 4]);
-    format!(r"^{NUMBER}(\s*({})|{})\s*$", forms.join("|"), entangled())
+    let unit = format!(r"(\s*({})|{})", forms.join("|"), entangled());
+    // A unit that only one of value and uncertainty has is that of both.
+    let uncertain = format!(r"{NUMBER}{unit}?\s*(±|\+/?-){NUMBER}({unit}|\s*%)?");
+    format!(r"^({NUMBER}{unit}|{uncertain})\s*$")
 }
 
 /// Returns the expression of a power after a symbol.

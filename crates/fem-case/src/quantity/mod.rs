@@ -2,16 +2,18 @@
 //! kind is a type parameter only here; scenes use `f64`.
 
 pub(crate) mod range;
+mod uncertain;
 pub(crate) mod unit_table;
 pub(crate) mod units;
 
 use std::fmt;
 use std::marker::PhantomData;
 
-use serde::de::{Deserialize, Deserializer, Visitor};
+use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, Visitor};
+use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
-use crate::quantity::units::{Dimension, UnitError, parse_quantity};
+use crate::quantity::units::{Dimension, UnitError};
 
 /// Name, dimension and notation of a kind of quantity.
 #[derive(Clone, Copy, Debug)]
@@ -123,8 +125,8 @@ enum Written {
     Text(String),
 }
 
-/// A quantity of kind `K` as a case file gives it. [`Quantity::si`] converts it. It serializes as a bare SI number, or as
-/// its text if that has no SI value.
+/// A quantity of kind `K` as a case file gives it. [`Quantity::si`] converts it. It serializes as a bare SI number, as a
+/// table of value and uncertainty if it has one, or as its text if that has no SI value.
 ///
 /// ```
 /// use fem_case::{Count, Length, Quantity};
@@ -132,6 +134,7 @@ enum Written {
 /// assert_eq!(Quantity::<Length>::from("22.2 mm").si(), Ok(0.0222));
 /// assert_eq!(Quantity::<Length>::from(0.0222).si(), Ok(0.0222));
 /// assert_eq!(Quantity::<Count>::from(12).si(), Ok(12.0));
+/// assert_eq!(Quantity::<Length>::from("20 ± 0.1 mm").measured(), Ok((0.02, Some(1e-4))));
 /// ```
 #[derive(Clone, PartialEq)]
 pub struct Quantity<K> {
@@ -155,12 +158,22 @@ impl<K: QuantityKind> Quantity<K> {
     /// # Errors
     /// The number is not finite, the text is not a number with a unit, or the unit has another dimension.
     pub fn si(&self) -> Result<f64, QuantityError> {
+        self.measured().map(|(value, _)| value)
+    }
+
+    /// Returns the value in SI units and its uncertainty, ≥ 0, if it is written with one: `"70 ± 2 GPa"`.
+    ///
+    /// # Errors
+    /// Those of [`Quantity::si`].
+    pub fn measured(&self) -> Result<(f64, Option<f64>), QuantityError> {
         match &self.written {
-            Written::Si(value) if value.is_finite() => Ok(*value),
+            Written::Si(value) if value.is_finite() => Ok((*value, None)),
             Written::Si(value) => Err(QuantityError::NotFinite(*value)),
-            Written::Text(text) => match parse_quantity(text) {
-                Ok((value, dimension)) if dimension == K::INFO.dimension => Ok(value),
-                Ok((_, dimension)) => Err(QuantityError::WrongDimension(dimension)),
+            Written::Text(text) => match uncertain::parse(text) {
+                Ok((value, uncertainty, found)) if found == K::INFO.dimension => {
+                    Ok((value, uncertainty))
+                }
+                Ok((.., dimension)) => Err(QuantityError::WrongDimension(dimension)),
                 Err(error) => Err(QuantityError::Unit(error)),
             },
         }
@@ -256,8 +269,14 @@ impl<K: QuantityKind> fmt::Debug for Quantity<K> {
 /// Serializes as a new type with the name of the SI unit, which most serializers ignore.
 impl<K: QuantityKind> Serialize for Quantity<K> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match (self.si(), &self.written) {
-            (Ok(value), _) | (Err(_), &Written::Si(value)) => match Self::whole(value) {
+        match (self.measured(), &self.written) {
+            (Ok((value, Some(uncertainty))), _) => {
+                let mut table = serializer.serialize_struct("uncertain", 2)?;
+                table.serialize_field("value", &InUnit(K::INFO.si, value))?;
+                table.serialize_field("uncertainty", &InUnit(K::INFO.si, uncertainty))?;
+                table.end()
+            }
+            (Ok((value, None)), _) | (Err(_), &Written::Si(value)) => match Self::whole(value) {
                 Some(count) => serializer.serialize_newtype_struct(K::INFO.si, &count),
                 None => serializer.serialize_newtype_struct(K::INFO.si, &value),
             },
@@ -266,10 +285,19 @@ impl<K: QuantityKind> Serialize for Quantity<K> {
     }
 }
 
+/// A number in SI, serialized as a new type with the name of its unit.
+struct InUnit(&'static str, f64);
+
+impl Serialize for InUnit {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_newtype_struct(self.0, &self.1)
+    }
+}
+
 impl<'de, K: QuantityKind> Deserialize<'de> for Quantity<K> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct WrittenVisitor<K>(PhantomData<K>);
-        impl<K: QuantityKind> Visitor<'_> for WrittenVisitor<K> {
+        impl<'de, K: QuantityKind> Visitor<'de> for WrittenVisitor<K> {
             type Value = Written;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -290,6 +318,23 @@ impl<'de, K: QuantityKind> Deserialize<'de> for Quantity<K> {
 
             fn visit_str<E>(self, text: &str) -> Result<Written, E> {
                 Ok(Written::Text(text.to_string()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Written, A::Error> {
+                const KEYS: [&str; 2] = ["value", "uncertainty"];
+                let mut parts = [None, None];
+                while let Some(key) = map.next_key::<String>()? {
+                    let place = KEYS.iter().position(|known| *known == key);
+                    let place = place.ok_or_else(|| A::Error::unknown_field(&key, &KEYS))?;
+                    parts[place] = Some(match map.next_value::<Quantity<K>>()?.written {
+                        Written::Si(value) => format!("{value:?} {}", K::INFO.si),
+                        Written::Text(text) => text,
+                    });
+                }
+                let [value, uncertainty] = parts;
+                let value = value.ok_or_else(|| A::Error::missing_field(KEYS[0]))?;
+                let uncertainty = uncertainty.ok_or_else(|| A::Error::missing_field(KEYS[1]))?;
+                Ok(Written::Text(format!("{value} ± {uncertainty}")))
             }
         }
         let written = deserializer.deserialize_any(WrittenVisitor::<K>(PhantomData))?;
@@ -364,5 +409,9 @@ mod tests {
         let json = |toml| serde_json::to_string(&quantity::<Length>(toml)).unwrap();
         assert_eq!(json("'22.2 mm'"), "0.0222");
         assert_eq!(json("3"), "3.0");
+        let uncertain = json("'20 ± 0.5 mm'");
+        assert_eq!(uncertain, r#"{"value":0.02,"uncertainty":0.0005}"#);
+        assert_eq!(json("{ value = '20 mm', uncertainty = 0.0005 }"), uncertain);
+        assert_eq!(serde_json::from_str::<Quantity<Length>>(&uncertain).unwrap().si(), Ok(0.02));
     }
 }

@@ -62,6 +62,14 @@ pub fn parse_quantity(text: &str) -> Result<(f64, Dimension), UnitError> {
     Ok((value, Dimension(scale.dimension)))
 }
 
+/// Returns the text after the number of `text`: its unit, empty for a plain number.
+///
+/// # Errors
+/// The text does not begin with a number.
+pub(crate) fn unit_of(text: &str) -> Result<&str, UnitError> {
+    split_number(text.trim()).map(|(_, unit)| unit.trim())
+}
+
 /// A decimal number as text: sign and significand, with a separate exponent.
 struct Decimal<'a> {
     negative: bool,

@@ -36,6 +36,7 @@ pub struct Scene {
     pub(crate) effects: EffectsTable,
     pub(crate) limits: Limits,
     pub(crate) refinement: f64,
+    pub(crate) inputs: Vec<UncertainInput>,
 }
 
 impl Scene {
@@ -226,6 +227,11 @@ impl Scene {
         self
     }
 
+    /// Returns the inputs that the case gives with an uncertainty.
+    pub fn uncertain_inputs(&self) -> &[UncertainInput] {
+        &self.inputs
+    }
+
     /// Returns the factor on the number of elements per length that the plan chooses. It is above one after a result missed
     /// its tolerance. It is not a key of a case: a resolved case has the element size.
     pub fn refinement(&self) -> f64 {
@@ -294,6 +300,17 @@ impl Scene {
             SlipSurface::new(curvature, body.material())
         }))
     }
+}
+
+/// A number of a case with its uncertainty, SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UncertainInput {
+    /// Dotted key of the number.
+    pub key: String,
+    /// The number.
+    pub value: f64,
+    /// Its uncertainty, ≥ 0.
+    pub uncertainty: f64,
 }
 
 /// The work of adhesion of a pair, J/m².

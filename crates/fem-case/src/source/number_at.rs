@@ -160,8 +160,12 @@ impl<'p> Serializer for Seek<'p> {
         self.inside()
     }
 
+    /// A number with an uncertainty is a table of both; no other table has a key of this name.
     fn serialize_struct(self, _name: &'static str, _n: usize) -> Result<Inside<'p>, NotSought> {
-        self.inside()
+        match self.path {
+            [] => Seek { path: &["value"], ..self }.inside(),
+            _ => self.inside(),
+        }
     }
 }
 

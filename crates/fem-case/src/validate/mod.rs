@@ -8,12 +8,13 @@ mod materials;
 mod models;
 mod output;
 
+use std::cell::RefCell;
 use std::path::Path;
 
 use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Quantity, QuantityKind};
-use crate::scene::{Limits, MeshSettings, Scene, defaults};
+use crate::scene::{Limits, MeshSettings, Scene, UncertainInput, defaults};
 use crate::schema::CaseFile;
 use crate::source::document::Document;
 
@@ -26,7 +27,7 @@ pub(crate) fn validate(
     stem: &str,
     folder: &Path,
 ) -> Result<Scene, CaseError> {
-    let check = Check { document, folder };
+    let check = Check { document, folder, inputs: RefCell::default() };
     let start = file.start.clone().unwrap_or_default();
     let mesh = file.mesh.clone().unwrap_or_default();
     let contact = file.contact.clone().unwrap_or_default();
@@ -47,7 +48,7 @@ pub(crate) fn validate(
     let gap = number!(start.gap, Range::NOT_NEGATIVE);
     let gravity = check.gravity(file, &bodies, gap.unwrap_or(defaults::GAP))?;
     let probes = check.probes(&output.probe, &bodies)?;
-    Ok(Scene {
+    let scene = Scene {
         title: file.title.clone().unwrap_or_else(|| stem.to_string()),
         bodies,
         gap,
@@ -78,13 +79,33 @@ pub(crate) fn validate(
             memory: number!(limits.memory, Range::COUNT).map(|bytes| bytes as u64),
         },
         refinement: 1.0,
-    })
+        inputs: Vec::new(),
+    };
+    let inputs = check.inputs.take();
+    if let Some(setting) = inputs.iter().find(|input| !is_measured(&input.key)) {
+        let key = &setting.key;
+        return Err(document
+            .error_at(
+                key,
+                format!("{key} has no uncertainty: it is a setting, not a measured input"),
+            )
+            .with_help("write the number alone"));
+    }
+    Ok(Scene { inputs, ..scene })
+}
+
+/// Returns whether a key is that of a measured input.
+fn is_measured(key: &str) -> bool {
+    const TABLES: [&str; 5] = ["material.", "body.", "start.", "gravity.", "model.law."];
+    key == "contact.work_of_adhesion" || TABLES.iter().any(|table| key.starts_with(table))
 }
 
 /// Checks the tables of a case; `folder` is that of relative mesh files.
 pub(crate) struct Check<'a> {
     document: &'a Document,
     folder: &'a Path,
+    /// The numbers with an uncertainty so far.
+    inputs: RefCell<Vec<UncertainInput>>,
 }
 
 impl Check<'_> {
@@ -105,11 +126,15 @@ impl Check<'_> {
         allowed: Range,
     ) -> Result<f64, CaseError> {
         let key = path.rsplit('.').find(|part| part.parse::<usize>().is_err()).unwrap_or(path);
-        let value = quantity.si().map_err(|error| {
+        let (value, uncertainty) = quantity.measured().map_err(|error| {
             let (message, help) = quantity.explain(&error, key);
             self.error(path, message).with_help(help)
         })?;
         if allowed.has(value) {
+            if let Some(uncertainty) = uncertainty {
+                let key = path.to_string();
+                self.inputs.borrow_mut().push(UncertainInput { key, value, uncertainty });
+            }
             Ok(value)
         } else {
             Err(self

@@ -43,8 +43,8 @@ export function headline(summary) {
 export function showNumbers(summary) {
   const rows = QUANTITIES.map(([key, name, unit]) => {
     const [own, hertz] = [summary[key], summary.hertz[key]];
-    const { discretisation, model, model_at_least: least } = summary.uncertainty[key];
-    const known = (discretisation ?? 0) + (model ?? least ?? 0);
+    const { discretisation, model, model_at_least: least, input } = summary.uncertainty[key];
+    const known = (discretisation ?? 0) + (model ?? least ?? 0) + (input ?? 0);
     const sign = discretisation === null || model === null ? '>' : '±';
     const off = sign === '>' && known === 0 ? null : known;
     const row = element('tr');

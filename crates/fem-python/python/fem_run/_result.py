@@ -85,8 +85,9 @@ class Result:
 
     def _error_bar(self, key: str) -> tuple[float, bool]:
         """Returns the sum of the known parts, and whether all are known."""
-        parts = self.summary["uncertainty"][key].values()
-        return sum(part for part in parts if part is not None), None not in parts
+        parts = self.summary["uncertainty"][key]
+        known = sum(part for part in parts.values() if part is not None)
+        return known, None not in (parts["discretisation"], parts["model"])
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and name in self.summary:

@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn unknown_parts_of_an_error_are_named() {
         let of = |discretisation, model, model_at_least| {
-            let parts = Parts { discretisation, model, model_at_least };
+            let parts = Parts { discretisation, model, model_at_least, input: None };
             error_text(&parts, "mesh", 1e-9, &rounded)
         };
         let text = |text: &str| Some(text.to_string());

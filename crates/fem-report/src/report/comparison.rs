@@ -183,6 +183,7 @@ mod tests {
             discretisation: Some(discretisation),
             model,
             model_at_least,
+            input: None,
         };
         let time = |parts| shown((45.607e-6, parts), QuantityOfInterest::ContactTime);
         assert_eq!(time(parts(1e-6, Some(0.9e-6), None)), "45.6 ± 1.9 µs");

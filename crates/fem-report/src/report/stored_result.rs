@@ -163,6 +163,7 @@ impl StoredResult {
             discretisation: part("discretisation"),
             model: part("model"),
             model_at_least: part("model_at_least"),
+            input: part("input"),
         }
     }
 

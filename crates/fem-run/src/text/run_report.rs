@@ -311,13 +311,13 @@ mod tests {
     #[test]
     fn unknown_errors_are_marked() {
         let of = |discretisation, model, model_at_least| {
-            let parts = Parts { discretisation, model, model_at_least };
+            let parts = Parts { discretisation, model, model_at_least, input: None };
             error_columns(62e-6, &parts, Some(&Unit::fitting(62e-6, "s")))
         };
         assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs"]);
         assert_eq!(of(Some(1e-17), None, Some(2e-7)), ["0", "> 0.2 µs"]);
         assert_eq!(of(None, None, None), ["?", "?"]);
-        let plain = Parts { discretisation: Some(1.94e-4), model: Some(0.0), model_at_least: None };
+        let plain = Parts { discretisation: Some(1.94e-4), model: Some(0.0), ..Parts::default() };
         assert_eq!(error_columns(1.0, &plain, None), ["1.9e-4", "0"]);
         assert!(error_legend("± mesh", "0.12 µs  > 0.2 µs").ends_with("neglects; >: at least"));
     }

@@ -2,6 +2,7 @@
 
 pub(crate) mod diagnostics;
 pub(crate) mod grouped_warnings;
+mod input_uncertainty;
 pub(crate) mod stop_advice;
 pub(crate) mod stress;
 mod uncertainty;

@@ -158,8 +158,8 @@ impl Serialize for UncertaintySummary {
     }
 }
 
-/// The two parts of an error bar.
-#[derive(Clone, Copy, Debug, Serialize)]
+/// The parts of an error bar.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Parts {
     /// Discretisation error: the exact solution of the model's continuum problem is expected within it.
     pub discretisation: Option<f64>,
@@ -168,17 +168,19 @@ pub struct Parts {
     /// Lower bound of the model-form error, if it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model_at_least: Option<f64>,
+    /// Uncertainty by uncertain inputs; `None` if the case has none.
+    pub input: Option<f64>,
 }
 
 impl Parts {
-    /// Returns the sum of both parts, if both are known.
+    /// Returns the sum of both errors, if both are known, and of the uncertainty by inputs, if there is one.
     pub fn sum(&self) -> Option<f64> {
-        Some(self.discretisation? + self.model?)
+        Some(self.discretisation? + self.model? + self.input.unwrap_or(0.0))
     }
 
     /// Returns the sum of the known parts; `None` if none is known.
     pub fn known(&self) -> Option<f64> {
-        let parts = [self.discretisation, self.model.or(self.model_at_least)];
+        let parts = [self.discretisation, self.model.or(self.model_at_least), self.input];
         parts.into_iter().flatten().reduce(|one, more| one + more)
     }
 }

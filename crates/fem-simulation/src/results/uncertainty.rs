@@ -7,6 +7,7 @@
 
 use fem_collision::Collision;
 
+use super::input_uncertainty::input_uncertainty;
 use super::summary::{EffectSummary, Parts, Quantities, UncertaintySummary};
 use crate::effects::{EffectStatus, effect_named};
 use crate::error::ErrorEstimate;
@@ -21,6 +22,7 @@ pub(super) fn uncertainty(
     numbers: &Quantities,
     effects: &[EffectSummary],
 ) -> UncertaintySummary {
+    let inputs = input_uncertainty(simulation, collision, numbers);
     let all = model_form_errors(simulation, collision, effects);
     let sum = |errors: &mut dyn Iterator<Item = QuantityErrors>| {
         errors.fold(QuantityErrors::ZERO, QuantityErrors::plus)
@@ -31,7 +33,8 @@ pub(super) fn uncertainty(
         let of = |error: &QuantityErrors| numbers.number(quantity).and(error.size(quantity));
         let model = of(&model);
         let known = of(&known).filter(|known| model.is_none() && *known > 0.0);
-        Parts { discretisation: of(&errors.bars), model, model_at_least: known }
+        let input = inputs.as_ref().and_then(of);
+        Parts { discretisation: of(&errors.bars), model, model_at_least: known, input }
     })
 }
 

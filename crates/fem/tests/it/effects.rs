@@ -126,6 +126,10 @@ fn mattering_effects_are_those_of_the_scene() {
         let simulation = simulation_of(text, &[format!("model.{model}")]);
         let decisions = simulation.setup().decisions.all.iter();
         let mattering = decisions.filter(|decision| decision.matters);
-        assert_eq!(mattering.map(|decision| decision.name).collect::<Vec<_>>(), expected, "{model}");
+        assert_eq!(
+            mattering.map(|decision| decision.name).collect::<Vec<_>>(),
+            expected,
+            "{model}"
+        );
     }
 }

@@ -46,6 +46,7 @@ mod strongly_relaxed_bodies;
 mod surface_slip;
 mod sweep;
 mod tolerance;
+mod uncertain_inputs;
 mod uncertainty;
 mod unequal_bodies;
 mod unresolved_contact;

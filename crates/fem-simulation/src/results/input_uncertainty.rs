@@ -1,0 +1,89 @@
+//! Uncertainty of the results by the uncertain inputs of a case, `"70 ± 2 GPa"`.
+//!
+//! Each input x with the uncertainty u changes a result y by half of y(x + u) − y(x − u), and the changes of independent
+//! inputs are added as squares (JCGM 100:2008, *Guide to the expression of uncertainty in measurement*, 5.1.2),
+//!
+//! ```math
+//! u_y^2 = \sum_k \left[\tfrac12 y(x_k+u_k) - \tfrac12 y(x_k-u_k)\right]^2 .
+//! ```
+//!
+//! A material of both bodies is one input. The changes are those of the case's contact law, or of Hertz' or Ting's impact
+//! between half-spaces, relative to it; that of the restitution is absolute.
+
+use fem_case::{Body, Case, ModelChoice, Scene, UncertainInput};
+use fem_collision::{Collision, QuantityOfInterest};
+use fem_laws::{HertzImpact, Impact, ImpactQuantities};
+
+use super::summary::Quantities;
+use crate::effects::SimplifiedScene;
+use crate::estimate::quasi_static::{known_impact, ting_of};
+use crate::models::Reduced;
+use crate::quantity_errors::QuantityErrors;
+use crate::simulation::Simulation;
+
+/// Relative accuracy of the impacts, whose differences count.
+const TOLERANCE: f64 = 1e-6;
+
+/// Returns the uncertainty of the numbers of a collision; `None` if the case has no uncertain inputs.
+pub(super) fn input_uncertainty(
+    simulation: &Simulation,
+    collision: &Collision,
+    numbers: &Quantities,
+) -> Option<QuantityErrors> {
+    let file = simulation.case().file().clone();
+    let case = Case::of(simulation.with_approach(file, &collision.approach)).ok()?;
+    let inputs = case.scene().uncertain_inputs();
+    if inputs.is_empty() {
+        return None;
+    }
+    let own = impact_of(case.scene())?;
+    let changes: Vec<[f64; 6]> = inputs.iter().map(|input| change(&case, &own, input)).collect();
+    let sum = |k: usize| changes.iter().map(|change| change[k].powi(2)).sum::<f64>().sqrt();
+    let errors = QuantityErrors::from_fn(|quantity| {
+        Some(sum(quantity as usize) * quantity.scale(numbers.number(quantity)?))
+    });
+    Some(errors.checked())
+}
+
+/// Returns the changes of the quantities by one input, NaN where they are unknown. An input at the edge of its range is
+/// changed to one side.
+fn change(case: &Case, own: &ImpactQuantities, input: &UncertainInput) -> [f64; 6] {
+    let at = |value: f64| impact_of(case.with_number(&input.key, value).ok()?.scene());
+    let [above, below] = [1.0, -1.0].map(|side| at(input.value + side * input.uncertainty));
+    let of = |impact: &ImpactQuantities| impact.change_from(own);
+    match (above, below) {
+        (Some(above), Some(below)) => {
+            let (above, below) = (of(&above), of(&below));
+            std::array::from_fn(|k| 0.5 * (above[k] - below[k]))
+        }
+        (Some(one), None) | (None, Some(one)) => of(&one),
+        (None, None) => [f64::NAN; 6],
+    }
+}
+
+/// Returns the closed-form impact of a scene.
+fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
+    let speed = scene.approach_speed();
+    if matches!(scene.model(), ModelChoice::Law { .. }) {
+        return Some(quantities(&Reduced::new(scene).ok()?.impact(speed).ok()?));
+    }
+    let scene = SimplifiedScene::quiet(scene)?;
+    let pair = scene.pair().ok()?;
+    let mut materials = scene.bodies().iter().filter_map(Body::material);
+    if materials.all(|material| material.relaxation().is_none()) {
+        return HertzImpact::new(&pair, speed).ok().as_ref().map(ImpactQuantities::from);
+    }
+    let ting = ting_of(&scene, &pair, true, None).ok()?.with_coarse_waves();
+    Some(quantities(&*known_impact(ting.with_tolerance(TOLERANCE).ok()?, speed).ok()?))
+}
+
+fn quantities(impact: &Impact) -> ImpactQuantities {
+    ImpactQuantities {
+        restitution: impact.restitution,
+        contact_time: impact.contact_time.unwrap_or(f64::NAN),
+        peak_force: impact.peak_force,
+        max_approach: impact.max_approach,
+        max_contact_radius: impact.max_contact_radius,
+        peak_pressure: impact.peak_pressure.unwrap_or(f64::NAN),
+    }
+}
