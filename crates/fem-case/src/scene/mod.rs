@@ -84,7 +84,7 @@ impl Scene {
             own.surface_energy.or(other.surface_energy.filter(|_| own.shape == Shape::Wall))
         });
         let of_pair = match energies {
-            [Some(lower), Some(upper)] => Some(2.0 * lower.sqrt() * upper.sqrt()),
+            [Some(lower), Some(upper)] => Some(2.0 * (lower * upper).sqrt()),
             _ => None,
         };
         let typical = WorkOfAdhesion::Typical(2.0 * defaults::TYPICAL_SURFACE_ENERGY);

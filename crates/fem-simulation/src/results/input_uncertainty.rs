@@ -11,7 +11,7 @@
 //! between half-spaces, relative to it; that of the restitution is absolute.
 
 use fem_case::{Body, Case, ModelChoice, Scene, UncertainInput};
-use fem_collision::{Collision, QuantityOfInterest};
+use fem_collision::Collision;
 use fem_laws::{HertzImpact, Impact, ImpactQuantities};
 
 use super::summary::Quantities;
