@@ -47,6 +47,8 @@ fn a_ball_continues_from_its_restart_state() {
         (&[COARSE, "output.snapshots=['maximum', 'last-contact']"][..], 3),
         (&[COARSE, "output.snapshots=['101 ms', '102.5 ms', '1 s']"], 3),
         (&[COARSE, on_rubber], 3),
+        // It sticks at the third landing.
+        (&[COARSE, "contact.work_of_adhesion='240 J/m^2'"], 3),
         (&[COARSE, steel, on_steel, "effects.rigid_partner='on'"], 3),
         (&[lossy, "mesh.growth=1.35", "accuracy.tolerance='0.3 %'"], 15),
     ] {
@@ -56,6 +58,9 @@ fn a_ball_continues_from_its_restart_state() {
         assert_eq!(whole.bodies[0].elements.is_some_and(|n| n > 0), more.contains(&on_rubber));
         let (resumed, n_stops) = in_pieces(&overrides, n_pieces);
         assert_eq!(resumed, whole, "{more:?}");
+        let is_stuck = more.iter().any(|set| set.contains("adhesion"));
+        let sticks = whole.bounces.iter().map(|bounce| bounce.restitution == 0.0);
+        assert_eq!(sticks.collect::<Vec<_>>(), [false, false, is_stuck], "{:?}", whole.bounces);
         assert!(n_stops[..3].iter().all(|&n| n > 0), "{n_stops:?}");
         if more[0] == lossy {
             // The radius goes with v^(2/5): three quarters of it.

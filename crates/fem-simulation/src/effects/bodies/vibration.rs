@@ -25,7 +25,7 @@ const MAX_VIBRATION: f64 = 0.01;
 /// 0.06 to 0.1 of it more than quasi-static bodies on a wall at 0.3 to 20 %, and twice that at 40 %. A small ball
 /// leaves more in a large one, which hardly moves ([`PartnerWaves::left_ringing`]).
 const LOSS_PER_MACH: f64 = 0.1;
-/// Factor on the loss in error bars, since [`LOSS_PER_MACH`] is the least loss: explicit elements of elastic pairs with
+/// Factor on the loss by inertia in error bars, since [`LOSS_PER_MACH`] is the least loss: explicit elements of elastic pairs with
 /// restitutions of 0.979 to 0.996 lost up to a third more.
 const MARGIN_OF_LOSS: f64 = 1.5;
 /// Relative increase of the contact time over the delay of the deformation ([`slowness`]), from explicit elements or twelve
@@ -56,7 +56,6 @@ impl Effect for Vibration {
     }
 
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
-        let mach = own_mach(scene, estimate);
         let slowness = slowness(scene, estimate);
         let ringing = estimate.effective_ringing;
         let lengths = NeglectError::shares(
@@ -65,24 +64,22 @@ impl Effect for Vibration {
             FORCE_DECREASE_PER_DELAY * slowness + RINGING_WEAKENING * ringing,
         );
         let relaxed = 1.0 + OF_RELAXED * relaxed_loss(scene, estimate);
-        // Steep fronts increase the loss with the speed.
-        let own =
-            (LOSS_PER_MACH * mach * (1.0 + mach)).max(PartnerWaves::left_ringing(scene, estimate));
-        let loss = own + RINGING_LOSS * ringing;
+        let loss = loss_by_inertia(scene, estimate) + RINGING_LOSS * ringing;
         Some(NeglectError { restitution: Some(loss * relaxed), ..lengths })
     }
 
     /// The neglect error, with a margin on the loss.
     fn model_form_error(
         &self,
-        _: &Scene,
+        scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
     ) -> QuantityErrors {
         let Some(change) = status.neglect_error.filter(|_| status.is_lacking) else {
             return QuantityErrors::ZERO;
         };
-        let restitution = change.restitution.map(|loss| MARGIN_OF_LOSS * loss);
+        let margin = (MARGIN_OF_LOSS - 1.0) * loss_by_inertia(scene, estimate);
+        let restitution = change.restitution.map(|loss| loss + margin);
         NeglectError { restitution, ..change }.of_all_quantities(estimate)
     }
 
@@ -202,6 +199,13 @@ impl Vibration {
         });
         Support::decided(false, "the bodies move as a whole: quasi-static contact").warning(warning)
     }
+}
+
+/// Returns the loss of restitution by inertia of bodies that do not relax.
+fn loss_by_inertia(scene: &Scene, estimate: &Estimate) -> f64 {
+    let mach = own_mach(scene, estimate);
+    // Steep fronts increase the loss with the speed.
+    (LOSS_PER_MACH * mach * (1.0 + mach)).max(PartnerWaves::left_ringing(scene, estimate))
 }
 
 /// Returns each moving body with its share of the approach speed, m*/m with the reduced mass m*.
