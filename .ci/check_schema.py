@@ -138,7 +138,7 @@ def main(command):
         (cases if kind == "case" else sweeps).validate(file)
         n[kind] += 1
         if kind == "case":
-            printed = subprocess.check_output([command, "check", str(path)], text=True)
+            printed = subprocess.check_output([command, "check", "--resolved", str(path)], text=True)
             cases.validate(tomllib.loads(printed))
     assert n["case"] > 10 and n["sweep"] > 1, n
     for model in ("ting", {"law": "hertz"}, {"condensed": {"steps": 400}}):

@@ -1,13 +1,13 @@
 //! Forecast of a run's time on this machine from a few timed steps. `check` and the run print the same
-//! numbers.
+//! time, with one digit.
 
 use std::time::{Duration, Instant};
 
 use fem::error::CONDENSED_REFERENCE_TIME;
 use fem::{Cost, ErrorEstimator, RefinementBound, Simulation};
-use fem_case::engineering::Unit;
+use fem_case::engineering::{Unit, number};
 use fem_collision::{Monitor, OutputRequest, Phase, Progress};
-use indicatif::HumanCount;
+use indicatif::{HumanCount, HumanDuration};
 
 /// Least time for which steps are timed.
 const MIN_TIMING: Duration = Duration::from_millis(1);
@@ -27,22 +27,36 @@ const FILE: f64 = 0.4;
 /// Time to draw the report of a run with snapshots over the time to make the bodies.
 const REPORT: f64 = 0.8;
 
-/// Shows an estimate with two digits: `43 ms`, `120 MB`.
+/// Time to write the files of explicit elements and to draw their report, s.
+const WRITING: f64 = 0.02;
+/// Shortest time that is announced, s.
+const MIN_TIME: f64 = 0.01;
+
+/// Shows an estimated size with two digits: `120 MB`.
 pub fn estimated(value: f64, unit: &str) -> String {
-    let value = to_two_digits(value);
+    let value = rounded(value, 2);
     Unit::fitting(value, unit).with_digits(2).show(value)
 }
 
 /// Shows an estimated number with two digits: `3,000`.
 pub fn estimated_count(number: f64) -> HumanCount {
-    HumanCount(to_two_digits(number) as u64)
+    HumanCount(rounded(number, 2) as u64)
 }
 
-fn to_two_digits(value: f64) -> f64 {
-    if value <= 0.0 {
+/// Shows an estimated time with one digit: `0.1 s`, `40 s`, `3 minutes` or `2 days`.
+pub fn estimated_time(seconds: f64) -> String {
+    let seconds = rounded(seconds.max(MIN_TIME), 1);
+    if seconds < 60.0 {
+        return format!("{} s", number(seconds, 1));
+    }
+    HumanDuration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)).to_string()
+}
+
+fn rounded(value: f64, digits: i32) -> f64 {
+    if value <= 0.0 || !value.is_finite() {
         return value;
     }
-    let digit = 10f64.powi(value.log10().floor() as i32 - 1);
+    let digit = 10f64.powi(value.log10().floor() as i32 - (digits - 1));
     digit * (value / digit).round()
 }
 
@@ -89,6 +103,19 @@ impl Forecast {
         Self { seconds, updates_over_expected, element_updates, finer }
     }
 
+    /// Returns the expected seconds of a run of which `spent` have passed, files included.
+    ///
+    /// If explicit elements may be refined, it is the geometric mean of the times with none and all of the finer
+    /// meshes. Condensed bodies are rarely refined.
+    pub fn whole(&self, spent: f64) -> Option<f64> {
+        let has_steps = self.element_updates > 0.0;
+        let (first, most) = (self.seconds?, self.most_seconds()?);
+        match has_steps {
+            true => Some(spent + (first * most).sqrt() + WRITING),
+            false => Some(spent + first),
+        }
+    }
+
     /// Returns the seconds here with all finer meshes that may follow.
     pub fn most_seconds(&self) -> Option<f64> {
         let most = self.finer.map_or(0.0, |finer| finer.bound.over_first);
@@ -97,12 +124,12 @@ impl Forecast {
 }
 
 impl FinerMeshes {
-    /// Describes the bound: "at most 2 finer meshes, 1.7e8 element updates more, 230 s".
+    /// Describes the bound: "at most 2 finer meshes, 1.7e8 element updates more, 3 minutes".
     pub fn in_words(&self) -> String {
         let (updates, seconds) = self.first;
         let RefinementBound { meshes, over_first } = self.bound;
         let plural = if meshes == 1 { "" } else { "es" };
-        let time = estimated(over_first * seconds, "s");
+        let time = estimated_time(over_first * seconds);
         match updates > 0.0 {
             true => format!(
                 "at most {meshes} finer mesh{plural}, {:.1e} element updates more, {time}",
@@ -206,10 +233,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn estimates_have_two_digits() {
-        assert_eq!([0.04301, 313.9].map(|time| estimated(time, "s")), ["43 ms", "310 s"]);
+    fn sizes_have_two_digits_and_times_one() {
         assert_eq!([1.981e7, 0.0].map(|size| estimated(size, "B")), ["20 MB", "0.0 B"]);
         assert_eq!([2987.0, 7.0].map(|n| estimated_count(n).to_string()), ["3,000", "7"]);
+        let times = [1e-5, 0.0931, 0.25, 43.0, 180.0, 2.0 * 86_400.0].map(estimated_time);
+        assert_eq!(times, ["0.01 s", "0.09 s", "0.3 s", "40 s", "3 minutes", "2 days"]);
+        assert!(!estimated_time(f64::INFINITY).is_empty());
+    }
+
+    /// Between 1 s and 16 s of steps 4 s are expected; finer condensed meshes are not.
+    #[test]
+    fn expected_time_lies_between_those_without_and_with_all_finer_meshes() {
+        let of = |element_updates, over_first| {
+            let bound = RefinementBound { meshes: 2, over_first };
+            let finer = Some(FinerMeshes { bound, first: (element_updates, 1.0) });
+            let all =
+                Forecast { seconds: Some(1.0), updates_over_expected: 1.0, element_updates, finer };
+            all.whole(0.5).unwrap()
+        };
+        assert!((of(1e6, 15.0) - 4.5 - WRITING).abs() < 1e-12);
+        assert_eq!(of(0.0, 15.0), 1.5);
     }
 
     /// Factors are made once: 4 s of factors and a fifth of the steps in 1 s make 9 s.

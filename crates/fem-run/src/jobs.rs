@@ -111,7 +111,7 @@ pub fn cradle(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
     commands::laws::cradle::numbers(&arguments, input.table.as_ref())
 }
 
-/// Runs `fem-run check` and returns the resolved case with comments on the expected run.
+/// Runs `fem-run check --resolved` and returns the resolved case with comments on the expected run.
 ///
 /// # Errors
 /// The model rejects the case.

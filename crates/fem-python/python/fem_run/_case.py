@@ -94,7 +94,7 @@ class Case:
         return result
 
     def check(self) -> str:
-        """Returns the text of ``fem-run check``: the case with all defaults, and a description of the expected run."""
+        """Returns the text of ``fem-run check --resolved``: the case with all defaults, and a description of the expected run."""
         return self._native.check()
 
     def to_toml(self) -> str:

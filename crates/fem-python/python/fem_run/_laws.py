@@ -80,7 +80,7 @@ def cradle(data: Any = None, **options: Any) -> Any:
 
 
 def check(case: Case) -> str:
-    """Returns the text of ``fem-run check``: the case with all defaults, and a description of the expected run."""
+    """Returns the text of ``fem-run check --resolved``: the case with all defaults, and a description of the expected run."""
     _native_of(case)
     return case.check()
 

@@ -45,6 +45,11 @@ pub struct EffectEntry {
 const NUMERICAL: [&str; 5] =
     ["contact search", "mass scaling", "hourglass control", "mirror symmetry", "bulk viscosity"];
 
+/// Returns whether an effect is one of the numerical method.
+pub fn is_numerical(name: &str) -> bool {
+    NUMERICAL.contains(&name)
+}
+
 /// Returns the physical effects that are on, the numerical ones that are on, and those that are off.
 pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 3] {
     let effect = |value: &Value| {
@@ -58,7 +63,7 @@ pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 3] {
     };
     let (on, off): (Vec<EffectEntry>, Vec<EffectEntry>) =
         result.list("effects").iter().map(effect).partition(|effect| effect.is_on);
-    let is_physical = |effect: &EffectEntry| !NUMERICAL.contains(&effect.name.as_str());
+    let is_physical = |effect: &EffectEntry| !is_numerical(&effect.name);
     let (physical, numerical) = on.into_iter().partition(is_physical);
     [physical, numerical, off]
 }

@@ -26,6 +26,7 @@ use effects::EffectEntry;
 
 pub use comparison::comparison_page;
 pub use contours::contour_of_result;
+pub use effects::is_numerical;
 pub use history_charts::{Quantity, energy_chart, history_chart};
 pub use pressure_chart::pressure_chart;
 pub use stored_result::{ReportError, StoredResult};

@@ -13,7 +13,7 @@ use fem_laws::laws::ContactLaw;
 
 use crate::{
     arguments::case::{CaseArguments, ToleranceArguments},
-    forecast::{Forecast, estimated, estimated_count},
+    forecast::{Forecast, estimated, estimated_count, estimated_time},
     progress::stopwatch::peak_memory_with,
     text::{Failure, headed, mesh_table, pairs, run_report, standard_output, table},
 };
@@ -21,15 +21,19 @@ use crate::{
 /// Time for the reference runs that decide whether the mesh is fine enough.
 const PATIENCE_WITH_REFERENCE_RUNS: Duration = Duration::from_secs(2);
 
-/// Check a case and print it with all defaults filled in
+/// Check a case and print its warnings, its cost and the effects that it includes
 ///
-/// The output is a case file that gives the same result; its comments describe the expected run.
+/// With --resolved the output is a case file with all defaults filled in, which gives the same result; its
+/// comments describe the expected run.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
     #[command(flatten)]
     within: ToleranceArguments,
+    /// Print the case with all defaults filled in, as TOML
+    #[arg(long)]
+    resolved: bool,
     /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
@@ -37,42 +41,57 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_within(&arguments.within)?;
-    let (simulation, text) = checked(case, &arguments.input.name())?;
+    let checked = Checked::of(case, &arguments.input.name())?;
     if arguments.quiet {
-        standard_output::warn(simulation.warnings_before());
-        return Ok(());
+        standard_output::warn(checked.simulation.warnings_before());
     }
-    standard_output::print(&text)
+    match (arguments.resolved, arguments.quiet) {
+        (true, _) => standard_output::print(&checked.resolved()?),
+        (false, true) => Ok(()),
+        (false, false) => standard_output::print(&checked.expectation),
+    }
 }
 
 /// Returns the resolved case as TOML, with comments on the expected run.
 pub fn text(case: Case, name: &str) -> Result<String, Failure> {
-    Ok(checked(case, name)?.1)
+    Checked::of(case, name)?.resolved()
 }
 
-fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
-    let begin = Instant::now();
-    let simulation = Simulation::new(case)?;
-    let making = begin.elapsed().as_secs_f64();
-    let mut estimator = ErrorEstimator::default();
-    let RefinedBeforeRun { simulation, is_open } =
-        estimator.refine_before_run(simulation, || begin.elapsed() < PATIENCE_WITH_REFERENCE_RUNS);
-    let setup = begin.elapsed().as_secs_f64();
-    let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
-    let resolved = simulation.resolved().to_toml();
-    let resolved = resolved.map_err(|error| {
-        Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
-    })?;
-    let large = simulation.case().scene().large_spheres();
-    let large = large.map_or(String::new(), |spheres| format!(", with {spheres}"));
-    let heading = format!("{name} is valid{large}. Expected of a run:");
-    let expectation = format!(
-        "{}\n\n{}",
-        standard_output::one_line(&heading),
-        expect(&simulation, &estimator, setup, &forecast)
-    );
-    let text = format!("{}\n{resolved}", as_comment(&expectation));
-    Ok((simulation, text))
+struct Checked {
+    simulation: Simulation,
+    /// The warnings and the expected run.
+    expectation: String,
+}
+
+impl Checked {
+    fn of(case: Case, name: &str) -> Result<Self, Failure> {
+        let begin = Instant::now();
+        let simulation = Simulation::new(case)?;
+        let making = begin.elapsed().as_secs_f64();
+        let mut estimator = ErrorEstimator::default();
+        let RefinedBeforeRun { simulation, is_open } = estimator
+            .refine_before_run(simulation, || begin.elapsed() < PATIENCE_WITH_REFERENCE_RUNS);
+        let setup = begin.elapsed().as_secs_f64();
+        let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
+        let large = simulation.case().scene().large_spheres();
+        let large = large.map_or(String::new(), |spheres| format!(", with {spheres}"));
+        let (warnings, none) = match simulation.warnings_before() {
+            none if none.is_empty() => (String::new(), ", without warnings"),
+            some => (run_report::warnings(&some) + "\n", ""),
+        };
+        let heading = format!("{name} is valid{large}{none}. Expected of a run:");
+        let expected = expect(&simulation, &estimator, setup, &forecast);
+        let heading = standard_output::one_line(&heading);
+        let expectation = format!("{warnings}{heading}\n\n{expected}");
+        Ok(Self { simulation, expectation })
+    }
+
+    fn resolved(&self) -> Result<String, Failure> {
+        let resolved = self.simulation.resolved().to_toml().map_err(|error| {
+            Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
+        })?;
+        Ok(format!("{}\n{resolved}", as_comment(&self.expectation)))
+    }
 }
 
 fn expect(
@@ -100,12 +119,10 @@ fn expect(
         Cost::ClosedForm { law } => one_degree_of_freedom(&setup.description, law.as_ref()),
     };
     format!(
-        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the error of leaving each one out (?: not known)\n\
-         {}\n{}",
+        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the error of leaving each one out (?: not known)\n{}",
         models(simulation),
         unforced(simulation),
         effects(simulation),
-        run_report::warnings(&simulation.warnings_before()),
     )
 }
 
@@ -185,18 +202,17 @@ fn of_contacts(simulation: &Simulation) -> String {
     }
 }
 
-/// Returns the time of the setup and of the run, and the mesh refinements that may follow.
+/// Returns the time of a run after its setup, and the mesh refinements that may follow.
 fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String; 2]> {
-    let setup = estimated(setup, "s");
-    let time = match forecast.seconds {
-        Some(run) => format!("about {} here, after {setup} of setup", estimated(run, "s")),
-        None => format!("{setup} of setup here"),
-    };
     let mut rows = Vec::new();
     if let Some(why) = simulation.refined_because() {
         rows.push(["finer mesh".to_string(), why]);
     }
-    rows.push(["time".to_string(), time]);
+    rows.extend(
+        forecast
+            .whole(setup)
+            .map(|seconds| ["time".to_string(), format!("about {} here", estimated_time(seconds))]),
+    );
     rows.extend(forecast.finer.map(|finer| {
         let when = "if the result misses accuracy.tolerance";
         ["mesh refinement".to_string(), format!("{when}: {}", finer.in_words())]

@@ -14,7 +14,7 @@ use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::HumanCount;
 
 use crate::arguments::case::{CaseArguments, ToleranceArguments, parse_count};
-use crate::forecast::{Forecast, estimated, estimated_count};
+use crate::forecast::{Forecast, estimated, estimated_count, estimated_time};
 use crate::progress::RunProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::progress::stopwatch::Timed;
@@ -25,7 +25,7 @@ use crate::result_folder::restart::{
 };
 use crate::result_folder::run_files::{WrittenResult, longest_name, write_result};
 use crate::result_folder::{OverwritePolicy, ResultFolder};
-use crate::text::run_report::report;
+use crate::text::run_report::{Detail, report};
 use crate::text::{Failure, one_line, shown, standard_output};
 
 /// How to run a case.
@@ -53,9 +53,18 @@ pub struct Options {
     /// Print only the summary on stdout, as in summary.json
     #[arg(long)]
     json: bool,
+    /// Print everything: bodies, energies, cost, and each effect with the reason why it is on or off
+    #[arg(long, short, conflicts_with = "quiet")]
+    verbose: bool,
     /// Print nothing but errors and warnings, and the summary with --json
     #[arg(long, short)]
     quiet: bool,
+}
+
+impl Options {
+    fn detail(&self) -> Detail {
+        if self.verbose { Detail::All } else { Detail::Short }
+    }
 }
 
 pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
@@ -82,7 +91,8 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let mut printed = Vec::new();
     if !options.quiet {
         let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
-        printed = announce(&simulation, &estimator, &forecast, &input.name(), &place);
+        let announced = Announced { simulation: &simulation, estimator: &estimator, forecast };
+        printed = announced.print(&input.name(), &place, started, options.detail());
         if options.restart.restart {
             announce_restart(restart_state.as_ref());
         }
@@ -92,13 +102,12 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let mut writer = RestartWriter::new(&folder, &identity, options.restart);
     let mut restart_state = restart_state;
     let mut left: &[&str] = &[];
-    let mut known = Instant::now();
-    let computed = estimator.within_tolerance(simulation, |estimator, simulation| {
+    let computed = estimator.within_tolerance(simulation, |_, simulation| {
         if restart_state.is_none() && !options.quiet {
-            tell_finer(simulation, estimator, known.elapsed().as_secs_f64());
+            tell_finer(simulation, options.detail());
         }
         let (collision, kept) = compute(simulation, restart_state.take(), &mut writer, &mut watch)?;
-        (left, known) = (kept, Instant::now());
+        left = kept;
         Ok::<_, Failure>(collision)
     })?;
     let (stopwatch, watch) = watch.stop();
@@ -117,7 +126,10 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     match (options.json, options.quiet) {
         (true, _) => standard_output::print(&text)?,
         (false, true) => {}
-        (false, false) => standard_output::print(&report(&summary, place, &printed))?,
+        (false, false) => {
+            let text = report(&summary, place, &printed, options.detail());
+            standard_output::print(&text)?;
+        }
     }
     if let Some(fault) = fault {
         return Err(fault);
@@ -172,76 +184,98 @@ fn compute(
     }
 }
 
-/// Prints on stderr what is known before a run. Returns the warnings that a reader of its report sees
-/// there too.
-fn announce(
-    simulation: &Simulation,
-    estimator: &ErrorEstimator,
-    forecast: &Forecast,
-    case: &str,
-    place: &ResultPath,
-) -> Vec<String> {
-    // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.
-    let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
-    let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
-        format!("; adaptive refinement may add {}", finer.in_words())
-    });
-    let (cost_estimate, out) =
-        (cost_estimate(simulation, estimator, forecast), place.out.display());
-    let large = simulation.case().scene().large_spheres();
-    let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
-    let mut line = format!("{case}: {large}{cost_estimate}{more}; result: {out}");
-    if let Some(taken) = &place.taken {
-        line += &format!(" ({} holds another case)", taken.display());
+/// What is known before a run.
+struct Announced<'a> {
+    simulation: &'a Simulation,
+    estimator: &'a ErrorEstimator,
+    forecast: Forecast,
+}
+
+impl Announced<'_> {
+    /// Prints it on stderr, with the time that a run takes which began at `started`. Returns the warnings that a reader
+    /// of its report sees there too.
+    fn print(
+        &self,
+        case: &str,
+        place: &ResultPath,
+        started: Instant,
+        detail: Detail,
+    ) -> Vec<String> {
+        let Self { simulation, forecast, .. } = self;
+        let large = simulation.case().scene().large_spheres();
+        let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
+        let cost = self.cost(started.elapsed().as_secs_f64(), detail);
+        let mut line = format!("{case}: {large}{cost}");
+        // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.
+        let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
+        if let Some(finer) = forecast.finer.filter(|_| has_steps && detail == Detail::All) {
+            line += &format!("; adaptive refinement may add {}", finer.in_words());
+        }
+        if detail == Detail::All || place.taken.is_some() {
+            line += &format!("; result: {}", place.out.display());
+        }
+        if let Some(taken) = &place.taken {
+            line += &format!(" ({} holds another case)", taken.display());
+        }
+        let _ = writeln!(stderr(), "{}", one_line(&line));
+        let warnings = simulation.warnings_before();
+        standard_output::warn(warnings.clone());
+        // A report in a file has all warnings.
+        match stdout().is_terminal() && stderr().is_terminal() {
+            true => warnings,
+            false => Vec::new(),
+        }
     }
-    let _ = writeln!(stderr(), "{}", one_line(&line));
-    let warnings = simulation.warnings_before();
-    standard_output::warn(warnings.clone());
-    // A report in a file has all warnings.
-    match stdout().is_terminal() && stderr().is_terminal() {
-        true => warnings,
-        false => Vec::new(),
+
+    /// Describes size, time and memory of a run after `spent` seconds.
+    fn cost(&self, spent: f64, detail: Detail) -> String {
+        let Self { simulation, estimator, forecast } = self;
+        let setup = simulation.setup();
+        let all = |text: String| if detail == Detail::All { text } else { String::new() };
+        let size = match setup.cost {
+            Cost::Steps { elements, steps, .. } => {
+                let steps = estimated_count(forecast.updates_over_expected * steps as f64);
+                format!(
+                    "{} elements{}",
+                    HumanCount(elements),
+                    all(format!(", about {steps} steps"))
+                )
+            }
+            Cost::Factors { elements, contact_points, factor_bytes, .. } => {
+                let points = format!(" condensed to {contact_points} contact points");
+                let factors = match factor_bytes {
+                    0 => String::new(),
+                    bytes => format!(", factors of {}", estimated(bytes as f64, "B")),
+                };
+                format!("{} elements{points}{}", HumanCount(elements), all(factors))
+            }
+            Cost::ClosedForm { .. } => return format!("{}, milliseconds", setup.description),
+        };
+        let contacts = simulation.case().scene().gravity().map_or(1, |gravity| gravity.bounces);
+        let each = if contacts > 1 { " per contact" } else { "" };
+        let time = match (forecast.whole(spent), &setup.cost) {
+            (Some(seconds), _) | (None, &Cost::Steps { seconds, .. }) => {
+                format!(", about {}{each}", estimated_time(seconds))
+            }
+            (None, _) => String::new(),
+        };
+        let memory = peak_memory_with(simulation, estimator);
+        let memory = memory
+            .map_or(String::new(), |bytes| format!(", about {}", estimated(bytes as f64, "B")));
+        format!("{size}{time}{memory}")
     }
 }
 
-/// Prints on stderr that the mesh is refined; making its bodies took `making` seconds.
-fn tell_finer(simulation: &Simulation, estimator: &mut ErrorEstimator, making: f64) {
-    if let Some(why) = simulation.refined_because() {
-        let forecast = Forecast::of(simulation, estimator, making, false);
-        let cost_estimate = cost_estimate(simulation, estimator, &forecast);
-        let _ = writeln!(stderr(), "{}", one_line(&format!("{why}; {cost_estimate}")));
-    }
-}
-
-fn cost_estimate(
-    simulation: &Simulation,
-    estimator: &ErrorEstimator,
-    &Forecast { seconds, updates_over_expected, .. }: &Forecast,
-) -> String {
-    let time = |seconds: Option<f64>| {
-        seconds.map_or(String::new(), |seconds| format!(", about {}", estimated(seconds, "s")))
+/// Prints on stderr that the mesh is refined.
+fn tell_finer(simulation: &Simulation, detail: Detail) {
+    let Some(why) = simulation.refined_because() else { return };
+    let line = match (detail, &simulation.setup().cost) {
+        (Detail::Short, Cost::Steps { elements, .. } | Cost::Factors { elements, .. }) => {
+            format!("finer mesh: {} elements", HumanCount(*elements))
+        }
+        _ => format!("finer mesh: {why}"),
     };
-    let memory = peak_memory_with(simulation, estimator);
-    let memory =
-        memory.map_or(String::new(), |bytes| format!(", about {}", estimated(bytes as f64, "B")));
-    match simulation.setup().cost {
-        Cost::Steps { elements, steps, seconds: expected, .. } => format!(
-            "{} elements, about {} steps{}{memory}",
-            HumanCount(elements),
-            estimated_count(updates_over_expected * steps as f64),
-            time(seconds.or(Some(expected)))
-        ),
-        Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
-            "{} elements condensed to {contact_points} contact points{}{}{memory}",
-            HumanCount(elements),
-            match factor_bytes {
-                0 => String::new(),
-                bytes => format!(", factors of {}", estimated(bytes as f64, "B")),
-            },
-            time(seconds)
-        ),
-        Cost::ClosedForm { .. } => format!("{}, milliseconds", simulation.setup().description),
-    }
+    let _ = writeln!(stderr(), "{}", one_line(&line));
 }
 
 /// Returns why a run stopped early; `kept` says where its results are.

@@ -2,19 +2,17 @@
 
 use std::io::{Write, stderr};
 use std::path::Path;
-use std::time::Duration;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::sweep::{Checked, Row, SWEEP_FILE};
 use fem::{WarningKind, WarningKinds};
 use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
-use indicatif::HumanDuration;
 
 use super::collect::SweepOutcome;
 use super::cost_estimate::{SweepCost, TotalTime};
 use super::member_store::LINE_BYTES;
-use crate::forecast::estimated;
+use crate::forecast::{estimated, estimated_time};
 use crate::text::{Failure, one_line, shown, table};
 
 pub fn announce(
@@ -32,7 +30,7 @@ pub fn announce(
     let time = match n_left {
         0 => String::new(),
         _ => {
-            let on_threads = |total: TotalTime| duration(total.on(n_threads));
+            let on_threads = |total: TotalTime| estimated_time(total.on(n_threads));
             let most = expected.most.map_or(String::new(), |most| {
                 format!(", up to {} if meshes have to be refined", on_threads(most))
             });
@@ -154,25 +152,4 @@ pub fn warning_lines<'t>(
         lines.push(format!("… and {n_omitted} more, in the column `warnings` of sweep.csv"));
     }
     lines
-}
-
-/// Returns an estimate such as `12 ms`, `40 s`, `3 minutes` or `2 days`.
-pub fn duration(seconds: f64) -> String {
-    if seconds < 60.0 {
-        return estimated(seconds, "s");
-    }
-    HumanDuration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)).to_string()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_times_are_in_minutes_and_days() {
-        assert_eq!(duration(0.25), "250 ms");
-        assert_eq!(duration(180.0), "3 minutes");
-        assert_eq!(duration(2.0 * 86_400.0), "2 days");
-        assert!(!duration(f64::INFINITY).is_empty());
-    }
 }

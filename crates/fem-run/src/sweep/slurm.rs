@@ -16,8 +16,9 @@ use fem_case::{Keep, Sweep};
 
 use super::cost_estimate::SweepCost;
 use super::folder::SweepFolder;
-use super::report::{duration, member_file_size};
+use super::report::member_file_size;
 use crate::arguments::case::{parse_count, stem_of};
+use crate::forecast::estimated_time;
 use crate::text::{Failure, one_line, shown};
 
 const SCRIPT_FILE: &str = "sweep.sbatch";
@@ -173,7 +174,7 @@ impl SlurmBatch {
         };
         format!(
             "{n_left} members in {task} of about {}, {files}and a task that merges them.\n{next}\n\nResult: {script}\n",
-            duration(*seconds)
+            estimated_time(*seconds)
         )
     }
 }

@@ -12,7 +12,7 @@ use serde::de::{Error, IgnoredAny};
 
 use super::folder::{MANIFEST_FILE, SweepFolder};
 use super::member_store::ShardFilter;
-use super::report::duration;
+use crate::forecast::estimated_time;
 use crate::text::{Failure, one_line, shown, table};
 
 /// The keys of `sweep.json` that are read.
@@ -63,11 +63,11 @@ pub fn status(folder: &Path) -> Result<String, Failure> {
         ["done", &n_done.to_string()].map(String::from),
         ["failed", &n_failed.to_string()].map(String::from),
         ["left", &n_left.to_string()].map(String::from),
-        ["time spent", &format!("{} on one core", duration(spent))].map(String::from),
+        ["time spent", &format!("{} on one core", estimated_time(spent))].map(String::from),
     ];
     if n_left > 0 && n_done > 0 {
         let left = spent / n_done as f64 * n_left as f64;
-        let left = format!("{} on one core, if the others take as long", duration(left));
+        let left = format!("{} on one core, if the others take as long", estimated_time(left));
         rows.push(["time left", &left].map(String::from));
     }
     let case = one_line(&mark.case);

@@ -9,6 +9,7 @@ use fem::results::{BodySummary, BounceSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
 use fem_case::engineering::{Unit, number, show};
 use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
+use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
 use super::standard_output::{one_line, shown};
@@ -23,9 +24,26 @@ const MIN_LOSS: f64 = 1e-6;
 /// Relative errors below this are rounding.
 const ROUNDING: f64 = 1e-9;
 const MAX_BOUNCES: usize = 12;
+/// Bounces whose restitution fits on one line of a short report.
+const MAX_BOUNCES_IN_SHORT: usize = 4;
+/// Reasons of the effects that are on are printed if they fit on two lines of 80 columns.
+const MAX_REASONS: usize = 150;
+
+/// How much of a result is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// What fits on a screen of 80 columns and 20 lines.
+    Short,
+    All,
+}
 
 /// Returns the report with the warnings that are not among those `printed` before the run.
-pub fn report(summary: &Summary, place: Option<&Path>, printed: &[String]) -> String {
+pub fn report(
+    summary: &Summary,
+    place: Option<&Path>,
+    printed: &[String],
+    detail: Detail,
+) -> String {
     let mut text = String::new();
     let title = summary.case.title.as_deref().unwrap_or_default();
     // Writing to a String cannot fail.
@@ -33,7 +51,70 @@ pub fn report(summary: &Summary, place: Option<&Path>, printed: &[String]) -> St
     if let Some(reason) = &summary.stopped_because {
         let _ = writeln!(text, "INCOMPLETE: {reason}\n");
     }
-    text += &quantities(summary);
+    text += &quantities(summary, detail);
+    text += &match detail {
+        Detail::Short => short(summary),
+        Detail::All => details(summary),
+    };
+    let is_new = |warning: &&String| !printed.contains(warning);
+    let new: Vec<String> = summary.warnings.iter().filter(is_new).cloned().collect();
+    text += &match new.is_empty() && !printed.is_empty() {
+        true => "No further warnings.\n".to_string(),
+        false => warnings(&new),
+    };
+    let place = place.map_or("not written".into(), shown);
+    let before = if detail == Detail::All { "\n" } else { "" };
+    let _ = writeln!(text, "{before}Result: {place}");
+    text
+}
+
+/// Returns what a short report says of contacts, model and effects.
+fn short(summary: &Summary) -> String {
+    let mut rows: Vec<[String; 2]> = Vec::new();
+    let mut row = |name: &str, text: String| rows.push([format!("{name}:"), text]);
+    if let Some(deficit) = elastic_deficit(summary.collision.restitution) {
+        row("1 - restitution", deficit);
+    }
+    if let Some(contacts) = &summary.bounces {
+        let shown = contacts.iter().take(MAX_BOUNCES_IN_SHORT).filter_map(|it| it.restitution);
+        let mut values: Vec<String> = shown.map(|value| format!("{value:.4}")).collect();
+        if contacts.len() > MAX_BOUNCES_IN_SHORT {
+            values.push("…".to_string());
+        }
+        let n = contacts.len();
+        row("bounces", format!("{n}, with restitution {}; -v lists them", values.join(", ")));
+    }
+    if let Some(rest) = &summary.rest {
+        row("at rest", format!("from {} on", rest.time_s.map_or(NONE.into(), |t| show(t, "s"))));
+    }
+    let chosen = summary.models_considered.iter().flatten().find(|candidate| candidate.chosen);
+    if let Some(ModelCandidate { model, reason, .. }) = chosen {
+        row("model", format!("{model}, {reason}"));
+    }
+    let decisions = || summary.effects.iter().map(|effect| &effect.decision);
+    let on: Vec<&EffectDecision> =
+        decisions().filter(|it| it.active && !is_numerical(it.name)).collect();
+    if !on.is_empty() {
+        let reasons: Vec<String> =
+            on.iter().map(|it| format!("{} ({})", it.name, it.reason)).collect();
+        let names: Vec<&str> = on.iter().map(|it| it.name).collect();
+        let reasons = reasons.join(", ");
+        row("on", if reasons.len() > MAX_REASONS { names.join(", ") } else { reasons });
+    }
+    let off: Vec<&EffectDecision> = decisions().filter(|it| !it.active).collect();
+    let mattering: Vec<&str> = off.iter().filter(|it| it.matters).map(|it| it.name).collect();
+    let above = match mattering.is_empty() {
+        true => ", none above the tolerance".to_string(),
+        false => format!("; above the tolerance: {}", mattering.join(", ")),
+    };
+    let plural = if off.len() == 1 { "" } else { "s" };
+    let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
+    "\n".to_string() + &table(&[Left, Left], rows) + &off
+}
+
+/// Returns everything between the table of quantities and the warnings.
+fn details(summary: &Summary) -> String {
+    let mut text = String::new();
     if let Some(deficit) = elastic_deficit(summary.collision.restitution) {
         let _ = writeln!(text, "\n1 - restitution  {deficit}");
     }
@@ -59,19 +140,11 @@ pub fn report(summary: &Summary, place: Option<&Path>, printed: &[String]) -> St
         "\nEffects\n{}",
         effects(summary.effects.iter().map(|effect| &effect.decision))
     );
-    let is_new = |warning: &&String| !printed.contains(warning);
-    let new: Vec<String> = summary.warnings.iter().filter(is_new).cloned().collect();
-    text += &match new.is_empty() && !printed.is_empty() {
-        true => "No further warnings.\n".to_string(),
-        false => warnings(&new),
-    };
-    let place = place.map_or("not written".into(), shown);
-    let _ = writeln!(text, "\nResult: {place}");
     text
 }
 
 /// Returns each quantity with both parts of its error bar, next to Hertz' value.
-fn quantities(summary: &Summary) -> String {
+fn quantities(summary: &Summary, detail: Detail) -> String {
     let (ours, hertz) = (&summary.collision, &summary.hertz);
     let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
     let own = if has_elements { "± mesh" } else { "± numerics" };
@@ -94,7 +167,8 @@ fn quantities(summary: &Summary) -> String {
     let header = format!("|>this run|>{own}|>± neglected|>Hertz|>ratio");
     let table = headed(&header, QuantityOfInterest::ALL.map(row));
     let legend = error_legend(own, &table);
-    format!("{table}\n{legend}\n")
+    let between = if detail == Detail::All { "\n" } else { "" };
+    format!("{table}{between}{legend}\n")
 }
 
 /// Returns the line below the table that explains the error columns; `own` is the head of the first one.
@@ -102,9 +176,7 @@ fn error_legend(own: &str, cells: &str) -> String {
     let unknown = if cells.contains(UNKNOWN) { "; ?: not known" } else { "" };
     let partly = if cells.contains("> ") { "; >: at least" } else { "" };
     let what = if own == "± mesh" { "discretisation error" } else { "numerical error" };
-    format!(
-        "{own}: {what}; ± neglected: change by effects that the model neglects{unknown}{partly}"
-    )
+    format!("{own}: {what}; ± neglected: by neglected effects{unknown}{partly}")
 }
 
 /// Returns the discretisation error and the error by neglected effects with two digits, in `unit` if the
@@ -319,6 +391,6 @@ mod tests {
         assert_eq!(of(None, None, None), ["?", "?"]);
         let plain = Parts { discretisation: Some(1.94e-4), model: Some(0.0), ..Parts::default() };
         assert_eq!(error_columns(1.0, &plain, None), ["1.9e-4", "0"]);
-        assert!(error_legend("± mesh", "0.12 µs  > 0.2 µs").ends_with("neglects; >: at least"));
+        assert!(error_legend("± mesh", "0.12 µs  > 0.2 µs").ends_with("effects; >: at least"));
     }
 }

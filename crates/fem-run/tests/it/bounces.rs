@@ -13,7 +13,8 @@ fn bounces_are_printed_and_written_to_summary_and_history() {
         place.write("ball.toml", BALL);
         let model = format!("model.{model}={{}}");
         let bounces = if has_rest { "stop.bounces=500" } else { "stop.bounces=3" };
-        let set = ["ball.toml", "--set", model.as_str(), "--set", bounces, "--out", "out"];
+        let set =
+            ["ball.toml", "--set", model.as_str(), "--set", bounces, "--verbose", "--out", "out"];
         let printed = place.succeed(set).stdout;
         assert!(printed.contains("bounce ") && printed.contains("\n3 "), "{printed}");
         assert_eq!(printed.contains("at rest from"), has_rest, "{printed}");

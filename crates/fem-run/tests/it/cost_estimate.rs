@@ -25,7 +25,7 @@ fn summary_separates_trial_time_from_solve_time() {
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
     for (case, has_trials) in [("rubber.toml", true), ("auxetic.toml", false)] {
-        let ran = place.succeed([case, "--out", case.trim_end_matches(".toml")]);
+        let ran = place.succeed([case, "--verbose", "--out", case.trim_end_matches(".toml")]);
         let summary = place.json(&format!("{}/summary.json", case.trim_end_matches(".toml")));
         let seconds = |key: &str| summary["cost"][key].as_f64().unwrap();
         assert_eq!(seconds("trials_s") > 0.0, has_trials, "{case}: {}", summary["cost"]);
@@ -39,6 +39,32 @@ fn summary_separates_trial_time_from_solve_time() {
     }
 }
 
+/// A run and its check announce one time, with one digit, which holds within a factor of three, also if the mesh is
+/// refined. A short report says no other time.
+#[test]
+fn announced_time_is_that_of_the_run_within_a_factor_of_three() {
+    let place = Place::new();
+    place.write("rubber.toml", RUBBER);
+    place.write("glass.toml", include_str!("../../../../cases/glass_0.5ms_14um.toml"));
+    let time = |text: &str| {
+        let (_, after) = text.split_once("about ").unwrap_or_else(|| panic!("no time: {text}"));
+        let (time, _) = after.split_once(" s").unwrap_or_else(|| panic!("not in seconds: {text}"));
+        assert_eq!(time.trim_start_matches(['0', '.']).trim_end_matches('0').len(), 1, "{time}");
+        time.parse::<f64>().unwrap()
+    };
+    for case in ["rubber.toml", "glass.toml"] {
+        let ran = place.succeed([case, "--force", "--out", "out"]);
+        let spent = place.json("out/summary.json")["cost"]["wall_s"].as_f64().unwrap();
+        let checked = place.succeed(["check", case]).stdout;
+        let row = checked.lines().find(|line| line.starts_with("time  ")).unwrap();
+        for told in [time(&ran.stderr), time(row)] {
+            assert!((1.0 / 3.0..3.0).contains(&(told / spent)), "{case}: {told} s, {spent} s");
+        }
+        assert_eq!(ran.stderr.matches(" s,").count(), 1, "{}", ran.stderr);
+        assert!(!ran.stdout.contains("cost"), "{}", ran.stdout);
+    }
+}
+
 /// `check` names the refined mesh if it is known before the run, and else the upper bound of refinement;
 /// also for condensed bodies.
 #[test]
@@ -47,7 +73,7 @@ fn check_states_the_refined_mesh_or_the_refinement_bound() {
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
     let open = place.succeed("check rubber.toml").stdout;
-    let finer = open.lines().find(|line| line.starts_with("# mesh refinement  ")).unwrap();
+    let finer = open.lines().find(|line| line.starts_with("mesh refinement  ")).unwrap();
     for words in
         ["misses accuracy.tolerance: at most ", " finer meshes, ", " element updates more, "]
     {
@@ -55,7 +81,8 @@ fn check_states_the_refined_mesh_or_the_refinement_bound() {
     }
     let told = place.succeed("check auxetic.toml").stdout;
     assert!(told.contains("finer mesh  ") && !told.contains("misses accuracy.tolerance"), "{told}");
-    place.write("resolved.toml", &told);
+    let resolved = place.succeed("check auxetic.toml --resolved").stdout;
+    place.write("resolved.toml", &resolved);
     let again = place.succeed("resolved.toml --out again");
     assert!(!again.stderr.contains("refined"), "{}", again.stderr);
     place.succeed("auxetic.toml --out out");
@@ -63,12 +90,12 @@ fn check_states_the_refined_mesh_or_the_refinement_bound() {
         assert_eq!(place.json("again/summary.json")[key], place.json("out/summary.json")[key]);
     }
     let condensed = place.succeed(["check", "case.toml", "--set", "model.condensed={}"]).stdout;
-    let time = condensed.lines().find(|line| line.starts_with("# time  ")).unwrap();
-    assert!(time.contains("about ") && time.contains("here, after"), "{time}");
+    let time = condensed.lines().find(|line| line.starts_with("time  ")).unwrap();
+    assert!(time.contains("about ") && time.ends_with(" here"), "{time}");
     // Small mass scaling is not rounded to zero.
     let tight = ["accuracy.tolerance=1e-5", "mesh.contact_element_size='50 um'"];
     let told = place.succeed(["check", "case.toml", "--set", tight[0], "--set", tight[1]]).stdout;
-    let row = told.lines().find(|line| line.starts_with("# time.mass_scaling")).unwrap();
+    let row = told.lines().find(|line| line.starts_with("time.mass_scaling")).unwrap();
     assert!(row.contains("e-") && !row.contains("0.00"), "{row}");
     // The case gives its element size.
     assert!(!condensed.contains("mesh refinement"), "{condensed}");

@@ -34,7 +34,7 @@ fn every_model_writes_the_same_keys_and_columns() {
         // The resolved case that `check` prints names the model, and so does the announcement of its run.
         let name = model["model.".len()..].split(['.', '=']).next().unwrap();
         let named = &format!("model {name}");
-        let checked = place.succeed(["check", "case.toml", "--set", model]);
+        let checked = place.succeed(["check", "case.toml", "--resolved", "--set", model]);
         checked.prints(named);
         place.write("resolved.toml", &checked.stdout);
         place.succeed("resolved.toml --out resolved --force").tells(named);

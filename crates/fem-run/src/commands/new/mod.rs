@@ -69,8 +69,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         false => format!(" (the existing {SCHEMA_FILE} is not from fem-run and is kept)"),
     };
     standard_output::print(&format!(
-        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   prints its cost, \
-         its defaults and the effects that it includes\n"
+        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   prints its cost \
+         and the effects that it includes, and with --resolved its defaults\n"
     ))
 }
 

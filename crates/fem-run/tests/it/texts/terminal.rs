@@ -1,5 +1,6 @@
 //! Tests which text is printed on stdout and which on stderr.
 
+use std::path::Path;
 use std::process::Stdio;
 
 use crate::common::Place;
@@ -7,20 +8,71 @@ use crate::common::Place;
 #[test]
 fn stdout_has_the_report_and_stderr_the_messages() {
     let place = Place::new();
-    let ran = place.succeed("case.toml");
-    let expected = "A pair|restitution|contact time|µs|Hertz|ratio|momentum|viscoelasticity|off  gravity|warning:|\
-                    Result: runs/case";
-    for expected in expected.split('|') {
-        ran.prints(expected);
-    }
+    let ran = place.succeed("case.toml --verbose");
+    ran.prints(
+        "A pair|restitution|contact time|µs|Hertz|ratio|momentum|viscoelasticity|off  gravity|warning:\
+         |Result: runs/case",
+    );
     assert!(ran.stderr.starts_with("case.toml: "), "{}", ran.stderr);
     assert!(!ran.stdout.contains('\u{1b}') && !ran.stderr.contains('\u{1b}'));
     // A run warns at its start as `check` does, about the expected contact, and at its end about the computed one.
     let warning = "the contact radius spans only 2.5 elements";
-    place.succeed("check case.toml").prints(warning);
+    let checked = place.succeed("check case.toml").stdout;
+    assert!(checked.starts_with(&format!("warning:  {warning}")), "{checked}");
     assert_eq!(ran.stderr.matches(warning).count(), 1, "{}", ran.stderr);
     let warnings = place.json("runs/case/summary.json")["warnings"].to_string();
     assert!(warnings.contains("because of the mesh"), "{warnings}");
+}
+
+/// Returns the lines that a text takes on a terminal of 80 columns.
+fn lines(text: &str) -> usize {
+    text.lines().map(|line| line.chars().count().max(1).div_ceil(80)).sum()
+}
+
+/// A run takes at most 20 lines of a terminal of 80 columns, and two more per warning. A terminal shows the warnings of
+/// stderr once.
+#[test]
+fn report_of_a_run_fits_on_a_screen() {
+    let place = Place::new();
+    let steel = "body = [{ name = 'a', sphere.diameter = '10 mm', material = 'lib:steel', approach_speed = '5 m/s' },
+                         { name = 'b', sphere.diameter = '10 mm', material = 'lib:steel' }]\n";
+    place.write("steel.toml", steel);
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    for name in ["glass_0.5ms", "ball_on_block", "dust_grain", "three_bounces"] {
+        std::fs::copy(cases.join(name).with_extension("toml"), place.path(format!("{name}.toml")))
+            .unwrap();
+    }
+    for (command, said) in [
+        (
+            "glass_0.5ms.toml",
+            "on:  viscoelasticity (striker and target relax: |8 effects off, none above the tolerance; -v lists them\n|No warnings.\nResult: ",
+        ),
+        (
+            "ball_on_block.toml --set model=hertz",
+            "effects off; above the tolerance: partner waves; -v lists them",
+        ),
+        ("dust_grain.toml", "1 - restitution:"),
+        ("three_bounces.toml --set model=ting", "bounces:  3, with restitution 0.|gravity"),
+        (
+            "three_bounces.toml --set model=condensed --set stop.bounces=500",
+            ", …; -v lists them|at rest:",
+        ),
+        (
+            "steel.toml --set model=auto",
+            "model:            hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance: plastic yield",
+        ),
+    ] {
+        let ran = place.succeed((command, "--force --out out"));
+        ran.prints(said);
+        let announced: Vec<&str> =
+            ran.stderr.lines().filter(|line| !line.starts_with("warning: ")).collect();
+        let n_lines = lines(&announced.join("\n")) + lines(&ran.stdout);
+        let n_warnings = ran.stdout.matches("warning: ").count();
+        assert!(n_lines <= 20 + 2 * n_warnings, "{n_lines} lines:\n{}{}", ran.stderr, ran.stdout);
+        let all = place.succeed((command, "--force --out out -v")).stdout;
+        assert!(all.contains("\nEffects\n") && lines(&all) > 20, "{all}");
+    }
+    place.fails(2, "glass_0.5ms.toml -v -q").tells("cannot be used with");
 }
 
 #[test]
@@ -51,7 +103,7 @@ fn control_characters_in_a_title_do_not_reach_the_terminal() {
     let place = Place::with(&crate::common::CASE.replace("A pair", "\\u001b[2J\\n# x = 1"));
     let ran = place.succeed("case.toml");
     assert!(!ran.stdout.contains('\u{1b}'), "{:?}", ran.stdout);
-    let checked = place.succeed("check case.toml").stdout;
+    let checked = place.succeed("check case.toml --resolved").stdout;
     assert!(checked.parse::<toml::Table>().is_ok(), "{checked}");
 }
 
