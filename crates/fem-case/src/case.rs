@@ -14,9 +14,11 @@ use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::scene::body::Shape;
 use crate::schema::{CaseFile, is_list};
+use crate::source::changes::{Change, changes, folder_name, titled};
 use crate::source::document::Document;
 use crate::source::error_recovery::{KeyRepair, read_repaired};
 use crate::source::explain::{explain, listed};
+use crate::source::overrides;
 use crate::validate::validate;
 
 /// The largest size of a case file, bytes: more than any case needs.
@@ -29,6 +31,7 @@ pub struct Case {
     scene: Scene,
     document: Document,
     defaults: Defaults,
+    changes: Vec<Change>,
 }
 
 /// Defaults for keys that a case leaves out.
@@ -115,7 +118,7 @@ impl Case {
         let document = Document::of_code(&file.tree()?);
         let names: Vec<&str> = file.body.iter().map(|body| body.name.as_str()).collect();
         let defaults = Defaults { title: listed(&names), folder: absolute(Path::new(".")) };
-        Case::validated(document, file, defaults)
+        Case::validated(document, file, defaults, Vec::new())
     }
 
     /// Returns this case with some keys changed, validated again.
@@ -151,7 +154,7 @@ impl Case {
         change(&mut file);
         library::fill(&mut file);
         let document = self.document.edited(&self.file.tree()?, &file.tree()?);
-        Case::validated(document, file, self.defaults.clone())
+        Case::validated(document, file, self.defaults.clone(), self.changes.clone())
     }
 
     /// Returns the case of a text, or all of its faults.
@@ -164,16 +167,17 @@ impl Case {
     ) -> Result<Case, CaseError> {
         let read = |repairs: &[KeyRepair]| {
             let document = Document::parse(name, text, overrides, None, repairs)?;
-            Case::of_document(document, stem, folder)
+            Case::of_document(document, stem, folder, overrides)
         };
         read(&[]).map_err(|first| CaseError::joined(read_repaired(read).1).unwrap_or(first))
     }
 
-    /// Returns the case of a document, or its first fault.
+    /// Returns the case of a document, or its first fault. `overrides` are those that its title names.
     pub(crate) fn of_document(
         (document, tree): (Document, Spanned<DeTable<'_>>),
         stem: &str,
         folder: &Path,
+        overrides: &[String],
     ) -> Result<Case, CaseError> {
         // Without a key to repair, this is the only fault that is reported.
         let of_sweep = |key: &&str| tree.get_ref().get_key_value(*key);
@@ -184,7 +188,7 @@ impl Case {
                 .labelled("unknown key")
                 .with_help("a file that varies keys of a case is a sweep: fem-run sweep FILE"));
         }
-        let file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
+        let mut file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;
         if let Some(path) = document.arrays().iter().find(|path| !is_list(path)) {
             let error = document.error_at(path, format!("{path} is an array"));
@@ -192,7 +196,13 @@ impl Case {
         }
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let defaults = Defaults { title: stem.to_string(), folder: absolute(folder) };
-        Case::validated(document, file, defaults)
+        let changes = changes(&file, overrides);
+        let is_named = overrides.iter().any(|text| overrides::key_text(text) == "title");
+        if !changes.is_empty() && !is_named {
+            let title = file.title.as_deref().unwrap_or(stem);
+            file.title = Some(titled(title, &changes));
+        }
+        Case::validated(document, file, defaults, changes)
     }
 
     /// Validates a case as written: the one path from keys to a scene.
@@ -200,16 +210,23 @@ impl Case {
         document: Document,
         mut file: CaseFile,
         defaults: Defaults,
+        changes: Vec<Change>,
     ) -> Result<Case, CaseError> {
         let scene = validate(&document, &file, &defaults.title, &defaults.folder)?;
         fill_in(&mut file, &scene);
-        Ok(Case { file, scene, document, defaults })
+        Ok(Case { file, scene, document, defaults, changes })
     }
 
     /// Returns the case as written, with overrides. Title, approach speeds and the full paths of mesh files are filled
     /// in; the method resolves all other absent keys.
     pub fn file(&self) -> &CaseFile {
         &self.file
+    }
+
+    /// Returns the name of the default result folder: that of the case file, `stem`, and the overrides that change
+    /// the scene, `glass-approach_speed=1m_s`.
+    pub fn folder_name(&self, stem: &str) -> String {
+        folder_name(stem, &self.changes)
     }
 
     /// Returns the validated case in SI units.

@@ -88,6 +88,11 @@ impl Case {
         self.case.scene().title()
     }
 
+    /// Returns the name of the default result folder, which begins with `stem`.
+    fn folder_name(&self, stem: &str) -> String {
+        self.case.folder_name(stem)
+    }
+
     /// Returns the case as written, with its overrides, as TOML in SI.
     fn to_toml(&self) -> String {
         // A valid case contains only what TOML can hold.

@@ -56,6 +56,11 @@ impl Outcome {
         serde_json::to_string(&self.summary).map_err(broken)
     }
 
+    /// Returns the name of the default result folder, which begins with `stem`.
+    fn folder_name(&self, stem: &str) -> String {
+        self.computed.simulation.case().folder_name(stem)
+    }
+
     /// Returns why the run stopped early, as an exception.
     fn failure(&self, py: Python<'_>) -> Option<PyErr> {
         let kept = "what was computed so far is the exception's result, marked incomplete";

@@ -1,5 +1,6 @@
 //! The text of a case: one tree of keys with their positions, overrides, and the explanation of faults.
 
+pub(crate) mod changes;
 pub(crate) mod document;
 pub(crate) mod error_recovery;
 pub(crate) mod explain;

@@ -236,7 +236,7 @@ impl Sweep {
         let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
         let folder = path.parent().unwrap_or(Path::new(""));
         let document = Document::parse(name, text, overrides, Some(insertions), repairs)?;
-        Case::of_document(document, &stem, folder)
+        Case::of_document(document, &stem, folder, &[])
     }
 
     /// Converts an error of a member that points into the base case into one that points at a value.

@@ -57,7 +57,7 @@ class Case:
     def with_(self, changes: Mapping[str, Any]) -> Case:
         """Returns the case with other values: ``{"body.0.approach_speed": "1 m/s", "model": {"ting": {}}}``.
 
-        Keys are dotted paths, and arrays count from 0; a value may be a whole table. Keys and tables that the case
+        Values that change the scene are appended to the title. Keys are dotted paths, and arrays count from 0; a value may be a whole table. Keys and tables that the case
         lacks are added.
 
         Raises:
@@ -118,6 +118,11 @@ class Case:
         name = os.path.splitext(os.path.basename(self._native.name))[0]
         kept = (c if c.isascii() and (c.isalnum() or c in "-_.") else "_" for c in name)
         return "".join(kept).strip("_") or "case"
+
+    @property
+    def folder_name(self) -> str:
+        """The name of the default result folder: the stem and the values of ``with_`` that change the scene."""
+        return self._native.folder_name(self.stem)
 
     @property
     def identity(self) -> str:

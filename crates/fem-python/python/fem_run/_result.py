@@ -61,13 +61,19 @@ class Result:
         there = ", ".join(snapshot.label for snapshot in self.snapshots) or "none"
         raise KeyError(f"no snapshot {label!r}; there are: {there}")
 
-    def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> None:
-        """Writes the result folder, as ``fem-run CASE --out FOLDER`` does; ``force`` replaces another case's result.
+    def save(self, folder: str | os.PathLike[str] | None = None, *, force: bool = False) -> str:
+        """Writes the result folder, as ``fem-run CASE --out FOLDER`` does, and returns its path.
+
+        Without ``folder`` it is ``runs/`` with the case's :attr:`~Case.folder_name`. ``force`` replaces another case's
+        result.
 
         Raises:
             InputError: the folder holds something else.
         """
+        if folder is None:
+            folder = os.path.join("runs", self._outcome.folder_name(self._stem))
         self._outcome.save(os.fspath(folder), self._stem, force)
+        return os.fspath(folder)
 
     def uncertainty(self, key: str) -> float | None:
         """Returns the error bar of a quantity, such as ``restitution``: discretisation error plus neglected effects, SI.

@@ -33,6 +33,7 @@ use crate::text::{Failure, one_line, shown, standard_output};
 pub struct Options {
     /// Folder for the result [default: runs/CASE, with the name of the case file]
     ///
+    /// Values of --set that change the scene are appended to the default: runs/glass-approach_speed=1m_s.
     /// An existing folder is replaced only if it is empty or holds a result of the same case; differences in
     /// [output] do not count. Other files in it are kept. Without --out a result of another case is kept too,
     /// and the run writes to a new folder next to it.
@@ -75,7 +76,8 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let identity = Identity::of(simulation.case())?;
     let stem = input.stem();
     let replaces = OverwritePolicy::only(&identity.case, options.force);
-    let place = ResultPath::choose(options.out.as_deref(), &stem, &identity.case, &replaces);
+    let name = simulation.case().folder_name(&stem);
+    let place = ResultPath::choose(options.out.as_deref(), &name, &identity.case, &replaces);
     let restart_state = match options.restart.restart {
         true => find_restart_state(&place, &identity)?,
         false => None,

@@ -25,7 +25,8 @@ const DIGEST_BYTES: usize = 8;
 pub struct Identity {
     /// Identity of the case ([`case_identity`]).
     pub case: String,
-    /// Digest of the build's numerics, the resolved case and the mesh files, which is equal for equal results.
+    /// Digest of the build's numerics, the resolved case without its title, and the mesh files, which is equal for
+    /// equal results.
     pub result: String,
 }
 
@@ -62,9 +63,10 @@ pub(crate) fn identity_of(file: &CaseFile) -> String {
     digest_of([json(&file).as_slice()])
 }
 
-/// Returns the digest of a result from the numerics, the resolved case and the mesh files.
+/// Returns the digest of a result from the numerics, the resolved case without its title, and the mesh files.
 fn of_result(numerics: &str, case: &CaseFile, meshes: &[Vec<u8>]) -> u64 {
-    let case = json(case);
+    // The command and Python title the members of a sweep differently.
+    let case = json(&CaseFile { title: None, ..case.clone() });
     let meshes = meshes.iter().map(Vec::as_slice);
     digest([numerics.as_bytes(), &case].into_iter().chain(meshes))
 }
@@ -145,5 +147,7 @@ mod tests {
         assert_ne!(own, of_result("0124", one.file(), &[]));
         assert_ne!(own, of_result("0123", other.file(), &[]));
         assert_ne!(own, of_result("0123", one.file(), &mesh));
+        let titled = CaseFile { title: Some("other".into()), ..one.file().clone() };
+        assert_eq!(own, of_result("0123", &titled, &[]));
     }
 }

@@ -4,6 +4,7 @@ use crate::common::Place;
 
 const TING: &str = "case.toml --set model.ting={}";
 const SLOWER: &str = "case.toml --set model.ting={} --set body.0.approach_speed=0.25";
+const LIMITED: &str = "case.toml --set model.ting={} --set limits.elements=1e6";
 
 /// Without --out nothing is lost, and each case finds its own folder again.
 #[test]
@@ -11,7 +12,7 @@ fn another_case_gets_its_own_result_folder() {
     let place = Place::new();
     place.succeed(TING);
     let first = place.read("runs/case/summary.json");
-    let ran = place.succeed(SLOWER);
+    let ran = place.succeed(LIMITED);
     let own = place.list("runs").pop().unwrap();
     assert!(own.starts_with("case-") && own.len() == "case-".len() + 8, "{own}");
     assert_eq!(place.read("runs/case/summary.json"), first);
@@ -20,12 +21,24 @@ fn another_case_gets_its_own_result_folder() {
     ran.prints(format!("Result: runs/{own}\n"));
 
     place.write(&format!("runs/{own}/notes.txt"), "mine");
-    place.succeed(SLOWER);
+    place.succeed(LIMITED);
     place.succeed(TING);
     assert_eq!(place.list("runs"), ["case", own.as_str()]);
     assert_eq!(place.read(format!("runs/{own}/notes.txt")), b"mine");
-    place.succeed((SLOWER, "--force"));
-    assert_eq!(place.json("runs/case/summary.json")["bodies"][0]["velocity_before_m_s"], 0.25);
+    place.succeed((LIMITED, "--force"));
+    assert_eq!(place.json("runs/case/summary.json")["case"]["limits"]["elements"], 1e6);
+}
+
+/// Overrides that change the scene are in the title and in the name of the folder, not in those of its files.
+#[test]
+fn changes_of_the_scene_name_title_and_folder() {
+    let place = Place::new();
+    let ran = place.succeed((TING, ["--set", "body.0.approach_speed=\"1 m/s\""]));
+    ran.prints("A pair, approach_speed = 1 m/s\n|Result: runs/case-approach_speed=1m_s\n");
+    assert_eq!(place.list("runs"), ["case-approach_speed=1m_s"]);
+    let summary = place.json("runs/case-approach_speed=1m_s/summary.json");
+    assert_eq!(summary["case"]["title"], "A pair, approach_speed = 1 m/s");
+    place.succeed((SLOWER, ["--set", "title=mine"])).prints("mine\n|case-approach_speed=0.25m_s");
 }
 
 #[test]
