@@ -298,7 +298,17 @@ pub(crate) fn bytes_at(path: &Path, name: &str) -> Result<Vec<u8>, CaseError> {
 }
 
 fn open(path: &Path, name: &str) -> Result<fs::File, CaseError> {
-    fs::File::open(path).map_err(|error| unreadable(name, &error))
+    fs::File::open(path).map_err(|error| {
+        let with_extension = path.with_file_name(format!(
+            "{}.toml",
+            path.file_name().unwrap_or_default().to_string_lossy()
+        ));
+        let fault = unreadable(name, &error);
+        match error.kind() == ErrorKind::NotFound && with_extension.is_file() {
+            true => fault.with_help(format!("did you mean {}?", with_extension.display())),
+            false => fault,
+        }
+    })
 }
 
 fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {

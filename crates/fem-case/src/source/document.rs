@@ -14,7 +14,7 @@ use crate::library;
 use crate::source::error_recovery::KeyRepair;
 use crate::source::key_origins::{KeyOrigin, KeyOrigins};
 use crate::source::overrides::{self, Assignment, OverrideError};
-use crate::source::toml_syntax::first_line;
+use crate::source::toml_syntax::{decimal_comma, first_line, line_at};
 
 /// One text and its position in the common offsets.
 #[derive(Clone, Debug)]
@@ -56,12 +56,18 @@ impl Document {
         let mut document = Document { sources: Vec::new(), origins: KeyOrigins::default() };
         document.add(name.to_string(), text, 0);
         let mut tree = DeTable::parse(text).map_err(|error| {
-            document
-                .error_in(0, error.span().unwrap_or(0..0), first_line(error.message()))
-                .with_help(
-                    "the file must be TOML: one `key = value` per line; a value with a unit is a \
-                     string in quotes, \"22.2 mm\"",
-                )
+            let span = error.span().unwrap_or(0..0);
+            let help = decimal_comma(line_at(text, span.start)).map_or(
+                "the file must be TOML: one `key = value` per line; a value with a unit is a \
+                 string in quotes, \"22.2 mm\""
+                    .to_string(),
+                |number| {
+                    format!(
+                        "a decimal comma? write {number}; a value with a unit is a string in quotes, \"{number} mm\""
+                    )
+                },
+            );
+            document.error_in(0, span, first_line(error.message())).with_help(help)
         })?;
         overrides::expand_choices(tree.get_mut());
         for (index, text) in overrides.iter().enumerate() {
@@ -160,6 +166,14 @@ impl Document {
     pub(crate) fn text_on(&self, span: &Range<usize>) -> &str {
         let Source { text, start, .. } = &self.sources[self.source_at(span.start)];
         text.get(span.start - start..span.end.saturating_sub(*start)).unwrap_or("")
+    }
+
+    /// Returns the text of the value at a path, which is empty if no text gives it.
+    pub(crate) fn value_text(&self, path: &str) -> &str {
+        match self.origins.get(path) {
+            Some(KeyOrigin::Text { value, .. }) => self.text_on(value),
+            _ => "",
+        }
     }
 
     fn source_at(&self, offset: usize) -> usize {

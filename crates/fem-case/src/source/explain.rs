@@ -7,6 +7,7 @@ use crate::schema::model_tables::{LawTable, ModelTable};
 use crate::source::document::Document;
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::first_line;
+use crate::sweep::values::split_unit;
 
 /// Examples of required keys.
 const EXAMPLES: &[(&str, &str)] = &[
@@ -21,6 +22,42 @@ const EXAMPLES: &[(&str, &str)] = &[
          stays elastic)",
     ),
 ];
+
+/// The tables and keys of a case outside of all tables.
+const KEYS_OF_CASE: [&str; 14] = [
+    "title", "material", "body", "start", "gravity", "stop", "mesh", "contact", "time", "output",
+    "model", "accuracy", "effects", "limits",
+];
+
+/// Returns what a key means that this table does not have, but which many write: `table` is its path, `value` its text.
+fn hint(table: &str, key: &str, value: &str) -> Option<String> {
+    let (first, inner) = table.split_once('.').unwrap_or((table, ""));
+    match key {
+        "radius" if first == "body" && inner.ends_with(".sphere") => {
+            let (number, unit) = split_unit(value.trim_matches(['"', '\'']));
+            let twice = match (number.is_finite(), unit) {
+                (false, _) => "\"20 mm\"".to_string(),
+                (true, "") => format!("{:?}", 2.0 * number),
+                (true, unit) => format!("\"{} {unit}\"", 2.0 * number),
+            };
+            Some(format!("a sphere has a diameter, which is twice the radius: diameter = {twice}"))
+        }
+        "friction" | "friction_coefficient"
+            if ["", "contact", "body", "material"].contains(&first) =>
+        {
+            Some(
+                "contact is frictionless here, since friction is not computed: remove the key"
+                    .into(),
+            )
+        }
+        "gravity" if table == "effects" => Some("the table [gravity] switches gravity on".into()),
+        _ if !table.is_empty() && KEYS_OF_CASE.contains(&key) => Some(format!(
+            "`{key}` belongs to the case, and this line is in the table {table}: write it above the first [table] of \
+             the file, or as a table [{key}] of its own"
+        )),
+        _ => None,
+    }
+}
 
 /// Returns the names that stand for tables at a path.
 fn names_at(path: &str) -> Option<&'static [&'static str]> {
@@ -54,8 +91,7 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
                 "a file with bodies is a case: fem-run FILE; a sweep names it, case = \"FILE\""
                     .to_string()
             }
-            ("effects", "gravity") => "the table [gravity] switches gravity on".to_string(),
-            _ => keys(),
+            _ => hint(table, found, document.value_text(path)).unwrap_or_else(keys),
         };
         return at(format!("unknown key `{found}`{}", in_table(table)))
             .labelled("unknown key")

@@ -14,6 +14,26 @@ pub(crate) fn quote_key(key: &str) -> String {
     if !key.is_empty() && key.chars().all(is_bare) { key.to_string() } else { format!("{key:?}") }
 }
 
+/// Returns the line of a text around an offset.
+pub(crate) fn line_at(text: &str, offset: usize) -> &str {
+    let (before, after) = text.split_at_checked(offset).unwrap_or((text, ""));
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    let end = after.find('\n').map_or(text.len(), |at| before.len() + at);
+    &text[start..end]
+}
+
+/// Returns the number with a decimal comma that a line gives to a key, with a point: `0.2` of `gap = 0,2`.
+pub(crate) fn decimal_comma(line: &str) -> Option<String> {
+    line.split('=').skip(1).find_map(|after| {
+        let after = after.trim_start();
+        let is_part = |c: char| c.is_ascii_digit() || c == ',' || c == '-';
+        let number = &after[..after.find(|c| !is_part(c)).unwrap_or(after.len())];
+        let (whole, decimals) = number.split_once(',')?;
+        let is_number = !whole.is_empty() && !decimals.is_empty() && !decimals.contains(',');
+        is_number.then(|| format!("{whole}.{decimals}"))
+    })
+}
+
 /// Returns whether a key may contain this character without quotes.
 pub(crate) fn is_bare(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || c == '-'

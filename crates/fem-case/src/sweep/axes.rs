@@ -14,7 +14,7 @@ use crate::error::CaseError;
 use crate::source::document::Document;
 use crate::source::overrides::{Assignment, parse_path};
 use crate::source::toml_syntax::{quote_key, shift};
-use crate::sweep::values::{ReadRows, ValuesReader, is_values, rounded};
+use crate::sweep::values::{ReadRows, ValuesReader, is_values, rounded, split_unit};
 
 /// The parts of a key with their positions.
 type KeyPath = Vec<Spanned<String>>;
@@ -278,8 +278,9 @@ impl Reader<'_> {
             }
             _ => {
                 let error = self.document.error_on(value.span(), format!("{name} is not a list"));
-                let help = "put the values in brackets: [\"0.1 m/s\", \"1 m/s\"]";
-                faults.push(error.with_help(help));
+                let list = "put the values in brackets: [\"0.1 m/s\", \"1 m/s\"]".to_string();
+                let range = value.get_ref().as_str().and_then(range_of);
+                faults.push(error.with_help(range.unwrap_or(list)));
             }
         }
     }
@@ -311,6 +312,22 @@ impl Reader<'_> {
         let help = "vary only one of them; the values of the outer key can be whole tables";
         Err(self.document.error_on(span.clone(), message).with_help(help))
     }
+}
+
+/// Returns how to write the range that a text such as `0.1..2 m/s` means.
+fn range_of(text: &str) -> Option<String> {
+    let (from, to) = text.split_once("..")?;
+    let (first, own) = split_unit(from.trim());
+    let (last, unit) = split_unit(to.trim_start_matches(['.', '=']).trim());
+    let own = if own.is_empty() { unit } else { own };
+    let end = |number: f64, unit: &str| match unit {
+        "" => number.to_string(),
+        unit => format!("\"{number} {unit}\""),
+    };
+    let is_range = first.is_finite() && last.is_finite();
+    is_range.then(|| {
+        format!("write a range: {{ from = {}, to = {}, n = 10 }}", end(first, own), end(last, unit))
+    })
 }
 
 /// Returns the keys that commas link, in order; a comma in quotes is part of a key.

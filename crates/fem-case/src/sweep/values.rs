@@ -1,5 +1,5 @@
-//! Values of a varied key as a range, `{ from = "5 cm/s", to = "2 m/s", n = 40, log = true }`, or as the rows of a CSV
-//! file, `{ table = "pairs.csv" }`.
+//! Values of a varied key as a range, `{ from = "5 cm/s", to = "2 m/s", n = 40, log = true }` or with `step = "5 cm/s"` in
+//! place of `n`, or as the rows of a CSV file, `{ table = "pairs.csv" }`.
 //!
 //! The values of a range are evenly spaced, or have a constant ratio with `log`: x_k = from + (to − from) k / (n − 1), or
 //! from (to / from)^(k / (n − 1)). The ends are as written; the values between have the unit of `to`. Each row of a table
@@ -22,7 +22,10 @@ use crate::sweep::axes::AxisValue;
 
 /// The largest number of values of a range.
 const MAX_VALUES: u64 = 10_000_000;
-const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perhaps with log = true";
+const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perhaps with log = true, or with step = \"0.1 m/s\" \
+                     in place of n";
+/// Largest part of a step by which the last one may miss the end of a range.
+const ROUNDING: f64 = 1e-9;
 
 /// An error in a table of values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,7 +50,8 @@ pub(crate) fn is_values(table: &DeTable<'_>) -> bool {
 struct RangeTable {
     from: Spanned<Quantity<Number>>,
     to: Spanned<Quantity<Number>>,
-    n: Spanned<u64>,
+    n: Option<Spanned<u64>>,
+    step: Option<Spanned<Quantity<Number>>>,
     #[serde(default)]
     log: bool,
 }
@@ -111,11 +115,20 @@ impl ValuesReader<'_> {
             }
         };
         let to = last.number;
-        let n = *range.n.get_ref();
+        let (n, n_span) = match (&range.n, &range.step) {
+            (Some(n), None) => (*n.get_ref(), n.span()),
+            (None, Some(step)) => (self.count(step, (start, &last), range.log)?, step.span()),
+            (Some(_), Some(step)) => {
+                return Err(self.fault(step.span(), "a range has n or step, not both", RANGE));
+            }
+            (None, None) => {
+                return Err(self.fault(span.clone(), "there is no `n` and no `step`", RANGE));
+            }
+        };
         if !(2..=MAX_VALUES).contains(&n) {
             let help =
                 format!("n must be from 2 to {MAX_VALUES}; write a single value as a list, [1.0]");
-            return Err(self.fault(range.n.span(), format!("n is {n}"), &help));
+            return Err(self.fault(n_span, format!("n is {n}"), &help));
         }
         if range.log && !(start > 0.0 && to > 0.0) {
             let end = if start > 0.0 { &range.to } else { &range.from };
@@ -139,6 +152,37 @@ impl ValuesReader<'_> {
             unit => format!("{} {unit}", value(k)),
         };
         Ok((0..n).map(|k| AxisValue::made(vec![text(k)], span.clone())).collect())
+    }
+
+    /// Returns the number of values of a range from `start`, in the unit of its last value, at equal steps.
+    fn count(
+        &self,
+        step: &Spanned<Quantity<Number>>,
+        (start, last): (f64, &End),
+        is_log: bool,
+    ) -> Result<u64, CaseError> {
+        let fault = |message: &str, help: &str| Err(self.fault(step.span(), message, help));
+        if is_log {
+            return fault("equal ratios have no step", "with log = true give n in place of step");
+        }
+        let size = self.end(step)?;
+        let size = match size.unit == last.unit {
+            true => Some(size.number),
+            false => size.in_unit_of(last),
+        };
+        let n_steps = size.map_or(f64::NAN, |size| (last.number - start) / size);
+        if !(n_steps > 0.0 && n_steps.is_finite()) {
+            let help = "the step is a quantity like the ends, and leads from the first to the last";
+            return fault("this step does not lead from the first to the last value", help);
+        }
+        if (n_steps - n_steps.round()).abs() > ROUNDING * n_steps.max(1.0) || n_steps < 0.5 {
+            let help = format!(
+                "end the range after a whole number of steps, or write n = {}",
+                n_steps.round() + 1.0
+            );
+            return fault("the last step does not end at `to`", &help);
+        }
+        Ok(n_steps.round() as u64 + 1)
     }
 
     fn end(&self, bound: &Spanned<Quantity<Number>>) -> Result<End, CaseError> {
@@ -220,7 +264,7 @@ impl End {
 }
 
 /// Splits a quantity into its number and its unit as written.
-fn split_unit(text: &str) -> (f64, &str) {
+pub(crate) fn split_unit(text: &str) -> (f64, &str) {
     let ends = text.char_indices().map(|(index, _)| index).chain([text.len()]).rev();
     let number = |end: usize| Some((text[..end].trim_end().parse().ok()?, text[end..].trim()));
     ends.filter(|end| *end > 0).find_map(number).unwrap_or((f64::NAN, text))

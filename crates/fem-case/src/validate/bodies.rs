@@ -204,7 +204,11 @@ impl Check<'_> {
                 let help = format!("the library has {}", names.join(", "));
                 return error.with_help(format!("{near}{help}"));
             }
-            error.with_help(format!("{}{known}", near(name, &names)))
+            let near = match (near(name, &names), library::nearest_to(name)) {
+                (own, Some(near)) if own.is_empty() => format!("did you mean `lib:{near}`? "),
+                (own, _) => own,
+            };
+            error.with_help(format!("{near}{known}"))
         })
     }
 }

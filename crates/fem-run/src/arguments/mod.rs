@@ -95,11 +95,12 @@ fn names_of(command: &clap::Command) -> Vec<String> {
     command.get_subcommands().map(|command| command.get_name().to_string()).collect()
 }
 
-/// Returns the command that a word probably means; `None` for a command or an existing file.
+/// Returns the command that a word probably means; `None` for a command or an existing file, also without `.toml`.
 fn near_command(word: &str) -> Option<String> {
     // With 0.85, `chek`, `sweeps` and `mateirals` mean commands, `glass` and `case` do not.
     let names = names_of(&Arguments::command());
-    let is_word = !word.contains(['.', '/', '\\']) && !Path::new(word).exists();
+    let is_file = [word, &format!("{word}.toml")].iter().any(|name| Path::new(name).exists());
+    let is_word = !word.contains(['.', '/', '\\']) && !is_file;
     let near = nearest(word, &names, 0.85).filter(|_| is_word);
     near.map(str::to_string)
 }

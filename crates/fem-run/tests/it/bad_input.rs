@@ -133,6 +133,7 @@ fn meaningless_files_and_command_lines_are_rejected() {
         // These words are meant as files.
         (&["mesh.toml"], "there is no such file"),
         (&["glass"], "there is no such file"),
+        (&["case"], "did you mean case.toml?"),
         (&["--quiet"], "CASE"),
         (&["case.toml", "--out", ""], "--out"),
         (&["run", "case.toml"], "running a case needs no command: fem-run CASE.toml"),

@@ -44,7 +44,9 @@ fn keys_that_cannot_be_varied_are_refused() {
     refused(&vary("'body.0..approach_speed' = [1]"), "3:9", "empty");
     refused(&vary("'body.0.name.x' = [1]"), "3:9", "single value");
     refused(&vary("'body.0.approach_speed' = []"), "3:27", "has no values");
-    refused(&vary("'body.0.approach_speed' = 1"), "3:27", "not a list");
+    refused(&vary("'body.0.approach_speed' = 1"), "3:27", "not a list|in brackets");
+    let ends = "{ from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }";
+    refused(&vary("'body.0.approach_speed' = '0.1..2 m/s'"), "3:27", ends);
     refused(&vary("body.0 = {}"), "3:6", "has no values");
     let twice = "'body.0.approach_speed' = [1]\nbody.0.approach_speed = [2]";
     refused(&vary(twice), "4:8", "varied twice");
@@ -57,13 +59,21 @@ fn keys_that_cannot_be_varied_are_refused() {
 #[test]
 fn ranges_and_tables_that_make_no_values_are_refused() {
     let range = |table: &str| vary(&format!("'body.0.approach_speed' = {table}"));
-    refused(&range("{ from = 1, to = 2 }"), "3:27", "there is no `n`|log = true");
+    refused(
+        &range("{ from = 1, to = 2 }"),
+        "3:27",
+        "there is no `n` and no `step`|log = true|step =",
+    );
     refused(&range("{ from = 1, to = 2, n = 1 }"), "3:51", "n is 1|2 to");
     refused(&range("{ from = 1, to = 2, n = 3, logs = true }"), "3:54", "unknown key|log");
     refused(&range("{ from = '1 mm', to = '2 s', n = 3 }"), "3:49", "units of the same quantity");
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", "furlong");
     refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", "not a number");
     refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", "greater than 0");
+    refused(&range("{ from = 1, to = 2, n = 3, step = 1 }"), "3:62", "not both");
+    refused(&range("{ from = 1, to = 2, step = 0.3 }"), "3:54", "does not end at `to`|n = 4");
+    refused(&range("{ from = 1, to = 2, step = -0.5 }"), "3:54", "does not lead");
+    refused(&range("{ from = 1, to = 2, step = 0.5, log = true }"), "3:54", "no step");
     // The range is valid, but its values are not lengths.
     let lengths = vary("'body.0.approach_speed' = { from = '1 m', to = '2 m', n = 3 }");
     refused(&lengths, "3:27", "\"1 m\" is a length");
@@ -207,6 +217,18 @@ fn warnings_of_sweep_members_are_printed_once() {
         assert!(told[0].contains("3 members") && told[0].contains("= 0.5)"), "{}", ran.stderr);
         assert_eq!(ran.stdout, "");
     }
+}
+
+/// A step in place of the number of values, in another unit than the ends.
+#[test]
+fn a_range_may_have_a_step() {
+    let place = Place::new();
+    let range = "{ from = '50 cm/s', to = '2 m/s', step = '500 mm/s' }";
+    place.write("sweep.toml", &vary(&format!("'body.0.approach_speed' = {range}")));
+    place.succeed("sweep sweep.toml --quiet --set model.hertz={}");
+    let table = place.text("runs/sweep/sweep.csv");
+    let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert_eq!(texts, ["50 cm/s", "1 m/s", "1.5 m/s", "2 m/s"]);
 }
 
 /// Ends of a range in two units of one quantity: the ends are as written, the others in the unit of the
