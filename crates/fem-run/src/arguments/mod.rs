@@ -6,6 +6,7 @@ pub mod law;
 
 use std::ffi::OsString;
 use std::path::Path;
+use std::sync::LazyLock;
 use std::time::Instant;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -23,7 +24,7 @@ use case::CaseArguments;
 #[derive(Debug, Parser)]
 #[command(
     name = "fem-run",
-    version,
+    version = VERSION.as_str(),
     args_conflicts_with_subcommands = true,
     arg_required_else_help = true,
     override_usage = "fem-run [OPTIONS] CASE.toml\n       fem-run <COMMAND> …",
@@ -40,6 +41,10 @@ pub struct Arguments {
     #[command(flatten)]
     pub options: run::Options,
 }
+
+/// The version with the digest of the numerics: builds with the same digest give the same bits.
+static VERSION: LazyLock<String> =
+    LazyLock::new(|| format!("{} (numerics {})", env!("CARGO_PKG_VERSION"), fem::NUMERICS));
 
 const AFTER_HELP: &str = "\
 Exit status: 0 done; 1 the run failed (what was computed is kept, marked incomplete); 2 bad \

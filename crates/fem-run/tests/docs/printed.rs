@@ -230,7 +230,13 @@ fn quick_output_on_pages_equals_printed_output() {
 #[test]
 #[ignore = "a minute; .ci/run runs it"]
 fn slow_output_on_pages_equals_printed_output() {
-    for page in ["README", "docs/why-balls-bounce", "docs/gallery", "docs/measurement-to-dem"] {
+    for page in [
+        "README",
+        "docs/what-do-you-have",
+        "docs/why-balls-bounce",
+        "docs/gallery",
+        "docs/measurement-to-dem",
+    ] {
         check(&format!("{page}.md"), Pace::Quick, Digits::All);
     }
     check("docs/fits.md", Pace::Slow, Digits::All);

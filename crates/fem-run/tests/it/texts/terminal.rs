@@ -131,7 +131,11 @@ fn help_version_and_completions_are_there() {
     for expected in ["check", "mesh", "completions", "--set", "--threads", "130"] {
         assert!(help.contains(expected), "{expected}: {help}");
     }
-    assert!(place.succeed("--version").stdout.starts_with("fem-run "));
+    let version = place.succeed("--version").stdout;
+    place.succeed("case.toml --set model=hertz");
+    let summary = place.json("runs/case/summary.json");
+    let expected = [&summary["version"], &summary["numerics"]].map(|it| it.as_str().unwrap());
+    assert_eq!(version, format!("fem-run {} (numerics {})\n", expected[0], expected[1]));
     for command in ["check", "mesh", "completions"] {
         place.succeed([command, "--help"]);
     }
