@@ -22,6 +22,16 @@ pub fn evidence(weight: f64) -> String {
     format!("{:.1} %", 100.0 * weight)
 }
 
+/// Returns the name of a law for readers: `Kuwabara–Kono` for kuwabara_kono.
+fn title(family: LawFamily) -> String {
+    let capitalised = |word: &str| {
+        let (first, rest) = word.split_at_checked(1).unwrap_or((word, ""));
+        first.to_uppercase() + rest
+    };
+    let names: Vec<String> = family.name().split('_').map(capitalised).collect();
+    names.join("–")
+}
+
 /// Returns `fit.svg`: restitution over speed for the fitted law, for those that it is compared with and for
 /// the data, and the rms error over the profiled parameter. Laws of a ranking are labelled with their
 /// evidence.
@@ -29,7 +39,7 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     let data = fitted.problem.points;
     let (low, high) = fitted.data.speeds();
     let (low, high) = if low < high { (low, high) } else { (low / 2.0, high * 2.0) };
-    let x = QuantityAxis::linear("impact speed v", "m/s", high).logarithmic();
+    let x = QuantityAxis::linear("approach speed", "m/s", high).logarithmic();
     let curve = |model: &Model, fit: &Fit| -> Vec<(f64, f64)> {
         let speed = |k: usize| low * (high / low).powf(k as f64 / (N_POINTS - 1) as f64);
         let point = |k| {
@@ -47,7 +57,7 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
         let numbers = model.family().parameters().iter().zip(&fit.values);
         let exponent = numbers.filter(|(parameter, _)| parameter.key == "n");
         let exponent = exponent.map(|(_, n)| format!(", n = {n:.3}")).next();
-        format!("{}{}{}", model.family().name(), exponent.unwrap_or_default(), share(rank))
+        format!("{}{}{}", title(model.family()), exponent.unwrap_or_default(), share(rank))
     };
     let mut chart = Chart::new(x.axis(), Axis::new("restitution e"))
         .with(Curve::line(label(0, model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
@@ -86,7 +96,7 @@ pub fn histories_figure(
 ) -> Result<String, LawError> {
     let elastic = LawImpact::new(model.pair(), hertz(model.pair())?).impact(speed)?;
     let damped = model.impact(values, speed)?;
-    let name = model.family().name();
+    let name = &title(model.family());
     let time = QuantityAxis::linear("time", "s", elastic.contact_time.unwrap_or(1.0));
     let series = |impact: &Impact, label: &str, colour, mark, y: &dyn Fn(f64) -> f64| {
         let instants = impact.history.iter();
@@ -148,7 +158,7 @@ fn overlap_chart(
 pub fn export_figure(fitted: &DemExport) -> String {
     let (curve, fastest) = (&fitted.curve, fitted.curve.speeds().1);
     let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
-    let speed = QuantityAxis::linear("impact speed v", "m/s", fastest).logarithmic();
+    let speed = QuantityAxis::linear("approach speed", "m/s", fastest).logarithmic();
     let panel = |y: &QuantityAxis,
                  (is_measured, data): (bool, Vec<(f64, f64)>),
                  of_law: &dyn Fn(&FittedLaw, f64) -> Option<f64>| {

@@ -54,7 +54,16 @@ fn heading(found: &Calibration) -> String {
         ActsOn::All => "all moduli",
         ActsOn::Shear => "the shear modulus",
     };
+    let total = &found.fit.moments[0];
     let mut text = format!(
+        "{} (between {} and {}) of {moduli} of {} relaxes; rms error of the restitution {}\n\n",
+        number(total.value, 3),
+        number(total.low, 3),
+        number(total.high, 3),
+        found.target.material,
+        number(found.fit.rms, 2),
+    );
+    text += &format!(
         "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
         counted(found.times.len(), "term"),
         found.target.material,

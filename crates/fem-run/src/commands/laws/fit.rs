@@ -11,7 +11,7 @@ use fem_laws::LawFamily;
 use fem_report::law_figures::{fit_figure, histories_figure};
 use serde_json::Value;
 
-use super::fit_text::{fit_text, ranking_csv, ranking_text};
+use super::fit_text::{answer, fit_text, ranking_csv, ranking_text};
 use crate::arguments::case::{CaseArguments, stem_of};
 use crate::arguments::data::ColumnArguments;
 use crate::arguments::law::{
@@ -164,7 +164,9 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     output.write("histories.svg", histories)?;
     standard_output::warn(fitted.warnings());
     output.publish(&fitted.numbers(&arguments.input.name()), || {
-        ranking.as_ref().map_or(String::new(), ranking_text) + &fit_text(fitted, law)
+        answer(fitted, ranking.as_ref())
+            + &ranking.as_ref().map_or(String::new(), ranking_text)
+            + &fit_text(fitted, law)
     })
 }
 

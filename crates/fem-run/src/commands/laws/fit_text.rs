@@ -2,13 +2,39 @@
 
 use fem::fit::{Estimate, Profile};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
-use fem_case::engineering::show;
+use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::End;
 use fem_laws::LawFamily;
 
 use fem_report::law_figures::evidence;
 
 use crate::text::{headed, one_line, show_value};
+
+/// Returns the first line of the text: the fitted parameters with their standard errors.
+pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
+    let family = fitted.problem.model.family();
+    let fitted = fitted.fit.estimates.iter().map(|estimate| {
+        let unit = family.parameters()[estimate.index].unit;
+        let (unit, scale) = match ["s", "m/s"].contains(&unit) {
+            true => {
+                let fitting = Unit::fitting(estimate.value, unit);
+                (fitting.symbol().to_string(), fitting.scaled(1.0))
+            }
+            false => (unit.to_string(), 1.0),
+        };
+        let shown = |value: f64| number(scale * value, 3);
+        let error = estimate.standard_error.map_or(String::new(), |it| format!(" ± {}", shown(it)));
+        format!("{} = {}{error} {unit}", estimate.key, shown(estimate.value)).trim_end().to_string()
+    });
+    let fitted: Vec<String> = fitted.collect();
+    let best = match ranking {
+        Some(ranking) if ranking.laws.iter().any(|law| law.weight.is_some()) => {
+            format!(" fits best of {} laws", ranking.laws.len())
+        }
+        _ => String::new(),
+    };
+    format!("{} ({}{best})\n\n", fitted.join(", "), family.name())
+}
 
 pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     let LawFit { problem, fit, .. } = fitted;
