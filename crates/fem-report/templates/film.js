@@ -10,7 +10,22 @@ if (shots.length > 1) {
   };
   slider.addEventListener("input", show);
   slider.value = film.dataset.opening;
-  film.prepend(slider);
+  const play = document.createElement("button");
+  const label = (text) => { play.textContent = text; };
+  let timer = 0;
+  const stop = () => { clearInterval(timer); timer = 0; label("Play"); };
+  const next = () => {
+    slider.value = (+slider.value + 1) % shots.length;
+    show();
+    if (+slider.value === shots.length - 1) stop();
+  };
+  play.addEventListener("click", () => {
+    if (timer) { stop(); return; }
+    timer = setInterval(next, 500);
+    label("Pause");
+  });
+  label("Play");
+  film.prepend(play, slider);
   film.classList.add("playing");
   show();
 }

@@ -12,6 +12,7 @@ mod effects;
 mod hertz_curves;
 mod history_charts;
 mod pressure_chart;
+mod sketch;
 mod stored_result;
 
 use askama::Template;
@@ -41,6 +42,7 @@ const MAX_FRAMES: usize = 12;
 struct Page<'a> {
     title: String,
     subtitle: String,
+    sketch: String,
     stopped: &'a str,
     cards: Vec<Card>,
     cost: String,
@@ -81,6 +83,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
     let page = Page {
         title: result.title(),
         subtitle: subtitle(result),
+        sketch: sketch::sketch(result),
         stopped: result.text("stopped_because"),
         cards: cards::cards(result),
         cost: cost_text(result),

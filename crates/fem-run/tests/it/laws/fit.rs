@@ -50,9 +50,10 @@ fn both_parameters_with_profile_and_comparison() {
     }
     assert_eq!(format!("{:.3}", numbers["compared"][0]["rms"].as_f64().unwrap()), "0.084");
     ran.prints("correlation of a and n");
+    assert!(ran.stdout.starts_with("a = "), "{}", ran.stdout);
     ran.tells("the residuals have a trend");
     let svg = place.text("runs/ice_fit/fit.svg");
-    for label in ["kuwabara_kono", "best fit", "restitution", "impact speed v"] {
+    for label in ["Kuwabara–Kono", "best fit", "restitution", "approach speed"] {
         assert!(svg.contains(label), "{label}");
     }
     // A second fit replaces the first; other files stay.

@@ -50,6 +50,9 @@ fn report_of_a_run_with_fields_has_all_sections() {
         "The material relaxes while it is compressed",
         "body.0.approach_speed",
         "How to cite",
+        "aria-label=\"The bodies before the collision, to scale\"",
+        ">striker, 22.20 mm, 500.0 mm/s</text>",
+        ">target, 15.90 mm, at rest</text>",
     ] {
         assert!(page.contains(expected), "{expected}");
     }
