@@ -109,7 +109,8 @@ fn short(summary: &Summary) -> String {
     };
     let plural = if off.len() == 1 { "" } else { "s" };
     let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
-    "\n".to_string() + &table(&[Left, Left], rows) + &off
+    let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
+    format!("\n{rows}{off}")
 }
 
 /// Returns everything between the table of quantities and the warnings.
