@@ -3,6 +3,8 @@
 import csv
 import html
 import json
+import os
+import pathlib
 import sys
 
 import numpy as np

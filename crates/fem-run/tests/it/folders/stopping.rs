@@ -7,7 +7,7 @@ use crate::common::{FAILS, Place, set};
 #[test]
 fn failed_run_states_cause_and_fix_and_keeps_its_results() {
     let place = Place::new();
-    let ran = place.fails(1, ("case.toml", set(&FAILS)));
+    let ran = place.fails(1, ("case.toml --out runs/case", set(&FAILS)));
     ran.tells("error: |step|likely cause: |remedy: |runs/case");
     ran.prints("INCOMPLETE");
     let summary = place.json("runs/case/summary.json");

@@ -56,7 +56,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
 
     // The row is the member's summary, and the member equals the single case.
     let set = ["--set", "body.0.approach_speed='50 cm/s'", "--set", &format!("{weight}=0.5")];
-    place.succeed(("case.toml --out alone", set));
+    place.succeed(("case.toml --out alone --set 'title=\"A pair\"'", set));
     let alone = place.json("alone/summary.json");
     let member =
         place.json(&format!("runs/sweep/members/{}/summary.json", rows[3].last().unwrap()));

@@ -145,7 +145,7 @@ fn picture_of_a_ball_on_a_wall_fills_its_frame() {
     let place = Place::new();
     let wall = ["--set", "body.0={ name = 'floor', wall = {} }", "--set", "model.condensed={}"];
     let moves = ["--set", "body.1.approach_speed='0.5 m/s'", "--quiet"];
-    place.succeed(("case.toml", wall, moves));
+    place.succeed(("case.toml --out runs/case", wall, moves));
     let page = place.text("runs/case/report.html");
     assert_eq!(page.matches("class=\"rigid ink stroke\"").count(), 4);
     // The height of a frame over its width: 0.625; it was 0.85 when as much of the wall as of the
