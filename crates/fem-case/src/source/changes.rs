@@ -33,7 +33,8 @@ pub(crate) fn changes(file: &CaseFile, overrides: &[String]) -> Vec<Change> {
         // An override that has an error is not applied.
         let Ok(assignment) = overrides::parse(text, 0) else { continue };
         let path: Vec<&str> = assignment.path.iter().map(|part| part.get_ref().as_str()).collect();
-        let is_physical = PHYSICAL.contains(&path[0]) || PHYSICAL_KEYS.iter().any(|key| path == key);
+        let is_physical =
+            PHYSICAL.contains(&path[0]) || PHYSICAL_KEYS.iter().any(|key| path == key);
         // Another mesh file does not change the body.
         if !is_physical || path.last() == Some(&"mesh") {
             continue;
@@ -63,7 +64,7 @@ fn key_of(file: &CaseFile, path: &[&str]) -> String {
     let owner = match path {
         ["body", index, .., _] => {
             let other = if *index == "0" { "1" } else { "0" };
-            let rest = [&["body", other], &path[2..]].concat();
+            let rest = [&["body", other][..], &path[2..]].concat();
             let body = index.parse().ok().and_then(|index: usize| file.body.get(index));
             body.filter(|_| has(&tree, &rest)).map(|body| body.name.as_str())
         }
@@ -83,7 +84,9 @@ fn has(tree: &Table, path: &[&str]) -> bool {
         }
         _ => None,
     };
-    rest.iter().fold(tree.get(*first).cloned(), |value, part| inside(value.as_ref(), part)).is_some()
+    rest.iter()
+        .fold(tree.get(*first).cloned(), |value, part| inside(value.as_ref(), part))
+        .is_some()
 }
 
 /// Returns a title with the changes appended: `…, approach_speed = 1 m/s`.
@@ -134,13 +137,19 @@ mod tests {
     #[test]
     fn changes_of_the_scene_are_named_and_settings_are_not() {
         let of = |overrides: &[&str]| titled("Ice", &changed(overrides));
-        assert_eq!(of(&["model=ting", "mesh.growth=1.2", "title='x'", "accuracy.tolerance=0.1"]), "Ice");
+        assert_eq!(
+            of(&["model=ting", "mesh.growth=1.2", "title='x'", "accuracy.tolerance=0.1"]),
+            "Ice"
+        );
         assert_eq!(of(&["body.0.approach_speed='2 m/s'"]), "Ice, approach_speed = 2 m/s");
         assert_eq!(of(&["body.0.approach_speed=3"]), "Ice, approach_speed = 3 m/s");
         let twice = ["body.0.approach_speed=3", "body.0.approach_speed=0.1 m/s"];
         assert_eq!(of(&twice), "Ice, approach_speed = 0.1 m/s");
         assert_eq!(of(&["body.1.sphere.diameter=1e-3"]), "Ice, upper diameter = 1e-3 m");
-        assert_eq!(of(&["material.ice.density=1", "contact.friction=0.1"]), "Ice, density = 1 kg/m^3, friction = 0.1");
+        assert_eq!(
+            of(&["material.ice.density=1", "contact.friction=0.1"]),
+            "Ice, density = 1 kg/m^3, friction = 0.1"
+        );
         let many = ["stop.bounces=2", "start.gap=1 mm", "stop.a=1", "stop.b=1", "stop.c=1"];
         assert_eq!(of(&many), "Ice, bounces = 2, gap = 1 mm, a = 1 and 2 more");
     }

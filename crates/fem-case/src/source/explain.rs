@@ -51,7 +51,7 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
             )
         }
         "gravity" if table == "effects" => Some("the table [gravity] switches gravity on".into()),
-        _ if !table.is_empty() && KEYS_OF_CASE.contains(&key) => Some(format!(
+        _ if KEYS_OF_CASE.contains(&first) && KEYS_OF_CASE.contains(&key) => Some(format!(
             "`{key}` belongs to the case, and this line is in the table {table}: write it above the first [table] of \
              the file, or as a table [{key}] of its own"
         )),

@@ -369,7 +369,7 @@ fn condensed_sweep_hints_at_sharing_a_factor() {
     // A member equals the single case, apart from the files that are not kept.
     let rows = rows(&place, "given/sweep.csv");
     let member = format!("given/members/{}/summary.json", rows[4].last().unwrap());
-    let speed = "case.toml --out alone --set body.0.approach_speed=3";
+    let speed = "case.toml --out alone --set 'title=\"A pair\"' --set body.0.approach_speed=3";
     let rate = "--set material.glass.relaxation.terms.0.decay_rate=2000";
     place.succeed((speed, rate, condensed, given));
     let [mut alone, mut member] = ["alone/summary.json", &member].map(|name| place.json(name));
