@@ -129,6 +129,30 @@ fn common_hertz(results: &[StoredResult]) -> Option<HertzCurves> {
     HertzCurves::of(results.first()?).filter(|_| is_common)
 }
 
+/// Returns the chart of the velocities over several contacts and the flights between them; `None` for one contact.
+pub fn velocity_chart(result: &StoredResult) -> Option<Chart> {
+    if result.list("bounces").len() < 2 {
+        return None;
+    }
+    let times = || result.history.get("time_s").iter().copied();
+    let columns = result.body_names().into_iter().map(|name| {
+        let values = result.history.get(&format!("velocity_{name}_m_s")).iter().copied();
+        (name.to_string(), times().zip(values).collect::<Vec<_>>())
+    });
+    let columns: Vec<_> =
+        columns.filter(|(_, points)| points.iter().any(|it| it.1 != 0.0)).collect();
+    let (from, to) = range_with_zero(columns.iter().flat_map(|(_, points)| points));
+    let time = QuantityAxis::linear("time t", "s", times().last()?);
+    let velocity = QuantityAxis::linear("Velocity v, upward", "m/s", to.max(-from));
+    let scaled = |points: &[(f64, f64)]| {
+        points.iter().map(|(t, v)| (time.scaled(*t), velocity.scaled(*v))).collect()
+    };
+    let chart = chart_axes(&time, &velocity);
+    Some(columns.iter().enumerate().fold(chart, |chart, (k, (name, points))| {
+        chart.with(Curve::line(name.clone(), scaled(points)).like_curve(k))
+    }))
+}
+
 /// Returns the chart of a quantity over time; `None` if no result has it.
 pub fn history_chart(results: &[StoredResult], quantity: Quantity) -> Option<Chart> {
     let hertz = common_hertz(results);

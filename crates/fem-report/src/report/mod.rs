@@ -28,7 +28,7 @@ use effects::EffectEntry;
 pub use comparison::comparison_page;
 pub use contours::contour_of_result;
 pub use effects::is_numerical;
-pub use history_charts::{Quantity, energy_chart, history_chart};
+pub use history_charts::{Quantity, energy_chart, history_chart, velocity_chart};
 pub use pressure_chart::pressure_chart;
 pub use stored_result::{ReportError, StoredResult};
 
@@ -78,6 +78,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         history_chart(of_one, Quantity::Approach),
         history_chart(of_one, Quantity::Radius),
         energy_chart(result),
+        velocity_chart(result),
     ];
     let [on, numerical, off] = effects::effects(result);
     let page = Page {

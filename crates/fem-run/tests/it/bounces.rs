@@ -28,6 +28,8 @@ fn bounces_are_printed_and_written_to_summary_and_history() {
         assert_eq!(summary["rest"].is_object(), has_rest);
         assert_eq!(summary["complete"], true);
         assert!(summary["energy"]["potential_j"].is_number());
+        let page = place.text("out/report.html");
+        assert_eq!(page.contains("Velocity v, upward"), contacts.len() > 1);
         let history = place.text("out/history.csv");
         let header = history.lines().next().unwrap();
         assert!(header.ends_with("residual_j,potential_j,left_before_j"), "{header}");
