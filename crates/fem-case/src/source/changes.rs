@@ -11,11 +11,11 @@ const PHYSICAL: [&str; 6] = ["material", "body", "start", "gravity", "stop", "sc
 /// Physical keys in other tables.
 const PHYSICAL_KEYS: [[&str; 2]; 2] = [["contact", "friction"], ["contact", "work_of_adhesion"]];
 /// Longest value that is shown.
-const LONGEST_VALUE: usize = 24;
+const MAX_VALUE_LENGTH: usize = 24;
 /// Changes that a title names.
-const MOST_IN_TITLE: usize = 3;
+const MAX_IN_TITLE: usize = 3;
 /// Longest name of a folder, without the digits that a taken one gets.
-const LONGEST_NAME: usize = 100;
+const MAX_NAME_LENGTH: usize = 100;
 
 /// A key that an override gave another value, by a name that readers of the case understand.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,7 +48,8 @@ pub(crate) fn changes(file: &CaseFile, overrides: &[String]) -> Vec<Change> {
             }
             _ => raw.to_string(),
         };
-        let is_short = value.chars().count() <= LONGEST_VALUE && !value.contains(char::is_control);
+        let is_short =
+            value.chars().count() <= MAX_VALUE_LENGTH && !value.contains(char::is_control);
         let value = if is_short { value } else { "…".to_string() };
         let change = Change { key: key_of(file, &path), value };
         found.retain(|other| other.key != change.key);
@@ -92,10 +93,10 @@ fn has(tree: &Table, path: &[&str]) -> bool {
 /// Returns a title with the changes appended: `…, approach_speed = 1 m/s`.
 pub(crate) fn titled(title: &str, changes: &[Change]) -> String {
     let mut parts = vec![title.to_string()];
-    let named = changes.iter().take(MOST_IN_TITLE);
+    let named = changes.iter().take(MAX_IN_TITLE);
     parts.extend(named.map(|Change { key, value }| format!("{key} = {value}")));
     let title = parts.join(", ");
-    match changes.len().saturating_sub(MOST_IN_TITLE) {
+    match changes.len().saturating_sub(MAX_IN_TITLE) {
         0 => title,
         n => format!("{title} and {n} more"),
     }
@@ -116,7 +117,7 @@ pub(crate) fn folder_name(stem: &str, changes: &[Change]) -> String {
         name += &if value.is_empty() { format!("-{key}") } else { format!("-{key}={value}") };
     }
     let end = name.char_indices().map(|(at, c)| at + c.len_utf8());
-    let end = end.take_while(|end| *end <= LONGEST_NAME.max(stem.len())).last().unwrap_or(0);
+    let end = end.take_while(|end| *end <= MAX_NAME_LENGTH.max(stem.len())).last().unwrap_or(0);
     name.truncate(end);
     name
 }
@@ -163,7 +164,7 @@ mod tests {
         assert_eq!(of(&["body.0.sphere.diameter=14 µm"]), "glass-lower_diameter=14um");
         assert_eq!(of(&["material.ice={density=917, youngs_modulus=9e9}"]), "glass-ice");
         let many: Vec<String> = (0..20).map(|k| format!("stop.key_{k}={k}")).collect();
-        assert_eq!(of(&many.iter().map(String::as_str).collect::<Vec<_>>()).len(), LONGEST_NAME);
+        assert_eq!(of(&many.iter().map(String::as_str).collect::<Vec<_>>()).len(), MAX_NAME_LENGTH);
         let stem = "é".repeat(60);
         assert_eq!(folder_name(&stem, &changed(&["stop.bounces=2"])), stem);
     }

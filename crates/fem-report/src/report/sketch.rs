@@ -16,7 +16,7 @@ const MARGIN: f64 = 8.0;
 /// Height of an unbounded body, over that of the whole drawing.
 const UNBOUNDED: f64 = 0.15;
 /// Largest gap that is drawn, over the larger diameter.
-const LARGEST_GAP: f64 = 2.0;
+const MAX_GAP: f64 = 2.0;
 /// Length of the arrow of the faster body, px.
 const ARROW: f64 = 26.0;
 
@@ -102,7 +102,7 @@ pub fn sketch(result: &StoredResult) -> String {
     let sizes: Vec<f64> = [&lower, &upper].iter().filter_map(|body| body.diameter).collect();
     let largest = sizes.iter().fold(0.0f64, |most, size| most.max(*size));
     let gap = result.summary.get("case").and_then(|case| case.get("start")?.get("gap"));
-    let gap = gap.and_then(number).unwrap_or(0.0).min(LARGEST_GAP * largest);
+    let gap = gap.and_then(number).unwrap_or(0.0).min(MAX_GAP * largest);
     let n_unbounded = 2 - sizes.len();
     let free = HEIGHT * (1.0 - UNBOUNDED * n_unbounded as f64) - 2.0 * MARGIN;
     let scale = free / (sizes.iter().sum::<f64>() + gap);
