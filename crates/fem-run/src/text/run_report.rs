@@ -70,11 +70,10 @@ pub fn report(
 
 /// Returns what a short report says of contacts, model and effects.
 fn short(summary: &Summary) -> String {
+    let deficit = elastic_deficit(summary);
+    let deficit = deficit.map_or(String::new(), |it| format!("1 - restitution: {it}\n"));
     let mut rows: Vec<[String; 2]> = Vec::new();
     let mut row = |name: &str, text: String| rows.push([format!("{name}:"), text]);
-    if let Some(deficit) = elastic_deficit(summary) {
-        row("1 - restitution", deficit);
-    }
     if let Some(contacts) = &summary.bounces {
         let shown = contacts.iter().take(MAX_BOUNCES_IN_SHORT).filter_map(|it| it.restitution);
         let mut values: Vec<String> = shown.map(|value| format!("{value:.4}")).collect();
@@ -110,7 +109,7 @@ fn short(summary: &Summary) -> String {
     let plural = if off.len() == 1 { "" } else { "s" };
     let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
     let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
-    format!("\n{rows}{off}")
+    format!("\n{deficit}{rows}{off}")
 }
 
 /// Returns everything between the table of quantities and the warnings.

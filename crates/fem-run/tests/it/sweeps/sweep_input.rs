@@ -70,7 +70,7 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", "furlong");
     refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", "not a number");
     refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", "greater than 0");
-    refused(&range("{ from = 1, to = 2, n = 3, step = 1 }"), "3:62", "not both");
+    refused(&range("{ from = 1, to = 2, n = 3, step = 1 }"), "3:61", "not both");
     refused(&range("{ from = 1, to = 2, step = 0.3 }"), "3:54", "does not end at `to`|n = 4");
     refused(&range("{ from = 1, to = 2, step = -0.5 }"), "3:54", "does not lead");
     refused(&range("{ from = 1, to = 2, step = 0.5, log = true }"), "3:54", "no step");

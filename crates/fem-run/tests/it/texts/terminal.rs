@@ -39,8 +39,8 @@ fn report_of_a_run_fits_on_a_screen() {
     place.write("steel.toml", steel);
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
     for name in ["glass_0.5ms", "ball_on_block", "dust_grain", "three_bounces"] {
-        std::fs::copy(cases.join(name).with_extension("toml"), place.path(format!("{name}.toml")))
-            .unwrap();
+        let file = format!("{name}.toml");
+        std::fs::copy(cases.join(&file), place.path(&file)).unwrap();
     }
     for (command, said) in [
         (
@@ -59,7 +59,7 @@ fn report_of_a_run_fits_on_a_screen() {
         ),
         (
             "steel.toml --set model=auto",
-            "model:            hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance: plastic yield",
+            "model:  hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance: plastic yield",
         ),
     ] {
         let ran = place.succeed((command, "--force --out out"));
