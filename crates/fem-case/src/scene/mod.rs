@@ -307,7 +307,7 @@ impl Scene {
 pub struct UncertainInput {
     /// Dotted key of the number.
     pub key: String,
-    /// The number.
+    /// Value of the number.
     pub value: f64,
     /// Its uncertainty, ≥ 0.
     pub uncertainty: f64,

@@ -25,8 +25,10 @@ const FIRST: [&str; 14] = [
     "hertz_peak_pressure_pa",
 ];
 /// Columns after the accounts of energy.
-const LAST: [&str; 10] = [
+const LAST: [&str; 12] = [
     "energy_residual_relative",
+    "adhesion_sticking_speed_m_s",
+    "adhesion_sticks",
     "momentum_residual_relative",
     "elements",
     "time_step_s",
@@ -39,10 +41,15 @@ const LAST: [&str; 10] = [
 ];
 
 /// Prefix of a column of the summary's `uncertainty`, and its part.
-const UNCERTAINTIES: [(&str, &str); 2] =
-    [("uncertainty_discretisation_", "discretisation"), ("uncertainty_model_", "model")];
+const UNCERTAINTIES: [(&str, &str); 3] = [
+    ("uncertainty_discretisation_", "discretisation"),
+    ("uncertainty_model_", "model"),
+    ("uncertainty_input_", "input"),
+];
+/// Beginnings of columns that a table has only if a member has a value there.
+const OPTIONAL: [&str; 2] = ["uncertainty_input_", "adhesion_"];
 
-/// Names and order of all columns that a table can have; `hertz_`, `energy_` and `uncertainty_` are the
+/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_` and `uncertainty_` are the
 /// summary's objects of that name, the last with its part before the quantity. The cost of the run (`cost`)
 /// differs from run to run and stays in the member's summary.
 pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
@@ -57,30 +64,31 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     own(&FIRST).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
 });
 
-/// The columns of a table of summaries: all except those of energies that no summary has.
+/// The columns of a table of summaries: all except the optional ones that no summary has.
 #[derive(Clone, Debug)]
 pub struct Columns {
-    /// Keys of the optional energies that no summary has had so far.
+    /// Optional columns that no summary has had so far.
     absent: Vec<String>,
 }
 
 impl Default for Columns {
     fn default() -> Self {
-        let optional = Account::all().filter(|account| account.shown() == ShownIn::WhereFilled);
-        Self { absent: optional.map(energy_key).collect() }
+        let energies = Account::all().filter(|account| account.shown() == ShownIn::WhereFilled);
+        let energies = energies.map(|account| column_of(&energy_key(account)));
+        let is_optional = |column: &&String| OPTIONAL.iter().any(|start| column.starts_with(start));
+        Self { absent: energies.chain(COLUMNS.iter().filter(is_optional).cloned()).collect() }
     }
 }
 
 impl Columns {
     /// Takes the next summary, given as JSON.
     pub fn see(&mut self, summary: &Value) {
-        self.absent.retain(|key| summary["energy"].get(key).is_none());
+        self.absent.retain(|column| value_of(summary, column).is_null());
     }
 
     /// Returns the columns of a table of the summaries so far.
     pub fn names(&self) -> Vec<&'static str> {
-        let absent: Vec<String> = self.absent.iter().map(|key| column_of(key)).collect();
-        COLUMNS.iter().filter(|column| !absent.contains(column)).map(String::as_str).collect()
+        COLUMNS.iter().filter(|column| !self.absent.contains(column)).map(String::as_str).collect()
     }
 }
 
@@ -129,7 +137,8 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
         }
         "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
         _ => {
-            uncertainty.or(table("hertz_")).or(table("energy_")).unwrap_or(&summary[column]).clone()
+            let tables = ["hertz_", "energy_", "adhesion_"].into_iter().find_map(table);
+            uncertainty.or(tables).unwrap_or(&summary[column]).clone()
         }
     }
 }

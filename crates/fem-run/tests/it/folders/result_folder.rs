@@ -7,7 +7,7 @@ use fem_vtk::VtuFile;
 const QUANTITIES: &str =
     "restitution contact_time_s peak_force_n max_approach_m max_contact_radius_m peak_pressure_pa";
 const OTHERS: &str = "peak_force_raw_n radius_and_pressure elastic_null contact_episodes hertz energy momentum_residual_relative \
-    bounces rest bodies time_step_s steps element_updates cost effects uncertainty coarser_meshes \
+    bounces adhesion rest bodies time_step_s steps element_updates cost effects uncertainty coarser_meshes \
     models_considered warnings complete stopped_because program version numerics made_from case";
 
 fn keys(value: &serde_json::Value) -> String {
@@ -37,13 +37,13 @@ fn result_has_the_documented_keys_and_files() {
             "wall_s setup_s trials_s solve_s ns_per_element_update all_element_updates threads \
              peak_memory_bytes factor_bytes",
         ),
-        (&summary["effects"][0], "name active reason error_if_left_out"),
+        (&summary["effects"][0], "name active reason matters error_if_left_out"),
     ] {
         assert_eq!(keys(object), expected);
     }
     for key in QUANTITIES.split(' ') {
         let parts = &summary["uncertainty"][key];
-        assert_eq!(keys(parts), "discretisation model");
+        assert_eq!(keys(parts), "discretisation model input");
         assert!(parts["model"].as_f64().unwrap() > 0.0, "{key}: the case names no law");
     }
     assert_eq!(summary["complete"], true);
