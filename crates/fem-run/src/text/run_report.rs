@@ -148,6 +148,11 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
     let (ours, hertz) = (&summary.collision, &summary.hertz);
     let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
     let own = if has_elements { "± mesh" } else { "± numerics" };
+    let is_uncertain = |it: QuantityOfInterest| {
+        summary.uncertainty.parts(it).input.is_some_and(|input| input > 0.0)
+    };
+    // Seven columns are too wide for 80 characters.
+    let has_input = QuantityOfInterest::ALL.into_iter().any(is_uncertain);
     let row = |quantity: QuantityOfInterest| {
         let (value, theirs) = (ours.number(quantity), hertz.number(quantity));
         let has_unit = quantity != QuantityOfInterest::Restitution;
@@ -160,11 +165,16 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
         };
         let parts = summary.uncertainty.parts(quantity);
         let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
-        let [mesh, neglected] = errors.unwrap_or([NONE, NONE].map(String::from));
+        let [mesh, neglected, input] = errors.unwrap_or([NONE; 3].map(String::from));
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
-        [quantity.name().into(), shown(value), mesh, neglected, shown(theirs), ratio]
+        let name = quantity.name().to_string();
+        match has_input {
+            true => [name, shown(value), mesh, neglected, input, shown(theirs)],
+            false => [name, shown(value), mesh, neglected, shown(theirs), ratio],
+        }
     };
-    let header = format!("|>this run|>{own}|>± neglected|>Hertz|>ratio");
+    let last = if has_input { ">± input|>Hertz" } else { ">Hertz|>ratio" };
+    let header = format!("|>this run|>{own}|>± neglected|{last}");
     let table = headed(&header, QuantityOfInterest::ALL.map(row));
     let legend = error_legend(own, &table);
     let between = if detail == Detail::All { "\n" } else { "" };
@@ -176,12 +186,13 @@ fn error_legend(own: &str, cells: &str) -> String {
     let unknown = if cells.contains(UNKNOWN) { "; ?: not known" } else { "" };
     let partly = if cells.contains("> ") { "; >: at least" } else { "" };
     let what = if own == "± mesh" { "discretisation error" } else { "numerical error" };
-    format!("{own}: {what}; ± neglected: by neglected effects{unknown}{partly}")
+    let input = if cells.contains("± input") { "; ± input: by uncertain inputs" } else { "" };
+    format!("{own}: {what}; ± neglected: by neglected effects{input}{unknown}{partly}")
 }
 
-/// Returns the discretisation error and the error by neglected effects with two digits, in `unit` if the
+/// Returns the errors by discretisation, neglected effects and uncertain inputs with two digits, in `unit` if the
 /// quantity has one.
-fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 2] {
+fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] {
     let sized = |size: f64| match unit {
         _ if size <= ROUNDING * value.abs() => "0".to_string(),
         Some(unit) => format!("{} {}", number(unit.scaled(size), 2), unit.symbol()),
@@ -192,7 +203,8 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 2] 
         (None, Some(known)) => format!("> {}", sized(known)),
         (None, None) => UNKNOWN.to_string(),
     };
-    [parts.discretisation.map_or(UNKNOWN.into(), sized), neglected]
+    let input = parts.input.map_or("0".to_string(), sized);
+    [parts.discretisation.map_or(UNKNOWN.into(), sized), neglected, input]
 }
 
 /// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows.
@@ -413,11 +425,16 @@ mod tests {
             let parts = Parts { discretisation, model, model_at_least, input: None };
             error_columns(62e-6, &parts, Some(&Unit::fitting(62e-6, "s")))
         };
-        assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs"]);
-        assert_eq!(of(Some(1e-17), None, Some(2e-7)), ["0", "> 0.2 µs"]);
-        assert_eq!(of(None, None, None), ["?", "?"]);
-        let plain = Parts { discretisation: Some(1.94e-4), model: Some(0.0), ..Parts::default() };
-        assert_eq!(error_columns(1.0, &plain, None), ["1.9e-4", "0"]);
+        assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs", "0"]);
+        assert_eq!(of(Some(1e-17), None, Some(2e-7)), ["0", "> 0.2 µs", "0"]);
+        assert_eq!(of(None, None, None), ["?", "?", "0"]);
+        let plain = Parts {
+            discretisation: Some(1.94e-4),
+            model: Some(0.0),
+            input: Some(3e-3),
+            model_at_least: None,
+        };
+        assert_eq!(error_columns(1.0, &plain, None), ["1.9e-4", "0", "0.003"]);
         assert!(error_legend("± mesh", "0.12 µs  > 0.2 µs").ends_with("effects; >: at least"));
     }
 }

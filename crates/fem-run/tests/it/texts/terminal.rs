@@ -45,7 +45,7 @@ fn report_of_a_run_fits_on_a_screen() {
     for (command, said) in [
         (
             "glass_0.5ms.toml",
-            "on:  viscoelasticity (striker and target relax: |8 effects off, none above the tolerance; -v lists them\n|No warnings.\nResult: ",
+            "on:  viscoelasticity (striker and target relax: |9 effects off, none above the tolerance; -v lists them\n|No warnings.\nResult: ",
         ),
         (
             "ball_on_block.toml --set model=hertz",
@@ -59,7 +59,7 @@ fn report_of_a_run_fits_on_a_screen() {
         ),
         (
             "steel.toml --set model=auto",
-            "model:  hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance: plastic yield",
+            "model:  hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance: material loss, plastic yield",
         ),
     ] {
         let ran = place.succeed((command, "--force --out out"));
@@ -72,6 +72,11 @@ fn report_of_a_run_fits_on_a_screen() {
         let all = place.succeed((command, "--force --out out -v")).stdout;
         assert!(all.contains("\nEffects\n") && lines(&all) > 20, "{all}");
     }
+    let uncertain =
+        "glass_0.5ms.toml --set model=ting --set 'material.glass.youngs_modulus=\"63 ± 2 GPa\"'";
+    place
+        .succeed((uncertain, "--force --out out"))
+        .prints("± input|; ± input: by uncertain inputs\n");
     place.fails(2, "glass_0.5ms.toml -v -q").tells("cannot be used with");
 }
 
