@@ -35,6 +35,8 @@ const EXPLANATIONS: [(&str, &str); 18] = [
 pub struct EffectEntry {
     pub name: String,
     pub is_on: bool,
+    /// Whether it changes the result by more than the tolerance.
+    pub matters: bool,
     pub explanation: &'static str,
     pub reason: String,
     /// The change of the results without it.
@@ -50,22 +52,26 @@ pub fn is_numerical(name: &str) -> bool {
     NUMERICAL.contains(&name)
 }
 
-/// Returns the physical effects that are on, the numerical ones that are on, and those that are off.
-pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 3] {
+/// Returns the physical effects that are on, the numerical ones that are on, those that are off and matter, and the
+/// others.
+pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 4] {
     let effect = |value: &Value| {
         let text = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default();
         let name = text("name").to_string();
         let explanation =
             EXPLANATIONS.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text);
-        let is_on = value.get("active").and_then(Value::as_bool).unwrap_or(false);
+        let holds = |key: &str| value.get(key).and_then(Value::as_bool).unwrap_or(false);
+        let (is_on, matters) = (holds("active"), holds("matters"));
         let neglect_error = value.get("error_if_left_out").map(neglect_error).unwrap_or_default();
-        EffectEntry { name, is_on, explanation, reason: text("reason").to_string(), neglect_error }
+        let reason = text("reason").to_string();
+        EffectEntry { name, is_on, matters, explanation, reason, neglect_error }
     };
     let (on, off): (Vec<EffectEntry>, Vec<EffectEntry>) =
         result.list("effects").iter().map(effect).partition(|effect| effect.is_on);
     let is_physical = |effect: &EffectEntry| !is_numerical(&effect.name);
     let (physical, numerical) = on.into_iter().partition(is_physical);
-    [physical, numerical, off]
+    let (lacking, off) = off.into_iter().partition(|effect| effect.matters);
+    [physical, numerical, lacking, off]
 }
 
 /// Returns `e by 0.072, T by 0.39 µs, F by 3.5 N`, without what does not change.

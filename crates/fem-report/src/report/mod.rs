@@ -57,6 +57,7 @@ struct Page<'a> {
     bounces: Vec<[String; 5]>,
     on: Vec<EffectEntry>,
     numerical: Vec<EffectEntry>,
+    lacking: Vec<EffectEntry>,
     off: Vec<EffectEntry>,
     profile: String,
     case: Vec<(String, String)>,
@@ -80,7 +81,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         energy_chart(result),
         velocity_chart(result),
     ];
-    let [on, numerical, off] = effects::effects(result);
+    let [on, numerical, lacking, off] = effects::effects(result);
     let page = Page {
         title: result.title(),
         subtitle: subtitle(result),
@@ -98,6 +99,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         bounces: result.list("bounces").iter().map(bounce).collect(),
         on,
         numerical,
+        lacking,
         off,
         profile: drawn([pressure_chart(of_one)]).pop().unwrap_or_default(),
         case: result.summary.get("case").map(case_keys::keys).unwrap_or_default(),

@@ -15,6 +15,17 @@ fn stands_alone(page: &str) {
     assert!(page.contains("prefers-color-scheme: dark") && page.contains("@media print"));
 }
 
+/// A report of a material without relaxation says that its loss matters, and not that nothing does.
+#[test]
+fn effects_that_matter_and_are_not_computed_are_shown() {
+    let place = Place::new();
+    place.succeed("new steel --material steel --quiet");
+    place.succeed("steel.toml --set model=hertz --set body.1.approach_speed=5 --out steel --quiet");
+    let page = place.text("steel/report.html");
+    assert!(page.contains("These effects matter here and are not computed"));
+    assert!(page.contains("<dt>plastic yield</dt>") && !page.contains("No effects beyond"));
+}
+
 /// A contact that shrinks at once has a kink; one like Hertz' has none.
 #[test]
 fn a_kink_of_the_contact_radius_is_explained() {
