@@ -5,6 +5,8 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
@@ -15,12 +17,17 @@ const LOCK: &str = ".fem-run-lock";
 
 /// Starts a run of hours and waits until it has its hidden folder.
 fn endless(place: &Place, out: &str) -> Child {
+    let n_before = hidden(place).len();
     let fine = "--set mesh.contact_element_size=6e-6 --set time.step_factor=1e-2";
     let mut command = place.command((["case.toml", "--out", out], fine));
     let mut child = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     let mut line = String::new();
     BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
-    assert!(line.contains("result: "), "{line}");
+    assert!(line.contains(" elements, about "), "{line}");
+    while hidden(place).len() == n_before {
+        assert_eq!(child.try_wait().unwrap(), None);
+        thread::sleep(Duration::from_millis(10));
+    }
     child
 }
 
