@@ -89,6 +89,43 @@ pub enum MaterialError {
         /// Relaxation time found, s.
         value: f64,
     },
+
+    /// An exponent of Swift's power law outside its range.
+    #[error("flow.hardening.swift.exponent must be above 0 and at most 1, found {value:?}")]
+    HardeningExponent {
+        /// Exponent that was found.
+        value: f64,
+    },
+
+    /// A table of flow stress without rows, or with too many.
+    #[error("a table of flow stress needs 1 to {} rows, found {found}", crate::flow::MAX_FLOW_ROWS)]
+    FlowRows {
+        /// Number of rows found.
+        found: usize,
+    },
+
+    /// Plastic strains of a table of flow stress that do not start at 0 or do not increase.
+    #[error(
+        "row {row} of the flow stress: plastic strains start at 0 and increase, found {value:?}"
+    )]
+    FlowStrain {
+        /// Index of the row, from 0.
+        row: usize,
+        /// Plastic strain found.
+        value: f64,
+    },
+
+    /// Flow stresses of a table that are not positive or decrease.
+    #[error(
+        "row {row} of the flow stress: stresses must be positive, finite and not below the row \
+         before, found {value:?}"
+    )]
+    FlowStress {
+        /// Index of the row, from 0.
+        row: usize,
+        /// Flow stress found, Pa.
+        value: f64,
+    },
 }
 
 /// Returns `value` if it is positive and finite.
@@ -97,6 +134,15 @@ pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, Materi
         Ok(value)
     } else {
         Err(MaterialError::NotPositive { quantity, value })
+    }
+}
+
+/// Returns `value` if it is zero or positive and finite.
+pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64, MaterialError> {
+    if value >= 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(MaterialError::Negative { quantity, value })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Isotropic linear viscoelastic materials: elastic moduli, Prony relaxation, stress from strain.
 //!
 //! The shear modulus relaxes as `G(t) = G_0 g(t)`; the bulk modulus relaxes with it or stays
-//! elastic ([`ActsOn`]). Everything is SI, tension is positive.
+//! elastic ([`ActsOn`]). A metal flows by a [`FlowRule`]. Everything is SI, tension is positive.
 //!
 //! ```
 //! use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -21,6 +21,7 @@ mod elastic;
 pub mod engineering;
 mod error;
 pub mod finite;
+mod flow;
 mod hooke;
 mod material;
 mod prony;
@@ -28,6 +29,7 @@ mod relaxation_step;
 
 pub use elastic::{ElasticModuli, ModuliInput};
 pub use error::MaterialError;
+pub use flow::{FlowPoint, FlowRule, Hardening, MAX_FLOW_ROWS, RateFactor};
 pub use material::Material;
 pub use prony::{ActsOn, PronySeries, PronyTerm, relaxation_at};
 pub use relaxation_step::RelaxationStep;

@@ -8,7 +8,7 @@
 //! The weights g_k = G_k/G_0 refer to the instantaneous modulus. Non-negative weights and
 //! positive times make g completely monotonic, so no strain history gains energy.
 
-use crate::error::{MaterialError, positive};
+use crate::error::{MaterialError, not_negative, positive};
 
 /// One Maxwell element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,15 +95,10 @@ impl PronySeries {
     ) -> Result<Self, MaterialError> {
         let series = positive("series_stiffness", series_stiffness)?;
         let viscosity = positive("kelvin_viscosity", kelvin_viscosity)?;
-        if !(kelvin_stiffness >= 0.0 && kelvin_stiffness.is_finite()) {
-            return Err(MaterialError::Negative {
-                quantity: "kelvin_stiffness",
-                value: kelvin_stiffness,
-            });
-        }
+        let kelvin = not_negative("kelvin_stiffness", kelvin_stiffness)?;
         let term = PronyTerm {
-            weight: series / (series + kelvin_stiffness),
-            relaxation_time: viscosity / (series + kelvin_stiffness),
+            weight: series / (series + kelvin),
+            relaxation_time: viscosity / (series + kelvin),
         };
         Self::new(vec![term], acts_on)
     }

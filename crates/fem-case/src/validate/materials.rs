@@ -140,6 +140,10 @@ impl Check<'_> {
                 let keys = ["relaxation_time", "decay_rate"].map(|key| at_term(*index, key));
                 (keys.into_iter().filter(is_given).collect(), None)
             }
+            MaterialError::HardeningExponent { .. }
+            | MaterialError::FlowRows { .. }
+            | MaterialError::FlowStrain { .. }
+            | MaterialError::FlowStress { .. } => (vec![at("flow.hardening")], None),
         };
         let keys: Vec<_> = keys.iter().map(String::as_str).collect();
         let default = keys.first().copied().unwrap_or(path);

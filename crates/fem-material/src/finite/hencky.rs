@@ -27,7 +27,7 @@ use super::principal::Response;
 use super::tensor::SymmetricTensor;
 
 /// Bulk and shear modulus, Pa.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hencky {
     pub bulk: f64,
     pub shear: f64,
@@ -36,7 +36,13 @@ pub(super) struct Hencky {
 impl Hencky {
     #[inline(always)]
     pub fn energy<N: Number>(&self, strain: &Strain<N>) -> N {
-        let SymmetricTensor { rr, yy, tt, ry } = logarithmic_strain(&strain.left);
+        self.energy_of(&logarithmic_strain(&strain.left))
+    }
+
+    /// Returns the energy of a logarithmic strain.
+    #[inline(always)]
+    pub fn energy_of<N: Number>(&self, strain: &SymmetricTensor<N>) -> N {
+        let SymmetricTensor { rr, yy, tt, ry } = *strain;
         let volumetric = rr + yy + tt;
         let mean = volumetric * N::splat(1.0 / 3.0);
         let deviator = SymmetricTensor { rr: rr - mean, yy: yy - mean, tt: tt - mean, ry };
@@ -46,7 +52,13 @@ impl Hencky {
 
     #[inline(always)]
     pub fn kirchhoff<N: Number>(&self, strain: &Strain<N>) -> SymmetricTensor<N> {
-        let SymmetricTensor { rr, yy, tt, ry } = logarithmic_strain(&strain.left);
+        self.kirchhoff_of(&logarithmic_strain(&strain.left))
+    }
+
+    /// Returns Kirchhoff's stress of a logarithmic strain.
+    #[inline(always)]
+    pub fn kirchhoff_of<N: Number>(&self, strain: &SymmetricTensor<N>) -> SymmetricTensor<N> {
+        let SymmetricTensor { rr, yy, tt, ry } = *strain;
         let mean = N::splat(self.bulk - 2.0 / 3.0 * self.shear) * (rr + yy + tt);
         let two_g = N::splat(2.0 * self.shear);
         SymmetricTensor {
@@ -72,7 +84,7 @@ impl Hencky {
 
 /// Returns ½ ln b for given b − 1.
 #[inline(always)]
-fn logarithmic_strain<N: Number>(left: &SymmetricTensor<N>) -> SymmetricTensor<N> {
+pub(super) fn logarithmic_strain<N: Number>(left: &SymmetricTensor<N>) -> SymmetricTensor<N> {
     let SymmetricTensor { rr, yy, tt, ry } = *left;
     let (one, half) = (N::splat(1.0), N::splat(0.5));
     let determinant = (rr + yy).plus_product(rr, yy).minus_product(ry, ry);

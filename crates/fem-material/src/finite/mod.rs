@@ -9,7 +9,9 @@
 //! with P the first Piola-Kirchhoff stress, τ Kirchhoff's, σ Cauchy's; tension is positive.
 
 mod branches;
+mod elastic_plastic;
 mod ellipticity;
+mod exponential;
 mod hencky;
 mod hyperelastic;
 mod kinematics;
@@ -24,6 +26,7 @@ mod viscoelastic;
 mod viscous;
 
 pub use branches::Branches;
+pub use elastic_plastic::{ElasticPlastic, PlasticState, PlasticStress};
 pub use ellipticity::least_acoustic_stiffness;
 pub use hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted};
 pub use neo_hooke::NeoHooke;

@@ -35,6 +35,12 @@ pub struct SymmetricTensor<N = f64> {
 }
 
 impl<N: Number> AxisymmetricTensor<N> {
+    /// Returns the transposed tensor.
+    #[inline(always)]
+    pub(super) fn transposed(&self) -> Self {
+        Self { ry: self.yr, yr: self.ry, ..*self }
+    }
+
     /// Returns det(1 + H) − 1 of a displacement gradient H: the relative change of volume, without the
     /// digits that det F − 1 would lose at small strain.
     #[inline(always)]

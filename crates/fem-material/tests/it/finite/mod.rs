@@ -1,6 +1,7 @@
 //! Finite strain at a point.
 
 mod closed_forms;
+mod flow;
 mod laws;
 mod relaxation;
 mod relaxation_limits;

@@ -1,0 +1,190 @@
+//! Plastic flow: the flow stress of a metal over its equivalent plastic strain and the rate of that strain.
+//!
+//! ```math
+//! \sigma_Y(\varepsilon, \dot\varepsilon) = Y(\varepsilon)\, \left[1 + C \ln\max(\dot\varepsilon/\dot\varepsilon_0, 1)\right],
+//! \qquad Y(\varepsilon) = Y_0 + H\varepsilon, \quad Y_0 (1 + \varepsilon/\varepsilon_s)^n, \quad \text{or a table}
+//! ```
+//!
+//! with von Mises' equivalent plastic strain ε, which is the axial one of a tensile test, and true (Cauchy's) stress. The
+//! power law is Swift's (1952, Journal of the Mechanics and Physics of Solids 1:1); the factor of the rate is that of
+//! Johnson & Cook (1983, Proceedings of the 7th International Symposium on Ballistics, 541), which is left at 1 below the
+//! reference rate. [`ElasticPlastic`](crate::finite::ElasticPlastic) uses the rule at finite strain.
+
+use crate::error::{MaterialError, not_negative, positive};
+
+/// Largest number of rows of a table of flow stress.
+pub const MAX_FLOW_ROWS: usize = 64;
+
+/// A point of a table: the flow stress at an equivalent plastic strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlowPoint {
+    /// Equivalent plastic strain.
+    pub plastic_strain: f64,
+    /// Flow stress, true stress at the reference rate, Pa.
+    pub flow_stress: f64,
+}
+
+/// How the flow stress depends on the equivalent plastic strain.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Hardening {
+    /// Y₀ + H ε; H = 0 is perfect plasticity.
+    Linear {
+        /// Flow stress at first yield Y₀, Pa.
+        yield_strength: f64,
+        /// Slope H, at least 0, Pa.
+        modulus: f64,
+    },
+    /// Y₀ (1 + ε/ε_s)ⁿ.
+    Swift {
+        /// Flow stress at first yield Y₀, Pa.
+        yield_strength: f64,
+        /// Reference strain ε_s.
+        strain: f64,
+        /// Exponent n, above 0 and at most 1.
+        exponent: f64,
+    },
+    /// Straight lines between points, the first at strain 0; beyond the last the flow stress is constant.
+    Table(Vec<FlowPoint>),
+}
+
+/// The factor 1 + C ln(ε̇/ε̇₀) of the flow stress at plastic strain rates above ε̇₀.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RateFactor {
+    /// Coefficient C, at least 0.
+    pub coefficient: f64,
+    /// Reference rate ε̇₀, 1/s.
+    pub reference_rate: f64,
+}
+
+/// A checked flow rule: isotropic hardening and, for a rate-dependent material, the factor of the rate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlowRule {
+    curve: FlowCurve,
+    rate: Option<RateFactor>,
+}
+
+/// The flow stress over plastic strain, as the return map reads it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FlowCurve {
+    /// Straight lines: each starts at a strain, the first at 0, and the last has no end.
+    Lines(Vec<FlowLine>),
+    /// Swift's power law.
+    Swift { yield_strength: f64, strain: f64, exponent: f64 },
+}
+
+/// A straight part of the flow stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FlowLine {
+    /// Plastic strain at its start.
+    pub start: f64,
+    /// Flow stress of the line at plastic strain 0, Pa.
+    pub at_zero: f64,
+    /// Slope, Pa.
+    pub slope: f64,
+}
+
+impl FlowRule {
+    /// Creates a flow rule; without a rate factor the flow stress does not depend on the rate.
+    ///
+    /// # Errors
+    /// A strength or a strain that is not positive and finite, a slope or a coefficient below 0, an exponent outside
+    /// 0 < n ≤ 1; a table that is empty, longer than [`MAX_FLOW_ROWS`], does not start at strain 0, whose strains do not
+    /// increase, or whose stresses decrease (softening localises in a band that depends on the mesh).
+    pub fn new(hardening: Hardening, rate: Option<RateFactor>) -> Result<Self, MaterialError> {
+        if let Some(RateFactor { coefficient, reference_rate }) = rate {
+            not_negative("flow.rate.johnson_cook.c", coefficient)?;
+            positive("flow.rate.johnson_cook.reference_rate", reference_rate)?;
+        }
+        Ok(Self { curve: FlowCurve::new(hardening)?, rate })
+    }
+
+    /// Creates the rule of a perfectly plastic material with a yield strength, Pa.
+    ///
+    /// # Errors
+    /// A strength that is not positive and finite.
+    pub fn perfect(yield_strength: f64) -> Result<Self, MaterialError> {
+        Self::new(Hardening::Linear { yield_strength, modulus: 0.0 }, None)
+    }
+
+    /// Returns the flow stress (Pa) at an equivalent plastic strain and a rate of it, 1/s.
+    pub fn flow_stress(&self, plastic_strain: f64, rate: f64) -> f64 {
+        let factor = self.rate.map_or(1.0, |RateFactor { coefficient, reference_rate }| {
+            1.0 + coefficient * (rate / reference_rate).max(1.0).ln()
+        });
+        self.curve.flow_stress(plastic_strain) * factor
+    }
+
+    /// Returns the flow stress at first yield and at most the reference rate, Pa.
+    pub fn yield_strength(&self) -> f64 {
+        self.curve.flow_stress(0.0)
+    }
+
+    /// Returns the factor of the rate; `None` for a material that does not depend on it.
+    pub fn rate(&self) -> Option<RateFactor> {
+        self.rate
+    }
+
+    pub(crate) fn curve(&self) -> &FlowCurve {
+        &self.curve
+    }
+}
+
+impl FlowCurve {
+    fn new(hardening: Hardening) -> Result<Self, MaterialError> {
+        Ok(match hardening {
+            Hardening::Linear { yield_strength, modulus } => {
+                let at_zero = positive("flow.yield_strength", yield_strength)?;
+                let slope = not_negative("flow.hardening.modulus", modulus)?;
+                Self::Lines(vec![FlowLine { start: 0.0, at_zero, slope }])
+            }
+            Hardening::Swift { yield_strength, strain, exponent } => {
+                positive("flow.yield_strength", yield_strength)?;
+                positive("flow.hardening.swift.strain", strain)?;
+                if !(exponent > 0.0 && exponent <= 1.0) {
+                    return Err(MaterialError::HardeningExponent { value: exponent });
+                }
+                Self::Swift { yield_strength, strain, exponent }
+            }
+            Hardening::Table(points) => Self::Lines(lines_of(&points)?),
+        })
+    }
+
+    fn flow_stress(&self, plastic_strain: f64) -> f64 {
+        match self {
+            Self::Lines(lines) => {
+                let after = lines.partition_point(|line| line.start <= plastic_strain);
+                let FlowLine { at_zero, slope, .. } = lines[after.max(1) - 1];
+                at_zero + slope * plastic_strain
+            }
+            Self::Swift { yield_strength, strain, exponent } => {
+                yield_strength * (exponent * (plastic_strain / strain).ln_1p()).exp()
+            }
+        }
+    }
+}
+
+/// Returns the lines between the points of a table, and the level one beyond the last point.
+fn lines_of(points: &[FlowPoint]) -> Result<Vec<FlowLine>, MaterialError> {
+    if points.is_empty() || points.len() > MAX_FLOW_ROWS {
+        return Err(MaterialError::FlowRows { found: points.len() });
+    }
+    let mut lines = Vec::with_capacity(points.len());
+    for (row, point) in points.iter().enumerate() {
+        let FlowPoint { plastic_strain, flow_stress } = *point;
+        let before = row.checked_sub(1).map(|before| points[before]);
+        let is_next = before.map_or(plastic_strain == 0.0, |p| plastic_strain > p.plastic_strain);
+        if !(is_next && plastic_strain.is_finite()) {
+            return Err(MaterialError::FlowStrain { row, value: plastic_strain });
+        }
+        let least = before.map_or(f64::MIN_POSITIVE, |p| p.flow_stress);
+        if !(flow_stress >= least && flow_stress.is_finite()) {
+            return Err(MaterialError::FlowStress { row, value: flow_stress });
+        }
+        let slope = points.get(row + 1).map_or(0.0, |next| {
+            (next.flow_stress - flow_stress) / (next.plastic_strain - plastic_strain)
+        });
+        let at_zero = flow_stress - slope * plastic_strain;
+        lines.push(FlowLine { start: plastic_strain, at_zero, slope });
+    }
+    Ok(lines)
+}
