@@ -26,5 +26,5 @@ mod style;
 pub use chart::{Axis, Chart};
 pub use curve::{Curve, Mark};
 pub use grid::{legend_room, svg};
-pub use panel::panel;
+pub use panel::{panel, stacked};
 pub use style::{COLOURS, GREY, colour_along, escaped, tick};

@@ -32,6 +32,25 @@ const N_TICKS: [usize; 2] = [9, 7];
 /// Draws a chart by itself, with the label of its vertical axis above it; `None` if there is no point to
 /// draw.
 pub fn panel(chart: &Chart) -> Option<String> {
+    drawn(chart).map(|(svg, _)| svg)
+}
+
+/// Draws charts like [`panel`], one below the other; `None` if there is no point to draw.
+pub fn stacked(charts: &[Chart]) -> Option<String> {
+    let (mut parts, mut y) = (String::new(), 0.0);
+    for (part, height) in charts.iter().filter_map(drawn) {
+        parts += &part.replacen("<svg", &format!("<svg y=\"{y}\""), 1);
+        y += height + LINE;
+    }
+    let head = "<svg xmlns=\"http://www.w3.org/2000/svg\"";
+    (y > 0.0).then(|| {
+        let height = y - LINE;
+        format!("{head} viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\">\n{parts}</svg>\n")
+    })
+}
+
+/// Returns the picture of a chart and its height.
+fn drawn(chart: &Chart) -> Option<(String, f64)> {
     if chart.is_empty() {
         return None;
     }
@@ -75,7 +94,7 @@ pub fn panel(chart: &Chart) -> Option<String> {
         }
     }
     svg += "</svg>\n";
-    Some(svg)
+    Some((svg, height))
 }
 
 fn draw_curve(svg: &mut String, drawn: &VisibleCurve<'_>, place: &impl Fn((f64, f64)) -> [f64; 2]) {

@@ -90,6 +90,9 @@ impl TimeAxis {
     }
 }
 
+/// Fewest points of a curve over several contacts.
+const MIN_POINTS: f64 = 200.0;
+
 /// Returns the range of the finite values and zero.
 fn range_with_zero<'a>(points: impl IntoIterator<Item = &'a (f64, f64)>) -> (f64, f64) {
     let (from, to) = range(points.into_iter().map(|point| point.1));
@@ -129,27 +132,88 @@ fn common_hertz(results: &[StoredResult]) -> Option<HertzCurves> {
     HertzCurves::of(results.first()?).filter(|_| is_common)
 }
 
-/// Returns the chart of the velocities over several contacts and the flights between them; `None` for one contact.
-pub fn velocity_chart(result: &StoredResult) -> Option<Chart> {
+/// Returns the charts of height and velocity over several contacts and the flights between them; none for one contact.
+///
+/// The height is the gap between the bodies, the approach with the opposite sign.
+pub fn bounce_charts(result: &StoredResult) -> Vec<Chart> {
     if result.list("bounces").len() < 2 {
-        return None;
+        return Vec::new();
     }
     let times = || result.history.get("time_s").iter().copied();
-    let columns = result.body_names().into_iter().map(|name| {
-        let values = result.history.get(&format!("velocity_{name}_m_s")).iter().copied();
-        (name.to_string(), times().zip(values).collect::<Vec<_>>())
-    });
-    let columns: Vec<_> =
-        columns.filter(|(_, points)| points.iter().any(|it| it.1 != 0.0)).collect();
-    let (from, to) = range_with_zero(columns.iter().flat_map(|(_, points)| points));
-    let time = QuantityAxis::linear("time t", "s", times().last()?);
-    let velocity = QuantityAxis::linear("Velocity v, upward", "m/s", to.max(-from));
-    let scaled = |points: &[(f64, f64)]| {
-        points.iter().map(|(t, v)| (time.scaled(*t), velocity.scaled(*v))).collect()
+    let column = |name: &str| -> Vec<(f64, f64)> {
+        times().zip(result.history.get(name).iter().copied()).collect()
     };
-    let chart = chart_axes(&time, &velocity);
-    Some(columns.iter().enumerate().fold(chart, |chart, (k, (name, points))| {
-        chart.with(Curve::line(name.clone(), scaled(points)).like_curve(k))
+    let moves = |(_, points): &(String, Vec<(f64, f64)>)| points.iter().any(|point| point.1 != 0.0);
+    let speeds = result.body_names().into_iter();
+    let speeds = speeds.map(|name| (name.clone(), column(&format!("velocity_{name}_m_s"))));
+    let end = times().last().unwrap_or(1.0);
+    let chart = |name: &str, unit: &'static str, curves: Vec<(String, Vec<(f64, f64)>)>| {
+        let (from, to) = range_with_zero(curves.iter().flat_map(|(_, points)| points));
+        let time = QuantityAxis::linear("time t", "s", end);
+        let y = QuantityAxis::linear(name, unit, to.max(-from));
+        curves.iter().enumerate().fold(chart_axes(&time, &y), |chart, (k, (name, points))| {
+            chart.with(Curve::line(name.clone(), time.points(&y, points)).like_curve(k))
+        })
+    };
+    let speeds: Vec<_> = speeds.collect();
+    let rates = |k: usize| -> f64 {
+        // Bodies are listed from below.
+        let of = |body: usize| speeds.get(body).map_or(0.0, |(_, points)| points[k].1);
+        of(1) - of(0)
+    };
+    let rows: Vec<[f64; 3]> = column("approach_m")
+        .iter()
+        .enumerate()
+        .map(|(k, (time, approach))| [*time, -approach, rates(k)])
+        .collect();
+    let height = vec![("gap between the bodies".to_string(), on_cubics(&rows, end / MIN_POINTS))];
+    let speeds = speeds.into_iter().filter(moves).collect();
+    vec![chart("Height h", "m", height), chart("Velocity v, upward", "m/s", speeds)]
+}
+
+/// Returns points at most `longest` apart in time on the cubics through rows of time, value and rate. The cubics are
+/// exact for a body in free flight.
+fn on_cubics(rows: &[[f64; 3]], longest: f64) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = Vec::with_capacity(rows.len());
+    for pair in rows.windows(2) {
+        let [[start, from, from_rate], [end, to, to_rate]] = [pair[0], pair[1]];
+        let length = end - start;
+        let n = if longest > 0.0 { (length / longest).ceil().clamp(1.0, MIN_POINTS) } else { 1.0 };
+        points.extend((0..n as usize).map(|k| {
+            let t = k as f64 / n;
+            let s = 1.0 - t;
+            let value = s * s * (1.0 + 2.0 * t) * from + t * t * (1.0 + 2.0 * s) * to;
+            (start + t * length, value + length * s * t * (s * from_rate - t * to_rate))
+        }));
+    }
+    points.extend(rows.last().map(|[time, value, _]| (*time, *value)));
+    points
+}
+
+/// Returns the chart of the contact force over the approach; `None` if no result has both.
+pub fn loop_chart(results: &[StoredResult]) -> Option<Chart> {
+    let points = |result: &StoredResult| -> Vec<(f64, f64)> {
+        let approach = result.history.get("approach_m").iter().copied();
+        let rows = result
+            .history
+            .get("time_s")
+            .iter()
+            .zip(approach.zip(result.history.get("contact_force_n").iter().copied()));
+        let (start, end) = (result.first_touch(), result.last_touch());
+        rows.filter(|(time, _)| (start..=end).contains(*time)).map(|(_, point)| point).collect()
+    };
+    let curves: Vec<_> = results.iter().map(points).collect();
+    let (_, deepest) = range(curves.iter().flatten().map(|point| point.0));
+    let (_, largest) = range(curves.iter().flatten().map(|point| point.1));
+    if !(deepest > 0.0 && largest > 0.0) {
+        return None;
+    }
+    let x = QuantityAxis::linear("approach δ", "m", deepest);
+    let y = QuantityAxis::linear("Contact force F", "N", largest);
+    let named = results.iter().zip(&curves).enumerate();
+    Some(named.fold(chart_axes(&x, &y), |chart, (k, (result, points))| {
+        let label = if results.len() == 1 { "this run" } else { &result.name };
+        chart.with(Curve::line(label, x.points(&y, points)).like_curve(k))
     }))
 }
 

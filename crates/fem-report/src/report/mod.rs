@@ -28,7 +28,7 @@ use effects::EffectEntry;
 pub use comparison::comparison_page;
 pub use contours::contour_of_result;
 pub use effects::is_numerical;
-pub use history_charts::{Quantity, energy_chart, history_chart, velocity_chart};
+pub use history_charts::{Quantity, bounce_charts, energy_chart, history_chart, loop_chart};
 pub use pressure_chart::pressure_chart;
 pub use stored_result::{ReportError, StoredResult};
 
@@ -79,8 +79,8 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         history_chart(of_one, Quantity::Approach),
         history_chart(of_one, Quantity::Radius),
         energy_chart(result),
-        velocity_chart(result),
     ];
+    let charts = charts.into_iter().chain(bounce_charts(result).into_iter().map(Some));
     let [on, numerical, lacking, off] = effects::effects(result);
     let page = Page {
         title: result.title(),

@@ -41,14 +41,15 @@ impl Body {
         })
     }
 
+    /// Returns size and speed.
     fn words(&self) -> String {
         let speed = match self.velocity == 0.0 {
             true => "at rest".to_string(),
             false => show(self.velocity.abs(), "m/s"),
         };
         match self.diameter {
-            Some(diameter) => format!("{}, {}, {speed}", self.name, show(diameter, "m")),
-            None => format!("{}, {speed}", self.name),
+            Some(diameter) => format!("{}, {speed}", show(diameter, "m")),
+            None => speed,
         }
     }
 
@@ -75,9 +76,13 @@ impl Body {
                 (rect, y + 0.5 * side * height)
             }
         };
-        let label = escaped(&self.words());
-        let text_y = centre.clamp(12.0, HEIGHT - 6.0) + 4.0;
-        let text = format!("<text x=\"{TEXT}\" y=\"{text_y:.1}\" class=\"ink\">{label}</text>");
+        let [name, label] = [&self.name, &self.words()].map(|text| escaped(text));
+        let first = centre.clamp(16.0, HEIGHT - 24.0) - 2.0;
+        let second = first + 18.0;
+        let text = format!(
+            "<text x=\"{TEXT}\" y=\"{first:.1}\" class=\"ink\">{name}</text><text x=\"{TEXT}\" y=\"{second:.1}\" \
+             class=\"dim\">{label}</text>"
+        );
         if self.velocity == 0.0 {
             return shape + &text;
         }
@@ -115,7 +120,7 @@ pub fn sketch(result: &StoredResult) -> String {
     let lower = lower.drawn(surface, 1.0, scale, fastest);
     let upper = upper.drawn(surface - scale * gap, -1.0, scale, fastest);
     format!(
-        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" role=\"img\" aria-label=\"The bodies before the \
+        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" style=\"max-width:100%;height:auto\" role=\"img\" aria-label=\"The bodies before the \
          collision, to scale\">{lower}{upper}</svg>"
     )
 }

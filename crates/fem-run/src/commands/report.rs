@@ -4,8 +4,8 @@
 use std::path::PathBuf;
 
 use fem_report::report::{
-    Quantity, REPORT_FILE, StoredResult, comparison_page, contour_of_result, energy_chart,
-    history_chart, pressure_chart, report_page,
+    Quantity, REPORT_FILE, StoredResult, bounce_charts, comparison_page, contour_of_result,
+    energy_chart, history_chart, loop_chart, pressure_chart, report_page,
 };
 use fem_report::section_view::mirrored;
 
@@ -100,6 +100,10 @@ pub enum Figure {
     Energy,
     /// Contact pressure over the distance from the axis
     Profile,
+    /// Height and velocity over several contacts, with gravity
+    Bounces,
+    /// Contact force over the approach; the area of the loop is the energy that is lost
+    Loop,
 }
 
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
@@ -110,23 +114,26 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
             .with_help("name one folder")),
     };
     let chart = match figure {
-        Figure::Contours => None,
+        Figure::Contours | Figure::Bounces => None,
         Figure::Force => history_chart(&records, Quantity::Force),
         Figure::Approach => history_chart(&records, Quantity::Approach),
         Figure::Radius => history_chart(&records, Quantity::Radius),
         Figure::Pressure => history_chart(&records, Quantity::Pressure),
         Figure::Energy => energy_chart(of_one("energy")?),
         Figure::Profile => pressure_chart(&records),
+        Figure::Loop => loop_chart(&records),
     };
     let svg = match figure {
         Figure::Contours => {
             contour_of_result(of_one("contours")?, MAX_PANELS).map(|c| mirrored(c).svg())
         }
+        Figure::Bounces => fem_figure::stacked(&bounce_charts(of_one("bounces")?)),
         _ => chart.and_then(|chart| fem_figure::panel(&chart)),
     };
     let Some(svg) = svg else {
         return Err(Failure::bad_input("there is nothing to draw: the result lacks these data")
-            .with_help("fields and profiles need [output] snapshots and a model with elements"));
+            .with_help("fields and profiles need [output] snapshots and a model with elements, bounces need \
+                        gravity"));
     };
     let name = clap::ValueEnum::to_possible_value(&figure);
     let name = name.map_or(String::new(), |value| format!("{}.svg", value.get_name()));

@@ -4,6 +4,7 @@
 //! ```text
 //! pages     a page's blocks, code in its text, links
 //! shell     the commands in a block
+//! pictures  pictures, their descriptions and the command that makes them
 //! pointers  files, items and anchors
 //! commands  valid commands
 //! printed   output and files of commands that are run
@@ -23,6 +24,7 @@ mod contact;
 mod effects;
 mod keys;
 mod pages;
+mod pictures;
 mod pointers;
 mod printed;
 mod prose;

@@ -1,0 +1,156 @@
+//! The pictures, each with the commands that make it.
+
+/// A picture of `docs/images`.
+pub struct Picture {
+    /// Name of its file.
+    pub name: &'static str,
+    /// Command lines without the program's name. A command that several pictures need runs once.
+    pub commands: &'static [&'static str],
+    /// The file that becomes the picture.
+    pub source: Source,
+}
+
+/// What becomes a picture.
+pub enum Source {
+    /// A figure that the commands have written.
+    Figure(&'static str),
+    /// The beginning of a page that the commands have written, in a window of this width and height, px.
+    Page(&'static str, [u32; 2]),
+    /// The beginning of the browser page.
+    BrowserPage([u32; 2]),
+}
+
+/// Files beside the shipped cases: a case and two sweeps of it.
+pub const OWN_CASES: [(&str, &str); 3] = [
+    ("ball.toml", include_str!("ball.toml")),
+    ("relaxation.toml", include_str!("relaxation.toml")),
+    ("sizes.toml", include_str!("sizes.toml")),
+];
+
+const fn figure(
+    name: &'static str,
+    commands: &'static [&'static str],
+    path: &'static str,
+) -> Picture {
+    Picture { name, commands, source: Source::Figure(path) }
+}
+
+const fn page(
+    name: &'static str,
+    commands: &'static [&'static str],
+    path: &'static str,
+    size: [u32; 2],
+) -> Picture {
+    Picture { name, commands, source: Source::Page(path, size) }
+}
+
+const GLASS: &str = "cases/glass_0.5ms.toml";
+const ELASTIC: &str = "cases/glass_0.5ms_elastic.toml";
+const BLOCK: &str = "cases/ball_on_block.toml";
+const SMALL_STRAIN: &str =
+    "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
+
+/// All pictures, in the order of the pages.
+pub const PICTURES: [Picture; 19] = [
+    page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
+    page(
+        "comparison.png",
+        &[GLASS, ELASTIC, "report runs/glass_0.5ms runs/glass_0.5ms_elastic"],
+        "comparison.html",
+        [1000, 1010],
+    ),
+    figure("sweep.svg", &["sweep cases/sweep_speed.toml"], "runs/sweep_speed/sweep.svg"),
+    figure(
+        "fit.svg",
+        &[
+            "new mine --material soda-lime-glass",
+            "fit mine.toml --data validation/data/spreadsheet.csv --columns speed=v,restitution=COR,uncertainty=u \
+             --law all",
+        ],
+        "runs/spreadsheet_fit/fit.svg",
+    ),
+    figure(
+        "calibrate.svg",
+        &["calibrate cases/glass_0.5ms.toml --data validation/data/synthetic_pairings.csv"],
+        "runs/synthetic_pairings_calibrate/calibrate.svg",
+    ),
+    Picture { name: "page.png", commands: &[], source: Source::BrowserPage([1280, 900]) },
+    // Ten collisions.
+    figure(
+        "gallery-1-glass.svg",
+        &[GLASS, "plot runs/glass_0.5ms --what contours --out 1.svg"],
+        "1.svg",
+    ),
+    figure(
+        "gallery-2-elastic.svg",
+        &[
+            GLASS,
+            ELASTIC,
+            "plot runs/glass_0.5ms_elastic runs/glass_0.5ms --what force --out 2.svg",
+        ],
+        "2.svg",
+    ),
+    figure(
+        "gallery-3-block.svg",
+        &[BLOCK, "plot runs/ball_on_block --what energy --out 3.svg"],
+        "3.svg",
+    ),
+    figure(
+        "gallery-4-bounces.svg",
+        &["cases/three_bounces.toml", "plot runs/three_bounces --what bounces --out 4.svg"],
+        "4.svg",
+    ),
+    figure(
+        "gallery-5-steel.svg",
+        &["cases/steel_on_rubber.toml", "plot runs/steel_on_rubber --what contours --out 5.svg"],
+        "5.svg",
+    ),
+    figure(
+        "gallery-6-rubber.svg",
+        &[
+            "cases/soft_sphere.toml",
+            SMALL_STRAIN,
+            "plot runs/soft_sphere runs/soft_small_strain --what force --out 6.svg",
+        ],
+        "6.svg",
+    ),
+    figure(
+        "gallery-7-dust.svg",
+        &["cases/dust_grain.toml", "plot runs/dust_grain --what approach --out 7.svg"],
+        "7.svg",
+    ),
+    figure(
+        "gallery-8-polymer.svg",
+        &["cases/polymer_ten_terms.toml", "plot runs/polymer_ten_terms --what radius --out 8.svg"],
+        "8.svg",
+    ),
+    figure(
+        "gallery-9-ice.svg",
+        &[
+            "fit cases/ice_2cm.toml --data validation/data/bridges_ice.csv --law bordbar_hyppanen --free a,n \
+           --compare kuwabara_kono",
+        ],
+        "runs/bridges_ice_fit/fit.svg",
+    ),
+    figure(
+        "gallery-10-acrylic.svg",
+        &[
+            "new acrylic --material pmma --partner half-space",
+            "acrylic.toml --set model=auto --out runs/acrylic",
+            "plot runs/acrylic --what force --out 10.svg",
+        ],
+        "10.svg",
+    ),
+    // Why balls bounce as they do.
+    figure("why-contact-time.svg", &["sweep cases/sizes.toml"], "runs/sizes/sweep.svg"),
+    figure("why-relaxation.svg", &["sweep cases/relaxation.toml"], "runs/relaxation/sweep.svg"),
+    figure(
+        "why-loop.svg",
+        &[
+            "cases/ball.toml --set material.plastic.relaxation.terms.0.relaxation_time='10s' --out runs/in_10_s",
+            "cases/ball.toml --out runs/in_10_us",
+            "plot runs/in_10_s runs/in_10_us --what loop --out loop.svg",
+        ],
+        "loop.svg",
+    ),
+];
