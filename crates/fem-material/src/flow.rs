@@ -79,7 +79,7 @@ pub(crate) struct FlowLine {
     pub start: f64,
     /// Flow stress of the line at plastic strain 0, Pa.
     pub at_zero: f64,
-    /// Slope, Pa.
+    /// Slope of the flow stress over plastic strain, Pa.
     pub slope: f64,
 }
 
