@@ -4,6 +4,8 @@
 //! All are in one file, `library.toml`. A case that names one gets the table `[material."lib:NAME"]` from there, except for
 //! the keys that it gives itself. An override can thus change single numbers, and the resolved case has the whole table.
 
+mod measured_restitution;
+
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -15,6 +17,8 @@ use crate::quantity::{Quantity, QuantityKind};
 use crate::schema::{CaseFile, MaterialTable, TermTable};
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::shift;
+
+pub use measured_restitution::MeasuredRestitution;
 
 /// The prefix of the library's materials in a case.
 pub(crate) const PREFIX: &str = "lib:";
@@ -34,6 +38,9 @@ pub struct Material {
     pub range: String,
     /// The table of a case.
     pub material: MaterialTable,
+    /// Measured restitutions between bodies of this material.
+    #[serde(default)]
+    pub measured: Vec<MeasuredRestitution>,
 }
 
 /// Returns all materials by name, without `lib:`.
@@ -97,21 +104,17 @@ pub(crate) fn bare(name: &str) -> &str {
     name.strip_prefix(PREFIX).unwrap_or(name)
 }
 
-/// Returns whether a material of a case is an elastic one of the library without a published loss: either by its `lib:`
-/// name with any numbers, or by its name and its numbers, as `fem-run new` writes them.
-pub(crate) fn is_without_loss(name: &str, table: &MaterialTable) -> bool {
-    let Some(entry) = materials().get(bare(name)) else {
-        return false;
-    };
-    let known = &entry.material;
+/// Returns the library's name of a case's material: of one with a `lib:` name and any numbers, or with the name and the
+/// numbers of the library, as `fem-run new` writes them.
+pub(crate) fn name_of(name: &str, table: &MaterialTable) -> Option<&'static str> {
+    let (known, entry) = materials().get_key_value(bare(name))?;
     let numbers = |of: &MaterialTable| {
         let stresses = [&of.youngs_modulus, &of.shear_modulus, &of.bulk_modulus]
             .map(|modulus| modulus.as_ref().map(|modulus| modulus.si().ok()));
         let ratio = of.poissons_ratio.as_ref().map(|ratio| ratio.si().ok());
         (of.density.si().ok(), stresses, ratio)
     };
-    let is_elastic = known.relaxation.is_none() && table.relaxation.is_none();
-    is_elastic && (is_of_library(name) || numbers(table) == numbers(known))
+    (is_of_library(name) || numbers(table) == numbers(&entry.material)).then_some(known)
 }
 
 fn find(name: &str) -> Option<&'static Material> {

@@ -14,7 +14,7 @@ pub struct Body {
     pub(crate) held: bool,
     pub(crate) yield_strength: Option<f64>,
     pub(crate) surface_energy: Option<f64>,
-    pub(crate) unpublished_loss: Option<String>,
+    pub(crate) library_material: Option<&'static str>,
 }
 
 impl Body {
@@ -48,10 +48,9 @@ impl Body {
         self.surface_energy
     }
 
-    /// Returns the name of the material, without `lib:`, if it is the library's, without a published loss, and the case
-    /// gives no relaxation.
-    pub fn unpublished_loss(&self) -> Option<&str> {
-        self.unpublished_loss.as_deref()
+    /// Returns the name of the material, without `lib:`, if it is one of the library.
+    pub fn library_material(&self) -> Option<&'static str> {
+        self.library_material
     }
 
     /// Returns the material; a rigid body has none.

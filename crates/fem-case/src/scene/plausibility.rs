@@ -2,6 +2,7 @@
 //! the materials do not include. They cause warnings, never errors.
 
 use crate::engineering::{number, show};
+use crate::library::{self, MeasuredRestitution};
 use crate::scene::Scene;
 use crate::scene::body::{Body, Shape};
 use crate::scene::model::ModelChoice;
@@ -20,30 +21,56 @@ const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 const MIN_SHARE: f64 = 1e-3;
 
 impl Scene {
-    /// Returns the library's materials, without `lib:`, that have no published loss and no relaxation in the case, so
-    /// that the restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves
-    /// out bodies that hardly deform.
-    pub fn materials_of_unpublished_loss(&self) -> Vec<&str> {
+    /// Returns the library's materials, without `lib:`, that have a relaxation neither there nor in the case, so that the
+    /// restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves out bodies
+    /// that hardly deform.
+    pub fn materials_without_loss(&self) -> Vec<&'static str> {
         if matches!(self.model, ModelChoice::Law { .. }) {
             return Vec::new();
         }
         let deforms = self.bodies.iter().zip(self.compliance_shares());
         let deforms = deforms.filter(|(_, share)| *share > MIN_SHARE).map(|(body, _)| body);
-        let mut names: Vec<&str> = deforms.filter_map(Body::unpublished_loss).collect();
+        let is_elastic = |body: &&Body| body.material().is_some_and(|it| it.relaxation().is_none());
+        let mut names: Vec<&str> =
+            deforms.filter(is_elastic).filter_map(Body::library_material).collect();
         names.dedup();
         names
     }
 
+    /// Returns the measured restitutions of the library between bodies of one material, if both bodies are of it or one is
+    /// a rigid wall.
+    pub fn measured_restitutions(&self) -> &'static [MeasuredRestitution] {
+        let mut names = self.bodies.iter().filter(|body| body.material().is_some());
+        let first = names.next().and_then(Body::library_material);
+        match first.filter(|first| names.all(|body| body.library_material() == Some(first))) {
+            Some(name) => library::materials().get(name).map_or(&[], |entry| &entry.measured),
+            None => &[],
+        }
+    }
+
     /// Returns a warning that the restitution lacks the loss of the
-    /// [materials of unpublished loss](Self::materials_of_unpublished_loss).
-    pub fn unpublished_loss(&self) -> Option<String> {
-        let names = self.materials_of_unpublished_loss();
+    /// [materials without a loss](Self::materials_without_loss), with a measured restitution if there is one.
+    pub fn unknown_loss(&self) -> Option<String> {
+        let names = self.materials_without_loss();
+        let speed = self.approach_speed();
+        let measured = self.measured_restitutions();
+        let within = measured.iter().find_map(|it| Some((it, it.at(speed)?)));
+        let remedy = match (within, measured.first()) {
+            (Some((it, restitution)), _) => {
+                format!("measured: {} ({})", number(restitution, 2), it.name)
+            }
+            (None, Some(it)) => {
+                let (slowest, fastest) = it.speeds();
+                let [from, to] = [slowest, fastest].map(|speed| show(speed, "m/s"));
+                format!("restitutions are measured at {from} to {to} ({})", it.name)
+            }
+            (None, None) => "`fem-run calibrate` finds one from measured restitutions".to_string(),
+        };
         (!names.is_empty()).then(|| {
-            let names = names.join(" and ");
             format!(
-                "the loss of {names} in an impact is not published: the restitution is that of a material without it, \
-                 and its error is unknown; give the material a relaxation, which `fem-run calibrate` finds from measured \
-                 restitutions"
+                "the library has no relaxation for {}: its loss is not computed, and the restitution is too high by an \
+                 unknown amount; {remedy}",
+                names.join(" and ")
             )
         })
     }

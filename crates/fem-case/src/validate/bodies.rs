@@ -16,11 +16,10 @@ use crate::schema::{BodyTable, CaseFile, SphereTable};
 use crate::source::explain::{listed, near};
 use crate::source::toml_syntax::{is_bare, join, quote_key};
 
-/// Returns the name of a body's material if it is the library's, without a published loss, and the case gives none.
-fn unpublished_loss(file: &CaseFile, body: &BodyTable) -> Option<String> {
+/// Returns the library's name of a body's material.
+fn library_material(file: &CaseFile, body: &BodyTable) -> Option<&'static str> {
     let name = body.material.as_ref()?;
-    library::is_without_loss(name, file.material.get(name)?)
-        .then(|| library::bare(name).to_string())
+    library::name_of(name, file.material.get(name)?)
 }
 
 impl Check<'_> {
@@ -90,7 +89,7 @@ impl Check<'_> {
                 held: table.held.unwrap_or_default(),
                 yield_strength: material.and_then(|material| material.yield_strength),
                 surface_energy: material.and_then(|material| material.surface_energy),
-                unpublished_loss: unpublished_loss(file, table),
+                library_material: library_material(file, table),
             }
         };
         Ok([body(lower), body(upper)])

@@ -140,16 +140,16 @@ fn an_unknown_name_lists_the_library() {
     assert!(fault(&["material.'lib:pmma'=3"]).contains("lib:pmma"));
 }
 
-/// The warning of an unpublished loss appears for each way to use a material of the library, and only then.
+/// The warning of a loss that is not computed appears for each way to use a material of the library, and only then.
 #[test]
-fn an_unpublished_loss_causes_a_warning() {
-    let warning = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unpublished_loss();
-    assert!(warning(BALL, &[]).unwrap().contains("the loss of pmma in an impact is not published"));
+fn an_unknown_loss_causes_a_warning() {
+    let warning = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unknown_loss();
+    assert!(warning(BALL, &[]).unwrap().contains("the library has no relaxation for pmma"));
     // As `fem-run new` writes it, and as a resolved case has it.
     let copy = table_text("pmma").unwrap() + &BALL.replace("lib:pmma", "pmma");
-    assert!(warning(&copy, &[]).unwrap().contains("the loss of pmma"));
+    assert!(warning(&copy, &[]).unwrap().contains("no relaxation for pmma"));
     let resolved = parse(BALL, &[]).unwrap().file().clone();
-    assert!(Case::of(resolved).unwrap().scene().unpublished_loss().is_some());
+    assert!(Case::of(resolved).unwrap().scene().unknown_loss().is_some());
     let relaxing = "material.'lib:pmma'.relaxation={ acts_on = 'shear', terms = [{ weight = 0.1, \
                     relaxation_time = 1 }] }";
     let law = "model.law={ kuwabara_kono = { a = '1e-6 s' } }";
@@ -158,4 +158,51 @@ fn an_unpublished_loss_causes_a_warning() {
     }
     // Other numbers make it the user's material.
     assert_eq!(warning(&copy, &["material.pmma.density=1200"]), None);
+}
+
+/// Within the measured speeds the warning has the restitution, beyond them the speeds.
+#[test]
+fn the_warning_of_an_unknown_loss_has_the_measured_restitution() {
+    let warning = |speed: &str| {
+        let set = ["body.1.material='lib:ice'", &format!("body.1.approach_speed='{speed}'")];
+        parse(BALL, &set).unwrap().scene().unknown_loss().unwrap()
+    };
+    assert!(warning("1 cm/s").ends_with("measured: 0.32 (bridges-1984)"));
+    assert!(warning("10 cm/s").ends_with("measured: 0.45 (heisselmann-2010)"));
+    let fast = warning("1 m/s");
+    assert!(fast.ends_with("are measured at 200.0 µm/s to 50.00 mm/s (bridges-1984)"), "{fast}");
+    // Restitutions of ice on ice are not those of ice on steel.
+    let two = BALL.replace("wall = {}", "half_space = {}\nmaterial = 'lib:steel'");
+    let of = |text: &str| {
+        parse(text, &["body.1.material='lib:ice'"]).unwrap().scene().measured_restitutions().len()
+    };
+    assert_eq!((of(BALL), of(&two)), (3, 0));
+}
+
+/// Every measured restitution is a number between 0 and 1 at speeds in order, with a name of its own.
+#[test]
+fn measured_restitutions_are_plausible() {
+    for (name, entry) in materials() {
+        for (k, measured) in entry.measured.iter().enumerate() {
+            let of = format!("{name}, {}", measured.name);
+            assert!(entry.measured[..k].iter().all(|other| other.name != measured.name), "{of}");
+            assert!(measured.source.len() > 20 && !measured.bodies.is_empty(), "{of}");
+            let (slowest, fastest) = measured.speeds();
+            assert!(0.0 < slowest && slowest <= fastest && fastest < 100.0, "{of}");
+            let points = measured.points();
+            assert!(!points.is_empty(), "{of}");
+            for (speed, restitution) in points {
+                assert!((slowest..=1.0001 * fastest).contains(&speed), "{of}");
+                assert!(restitution > 0.05 && restitution <= 1.0, "{of}: {restitution}");
+                assert_eq!(measured.at(speed), Some(restitution), "{of}");
+            }
+            assert!(measured.scatter().is_none_or(|it| it > 0.0 && it < 0.3), "{of}");
+            assert!(measured.law_text().starts_with("e = 0."), "{}", measured.law_text());
+        }
+    }
+    let ice = &materials()["ice"].measured;
+    assert_eq!(ice[0].law_text(), "e = 0.32 (v / 1 cm/s)^-0.234, 200.0 µm/s to 50.00 mm/s");
+    assert_eq!(materials()["granite"].measured[0].scatter(), Some(0.06));
+    // The law of Hatzes exceeds 1 below 0.26 mm/s.
+    assert!(ice[1].points()[0].0 > 2.5e-4 && ice[1].at(1.6e-4) == Some(1.0));
 }

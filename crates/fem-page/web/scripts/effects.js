@@ -2,7 +2,7 @@
 
 export const EFFECT_WORDS = {
   'viscoelasticity': 'The material relaxes while it is compressed: it pushes back less during separation than during approach, and the difference becomes heat.',
-  'material loss': 'The material loses energy in an impact by an amount that is not published.',
+  'material loss': 'A material without a relaxation is computed as elastic: its own loss is missing.',
   'dashpot': 'The contact law has a dashpot, which represents all losses together.',
   'finite size': 'A sphere is not a half-space: its far side is free, which makes it slightly stiffer than Hertz assumes.',
   'finite strain': 'At strains of several per cent, the deformed shape matters for strains and contact.',

@@ -12,7 +12,10 @@ const EXPLANATIONS: [(&str, &str); 18] = [
         "viscoelasticity",
         "The material relaxes while it is compressed and gives back less energy than it took.",
     ),
-    ("material loss", "The loss of the material in an impact is not published."),
+    (
+        "material loss",
+        "A material without a relaxation is computed as elastic: its own loss is missing.",
+    ),
     ("finite strain", "At large strains the change of shape changes stiffness and contact."),
     ("surface slip", "Surfaces of unlike materials slide on each other as they deform."),
     ("plastic yield", "Above its strength a material flows plastically; that is not computed."),

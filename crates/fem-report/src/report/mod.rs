@@ -11,6 +11,7 @@ mod contours;
 mod effects;
 mod hertz_curves;
 mod history_charts;
+mod measured_chart;
 mod pressure_chart;
 mod sketch;
 mod stored_result;
@@ -55,6 +56,8 @@ struct Page<'a> {
     bar: String,
     dark_rules: String,
     bounces: Vec<[String; 5]>,
+    measured: String,
+    measurements: Vec<String>,
     on: Vec<EffectEntry>,
     numerical: Vec<EffectEntry>,
     lacking: Vec<EffectEntry>,
@@ -82,6 +85,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
     ];
     let charts = charts.into_iter().chain(bounce_charts(result).into_iter().map(Some));
     let [on, numerical, lacking, off] = effects::effects(result);
+    let (measured, measurements) = measured_chart::measured_chart(result).unzip();
     let page = Page {
         title: result.title(),
         subtitle: subtitle(result),
@@ -97,6 +101,8 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         bar: contour.as_ref().map(Contour::bar).unwrap_or_default(),
         dark_rules: contour.as_ref().map(Contour::dark_rules).unwrap_or_default(),
         bounces: result.list("bounces").iter().map(bounce).collect(),
+        measured: drawn([measured]).pop().unwrap_or_default(),
+        measurements: measurements.unwrap_or_default(),
         on,
         numerical,
         lacking,

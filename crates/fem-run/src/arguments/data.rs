@@ -3,10 +3,10 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use fem::measured::{DataError, Table, decode};
+use fem::measured::{DataError, Table, decode, is_of_library, library_table};
 
 use super::law::split;
-use crate::text::{Failure, one_line};
+use crate::text::{Failure, one_line, standard_output};
 
 /// Options for reading measured data.
 #[derive(clap::Args, Debug)]
@@ -19,9 +19,15 @@ pub struct ColumnArguments {
 }
 
 impl ColumnArguments {
-    /// Reads a table with commas, semicolons or tabs, decimal points or commas, in UTF-8 or Latin-1.
+    /// Reads a table with commas, semicolons or tabs, decimal points or commas, in UTF-8 or Latin-1; `lib:ice` is a
+    /// measurement of the materials library.
     pub fn read(&self, path: &Path) -> Result<Table, Failure> {
         let name = path.display().to_string();
+        if is_of_library(&name) {
+            let (table, note) = library_table(&name)?;
+            standard_output::note(&note);
+            return self.name_columns(table);
+        }
         let bytes = std::fs::read(path).map_err(|error| {
             let name = one_line(&name);
             let found = match error.kind() {

@@ -31,7 +31,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 pub fn one(name: &str) -> Result<String, Failure> {
     let name = name.strip_prefix("lib:").unwrap_or(name);
     let found = materials().get(name).zip(table_text(name));
-    let Some((Material { title, source, range, .. }, text)) = found else {
+    let Some((Material { title, source, range, measured, .. }, text)) = found else {
         let near = nearest_to(name).map_or(String::new(), |near| format!("did you mean {near}? "));
         let all: Vec<&str> = materials().keys().map(String::as_str).collect();
         let message = format!("the library has no material {name:?}");
@@ -44,7 +44,20 @@ pub fn one(name: &str) -> Result<String, Failure> {
     let width = width.word_splitter(WordSplitter::NoHyphenation);
     let comment = |text: &str| textwrap::fill(text, &width);
     let lines = [title.clone(), format!("Source: {source}."), format!("Range: {range}.")];
-    let comments: Vec<String> = lines.iter().map(|line| comment(line)).collect();
+    let mut comments: Vec<String> = lines.iter().map(|line| comment(line)).collect();
+    for it in measured {
+        let details = [Some(&it.bodies), it.size.as_ref(), it.temperature.as_ref()];
+        let details: Vec<&str> = details.into_iter().flatten().map(String::as_str).collect();
+        let (name, law) = (&it.name, it.law_text());
+        comments.push(comment(&format!("Measured, {name}: {law}; {}.", details.join(", "))));
+        comments.push(comment(&format!("    {}.", it.source)));
+    }
+    if let [first, ..] = &measured[..] {
+        comments.push(comment(&format!(
+            "As data: fem-run fit CASE --data lib:{name}, or lib:{name}/{} for one of several.",
+            first.name
+        )));
+    }
     Ok(format!("{}\n{text}", comments.join("\n")))
 }
 

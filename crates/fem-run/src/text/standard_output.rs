@@ -22,6 +22,11 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+pub fn note(note: &str) {
+    // A closed stderr is no reason to end.
+    let _ = writeln!(stderr(), "note: {}", one_line(note));
+}
+
 pub fn warn(warnings: impl IntoIterator<Item = String>) {
     for warning in warnings {
         // A closed stderr is no reason to end.

@@ -3,6 +3,7 @@
 pub(crate) mod diagnostics;
 pub(crate) mod grouped_warnings;
 mod input_uncertainty;
+mod measured;
 pub(crate) mod stop_advice;
 pub(crate) mod stress;
 mod uncertainty;
@@ -22,6 +23,7 @@ pub use csv_files::{
     CONTACT_FILE, HISTORY_FILE, PROBES_FILE, contact_csv, has_contact, history_csv, probes_csv,
 };
 pub use energy::{Accounts, Energy, energy_key};
+pub use measured::MeasuredSummary;
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summary::{

@@ -4,6 +4,7 @@ use fem_collision::{Collision, EnergyLedger, RestState};
 use fem_laws::ImpactQuantities;
 
 use super::energy::{Accounts, Energy, energy_key};
+use super::measured::MeasuredSummary;
 use super::summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Quantities,
     RestSummary, Summary,
@@ -60,6 +61,7 @@ impl Summary {
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             radius_and_pressure: radius_and_pressure(&effects),
             elastic_null: errors.elastic_null,
+            measured_restitution: measured_restitution(simulation, collision),
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
             energy: energy(collision, &mut numbers),
@@ -93,6 +95,16 @@ impl Summary {
             warnings: warnings.into_iter().chain(numbers.warning()).collect(),
         }
     }
+}
+
+fn measured_restitution(
+    simulation: &Simulation,
+    collision: &Collision,
+) -> Option<Vec<MeasuredSummary>> {
+    let speed = simulation.estimate(collision)?.hertz.approach_speed();
+    let measured = simulation.case().scene().measured_restitutions().iter();
+    Some(measured.map(|it| MeasuredSummary::at(speed, it)).collect::<Vec<_>>())
+        .filter(|all| !all.is_empty())
 }
 
 /// Returns the element updates of a collision, of coarser meshes before it, and of all reference runs; `None` for a model

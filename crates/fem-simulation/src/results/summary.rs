@@ -5,6 +5,7 @@ use fem_collision::QuantityOfInterest;
 use serde::{Serialize, Serializer};
 
 use super::energy::Energy;
+use super::measured::MeasuredSummary;
 use crate::effects::{EffectDecision, NeglectError};
 use crate::error::ElasticNull;
 use crate::models::ModelCandidate;
@@ -25,6 +26,8 @@ pub struct Summary {
     pub radius_and_pressure: &'static str,
     /// Loss of a relaxing run by mesh and settings, with relaxation off.
     pub elastic_null: Option<ElasticNull>,
+    /// Measured restitutions of the library between bodies of this material; `None` if it has none.
+    pub measured_restitution: Option<Vec<MeasuredSummary>>,
     /// Number of contact episodes, separated by openings.
     pub contact_episodes: u64,
     /// Hertz' values of these quantities with instantaneous moduli.

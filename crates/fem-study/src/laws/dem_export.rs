@@ -93,7 +93,7 @@ impl DemExport {
             validity: constant_validity,
             dissipation_time: (viscoelastic.values[0], viscoelastic.validity),
             hunt_crossley,
-            unpublished_loss: curve.unpublished_loss.clone(),
+            unknown_loss: curve.unknown_loss.clone(),
         };
         Ok(Self { curve, export, laws: [constant, viscoelastic, linear] })
     }

@@ -20,8 +20,8 @@ pub struct ImpactCurve {
     pub points: Vec<Point>,
     /// Whether Hertz' contact times replace missing ones.
     pub has_hertz_times: bool,
-    /// Materials whose loss is taken as 0 because none is published; empty for measured data.
-    pub unpublished_loss: Vec<String>,
+    /// Materials whose loss is taken as 0 because the library has none; empty for measured data.
+    pub unknown_loss: Vec<String>,
 }
 
 impl ImpactCurve {
@@ -54,9 +54,9 @@ impl ImpactCurve {
             Ok(Point { contact_time: impact.contact_time, ..point })
         };
         let points: Vec<Point> = (0..N_SPEEDS).map(point).collect::<Result<_, FitError>>()?;
-        let unpublished = case.scene().materials_of_unpublished_loss();
-        let unpublished_loss = unpublished.into_iter().map(String::from).collect();
-        Ok(Self { unpublished_loss, ..Self::of(&reduced.scene().pair()?, points)? })
+        let unpublished = case.scene().materials_without_loss();
+        let unknown_loss = unpublished.into_iter().map(String::from).collect();
+        Ok(Self { unknown_loss, ..Self::of(&reduced.scene().pair()?, points)? })
     }
 
     fn of(pair: &Pair, mut points: Vec<Point>) -> Result<Self, FitError> {
@@ -68,7 +68,7 @@ impl ImpactCurve {
             }
             point.restitution_uncertainty = None;
         }
-        Ok(Self { points, has_hertz_times, unpublished_loss: Vec::new() })
+        Ok(Self { points, has_hertz_times, unknown_loss: Vec::new() })
     }
 
     /// Returns the slowest and the fastest speed, m/s.

@@ -62,7 +62,7 @@ pub struct PairNumbers {
     /// Its largest error over the speeds of the fit; `None` if the loss is not known.
     pub worst_error: Cell,
     /// Materials whose loss is taken as 0 because none is known: the restitution is too high.
-    pub unpublished_loss: Vec<String>,
+    pub unknown_loss: Vec<String>,
     /// The entries of each code: `lammps_viscoelastic_eta`, ….
     pub entries: BTreeMap<String, f64>,
 }
@@ -94,17 +94,16 @@ impl PairExport {
             }
             let pair = collision.scene().pair().map_err(FitError::from)?;
             let export = fitted(&collision, speeds, tolerance)?;
-            let unpublished = collision.scene().materials_of_unpublished_loss();
-            let mut unpublished_loss: Vec<String> =
-                unpublished.into_iter().map(String::from).collect();
+            let unpublished = collision.scene().materials_without_loss();
+            let mut unknown_loss: Vec<String> = unpublished.into_iter().map(String::from).collect();
             // Without a loss the loss of both materials counts as unknown.
-            if export.is_none() && unpublished_loss.is_empty() {
-                unpublished_loss = [first, second].map(|place| kinds[place].0.clone()).into();
-                unpublished_loss.dedup();
+            if export.is_none() && unknown_loss.is_empty() {
+                unknown_loss = [first, second].map(|place| kinds[place].0.clone()).into();
+                unknown_loss.dedup();
             }
             let restitution = export.as_ref().map_or(1.0, |of| of.export.restitution);
             let grains = [first, second];
-            let pair = PairOfGrains { grains, pair, restitution, unpublished_loss };
+            let pair = PairOfGrains { grains, pair, restitution, unknown_loss };
             pairs.push(FittedPair { pair, export });
         }
         Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
@@ -113,7 +112,7 @@ impl PairExport {
     /// Returns the warnings about materials whose loss is not known.
     pub fn warnings(&self) -> Vec<String> {
         let mut names: Vec<&str> = Vec::new();
-        for name in self.pairs.iter().flat_map(|fitted| &fitted.pair.unpublished_loss) {
+        for name in self.pairs.iter().flat_map(|fitted| &fitted.pair.unknown_loss) {
             if !names.contains(&name.as_str()) {
                 names.push(name);
             }
@@ -146,7 +145,7 @@ impl PairExport {
         let laws = export.as_ref();
         let speeds = laws.map(|of| of.export.speeds);
         let validity = laws.map(|of| of.export.validity);
-        let is_known = pair.unpublished_loss.is_empty();
+        let is_known = pair.unknown_loss.is_empty();
         let good = validity.filter(|[from, to, _]| from <= to && is_known);
         PairNumbers {
             first_material: first.material.clone(),
@@ -159,7 +158,7 @@ impl PairExport {
             good_from_m_s: good.map(|good| good[0]),
             good_to_m_s: good.map(|good| good[1]),
             worst_error: validity.filter(|_| is_known).map(|validity| validity[2]),
-            unpublished_loss: pair.unpublished_loss.clone(),
+            unknown_loss: pair.unknown_loss.clone(),
             entries: laws.map(entries).unwrap_or_default(),
         }
     }

@@ -91,7 +91,7 @@ impl DemExport {
             "dissipation_time_s": export.dissipation_time.0,
             "linear_contact_time_s": export.contact_time,
             "has_hertz_times": self.curve.has_hertz_times,
-            "unpublished_loss": export.unpublished_loss,
+            "unknown_loss": export.unknown_loss,
             "data": points.iter().map(point).collect::<Value>(),
             "snippets": snippets.iter().map(|snippet| self.snippet(snippet)).collect::<Value>(),
         })

@@ -17,6 +17,8 @@ mod cradle_trials;
 #[cfg(feature = "csv")]
 mod csv_dialect;
 mod data_error;
+#[cfg(feature = "csv")]
+mod library_data;
 mod pairs;
 mod quantity;
 #[cfg(feature = "csv")]
@@ -32,6 +34,8 @@ pub use cradle_trials::cradle_trials;
 #[cfg(feature = "csv")]
 pub use csv_dialect::decode;
 pub use data_error::DataError;
+#[cfg(feature = "csv")]
+pub use library_data::{is_of_library, library_table};
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
 pub use restitutions::{MAX_UNCERTAINTY, Restitutions, UncertaintyError, UnevenUncertainties};

@@ -34,7 +34,7 @@ fn export() -> Export {
         validity,
         dissipation_time: (1e-6, validity),
         hunt_crossley: None,
-        unpublished_loss: Vec::new(),
+        unknown_loss: Vec::new(),
     }
 }
 
@@ -42,16 +42,16 @@ fn export() -> Export {
 #[test]
 fn files_name_materials_without_a_known_loss() {
     let hunt_crossley = HuntCrossley { dissipation: 0.1, rms: 0.01, validity: [0.1, 1.0, 0.004] };
-    let unpublished_loss = vec!["steel".to_string()];
-    let of = |unpublished_loss: Vec<String>| {
+    let unknown_loss = vec!["steel".to_string()];
+    let of = |unknown_loss: Vec<String>| {
         let hunt_crossley = Some(hunt_crossley);
-        let export = Export { unpublished_loss, hunt_crossley, ..export() };
+        let export = Export { unknown_loss, hunt_crossley, ..export() };
         let all = export.snippets().unwrap();
         let codes: std::collections::BTreeSet<_> = all.iter().map(|one| one.code).collect();
         assert_eq!(codes.len(), 8);
         all
     };
-    for snippet in of(unpublished_loss.clone()) {
+    for snippet in of(unknown_loss.clone()) {
         let text = &snippet.text;
         assert!(text.contains("WARNING: no loss of steel is known"), "{text}");
         assert!(!text.contains("e is good"), "{text}");
@@ -60,18 +60,15 @@ fn files_name_materials_without_a_known_loss() {
 
     let sphere = export().spheres[0];
     let grain = |material: &str| Grain { material: material.to_string(), sphere };
-    let pair = |grains, unpublished_loss| PairOfGrains {
+    let pair = |grains, unknown_loss| PairOfGrains {
         grains,
         pair: export().pair,
         restitution: 0.9,
-        unpublished_loss,
+        unknown_loss,
     };
     let grains = [grain("glass"), grain("steel")];
-    let pairs = [
-        pair([0, 0], Vec::new()),
-        pair([0, 1], unpublished_loss.clone()),
-        pair([1, 1], unpublished_loss),
-    ];
+    let pairs =
+        [pair([0, 0], Vec::new()), pair([0, 1], unknown_loss.clone()), pair([1, 1], unknown_loss)];
     let files = grain_snippets(&grains, &pairs);
     assert_eq!(files.len(), 3);
     for (name, text) in files {

@@ -60,7 +60,7 @@ fn a_yield_strength_gives_the_speed_and_the_range() {
     }
 }
 
-/// Balls of steel that flow get the warning of yield alone; slow ones that of the loss that is not published.
+/// Balls of steel that flow get the warning of yield alone; slow ones that of the loss that is not computed.
 #[test]
 fn yield_silences_what_it_makes_pointless() {
     let ball = |text: &str| text.replace("\"steel\"", "\"lib:steel\"");
@@ -69,7 +69,7 @@ fn yield_silences_what_it_makes_pointless() {
         assert!(fast.contains("yields from"), "{model}: {fast}");
         assert_eq!(fast.lines().count(), 1, "{model}: {fast}");
         let (_, slow) = decision_on(&ball(STEEL), &[model, "body.0.approach_speed='1 mm/s'"]);
-        assert!(slow.contains("is not published"), "{model}: {slow}");
+        assert!(slow.contains("no relaxation for"), "{model}: {slow}");
         assert_eq!(slow.lines().count(), 1, "{model}: {slow}");
     }
 }
@@ -81,7 +81,7 @@ fn no_warning_without_yield() {
         assert_eq!(warnings, "");
         assert!(!decision.active);
     }
-    // Not the library's steel, whose loss is not published.
+    // Not the library's steel, which has no relaxation.
     let slow = [
         "material.steel.yield_strength='1 GPa'",
         "material.steel.density=7800",

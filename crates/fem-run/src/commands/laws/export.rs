@@ -60,7 +60,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
     if table.is_none() {
-        standard_output::warn(case.scene().unpublished_loss());
+        standard_output::warn(case.scene().unknown_loss());
     }
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =

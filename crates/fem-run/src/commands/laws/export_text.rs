@@ -53,7 +53,7 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
             grain(&row.first_material, row.first_diameter_m),
             grain(&row.second_material, row.second_diameter_m),
             format!("{:.4}", row.restitution),
-            match row.unpublished_loss.as_slice() {
+            match row.unknown_loss.as_slice() {
                 [] => valid_speeds(row.good_from_m_s, row.good_to_m_s),
                 materials => format!("no known loss: {}", materials.join(", ")),
             },
@@ -104,7 +104,7 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
             number(row.good_from_m_s),
             number(row.good_to_m_s),
             number(row.worst_error),
-            row.unpublished_loss.join(" "),
+            row.unknown_loss.join(" "),
         ];
         cells.extend(keys.iter().map(|key| number(row.entries.get(*key).copied())));
         writer.write_record(cells).map_err(failed)?;

@@ -30,7 +30,8 @@ use crate::text::standard_output;
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
-    /// Restitutions: a CSV file with the columns speed_m_s (or speed_cm_s) and restitution
+    /// Restitutions: a CSV file with the columns speed_m_s (or speed_cm_s) and restitution, or lib:ice for
+    /// those of the materials library
     ///
     /// A column restitution_uncertainty weights them. The sweep.csv of a sweep over speeds has this form.
     #[arg(long, value_name = "FILE")]

@@ -33,6 +33,31 @@ fn the_ice_table_is_reproduced() {
     }
 }
 
+/// The law of Bridges et al. in the library gives the fit of the shipped table; unknown names are answered.
+#[test]
+fn measurements_of_the_library_are_data() {
+    let place = ice();
+    let law = "--law kuwabara_kono --out";
+    place.succeed(("fit case.toml --data ice.csv", law, "table"));
+    let ran = place.succeed(("fit case.toml --data lib:ice", law, "library"));
+    ran.tells("note: lib:ice/bridges-1984: 12 points");
+    ran.prints("12 points of lib:ice/bridges-1984");
+    let a = |folder: &str| {
+        place.json(&format!("{folder}/fit.json"))["parameters"][0]["value"].as_f64().unwrap()
+    };
+    // The table is rounded to six digits.
+    assert!((a("table") / a("library") - 1.0).abs() < 1e-5, "{} {}", a("table"), a("library"));
+    let scattered =
+        place.succeed(("fit case.toml --data lib:ice/heisselmann-2010", law, "scattered"));
+    scattered.tells("its scatter of 0.23 is the uncertainty of each");
+    scattered.prints("uncertainties, 11 degrees of freedom");
+    let fit = |data: &str| place.fails(2, ("fit case.toml --law linear --data", data));
+    fit("lib:iec").tells("did you mean lib:ice? it has some for lib:glass, lib:granite, lib:ice");
+    fit("lib:ice/moore").tells("it has bridges-1984, hatzes-1988, heisselmann-2010");
+    let shown = place.succeed("materials ice").stdout;
+    assert!(shown.contains("# Measured, bridges-1984: e = 0.32 (v / 1 cm/s)^-0.234"), "{shown}");
+}
+
 #[test]
 fn both_parameters_with_profile_and_comparison() {
     let place = ice();

@@ -74,9 +74,19 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     };
     for (key, value) in alone.as_object().unwrap() {
         match key.as_str() {
-            "cost" | "case" | "bodies" | "effects" | "files" | "program" | "version"
-            | "numerics" | "made_from" | "models_considered" | "coarser_meshes"
-            | "elastic_null" => {}
+            "cost"
+            | "case"
+            | "bodies"
+            | "effects"
+            | "files"
+            | "program"
+            | "version"
+            | "numerics"
+            | "made_from"
+            | "models_considered"
+            | "coarser_meshes"
+            | "elastic_null"
+            | "measured_restitution" => {}
             "uncertainty" => value.as_object().unwrap().iter().for_each(|(quantity, parts)| {
                 let parts = parts.as_object().unwrap().iter();
                 parts.filter(|(part, _)| *part != "input").for_each(|(part, value)| {

@@ -26,6 +26,36 @@ fn effects_that_matter_and_are_not_computed_are_shown() {
     assert!(page.contains("<dt>plastic yield</dt>") && !page.contains("No effects beyond"));
 }
 
+/// A report of ice on ice draws the measured restitutions beside the result; the summary has the one at its speed.
+#[test]
+fn measured_restitutions_stand_beside_the_result() {
+    let place = Place::new();
+    let ice = ["body.0.material='lib:ice'", "body.1.material='lib:ice'"];
+    let slow = "body.0.approach_speed='1 cm/s'";
+    let set = ["--set", ice[0], "--set", ice[1], "--set", slow, "--set", "model=hertz"];
+    place.succeed(("case.toml --out ice --quiet", set));
+    let measured = &place.json("ice/summary.json")["measured_restitution"];
+    assert_eq!(
+        (&measured[0]["name"], &measured[0]["restitution"]),
+        (&"bridges-1984".into(), &0.32.into())
+    );
+    assert!(measured[2]["restitution"].is_null() && measured[2]["scatter"] == 0.23);
+    let page = place.text("ice/report.html");
+    stands_alone(&page);
+    for expected in
+        ["Measured restitution", ">this result<", ">hatzes-1988<", "e = 0.32 at 10.00 mm/s"]
+    {
+        assert!(page.contains(expected), "{expected}");
+    }
+    // Glass of the paper has one at its speed.
+    place.succeed("case.toml --set model=hertz --out glass --quiet");
+    assert_eq!(place.json("glass/summary.json")["measured_restitution"][0]["restitution"], 0.925);
+    place
+        .succeed("case.toml --set model=hertz --set material.glass.density=2400 --out own --quiet");
+    assert!(place.json("own/summary.json")["measured_restitution"].is_null());
+    assert!(!place.text("own/report.html").contains("Measured restitution"));
+}
+
 /// A contact that shrinks at once has a kink; one like Hertz' has none.
 #[test]
 fn a_kink_of_the_contact_radius_is_explained() {

@@ -1,5 +1,5 @@
-//! Loss of the material itself, for materials of the library whose loss in an impact is not published: a collision without
-//! it has too large a restitution, by an unknown amount.
+//! Loss of the material itself, for materials of the library without a relaxation: a collision without it has too large a
+//! restitution, by an unknown amount.
 
 use fem_case::Scene;
 use fem_collision::QuantityOfInterest;
@@ -12,13 +12,10 @@ use crate::quantity_errors::QuantityErrors;
 
 impl Effect for MaterialLoss {
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
-        let warning = scene.unpublished_loss();
+        let warning = scene.unknown_loss();
         Some(Relevance {
             is_needed: warning.is_some(),
-            number: format!(
-                "no loss of {} is given",
-                scene.materials_of_unpublished_loss().join(" and ")
-            ),
+            number: format!("no loss of {} is given", scene.materials_without_loss().join(" and ")),
             warning,
             ..Relevance::default()
         })
@@ -36,6 +33,6 @@ impl Effect for MaterialLoss {
 impl MaterialLoss {
     /// Returns whether a scene has such a material.
     pub(crate) fn is_unknown(scene: &Scene) -> bool {
-        !scene.materials_of_unpublished_loss().is_empty()
+        !scene.materials_without_loss().is_empty()
     }
 }

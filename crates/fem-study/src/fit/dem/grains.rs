@@ -6,7 +6,7 @@
 use fem_laws::Pair;
 
 use super::entries::mfix_entry;
-use super::{Sphere, short, unpublished_loss};
+use super::{Sphere, short, unknown_loss};
 
 /// Longest list of pairs that stands in a sentence, in characters.
 const LONGEST_LIST: usize = 40;
@@ -29,8 +29,8 @@ pub struct PairOfGrains {
     pub pair: Pair,
     /// Their restitution at all speeds.
     pub restitution: f64,
-    /// Materials whose loss is taken as 0 because none is published: e is too high.
-    pub unpublished_loss: Vec<String>,
+    /// Materials whose loss is taken as 0 because the library has none: e is too high.
+    pub unknown_loss: Vec<String>,
 }
 
 /// Returns the names and the texts of the files; pairs are in the order 11, 12, …, 22, ….
@@ -53,9 +53,9 @@ fn heading(code: &str, kind: &str, grains: &[Grain], pairs: &[PairOfGrains]) -> 
         text += &format!("# {kind} {}: {material}, {} m\n", index + 1, short(sphere.diameter));
     }
     let mut by_materials: Vec<(&[String], Vec<String>)> = Vec::new();
-    for pair in pairs.iter().filter(|pair| !pair.unpublished_loss.is_empty()) {
+    for pair in pairs.iter().filter(|pair| !pair.unknown_loss.is_empty()) {
         let [first, second] = pair.grains.map(|grain| grain + 1);
-        let (materials, name) = (pair.unpublished_loss.as_slice(), format!("{first} {second}"));
+        let (materials, name) = (pair.unknown_loss.as_slice(), format!("{first} {second}"));
         match by_materials.iter_mut().find(|(known, _)| *known == materials) {
             Some((_, names)) => names.push(name),
             None => by_materials.push((materials, vec![name])),
@@ -67,7 +67,7 @@ fn heading(code: &str, kind: &str, grains: &[Grain], pairs: &[PairOfGrains]) -> 
         if names.len() > LONGEST_LIST {
             names = format!("the pairs\n# {names}\n# ");
         }
-        text += &unpublished_loss(&format!("e of {names}"), materials);
+        text += &unknown_loss(&format!("e of {names}"), materials);
     }
     text
 }

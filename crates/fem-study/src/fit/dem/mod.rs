@@ -79,8 +79,8 @@ pub struct Export {
     pub dissipation_time: (f64, [f64; 3]),
     /// The law whose restitution falls with speed; `None` if it cannot make the loss.
     pub hunt_crossley: Option<HuntCrossley>,
-    /// Materials whose loss is taken as 0 because none is published: e is too high.
-    pub unpublished_loss: Vec<String>,
+    /// Materials whose loss is taken as 0 because the library has none: e is too high.
+    pub unknown_loss: Vec<String>,
 }
 
 /// A file for a DEM code.
@@ -328,7 +328,7 @@ impl Export {
             all => format!("spheres of {} m", all.join(" and ")),
         };
         // If a loss is not known, the fit is valid but the restitution is not.
-        let e = if self.unpublished_loss.is_empty() { "e" } else { "the fit" };
+        let e = if self.unknown_loss.is_empty() { "e" } else { "the fit" };
         let good = format!("good to {}", self.tolerance);
         let range = if from == to {
             format!("{e} is {good} at {} alone", speed(from))
@@ -337,9 +337,9 @@ impl Export {
         } else {
             format!("{e} is nowhere {good}")
         };
-        let warning = match &self.unpublished_loss[..] {
+        let warning = match &self.unknown_loss[..] {
             [] => String::new(),
-            materials => unpublished_loss("e", materials),
+            materials => unknown_loss("e", materials),
         };
         format!(
             "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {} to {}; {range}\n\
@@ -382,7 +382,7 @@ impl Export {
 }
 
 /// Returns a comment that the loss of some materials is missing in the restitutions named.
-fn unpublished_loss(restitutions: &str, materials: &[String]) -> String {
+fn unknown_loss(restitutions: &str, materials: &[String]) -> String {
     let materials = materials.join(" and ").replace(char::is_control, " ");
     format!(
         "# WARNING: no loss of {materials} is known, and none is in {restitutions}.\n\
