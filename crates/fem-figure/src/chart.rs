@@ -164,8 +164,9 @@ impl Chart {
         }
         for VisibleCurve { curve, points, runs, colour, style } in self.drawn() {
             all.extend_from_slice(&points);
-            for ((x, y), error) in curve.points.iter().zip(&curve.errors) {
-                let bar = LinePlot::new().with_data(vec![(*x, y - error), (*x, y + error)]);
+            for (x, from, to) in curve.bars() {
+                all.extend([(x, from), (x, to)].into_iter().filter(|(_, y)| self.y.has_place(*y)));
+                let bar = LinePlot::new().with_data(vec![(x, from), (x, to)]);
                 plots.push(bar.with_color(colour).with_stroke_width(ERROR_BAR_WIDTH).into());
             }
             for run in runs {

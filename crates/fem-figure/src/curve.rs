@@ -77,6 +77,18 @@ impl Curve {
         self.style = Some(LineStyle::of_curve(k));
         self
     }
+
+    /// Sets the colour and keeps dashes and markers.
+    pub fn in_colour(mut self, colour: impl Into<Cow<'static, str>>) -> Self {
+        self.colour = Some(colour.into());
+        self
+    }
+
+    /// Returns the ends of the error bars (x, from, to).
+    pub(crate) fn bars(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        let bars = self.points.iter().zip(&self.errors);
+        bars.map(|((x, y), error)| (*x, y - error, y + error))
+    }
 }
 
 /// Dashes of solid lines in pixels, by turns of the colours; the first is solid.

@@ -61,6 +61,8 @@ fn drawn(chart: &Chart) -> Option<(String, f64)> {
     let bands = || chart.bands.iter().flat_map(|band| &band.points);
     let x = Scale::of(&chart.x, on_axis(|p| p.0).chain(bands().map(|p| p.0)), false)?;
     let y = on_axis(|p| p.1).chain(bands().flat_map(|p| [p.1, p.2]));
+    let bars = curves.iter().flat_map(|drawn| drawn.curve.bars().flat_map(|bar| [bar.1, bar.2]));
+    let y = y.chain(bars.filter(|end| chart.y.has_place(*end)));
     let y = Scale::of(&chart.y, y, true)?;
     let entries = legend(chart, &curves);
     let rows = entries.last().map_or(0, |entry| entry.row + 1);
@@ -86,9 +88,8 @@ fn drawn(chart: &Chart) -> Option<(String, f64)> {
     }
     for drawn in &curves {
         draw_curve(&mut svg, drawn, &place);
-        for ((a, b), error) in drawn.curve.points.iter().zip(&drawn.curve.errors) {
-            let ends = [(*a, b - error), (*a, b + error)];
-            let ends = ends.map(|(a, b)| place((a, y.held(b))));
+        for (a, from, to) in drawn.curve.bars() {
+            let ends = [from, to].map(|b| place((a, y.held(b))));
             let paint = paint(drawn.colour, "stroke");
             let _ = writeln!(svg, "<path {paint} d=\"{}\"/>", path_of(&ends));
         }

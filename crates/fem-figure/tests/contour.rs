@@ -114,7 +114,7 @@ fn the_picture_has_bands_numbers_and_outlines() {
         y_label: "y [mm]".into(),
         window: Window { x: (-1.0, 1.0), y: (0.0, 1.0) },
         levels: Levels::about_zero(-1.0, 0.0, 5),
-        panels: vec![Panel { title: "(a)".into(), sections: vec![section] }],
+        panels: vec![Panel { title: "(a)".into(), sections: vec![section], ..Panel::default() }],
     };
     let svg = contour.svg();
     assert_eq!(svg, contour.svg());
@@ -149,7 +149,11 @@ fn a_half_region_and_its_image_have_no_seam() {
 #[test]
 fn frames_have_classes_for_a_page_to_restyle() {
     let half = square(8, |[x, y]| 0.3 * y - x * y);
-    let panel = |title: &str| Panel { title: title.into(), sections: vec![half.clone()] };
+    let panel = |title: &str| Panel {
+        title: title.into(),
+        sections: vec![half.clone()],
+        ..Panel::default()
+    };
     let contour = Contour {
         quantity: "σ_yy [GPa]".into(),
         x_label: "r [mm]".into(),

@@ -75,10 +75,19 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
         let points = profile.points.iter().map(|point| (point.value, point.rms)).collect();
         let best = vec![(fitted.fit.values[profile.index], fitted.fit.rms)];
         let unit = if parameter.unit.is_empty() { "" } else { &format!(" [{}]", parameter.unit) };
-        let axis = Axis::new(format!("{}{unit}", parameter.key));
+        let words = match (parameter.role, parameter.key) {
+            (ParameterRole::Damping, _) => "damping",
+            (ParameterRole::Stiffness, _) => "stiffness",
+            (ParameterRole::Rate, _) => "rate",
+            (ParameterRole::Speed, _) => "speed",
+            (ParameterRole::Number, "n") => "exponent",
+            (ParameterRole::Number, "e") => "restitution",
+            (ParameterRole::Number, _) => "number",
+        };
+        let axis = Axis::new(format!("{words} {}{unit}", parameter.key));
         let axis = if parameter.role == ParameterRole::Number { axis } else { axis.logarithmic() };
         charts.push(
-            Chart::new(axis, Axis::new("rms error, other parameters refitted"))
+            Chart::new(axis, Axis::new("rms error of e, others refitted"))
                 .with(Curve::line("", points).like_curve(0))
                 .with(Curve::points("best fit", best).like_curve(3)),
         );
@@ -235,7 +244,7 @@ fn restitution_chart(found: &Calibration) -> Result<Chart, FitError> {
     let band = best.iter().map(|&(x, _)| (x, limit(x, 1.0), limit(x, -1.0))).collect();
     let errors = found.measured.data.points.iter();
     let errors = errors.map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
-    Ok(Chart::new(x.axis(), Axis::new("restitution"))
+    Ok(Chart::new(x.axis(), Axis::new("restitution e"))
         .with_band("slopes of any Prony series", band, GREY)
         .with(Curve::dashed("single Maxwell term", scaled(curves.maxwell)).like_curve(2))
         .with(Curve::line("best fit", best).like_curve(0))
@@ -245,7 +254,7 @@ fn restitution_chart(found: &Calibration) -> Result<Chart, FitError> {
 fn weight_chart(found: &Calibration) -> Chart {
     let (first, last) = found.contact_times();
     let x = QuantityAxis::linear("relaxation time", "s", last).logarithmic();
-    let mut chart = Chart::new(x.axis(), Axis::new("weight").from_to(0.0, 1.0));
+    let mut chart = Chart::new(x.axis(), Axis::new("weight g").from_to(0.0, 1.0));
     for time in [first, last] {
         let line = vec![(x.scaled(time), 0.0), (x.scaled(time), 1.0)];
         chart = chart.with(Curve::dashed("contact times of the data", line).coloured(GREY));

@@ -146,6 +146,18 @@ pub fn contour_of_frames(
     contour(sections, titles, &window, range)
 }
 
+/// Most quads of a refined section, which limits the time to draw it.
+const MAX_QUADS: usize = 12_000;
+
+/// Returns the visible part of a section with its outline rounded and its field refined, so that bands are smooth.
+fn smooth(section: &Section, window: &SectionWindow) -> Section {
+    let width = window.half_width;
+    let [below, above] = window.depths;
+    let rounded = section.rounded(2.0 * STRAIGHT * width).within((0.0, width), (-below, above));
+    let n_levels = (0..=2).rev().find(|n| rounded.quads.len() << (2 * n) <= MAX_QUADS);
+    rounded.refined(n_levels.unwrap_or(0))
+}
+
 /// Returns the picture of one panel per frame in this window; `range` is the smallest and the largest
 /// stress of the scale, Pa.
 pub fn contour(
@@ -156,17 +168,20 @@ pub fn contour(
 ) -> Contour {
     let length = Unit::fitting(window.half_width, "m");
     let stress = Unit::fitting(range.1.max(-range.0), "Pa");
-    let drawn = |section: Section| {
-        let mut section = match section.quads.is_empty() {
-            true => section,
-            false => section.rounded(2.0 * STRAIGHT * window.half_width),
-        };
+    let scaled = |mut section: Section| {
         section.points.iter_mut().flatten().for_each(|x| *x = length.scaled(*x));
         section.values.iter_mut().for_each(|value| *value = stress.scaled(*value));
         section
     };
-    let panel =
-        |(title, both): (String, [Section; 2])| Panel { title, sections: both.map(drawn).into() };
+    let panel = |(title, both): (String, [Section; 2])| {
+        let lines = both.iter().flat_map(|section| scaled(window.visible(section)).lines());
+        let lines = lines.collect();
+        let drawn = |section: Section| match section.quads.is_empty() {
+            true => scaled(section),
+            false => scaled(smooth(&section, window)),
+        };
+        Panel { title, sections: both.map(drawn).into(), lines }
+    };
     Contour {
         quantity: format!("σ_yy [{}]", stress.symbol()),
         x_label: format!("r [{}]", length.symbol()),

@@ -29,4 +29,13 @@ if (shots.length > 1) {
   film.classList.add("playing");
   show();
 }
+if (film?.querySelector(".mesh")) {
+  const [label, box] = [document.createElement("label"), document.createElement("input")];
+  box.type = "checkbox";
+  box.addEventListener("change", () => film.classList.toggle("meshed", box.checked));
+  label.append(box, " mesh");
+  film.prepend(label);
+  const play = film.querySelector("button");
+  if (play) film.prepend(play);
+}
 addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((one) => { one.open = true; }));

@@ -19,12 +19,14 @@ const SWATCH_WIDTH: f64 = 22.0;
 const N_TICKS: usize = 7;
 
 /// The content of one window.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Panel {
     /// Title above the panel.
     pub title: String,
     /// The sections of the bodies.
     pub sections: Vec<Section>,
+    /// Lines that a page can show over the bands of a frame, such as the mesh.
+    pub lines: Vec<Vec<[f64; 2]>>,
 }
 
 /// Panels with a common window and scale, two in a row.

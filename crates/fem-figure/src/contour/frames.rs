@@ -2,7 +2,7 @@
 //!
 //! The sections of a frame are half sections, r ≥ 0, and are drawn with their mirror images. Bands have the
 //! classes `.b0` (neutral), `.n1`, `.n2` … below and `.p1`, `.p2` … above zero; text and lines have those
-//! of [`panel`](crate::panel).
+//! of [`panel`](crate::panel). The lines of a panel have the class `.mesh` and are hidden unless a page shows them.
 
 use std::fmt::Write;
 
@@ -46,6 +46,15 @@ impl Contour {
                 let data = self.window.region_path(&region.mirrored());
                 let _ = writeln!(svg, "<path {} d=\"{data}\"/>", fill(&self.levels, band));
             });
+        }
+        if !panel.lines.is_empty() {
+            let lines = panel.lines.iter().map(|line| self.window.line_path(line.iter().copied()));
+            let _ = writeln!(
+                svg,
+                "<path class=\"mesh\" visibility=\"hidden\" stroke=\"{DIM}\" stroke-width=\"0.5\" \
+                 fill=\"none\" d=\"{}\"/>",
+                lines.collect::<String>()
+            );
         }
         for section in &panel.sections {
             let half: Vec<[f64; 2]> = section.outline_points().collect();

@@ -14,6 +14,7 @@ mod colours;
 mod drawing;
 mod frames;
 mod levels;
+mod refined;
 mod region;
 mod rounded;
 mod section;

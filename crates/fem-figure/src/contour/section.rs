@@ -1,5 +1,7 @@
 //! One body in section.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 /// Quads in the plane with a value at each of their points.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
@@ -45,8 +47,9 @@ impl Section {
         self.outline.iter().map(|point| self.points[*point as usize])
     }
 
-    /// Returns the section without the quads outside a rectangle (horizontal range, vertical range).
-    pub(crate) fn within(&self, x: (f64, f64), y: (f64, f64)) -> Self {
+    /// Returns the section without the quads outside a rectangle (horizontal range, vertical range). Points and outline
+    /// stay.
+    pub fn within(&self, x: (f64, f64), y: (f64, f64)) -> Self {
         let is_near = |quad: &&[u32; 4]| {
             let corners = quad.map(|point| self.points[point as usize]);
             let overlaps = |axis: usize, (from, to): (f64, f64)| {
@@ -57,6 +60,33 @@ impl Section {
         };
         let quads = self.quads.iter().filter(is_near).copied().collect();
         Self { quads, ..self.clone() }
+    }
+
+    /// Returns the sides of all quads as lines, each side once.
+    pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
+        let mut open: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+        for quad in &self.quads {
+            for k in 0..4 {
+                let [a, b] = [quad[k], quad[(k + 1) % 4]];
+                open.entry(a).or_default().insert(b);
+                open.entry(b).or_default().insert(a);
+            }
+        }
+        let mut lines = Vec::new();
+        while let Some((&start, ends)) = open.first_key_value() {
+            if ends.is_empty() {
+                open.pop_first();
+                continue;
+            }
+            let (mut here, mut line) = (start, vec![self.points[start as usize]]);
+            while let Some(next) = open.get_mut(&here).and_then(BTreeSet::pop_last) {
+                open.get_mut(&next).map(|back| back.remove(&here));
+                line.push(self.points[next as usize]);
+                here = next;
+            }
+            lines.push(line);
+        }
+        lines
     }
 
     /// Returns the quads whose values are all finite.

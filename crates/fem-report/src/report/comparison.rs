@@ -4,13 +4,16 @@ use askama::Template;
 use fem::results::Parts;
 use fem_case::engineering::{Unit, show};
 use fem_collision::QuantityOfInterest;
+use fem_figure::contour::Contour;
 use serde_json::Value;
 
 use super::case_keys::differences;
-use super::history_charts::{Quantity, history_chart};
+use super::contours::contours_at_peak;
+use super::history_charts::{Quantity, history_chart, normalised_chart};
 use super::pressure_chart::pressure_chart;
+use super::shared_error::SharedErrors;
 use super::stored_result::{ReportError, StoredResult};
-use super::{cards, citation, drawn};
+use super::{FilmFrame, cards, citation, drawn, film};
 use crate::number_text::{rounded, with_error};
 
 /// Tables of the case that describe the scene; all others say how it is computed and what is kept.
@@ -28,6 +31,12 @@ struct Comparison {
     names: Vec<String>,
     titles: Vec<String>,
     charts: Vec<String>,
+    /// What the judgement of the differences leaves out.
+    shared: String,
+    /// Stresses at the peak force, one frame per result, with their colour scale.
+    frames: Vec<FilmFrame>,
+    bar: String,
+    dark_rules: String,
     /// Column heads of the table of numbers, and its rows.
     heads: Vec<String>,
     numbers: Vec<(String, Vec<Cell>)>,
@@ -46,7 +55,8 @@ struct Cell {
 /// Returns the page that compares several results, as HTML.
 pub fn comparison_page(results: &[StoredResult]) -> Result<String, ReportError> {
     let charts = Quantity::ALL.map(|quantity| history_chart(results, quantity));
-    let charts = charts.into_iter().chain([pressure_chart(results)]);
+    let charts = charts.into_iter().chain([pressure_chart(results), normalised_chart(results)]);
+    let stresses = contours_at_peak(results);
     let cases: Vec<&Value> = results.iter().map(|result| &result.summary["case"]).collect();
     let is_of_scene = |(path, _): &(String, Vec<String>)| {
         SCENE_TABLES.contains(&path.split('.').next().unwrap_or_default())
@@ -67,6 +77,10 @@ pub fn comparison_page(results: &[StoredResult]) -> Result<String, ReportError> 
         names,
         titles: results.iter().map(StoredResult::title).collect(),
         charts: drawn(charts),
+        shared: shared_text(results),
+        frames: stresses.as_ref().map(film).unwrap_or_default(),
+        bar: stresses.as_ref().map(Contour::bar).unwrap_or_default(),
+        dark_rules: stresses.as_ref().map(Contour::dark_rules).unwrap_or_default(),
         heads,
         numbers,
         differences: [of_scene, of_numbers],
@@ -103,7 +117,10 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
                 let from = first.filter(|_| k > 0);
                 (
                     shown(own, quantity),
-                    from.map_or(String::new(), |from| difference_text(own, from, quantity)),
+                    from.map_or(String::new(), |from| {
+                        let shared = SharedErrors::of(result, &results[0]);
+                        difference_text(own, from, quantity, shared)
+                    }),
                 )
             }
         };
@@ -152,8 +169,13 @@ fn shown((value, parts): (f64, Parts), quantity: QuantityOfInterest) -> String {
 }
 
 /// Returns the difference from the first result, absolute for the restitution and relative for all others,
-/// and whether it is within the error bars.
-fn difference_text(own: (f64, Parts), from: (f64, Parts), quantity: QuantityOfInterest) -> String {
+/// and whether it is within the error bars, as far as the results do not share them.
+fn difference_text(
+    own: (f64, Parts),
+    from: (f64, Parts),
+    quantity: QuantityOfInterest,
+    shared: SharedErrors,
+) -> String {
     let difference = own.0 - from.0;
     if difference == 0.0 {
         return "the same".to_string();
@@ -163,13 +185,35 @@ fn difference_text(own: (f64, Parts), from: (f64, Parts), quantity: QuantityOfIn
         _ if own.0 > MULTIPLE * from.0 && from.0 > 0.0 => format!("\u{d7} {:.3}", own.0 / from.0),
         _ => format!("{:+.2} %", 100.0 * difference / from.0),
     };
-    let bars = own.1.sum().zip(from.1.sum()).map(|(a, b)| a + b);
+    let bars = shared.of_difference(own, from, quantity);
     let within = if bars.is_some_and(|bars| difference.abs() < bars) {
         ", within the error bars"
     } else {
         ""
     };
     format!("{size}{within}").replace('-', "\u{2212}")
+}
+
+/// Returns which errors the results share with the first, in a sentence.
+fn shared_text(results: &[StoredResult]) -> String {
+    let Some((first, others)) = results.split_first() else { return String::new() };
+    let shared: Vec<_> = others.iter().map(|other| SharedErrors::of(other, first)).collect();
+    let part = |is_shared: &dyn Fn(&SharedErrors) -> bool, text: &str| {
+        let n = shared.iter().filter(|one| is_shared(one)).count();
+        let whom = if n == shared.len() { "All results have" } else { "Some results have" };
+        (n > 0).then(|| format!(" {whom} {text} as the first."))
+    };
+    let parts = [
+        part(&|one| one.discretisation, "the same mesh and settings"),
+        part(&|one| one.model, "the same model and neglect the same effects"),
+    ];
+    let text: String = parts.into_iter().flatten().collect();
+    match text.is_empty() {
+        true => text,
+        false => {
+            format!("{text} Such errors cancel in a difference but for half of the smaller one.")
+        }
+    }
 }
 
 #[cfg(test)]
@@ -193,7 +237,9 @@ mod tests {
             shown((0.99279, parts(5e-4, None, None)), QuantityOfInterest::Restitution);
         assert_eq!(restitution, "0.99279, error at least 0.0005");
         let apart = |parts| {
-            difference_text((45e-6, parts), (46e-6, parts), QuantityOfInterest::ContactTime)
+            let (own, from) = ((45e-6, parts), (46e-6, parts));
+            let shared = SharedErrors::default();
+            difference_text(own, from, QuantityOfInterest::ContactTime, shared)
         };
         assert!(apart(parts(1e-6, Some(0.0), None)).contains("within the error bars"));
         assert!(!apart(parts(1e-6, None, None)).contains("within the error bars"));

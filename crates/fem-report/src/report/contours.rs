@@ -61,6 +61,36 @@ pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Co
     Some(contour)
 }
 
+/// Most results whose stresses are drawn next to each other.
+const MAX_RESULTS: usize = 6;
+
+/// Returns the picture of one panel per result at its peak force, all in one window and on one scale; `None` unless at
+/// least two results have fields, and at most [`MAX_RESULTS`].
+pub fn contours_at_peak(results: &[StoredResult]) -> Option<Contour> {
+    let mut shown: Vec<(&StoredResult, &FieldFile)> = Vec::new();
+    let (mut stresses, mut widest) = (Vec::new(), 0.0f64);
+    for result in results {
+        let frame = chosen_frames(result, 1).pop().and_then(|k| result.frames.get(k));
+        let radius = result.number(&["max_contact_radius_m"]).unwrap_or(0.0);
+        let near = half_width(radius, result.number(&["max_approach_m"]).unwrap_or(0.0));
+        let Some((frame, near)) = frame.zip(near) else { continue };
+        let bodies = VtuFile::open(&frame.path).ok().and_then(|file| bodies(&file, near));
+        let Some(both) = bodies.and_then(|bodies| sections(&bodies, frame)) else { continue };
+        shown.push((result, frame));
+        stresses.push(both);
+        widest = widest.max(near);
+    }
+    if !(2..=MAX_RESULTS).contains(&shown.len()) {
+        return None;
+    }
+    let titles = shown.iter().map(|(result, _)| result.name.clone()).collect();
+    let rigid = |k: usize, side: usize, window: &SectionWindow| {
+        let (result, frame) = shown[k];
+        rigid_section(result, side, frame, window)
+    };
+    Some(contour_of_frames(stresses, titles, widest, rigid))
+}
+
 /// Returns the names of the bodies, shortened to the room beside an axis.
 fn short_names(result: &StoredResult) -> Vec<String> {
     const MAX_LETTERS: usize = 14;

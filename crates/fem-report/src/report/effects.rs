@@ -44,7 +44,12 @@ pub struct EffectEntry {
     pub reason: String,
     /// The change of the results without it.
     pub neglect_error: String,
+    /// The same under [`CHANGE_HEADS`].
+    pub changes: [String; 3],
 }
+
+/// Heads of the columns with the change of the results by an effect that is off.
+pub const CHANGE_HEADS: [&str; 3] = ["It would change e by", "T by", "F by"];
 
 /// Effects of the numerical method, which are not physics.
 const NUMERICAL: [&str; 5] =
@@ -66,8 +71,9 @@ pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 4] {
         let holds = |key: &str| value.get(key).and_then(Value::as_bool).unwrap_or(false);
         let (is_on, matters) = (holds("active"), holds("matters"));
         let neglect_error = value.get("error_if_left_out").map(neglect_error).unwrap_or_default();
+        let changes = changes(value.get("error_if_left_out").unwrap_or(&Value::Null));
         let reason = text("reason").to_string();
-        EffectEntry { name, is_on, matters, explanation, reason, neglect_error }
+        EffectEntry { name, is_on, matters, explanation, reason, neglect_error, changes }
     };
     let (on, off): (Vec<EffectEntry>, Vec<EffectEntry>) =
         result.list("effects").iter().map(effect).partition(|effect| effect.is_on);
@@ -79,14 +85,25 @@ pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 4] {
 
 /// Returns `e by 0.072, T by 0.39 µs, F by 3.5 N`, without what does not change.
 fn neglect_error(neglect_error: &Value) -> String {
-    let number =
-        |key: &str| neglect_error.get(key).and_then(Value::as_f64).filter(|size| *size != 0.0);
-    let parts = [
-        number("restitution").map(|size| format!("e by {}", rounded(size))),
-        number("contact_time_s").map(|size| format!("T by {}", two_digits(size, "s"))),
-        number("peak_force_n").map(|size| format!("F by {}", two_digits(size, "N"))),
-    ];
-    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    let changes = changes(neglect_error);
+    let parts = ["e", "T", "F"].iter().zip(&changes);
+    let parts = parts.filter(|(_, change)| !["0", UNKNOWN].contains(&change.as_str()));
+    parts.map(|(symbol, change)| format!("{symbol} by {change}")).collect::<Vec<_>>().join(", ")
+}
+
+/// What stands for a change that is not estimated.
+const UNKNOWN: &str = "\u{2013}";
+
+/// Returns the changes of restitution, contact time and peak force.
+fn changes(neglect_error: &Value) -> [String; 3] {
+    [("restitution", ""), ("contact_time_s", "s"), ("peak_force_n", "N")].map(|(key, unit)| {
+        match neglect_error.get(key).and_then(Value::as_f64) {
+            None => UNKNOWN.to_string(),
+            Some(0.0) => "0".to_string(),
+            Some(size) if unit.is_empty() => rounded(size),
+            Some(size) => two_digits(size, unit),
+        }
+    })
 }
 
 fn two_digits(size: f64, unit: &str) -> String {

@@ -247,6 +247,30 @@ pub fn history_chart(results: &[StoredResult], quantity: Quantity) -> Option<Cha
     Some(with_hertz(chart, time.axis.points(&y, &hertz_points), hertz_name))
 }
 
+/// Returns the chart of the force over Hertz' peak force, over the time over Hertz' contact time; `None` if Hertz' results
+/// are the same for all, where it would show what the chart of the force shows.
+pub fn normalised_chart(results: &[StoredResult]) -> Option<Chart> {
+    if common_hertz(results).is_some() {
+        return None;
+    }
+    let x = QuantityAxis::linear("time over Hertz' contact time t / T_H", "", 1.0);
+    let y = QuantityAxis::linear("Force over Hertz' peak force F / F_H", "", 1.0);
+    let mut chart = chart_axes(&x, &y);
+    let mut hertz_points = Vec::new();
+    for (k, result) in results.iter().enumerate() {
+        let own = TimeAxis::of(std::slice::from_ref(result), None);
+        let scales = ["contact_time_s", "peak_force_n"].map(|key| result.number(&["hertz", key]));
+        let (Some(time), Some(force)) = (scales[0], scales[1]) else { continue };
+        let points = own.column(result, "contact_force_n").into_iter();
+        let points = points.map(|(t, f)| (t / time, f / force)).collect();
+        chart = chart.with(Curve::line(&result.name, points).like_curve(k));
+        let hertz = HertzCurves::of(result).map(|hertz| hertz.history()).unwrap_or_default();
+        let of_hertz = |now: &HertzInstant| (now.time / time, now.force / force);
+        hertz_points = hertz.iter().map(of_hertz).collect();
+    }
+    Some(with_hertz(chart, hertz_points, "Hertz".to_string()))
+}
+
 /// Returns the chart of the energies of a result over time; `None` if its history has none.
 pub fn energy_chart(result: &StoredResult) -> Option<Chart> {
     let hertz = HertzCurves::of(result);

@@ -13,6 +13,7 @@ mod hertz_curves;
 mod history_charts;
 mod measured_chart;
 mod pressure_chart;
+mod shared_error;
 mod sketch;
 mod stored_result;
 
@@ -27,9 +28,11 @@ use cards::Card;
 use effects::EffectEntry;
 
 pub use comparison::comparison_page;
-pub use contours::contour_of_result;
+pub use contours::{contour_of_result, contours_at_peak};
 pub use effects::is_numerical;
-pub use history_charts::{Quantity, bounce_charts, energy_chart, history_chart, loop_chart};
+pub use history_charts::{
+    Quantity, bounce_charts, energy_chart, history_chart, loop_chart, normalised_chart,
+};
 pub use pressure_chart::pressure_chart;
 pub use stored_result::{ReportError, StoredResult};
 
@@ -62,6 +65,7 @@ struct Page<'a> {
     numerical: Vec<EffectEntry>,
     lacking: Vec<EffectEntry>,
     off: Vec<EffectEntry>,
+    change_heads: [&'static str; 3],
     profile: String,
     case: Vec<(String, String)>,
     cite: Vec<String>,
@@ -107,6 +111,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         numerical,
         lacking,
         off,
+        change_heads: effects::CHANGE_HEADS,
         profile: drawn([pressure_chart(of_one)]).pop().unwrap_or_default(),
         case: result.summary.get("case").map(case_keys::keys).unwrap_or_default(),
         cite: vec![citation(result)],

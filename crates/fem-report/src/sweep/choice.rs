@@ -82,7 +82,10 @@ impl FigureChoice {
             (Some(key), _) => vec![places[key].0],
             // Paired keys vary together with x.
             (None, Combine::Paired) => Vec::new(),
-            (None, Combine::All) => (0..sweep.axes.len()).filter(|axis| *axis != x.axis).collect(),
+            (None, Combine::All) => {
+                let differs = |axis: &usize| *axis != x.axis && sweep.axes[*axis].values.len() > 1;
+                (0..sweep.axes.len()).filter(differs).collect()
+            }
         };
         let series_values = match series.as_slice() {
             [axis] => (0..keys.len())

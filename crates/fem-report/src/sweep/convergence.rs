@@ -178,7 +178,13 @@ mod tests {
 
     fn curve(sizes: &[f64], value: impl Fn(f64) -> f64) -> SweepCurve {
         let points = sizes.iter().map(|h| (*h, value(*h), 0.0)).collect();
-        SweepCurve { label: String::new(), number: None, points, reference: Vec::new() }
+        SweepCurve {
+            label: String::new(),
+            place: Vec::new(),
+            number: None,
+            points,
+            reference: Vec::new(),
+        }
     }
 
     fn order(key: &str, values: &[f64], q: impl Fn(f64) -> f64) -> Option<f64> {

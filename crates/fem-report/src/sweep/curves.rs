@@ -64,6 +64,8 @@ impl FigurePoint {
 pub struct SweepCurve {
     /// Values of the other keys; empty if it is the only curve.
     pub label: String,
+    /// Index of the value of each axis that distinguishes curves.
+    pub place: Vec<usize>,
     /// Value of the other key, if there is one and it is a number.
     pub number: Option<f64>,
     /// (x, y, error of y) in SI, by increasing x.
@@ -85,9 +87,10 @@ pub fn curves(
         let elements = sweep.choice(point.index);
         let own: Vec<usize> = choice.series.iter().map(|axis| elements[*axis]).collect();
         let number = choice.series_values.as_ref().map(|values| values[own[0]]);
-        let place = *places.entry(own).or_insert_with(|| {
+        let place = *places.entry(own.clone()).or_insert_with(|| {
             let label = label(sweep, &elements, &choice.series);
-            curves.push(SweepCurve { label, number, points: Vec::new(), reference: Vec::new() });
+            let (points, reference) = (Vec::new(), Vec::new());
+            curves.push(SweepCurve { label, place: own, number, points, reference });
             curves.len() - 1
         });
         let x = choice.x.values[elements[choice.x.axis]];
@@ -104,7 +107,7 @@ pub fn curves(
 }
 
 /// Returns the label of a curve: the values of the axes that distinguish it.
-fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
+pub fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
     let part = |axis: &usize| {
         let of = &sweep.axes[*axis];
         let element = &of.values[elements[*axis]];

@@ -14,7 +14,7 @@ use fem_figure::{COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room}
 
 use crate::quantity_axis::{QuantityAxis, chart_axes, range};
 use convergence::{ConvergingCurve, ResolutionKey, convergence_chart};
-use curves::{SweepCurve, curves};
+use curves::{SweepCurve, curves, label};
 use labels::{plain, role, role_of_all};
 
 pub use choice::{FigureChoice, HorizontalKey};
@@ -66,7 +66,7 @@ pub fn sweep_figure(
         let errors = converging.map(|(resolution, converging)| {
             let x = curves.iter().flat_map(|curve| curve.points.iter().map(|point| point.0));
             let x = horizontal_axis(sweep, choice, x).logarithmic_if_positive();
-            let colours = CurveColours::of(&curves);
+            let colours = CurveColours::of(sweep, choice, &curves);
             let coloured = |line: Line, k: usize| colours.on(line, k);
             convergence_chart(resolution, column, &converging, &x, &coloured)
         });
@@ -115,9 +115,8 @@ fn value_chart(
         let is_drawn = has_errors && !(y.is_logarithmic() && error >= value);
         if is_drawn { *error } else { 0.0 }
     };
-    let bars = own().map(|point| (point.1, bar(point)));
-    let shown =
-        shown_range(with_bars(own().map(|point| point.1), bars), reference().map(|point| point.1));
+    let ends = own().flat_map(|point| [point.1 - bar(point), point.1 + bar(point)]);
+    let shown = shown_range(ends, reference().map(|point| point.1));
     let errors = |curve: &SweepCurve| curve.points.iter().map(|at| y.scaled(bar(at))).collect();
     let errors: Vec<Vec<f64>> = curves.iter().map(errors).collect();
     let y = match shown.filter(|_| !y.is_logarithmic()) {
@@ -127,15 +126,20 @@ fn value_chart(
     let mut chart = chart_axes(&x, &y);
     // Counted values are not connected by lines.
     let reference_line = if choice.x.is_counted { Line::points } else { Line::dashed };
+    let colours = CurveColours::of(sweep, choice, curves);
     let legend = LegendChoice::of(curves, room);
+    for (k, name) in colours.pair.iter().flat_map(|pair| &pair.style_names).enumerate() {
+        let line = Line::points_on_line(name, Vec::new()).like_curve(k * COLOURS.len());
+        chart = chart.with(line.in_colour(GREY));
+    }
     if let Some(heading) = &legend.heading {
         chart = chart.with(note(heading));
     }
-    let colours = CurveColours::of(curves);
     let is_one = curves.windows(2).all(|pair| pair[0].reference == pair[1].reference);
     for (k, (curve, errors)) in curves.iter().zip(errors).enumerate() {
-        let label = match curves.len() {
-            1 => "computed",
+        let label = match (curves.len(), &colours.pair) {
+            (1, _) => "computed",
+            (_, Some(pair)) => pair.colour_label(curve),
             _ if legend.has(k) => &curve.label,
             _ => "",
         };
@@ -152,7 +156,7 @@ fn value_chart(
             _ => chart,
         };
     }
-    if let Some(rest) = &legend.rest {
+    if let Some(rest) = legend.rest.as_ref().filter(|_| colours.pair.is_none()) {
         chart = chart.with(note(rest));
     }
     if curves.iter().any(|curve| !curve.reference.is_empty()) && (is_one || has_errors) {
@@ -177,25 +181,82 @@ fn horizontal_label(sweep: &Sweep, choice: &FigureChoice) -> String {
     }
 }
 
-/// The colours of curves: in turn with other dashes once all are used, or a colour map if there are more
-/// curves than colours and a number distinguishes them.
+/// The colours of curves. Few curves have colours in turn. More curves than colours have a colour map if a number
+/// distinguishes them, and a colour for one key and dashes and markers for the other if two keys do. Otherwise colours
+/// are in turn, with other dashes once all are used.
 struct CurveColours {
     is_map: bool,
     ranks: Vec<usize>,
+    pair: Option<KeyPair>,
+    places: Vec<Vec<usize>>,
 }
 
 impl CurveColours {
-    fn of(curves: &[SweepCurve]) -> Self {
+    fn of(sweep: &Sweep, choice: &FigureChoice, curves: &[SweepCurve]) -> Self {
+        let is_many = curves.len() > COLOURS.len();
         let has_numbers = curves.iter().all(|curve| curve.number.is_some());
-        Self { is_map: curves.len() > COLOURS.len() && has_numbers, ranks: ranks(curves) }
+        Self {
+            is_map: is_many && has_numbers,
+            ranks: ranks(curves),
+            pair: KeyPair::of(sweep, choice).filter(|_| is_many),
+            places: curves.iter().map(|curve| curve.place.clone()).collect(),
+        }
     }
 
     /// Returns a line in the colour of the k-th curve.
     fn on(&self, line: Line, k: usize) -> Line {
-        match self.is_map {
-            true => line.coloured(colour_along(self.ranks[k], self.ranks.len())),
-            false => line.like_curve(k),
+        match &self.pair {
+            Some(pair) => pair.on(line, &self.places[k]),
+            None if self.is_map => line.coloured(colour_along(self.ranks[k], self.ranks.len())),
+            None => line.like_curve(k),
         }
+    }
+}
+
+/// Two keys that distinguish curves: the one with more values by colours, the other by dashes and markers.
+struct KeyPair {
+    /// Which of the two axes has the colours, 0 or 1.
+    colour: usize,
+    colour_names: Vec<String>,
+    style_names: Vec<String>,
+}
+
+impl KeyPair {
+    /// Most values that dashes and markers distinguish.
+    const MAX_STYLES: usize = 4;
+
+    fn of(sweep: &Sweep, choice: &FigureChoice) -> Option<Self> {
+        let &[first, second] = choice.series.as_slice() else { return None };
+        let n = [first, second].map(|axis| sweep.axes[axis].values.len());
+        let colour = usize::from(n[1] > n[0]);
+        let names = |axis: usize| -> Vec<String> {
+            let name = |k: usize| {
+                let mut elements = vec![0; sweep.axes.len()];
+                elements[axis] = k;
+                label(sweep, &elements, &[axis])
+            };
+            (0..sweep.axes[axis].values.len()).map(name).collect()
+        };
+        let axes = [choice.series[colour], choice.series[1 - colour]];
+        let [colour_names, style_names] = axes.map(names);
+        (n[1 - colour] <= Self::MAX_STYLES).then_some(Self { colour, colour_names, style_names })
+    }
+
+    /// Returns a line in the style of the curve at this place.
+    fn on(&self, line: Line, place: &[usize]) -> Line {
+        let (own, style) = (place[self.colour], place[1 - self.colour]);
+        let n = self.colour_names.len();
+        let line = line.like_curve(style * COLOURS.len());
+        match n > COLOURS.len() {
+            true => line.in_colour(colour_along(own, n)),
+            false => line.in_colour(COLOURS[own]),
+        }
+    }
+
+    /// Returns the name of a curve's colour, which the legend shows once.
+    fn colour_label<'a>(&'a self, curve: &SweepCurve) -> &'a str {
+        let is_plain = curve.place[1 - self.colour] == 0;
+        if is_plain { &self.colour_names[curve.place[self.colour]] } else { "" }
     }
 }
 
@@ -232,26 +293,13 @@ impl LegendChoice {
             let heading = Some(format!("{n_curves} curves, colours continue between:"));
             return Self { stride, n: n_curves, n_curves, heading, rest: None };
         }
-        let rest = Some(format!("… and {} more", n_curves - room));
+        let rest = Some(format!("… and {} more; plot.series chooses one key", n_curves - room));
         Self { stride: 1, n: room, n_curves, heading: None, rest }
     }
 
     fn has(&self, k: usize) -> bool {
         k < self.n && (k.is_multiple_of(self.stride) || k + 1 == self.n_curves)
     }
-}
-
-/// Returns the ends of the error bars, cut off at one range beyond the values so that the values stay
-/// distinguishable; if all bars are longer than that, none is cut off.
-fn with_bars(
-    own: impl Iterator<Item = f64>,
-    bars: impl Iterator<Item = (f64, f64)> + Clone,
-) -> impl Iterator<Item = f64> {
-    let (from, to) = own.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-    let shortest = bars.clone().fold(f64::INFINITY, |least, (_, bar)| least.min(bar));
-    let room = if to > from && shortest <= to - from { to - from } else { f64::INFINITY };
-    bars.flat_map(|(value, bar)| [value - bar, value + bar])
-        .map(move |end: f64| end.max(from - room).min(to + room))
 }
 
 /// Returns the range of an axis: all values, and the references unless they would take most of it. A range
@@ -293,13 +341,5 @@ mod tests {
         let (from, to) = shown(&[1.0 - 2e-6, 1.0 - 1e-6], &[1.0]);
         assert!(to - from > 1e-4, "{from} {to}");
         assert!(shown_range([f64::NAN].into_iter(), [1.0].into_iter()).is_none());
-        // A bar longer than the range is cut off, unless all bars are.
-        let ends = |bars: &[(f64, f64)]| {
-            let bars = bars.iter().copied();
-            with_bars(bars.clone().map(|(value, _)| value), bars).collect::<Vec<_>>()
-        };
-        assert_eq!(ends(&[(1.0, 5.0), (2.0, 0.5)]), [0.0, 3.0, 1.5, 2.5]);
-        assert_eq!(ends(&[(1.0, 5.0), (2.0, 4.0)]), [-4.0, 6.0, -2.0, 6.0]);
-        assert_eq!(ends(&[(1.0, 5.0)]), [-4.0, 6.0]);
     }
 }

@@ -119,6 +119,7 @@ fn draw(name: &str, run: &ExplicitRun, instants: &[&Snapshot]) -> Figure {
         Panel {
             title: sections::title(letter, &instant, sections::range(&halves[k]).0 * MEGA),
             sections: vec![halves[k][UPPER].mirrored(), wall.clone()],
+            ..Panel::default()
         }
     };
     let window =

@@ -114,6 +114,7 @@ fn draw(instants: &[Instant], [half_width, half_height]: [f64; 2]) -> Figure {
         Panel {
             title: sections::title(letter, &name, instant.range().0 / GIGA),
             sections: instant.halves.iter().map(Section::mirrored).collect(),
+            ..Panel::default()
         }
     };
     let window = Window { x: (-half_width, half_width), y: (-half_height, half_height) };

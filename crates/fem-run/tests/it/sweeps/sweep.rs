@@ -389,3 +389,32 @@ fn condensed_sweep_hints_at_sharing_a_factor() {
     }
     assert_eq!(alone, member);
 }
+
+/// Fifteen curves of two keys have a colour for one key, and dashes and markers for the other, each named once. More than
+/// the dashes distinguish have a line that says how to choose.
+#[test]
+fn many_curves_of_two_keys_have_colours_and_dashes() {
+    let sweep = |weights: &str| {
+        format!(
+            "case = \"case.toml\"\n[vary]\nmodel = [{{ hertz = {{}} }}]\nbody.0.approach_speed = [\"0.1 m/s\", \"1 m/s\"]\n\
+             body.0.sphere.diameter = [\"5 mm\", \"6 mm\", \"7 mm\", \"8 mm\", \"9 mm\"]\n\
+             material.glass.relaxation.terms.0.weight = {weights}\n[plot]\nx = \"body.0.approach_speed\"\n\
+             y = [\"contact_time_s\"]\n"
+        )
+    };
+    let place = Place::new();
+    let drawn = |weights: &str| {
+        place.write("many.toml", &sweep(weights));
+        place.succeed("sweep many.toml");
+        place.text("runs/many/sweep.svg")
+    };
+    // The only model is no key that distinguishes curves.
+    let svg = drawn("[0.2, 0.5, 1.0]");
+    for name in ["D = 5 mm", "D = 9 mm", "g = 0.2", "g = 1.0"] {
+        assert_eq!(svg.matches(name).count(), 1, "{name}");
+    }
+    let dashes = svg.matches("stroke-dasharray=\"2 3\"").count();
+    assert!(dashes >= 5 && !svg.contains("more"), "{dashes}");
+    let svg = drawn("[0.2, 0.3, 0.4, 0.5, 0.6, 0.7]");
+    assert!(svg.contains("plot.series chooses one key"), "{svg}");
+}

@@ -98,6 +98,11 @@ fn report_of_a_run_with_fields_has_all_sections() {
         assert!(page.contains(expected), "{expected}");
     }
     assert_eq!(page.matches("<figure>").count(), 4);
+    // Each frame has its mesh, hidden until it is asked for; effects that are off say what they would change.
+    assert_eq!(page.matches("class=\"mesh\" visibility=\"hidden\"").count(), 4);
+    let (_, off) = page.split_once("It would change e by").unwrap();
+    let row = off.split("<tr>").find(|row| row.contains("<td>surface slip<br>")).unwrap();
+    assert_eq!(row.matches("<td class=\"number\">0</td>").count(), 3, "{row}");
     assert!(summary["files"].as_array().unwrap().iter().any(|file| file == "report.html"));
     // An older result gets the same page as a new one.
     fs::remove_file(place.path("runs/case/report.html")).unwrap();
@@ -144,7 +149,12 @@ fn comparison_shows_the_differing_keys_first() {
     assert!(page.contains(&format!("{:.2} %", -change)), "{change}");
     assert!(page.contains("<td class=\"path\">body.0.approach_speed</td><td>0.5</td><td>4.0</td>"));
     assert!(!page.contains("<td class=\"path\">title</td>"));
-    assert_eq!(page.matches(">glass_fast_0.5</text>").count(), 5, "in the legend of each chart");
+    assert_eq!(page.matches(">glass_fast_0.5</text>").count(), 6, "in the legend of each chart");
+    assert!(
+        page.contains("Force over Hertz' peak force")
+            || page.contains("Force over Hertz&#39; peak")
+    );
+    assert_eq!(page.matches("<figure class=\"film\">").count(), 2, "stresses next to each other");
     let (before, rest) = page.split_once("<details>").unwrap();
     let (folded, _) = rest.split_once("</details>").unwrap();
     assert!(before.contains("body.0.approach_speed") && folded.contains("mesh.refined_radius"));
@@ -155,6 +165,31 @@ fn comparison_shows_the_differing_keys_first() {
     for folders in [["glass_on_glass", "glass_on_glass"], ["glass_on_glass", "./glass_on_glass/"]] {
         place.fails(2, ["report", folders[0], folders[1]]).tells("named twice");
     }
+}
+
+/// Two pairs on one mesh, which differ in their relaxing share. The difference of their peak forces is smaller than both
+/// error bars together, and is shown as a difference all the same, because most of the errors is common.
+#[test]
+fn shared_errors_do_not_hide_a_difference() {
+    let place = Place::new();
+    let mesh = "mesh.contact_element_size='45 um'";
+    let condensed = ["case.toml", "--set", "model.condensed={}", "--set", mesh, "--quiet"];
+    place.succeed((condensed, "--out one"));
+    let weight = ["--set", "material.glass.relaxation.terms.0.weight=0.6", "--out", "two"];
+    place.succeed((condensed, weight));
+    let [one, two] = ["one", "two"].map(|name| place.json(&format!("{name}/summary.json")));
+    let force = |of: &serde_json::Value| of["peak_force_n"].as_f64().unwrap();
+    let bar = |of: &serde_json::Value| {
+        ["discretisation", "model"].map(|part| of["uncertainty"]["peak_force_n"][part].as_f64())
+    };
+    let difference = (force(&one) - force(&two)).abs();
+    let bars: f64 = [bar(&one), bar(&two)].into_iter().flatten().flatten().sum();
+    assert!(bars > difference, "{bars} {difference}");
+    place.succeed("report one two --out both.html");
+    let page = place.text("both.html");
+    assert!(page.contains("All results have the same mesh and settings as the first."));
+    let row = page.split("<tr>").find(|row| row.contains("<td>peak force</td>")).unwrap();
+    assert!(row.contains(" %") && !row.contains("within"), "{bars} {difference} {row}");
 }
 
 /// Only the requested arrays are written, and the film is there if it has its fields.
