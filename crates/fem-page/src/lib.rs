@@ -22,6 +22,6 @@ pub use charts::{ChartSpec, Charts, CurveSpec, MarkSpec};
 pub use contour::StressPicture;
 pub use fault::CaseFault;
 pub use library_entry::LibraryEntry;
-pub use outcome::{CostEstimate, FrameInfo, RunOutcome, RunStart};
+pub use outcome::{CostEstimate, EffectExplanation, FrameInfo, RunOutcome, RunStart};
 pub use session::{RecordedAmount, Session};
 pub use sharing::EnergyShares;

@@ -1,5 +1,6 @@
 //! Everything that the page receives before and after a run.
 
+use fem::effects::{EFFECTS, Effect, EffectKind};
 use fem::{CaseFile, Collision, Cost, HistoryRow, Summary};
 use serde::Serialize;
 
@@ -57,6 +58,31 @@ pub struct RunOutcome {
     pub charts: Charts,
     /// The instants whose fields can be drawn, in order.
     pub frames: Vec<FrameInfo>,
+    /// The explanations of all effects.
+    pub effects: Vec<EffectExplanation>,
+}
+
+/// The explanation of an effect.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EffectExplanation {
+    /// Name of the effect in the summary.
+    pub name: &'static str,
+    /// Explanation in one sentence.
+    pub words: &'static str,
+    /// Whether it is a part of the computation and not physics.
+    pub is_numerical: bool,
+}
+
+impl EffectExplanation {
+    /// Returns the explanations of all effects.
+    pub(crate) fn all() -> Vec<Self> {
+        let of = |effect: &dyn Effect| Self {
+            name: effect.name(),
+            words: effect.explanation(),
+            is_numerical: effect.kind() == EffectKind::Numerical,
+        };
+        EFFECTS.into_iter().map(of).collect()
+    }
 }
 
 /// An instant whose fields are kept.

@@ -12,7 +12,7 @@ use fem::{
 
 use crate::charts::Charts;
 use crate::contour::{StressPicture, picture};
-use crate::outcome::{FrameInfo, RunOutcome, RunStart};
+use crate::outcome::{EffectExplanation, FrameInfo, RunOutcome, RunStart};
 use crate::sharing::{EnergyShares, common_of};
 
 /// The name of the text in errors.
@@ -111,6 +111,7 @@ impl Session {
             sharing: EnergyShares::of(&collision),
             charts: Charts::of(&collision.history, &hertz, common_of(&collision)),
             frames: FrameInfo::all(&collision, simulation.case().scene().first_touch()),
+            effects: EffectExplanation::all(),
         };
         self.collision = Some(collision);
         Some(outcome)

@@ -1,6 +1,8 @@
 //! Plausibility checks: numbers of a scene that are possible but unlikely, such as after a forgotten unit, and losses that
 //! the materials do not include. They cause warnings, never errors.
 
+use fem_material::Material;
+
 use crate::engineering::{number, show};
 use crate::library::{self, MeasuredRestitution};
 use crate::scene::Scene;
@@ -20,6 +22,10 @@ const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 /// Share of the contact compliance above which the losses of a body matter.
 const MIN_SHARE: f64 = 1e-3;
 
+fn is_elastic(material: &Material) -> bool {
+    material.relaxation().is_none()
+}
+
 impl Scene {
     /// Returns the library's materials, without `lib:`, that have a relaxation neither there nor in the case, so that the
     /// restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves out bodies
@@ -30,9 +36,12 @@ impl Scene {
         }
         let deforms = self.bodies.iter().zip(self.compliance_shares());
         let deforms = deforms.filter(|(_, share)| *share > MIN_SHARE).map(|(body, _)| body);
-        let is_elastic = |body: &&Body| body.material().is_some_and(|it| it.relaxation().is_none());
-        let mut names: Vec<&str> =
-            deforms.filter(is_elastic).filter_map(Body::library_material).collect();
+        let elastic = |body: &Body| {
+            let name =
+                body.library_material().filter(|_| body.material().is_some_and(is_elastic))?;
+            library::materials()[name].material.relaxation.is_none().then_some(name)
+        };
+        let mut names: Vec<&str> = deforms.filter_map(elastic).collect();
         names.dedup();
         names
     }
@@ -68,9 +77,10 @@ impl Scene {
         };
         (!names.is_empty()).then(|| {
             format!(
-                "the library has no relaxation for {}: its loss is not computed, and the restitution is too high by an \
+                "the library has no relaxation for {}: {} loss is not computed, and the restitution is too high by an \
                  unknown amount; {remedy}",
-                names.join(" and ")
+                names.join(" and "),
+                if names.len() > 1 { "their" } else { "its" }
             )
         })
     }

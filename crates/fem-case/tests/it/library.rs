@@ -156,6 +156,10 @@ fn an_unknown_loss_causes_a_warning() {
     for set in ["body.1.material='lib:pvb'", relaxing, law] {
         assert_eq!(warning(BALL, &[set]), None, "{set}");
     }
+    // The library has a relaxation that the case leaves out.
+    let glass = table_text("glass").unwrap();
+    let elastic = glass.split("\n[material.glass.relaxation]").next().unwrap();
+    assert_eq!(warning(&(elastic.to_string() + &BALL.replace("lib:pmma", "glass")), &[]), None);
     // Other numbers make it the user's material.
     assert_eq!(warning(&copy, &["material.pmma.density=1200"]), None);
 }

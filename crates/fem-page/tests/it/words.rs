@@ -1,17 +1,13 @@
 //! The page has a text of its own for everything that results name.
 
 use fem::Account;
-use fem::effects::EFFECTS;
 use fem_page::LibraryEntry;
 
-const WORDS: &str = include_str!("../../web/scripts/effects.js");
+const WORDS: &str = include_str!("../../web/scripts/accounts.js");
 const SCENE: &str = include_str!("../../web/scripts/scene.js");
 
 #[test]
-fn every_effect_and_account_has_plain_words() {
-    for effect in EFFECTS {
-        assert!(WORDS.contains(&format!("  '{}': '", effect.name())), "{}", effect.name());
-    }
+fn every_account_has_plain_words() {
     // The work of a wall is supplied during the collision; the others are present from the start.
     for account in Account::all().filter(|account| *account != Account::WallWork) {
         assert!(WORDS.contains(&format!("  {}: '", account.name())), "{}", account.name());

@@ -110,7 +110,7 @@ function tell(text, answer, { begun, milliseconds, isMoving }) {
   showMade(summary, begun, milliseconds);
   showCharts(outcome.charts, summary);
   showEnergy(summary, sharing);
-  showEffects(summary);
+  showEffects(summary, outcome.effects);
   showPicture(outcome, picture, index);
   at('version').textContent = `Version ${summary.version}.`;
   const words = headline(summary);

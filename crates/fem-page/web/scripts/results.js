@@ -1,6 +1,6 @@
 // The results of a collision on the page.
 import { NOTHING, percent, plain, show, showBeside } from './units.js';
-import { ACCOUNT_WORDS, EFFECT_WORDS, OF_COMPUTATION } from './effects.js';
+import { ACCOUNT_WORDS } from './accounts.js';
 
 const QUANTITIES = [
   ['restitution', 'Restitution', ''],
@@ -132,18 +132,23 @@ function worth(leftOut, summary) {
   return ` It changes ${changes.map(([name, change, unit]) => `${name} by about ${show(change, unit, 1)}`).join(', ')}.`;
 }
 
-export function showEffects(summary) {
+// `explanations` has the words on each effect, and whether it is a part of the computation and not physics. Effects that matter
+// and are not computed stand with those that are on.
+export function showEffects(summary, explanations) {
+  const known = (effect) => explanations.find(({ name }) => name === effect.name);
   const line = (effect) => {
     const made = element('li', '', { 'data-effect': effect.name });
-    made.append(element('strong', effect.name), ` – ${EFFECT_WORDS[effect.name] ?? ''}${worth(effect.error_if_left_out, summary)} `, element('span', plain(effect.reason), { class: 'reason' }));
+    const lacking = effect.matters && !effect.active ? 'Not computed: ' : '';
+    made.append(element('strong', effect.name), ` – ${lacking}${known(effect)?.words ?? ''}${worth(effect.error_if_left_out, summary)} `, element('span', plain(effect.reason), { class: 'reason' }));
     return made;
   };
-  const isMeans = (effect) => OF_COMPUTATION.includes(effect.name);
+  const isMeans = (effect) => known(effect)?.is_numerical ?? false;
   const physical = summary.effects.filter((effect) => !isMeans(effect));
-  const on = physical.filter((effect) => effect.active);
+  const isShown = (effect) => effect.active || effect.matters;
+  const on = physical.filter(isShown);
   at('effects-on').replaceChildren(...on.map(line));
   at('effects-none').hidden = on.length > 0;
-  at('effects-off').replaceChildren(...physical.filter((effect) => !effect.active).map(line));
+  at('effects-off').replaceChildren(...physical.filter((effect) => !isShown(effect)).map(line));
   const means = summary.effects.filter((effect) => isMeans(effect) && effect.active);
   at('effects-means').replaceChildren(...means.map(line));
   at('means-details').hidden = means.length === 0;

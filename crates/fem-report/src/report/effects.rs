@@ -1,38 +1,11 @@
 //! The effects of a result, with an explanation of each and of the kink of the contact radius.
 
+use fem::effects::{EFFECTS, Effect, EffectKind};
 use fem_case::engineering::show;
 use serde_json::Value;
 
 use super::stored_result::StoredResult;
 use crate::number_text::rounded;
-
-/// Explanation of each effect in one sentence.
-const EXPLANATIONS: [(&str, &str); 18] = [
-    (
-        "viscoelasticity",
-        "The material relaxes while it is compressed and gives back less energy than it took.",
-    ),
-    (
-        "material loss",
-        "A material without a relaxation is computed as elastic: its own loss is missing.",
-    ),
-    ("finite strain", "At large strains the change of shape changes stiffness and contact."),
-    ("surface slip", "Surfaces of unlike materials slide on each other as they deform."),
-    ("plastic yield", "Above its strength a material flows plastically; that is not computed."),
-    ("adhesion", "Surfaces attract each other; slow bodies stick, faster ones lose energy."),
-    ("partner waves", "Waves that do not return from a large body in time carry energy away."),
-    ("mirror symmetry", "Two equal bodies are computed as one body against a plane."),
-    ("rigid partner", "A much stiffer partner is treated as rigid."),
-    ("hourglass control", "Elements with one stress point get the stiffness that they lack."),
-    ("bulk viscosity", "Steep wave fronts of fast impacts are spread over a few elements."),
-    ("gravity", "Weight acts before, during and after the contact."),
-    ("contact search", "Contact is searched for as far out as it can reach."),
-    ("mass scaling", "Mass is moved to the lightest nodes, which allows longer time steps."),
-    ("dashpot", "The law's dashpot resists the approach and dissipates energy."),
-    ("finite size", "A sphere also deforms as a whole, not only at its contact."),
-    ("vibration", "A struck body keeps vibrating and retains that energy."),
-    ("penalty springs", "Penalty springs keep the surfaces apart and are slightly compliant."),
-];
 
 /// An effect of a result.
 pub struct EffectEntry {
@@ -51,13 +24,14 @@ pub struct EffectEntry {
 /// Heads of the columns with the change of the results by an effect that is off.
 pub const CHANGE_HEADS: [&str; 3] = ["It would change e by", "T by", "F by"];
 
-/// Effects of the numerical method, which are not physics.
-const NUMERICAL: [&str; 5] =
-    ["contact search", "mass scaling", "hourglass control", "mirror symmetry", "bulk viscosity"];
+/// Returns the effect of a name.
+fn known(name: &str) -> Option<&'static dyn Effect> {
+    EFFECTS.into_iter().find(|effect| effect.name() == name)
+}
 
-/// Returns whether an effect is one of the numerical method.
+/// Returns whether an effect is one of the numerical method, which is not physics.
 pub fn is_numerical(name: &str) -> bool {
-    NUMERICAL.contains(&name)
+    known(name).is_some_and(|effect| effect.kind() == EffectKind::Numerical)
 }
 
 /// Returns the physical effects that are on, the numerical ones that are on, those that are off and matter, and the
@@ -66,8 +40,7 @@ pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 4] {
     let effect = |value: &Value| {
         let text = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default();
         let name = text("name").to_string();
-        let explanation =
-            EXPLANATIONS.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text);
+        let explanation = known(&name).map_or("", |effect| effect.explanation());
         let holds = |key: &str| value.get(key).and_then(Value::as_bool).unwrap_or(false);
         let (is_on, matters) = (holds("active"), holds("matters"));
         let neglect_error = value.get("error_if_left_out").map(neglect_error).unwrap_or_default();

@@ -207,11 +207,30 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
     [parts.discretisation.map_or(UNKNOWN.into(), sized), neglected, input]
 }
 
-/// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows.
+/// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows, and what it holds: the
+/// loss by vibrations that the bodies keep, or numerical dissipation where it is below the error.
 fn elastic_deficit(summary: &Summary) -> Option<String> {
     let deficit = 1.0 - summary.collision.restitution?;
     let bar = summary.uncertainty.parts(QuantityOfInterest::Restitution).discretisation;
-    (deficit.abs() < NEARLY_ELASTIC).then(|| with_known_digits(deficit, bar))
+    if deficit.abs() >= NEARLY_ELASTIC {
+        return None;
+    }
+    let shown = with_known_digits(deficit, bar);
+    let kept: Option<f64> = summary
+        .bodies
+        .iter()
+        .filter(|body| body.elements.is_some())
+        .map(|it| it.vibration_energy_j)
+        .sum();
+    // Bodies that lose the share s of the energy keep √(1 − s) of the speed.
+    let by_vibrations =
+        kept.zip(summary.energy.initial_j).map(|(kept, initial)| 0.5 * kept / initial);
+    Some(match by_vibrations {
+        Some(lost) if deficit > bar.unwrap_or(0.0) && lost > 0.0 => {
+            format!("{shown}, of which {} in vibrations of the bodies", number(lost, 1))
+        }
+        _ => shown,
+    })
 }
 
 /// Shows a number with the digits above its error, at most three; below its error, that it is less.
@@ -302,9 +321,14 @@ fn balances(summary: &Summary) -> String {
             true => "estimated",
             false => "from a coarser run without relaxation",
         };
-        let text = format!(
-            "{lost} of the restitution, by vibrations and numerical dissipation on this mesh ({how})"
-        );
+        let of_what = match null.vibrations {
+            Some(vibrations) => format!(
+                "{} by vibrations and waves, the rest by numerical dissipation",
+                number(vibrations, 1)
+            ),
+            None => "by vibrations and numerical dissipation together".to_string(),
+        };
+        let text = format!("{lost} of the restitution on this mesh: {of_what} ({how})");
         ["loss without relaxation".to_string(), text]
     });
     let energy = format!(

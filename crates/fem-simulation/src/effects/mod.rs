@@ -61,6 +61,8 @@ pub struct EffectDecisions {
     pub all: Vec<EffectDecision>,
     /// Warnings, in the same order.
     pub warnings: Vec<String>,
+    /// Names of effects whose warnings are pointless beside one that the run lacks.
+    silenced: Vec<&'static str>,
 }
 
 impl EffectDecisions {
@@ -69,8 +71,14 @@ impl EffectDecisions {
         self.all.iter().any(|decision| decision.name == name && decision.active)
     }
 
-    /// Replaces decisions by those that the finished collision shows.
-    pub(crate) fn update_from_result(&mut self, scene: &Scene, collision: &Collision) {
+    /// Replaces decisions by those that the finished collision shows, and adds the warnings of its result. An effect that is
+    /// warned of matters.
+    pub(crate) fn update_from_result(
+        &mut self,
+        scene: &Scene,
+        estimate: Option<&Estimate>,
+        collision: &Collision,
+    ) {
         for decision in &mut self.all {
             let found = effect_named(decision.name)
                 .and_then(|effect| effect.support_in_result(scene, collision));
@@ -79,6 +87,15 @@ impl EffectDecisions {
                 let kind = effect_named(decision.name).map(|effect| effect.kind());
                 decision.matters |= active && kind == Some(EffectKind::Physical);
             }
+        }
+        let Some(estimate) = estimate else { return };
+        for effect in EFFECTS.iter().filter(|effect| !self.silenced.contains(&effect.name())) {
+            let warnings = effect.warnings_of_result(scene, estimate, collision);
+            let own = self.all.iter_mut().find(|decision| decision.name == effect.name());
+            if let (Some(decision), false) = (own, warnings.is_empty()) {
+                decision.matters = true;
+            }
+            self.warnings.extend(warnings);
         }
     }
 }
@@ -109,6 +126,7 @@ pub fn decide(
         |own: &Support, relevance: &Relevance| relevance.is_needed && *own == Support::Lacks;
     let lacked = relevances.iter().filter(|(_, own, _, relevance)| is_lacking(own, relevance));
     let silenced: Vec<&str> = lacked.flat_map(|(effect, ..)| effect.silences()).copied().collect();
+    decisions.silenced.clone_from(&silenced);
     for (effect, own, switch, relevance) in relevances {
         let obeys = own.obeys();
         let (is_needed, note) = (relevance.is_needed, relevance.warning.clone());

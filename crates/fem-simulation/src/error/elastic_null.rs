@@ -36,6 +36,9 @@ const ELASTIC_RUN_ELEMENT_RATIO: f64 = 1.5;
 pub struct ElasticNull {
     /// 1 − restitution.
     pub one_minus_restitution: f64,
+    /// The part of it by vibrations and radiated waves, which are physics; the rest is numerical. `None` if an elastic run
+    /// gives the sum alone.
+    pub vibrations: Option<f64>,
     /// Whether the relaxing run itself gives the estimate; otherwise an elastic run on a coarser mesh does.
     pub estimated: bool,
 }
@@ -56,7 +59,7 @@ pub(super) fn elastic_null(
     let inverse_mass: f64 =
         collision.bodies.iter().filter_map(|body| Some(body.mass?.recip())).sum();
     let initial = 0.5 * collision.approach.speed().powi(2) / inverse_mass;
-    let mut lost = collision.residual?.abs();
+    let (mut vibrating, numerical) = (0.0, collision.residual?.abs());
     let (mut has_elements, mut is_gone) = (false, false);
     for (named, body) in scene.bodies().iter().zip(&collision.bodies) {
         has_elements |= body.elements.is_some_and(|elements| elements > 0);
@@ -68,19 +71,21 @@ pub(super) fn elastic_null(
         let vibrations = body.vibration_energy.unwrap_or(0.0) * relaxed;
         is_gone |= relaxed > MAX_DECAY
             && vibrations.is_nan() | (vibrations > LITTLE_VIBRATION_ENERGY * initial);
-        lost += vibrations;
+        vibrating += vibrations;
     }
     if is_gone {
         let one_minus_restitution = elastic_run(simulation, &collision.approach, runs)?;
-        return Some(ElasticNull { one_minus_restitution, estimated: false });
+        return Some(ElasticNull { one_minus_restitution, vibrations: None, estimated: false });
     }
-    for account in [Account::Radiated, Account::BulkViscosity, Account::ContactDamping] {
-        lost += collision.energies.get(account).unwrap_or(0.0);
-    }
-    let share = lost / initial;
-    (has_elements && share.is_finite()).then(|| ElasticNull {
-        one_minus_restitution: 1.0 - (1.0 - share).max(0.0).sqrt(),
-        estimated: true,
+    let energy = |account| collision.energies.get(account).unwrap_or(0.0);
+    vibrating += energy(Account::Radiated);
+    let numerical = numerical + energy(Account::BulkViscosity) + energy(Account::ContactDamping);
+    let share = (vibrating + numerical) / initial;
+    (has_elements && share.is_finite()).then(|| {
+        let one_minus_restitution = 1.0 - (1.0 - share).max(0.0).sqrt();
+        let of_vibrations = if share > 0.0 { vibrating / initial / share } else { 0.0 };
+        let vibrations = Some(of_vibrations * one_minus_restitution);
+        ElasticNull { one_minus_restitution, vibrations, estimated: true }
     })
 }
 

@@ -4,8 +4,8 @@
 use fem_case::Scene;
 use fem_collision::{
     Account, Approach, BodyFields, BodyResult, Collision, ContactProfile, ContactProfilePoint,
-    DeepestOverlap, EnergyLedger, HistoryRow, Monitor, OutputRequest, Progress, Snapshot,
-    StaticContact, Stop,
+    DeepestOverlap, EnergyLedger, HistoryRow, Monitor, OutputRequest, Snapshot, StaticContact,
+    Stop,
 };
 use fem_mesh::{Side, SphereMesh};
 
@@ -13,7 +13,7 @@ use crate::effects::{Effect, MirrorSymmetry, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::approach_of;
 use crate::models::method::{ElementSetup, Model, ModelSetup};
-use crate::models::stepper::{RestartState, Stepper, stopped};
+use crate::models::stepper::{RestartState, Stepper, Transformed, stopped};
 use crate::plan::{Plan, candidate_radius};
 use crate::rejection::Rejection;
 
@@ -84,12 +84,8 @@ impl<M: Model> Model for Mirrored<M> {
     }
 
     fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        let whole = MirroredFrame::of(approach);
         match half_of(approach) {
-            Ok(half) => {
-                let half = self.half.start(&half, &in_half(request))?;
-                Some(Box::new(MirroredStepper { half, whole }))
-            }
+            Ok(half) => Some(whole_of(*approach, self.half.start(&half, &in_half(request))?)),
             Err(stop) => Some(stopped(*approach, stop)),
         }
     }
@@ -97,8 +93,7 @@ impl<M: Model> Model for Mirrored<M> {
     fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         let whole = state.approach;
         let approach = half_of(&whole).map_err(|stop| Rejection::new("body", stop.to_string()))?;
-        let half = self.half.resume(RestartState { approach, ..state })?;
-        Ok(Box::new(MirroredStepper { half, whole: MirroredFrame::of(&whole) }))
+        Ok(whole_of(whole, self.half.resume(RestartState { approach, ..state })?))
     }
 
     /// Gravity makes bodies differ, so it never meets mirror symmetry.
@@ -127,28 +122,10 @@ fn half_of(approach: &Approach) -> Result<Approach, Stop> {
         .map_err(|error| Stop::NotMade(error.to_string()))
 }
 
-/// A collision under way of which half is computed.
-struct MirroredStepper {
-    half: Box<dyn Stepper>,
-    whole: MirroredFrame,
-}
-
-impl Stepper for MirroredStepper {
-    fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
-        self.half.advance(monitor)
-    }
-
-    fn progress(&self) -> Progress {
-        self.half.progress()
-    }
-
-    fn restart_state(&self) -> Option<RestartState> {
-        Some(RestartState { approach: self.whole.approach, ..self.half.restart_state()? })
-    }
-
-    fn finish(self: Box<Self>) -> Collision {
-        self.whole.collision(self.half.finish())
-    }
+/// Returns the stepper of the whole from that of the half.
+fn whole_of(approach: Approach, half: Box<dyn Stepper>) -> Box<dyn Stepper> {
+    let whole = MirroredFrame::of(&approach);
+    Box::new(Transformed { approach, stepper: half, transform: move |it| whole.collision(it) })
 }
 
 /// The transformation of the half's results to those of both bodies.

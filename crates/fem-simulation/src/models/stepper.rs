@@ -67,6 +67,32 @@ impl<F: Fn(&mut dyn Monitor) -> Collision> Stepper for SingleStep<F> {
     }
 }
 
+/// A collision whose result is transformed when it is finished.
+pub(crate) struct Transformed<F> {
+    /// The approach in restart states.
+    pub approach: Approach,
+    pub stepper: Box<dyn Stepper>,
+    pub transform: F,
+}
+
+impl<F: FnOnce(Collision) -> Collision> Stepper for Transformed<F> {
+    fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
+        self.stepper.advance(monitor)
+    }
+
+    fn progress(&self) -> Progress {
+        self.stepper.progress()
+    }
+
+    fn restart_state(&self) -> Option<RestartState> {
+        Some(RestartState { approach: self.approach, ..self.stepper.restart_state()? })
+    }
+
+    fn finish(self: Box<Self>) -> Collision {
+        (self.transform)(self.stepper.finish())
+    }
+}
+
 /// The restart state of a [`Stepper`] between two advances. A stepper that resumes from it
 /// ends with the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,8 +7,7 @@
 
 use fem_case::{Body, Scene};
 use fem_collision::{
-    Account, Approach, BodyResult, Collision, Ending, Monitor, OutputRequest, Progress,
-    StaticContact,
+    Account, Approach, BodyResult, Collision, Ending, Monitor, OutputRequest, StaticContact,
 };
 use fem_laws::Adhesion;
 use fem_mesh::SphereMesh;
@@ -16,7 +15,7 @@ use fem_mesh::SphereMesh;
 use crate::effects::{AdhesionEffect, Effect, Support};
 use crate::estimate::Estimate;
 use crate::models::method::{Model, ModelSetup};
-use crate::models::stepper::{RestartState, Stepper};
+use crate::models::stepper::{RestartState, Stepper, Transformed};
 use crate::rejection::Rejection;
 
 /// The bond of two bodies.
@@ -105,8 +104,9 @@ impl Sticking {
         }
     }
 
-    fn stepper(&self, stepper: Box<dyn Stepper>) -> Box<dyn Stepper> {
-        Box::new(StickingStepper { stepper, bond: self.bond })
+    fn stepper(&self, approach: Approach, stepper: Box<dyn Stepper>) -> Box<dyn Stepper> {
+        let bond = self.bond;
+        Box::new(Transformed { approach, stepper, transform: move |it| bond.applied(it) })
     }
 }
 
@@ -129,11 +129,11 @@ impl Model for Sticking {
     }
 
     fn start(&self, approach: &Approach, request: &OutputRequest) -> Option<Box<dyn Stepper>> {
-        Some(self.stepper(self.model.start(approach, request)?))
+        Some(self.stepper(*approach, self.model.start(approach, request)?))
     }
 
     fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
-        Ok(self.stepper(self.model.resume(state)?))
+        Ok(self.stepper(state.approach, self.model.resume(state)?))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {
@@ -142,29 +142,5 @@ impl Model for Sticking {
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         self.model.meshes()
-    }
-}
-
-/// The stepper of such a model.
-struct StickingStepper {
-    stepper: Box<dyn Stepper>,
-    bond: Bond,
-}
-
-impl Stepper for StickingStepper {
-    fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
-        self.stepper.advance(monitor)
-    }
-
-    fn progress(&self) -> Progress {
-        self.stepper.progress()
-    }
-
-    fn restart_state(&self) -> Option<RestartState> {
-        self.stepper.restart_state()
-    }
-
-    fn finish(self: Box<Self>) -> Collision {
-        self.bond.applied(self.stepper.finish())
     }
 }

@@ -17,7 +17,7 @@ use fem_case::defaults::PENALTY_FACTOR;
 use fem_case::engineering::show;
 use fem_collision::{Collision, MAX_RESIDUAL, QuantityOfInterest, Stop};
 
-use crate::effects::{EFFECTS, Effect, Vibration};
+use crate::effects::Vibration;
 use crate::error::{
     ErrorEstimate, MAX_NOISE, MAX_PENETRATION, Overlap, early_pressure_warning,
     excess_of_restitution, is_unresolved, noise, overlap, tolerance_warning, unbalanced_energy,
@@ -123,8 +123,7 @@ impl Simulation {
     }
 }
 
-/// Returns warnings about a finished collision: impossible numbers, errors of the elements above the tolerance, and effects
-/// that show in it.
+/// Returns warnings about a finished collision: impossible numbers, and errors of the elements above the tolerance.
 pub fn diagnose(
     simulation: &Simulation,
     collision: &Collision,
@@ -132,11 +131,6 @@ pub fn diagnose(
 ) -> Vec<String> {
     let mut warnings = of_numbers(simulation, collision);
     warnings.extend(of_elements(simulation, collision, errors));
-    if let Some(estimate) = simulation.estimate(collision) {
-        let scene = simulation.case().scene();
-        let after = |effect: &&dyn Effect| effect.warnings_of_result(scene, &estimate, collision);
-        warnings.extend(EFFECTS.iter().flat_map(after));
-    }
     warnings
 }
 

@@ -137,19 +137,15 @@ impl Cradle {
     /// Returns the reason why energy or momentum forbid a swing.
     pub fn doubt(&self, trial: &Trial, swing: &Swing) -> Option<String> {
         let e = swing.restitution;
-        let by = |excess: f64| match e.uncertainty > 0.0 {
-            true => format!(" by {:.1} of its uncertainty", excess / e.uncertainty),
-            false => String::new(),
-        };
-        if e.value > 1.0 {
-            let highest = self.highest_rise(trial.release.value);
-            let highest = highest.map_or(String::new(), |highest| {
-                format!(": without loss the second ball rises to {:.2} deg", highest.to_degrees())
-            });
-            return Some(format!("restitution above 1{}{highest}", by(e.value - 1.0)));
+        let impossible = impossible_restitution(e)?;
+        if e.value < 0.0 {
+            return Some(format!("{impossible}: v2 is less than v1"));
         }
-        let falls_short = || format!("restitution below 0{}: v2 is less than v1", by(-e.value));
-        (e.value < 0.0).then(falls_short)
+        let highest = self.highest_rise(trial.release.value);
+        let highest = highest.map_or(String::new(), |highest| {
+            format!(": without loss the second ball rises to {:.2} deg", highest.to_degrees())
+        });
+        Some(format!("{impossible}{highest}"))
     }
 
     fn check(&self, trial: &Trial) -> Result<(), FitError> {
@@ -186,6 +182,20 @@ impl Cradle {
         }
         Ok(())
     }
+}
+
+/// Returns why no collision has a restitution: it is above 1 or below 0, by how much of its uncertainty if it has one.
+pub fn impossible_restitution(e: Measured) -> Option<String> {
+    let (side, excess) = match e.value {
+        value if value > 1.0 => ("above 1", value - 1.0),
+        value if value < 0.0 => ("below 0", -value),
+        _ => return None,
+    };
+    let by = match e.uncertainty > 0.0 {
+        true => format!(" by {:.1} of its uncertainty", excess / e.uncertainty),
+        false => String::new(),
+    };
+    Some(format!("restitution {side}{by}"))
 }
 
 /// Returns (∂f/∂x σ)² of each input.

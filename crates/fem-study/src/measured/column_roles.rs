@@ -1,6 +1,7 @@
 //! The roles and the units of columns by their names: `speed_cm_s`, `alpha_deg`.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// The end of a column's name that is a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,8 +76,31 @@ pub(super) const SPEEDS: [&str; 10] = [
 ];
 pub(super) const RESTITUTIONS: [&str; 5] =
     ["restitution", "coefficient_of_restitution", "restitution_coefficient", "cor", "e"];
-pub(super) const UNCERTAINTIES: [&str; 5] =
-    ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
+/// Uncertainties whose names do not say of what.
+const UNCERTAINTIES: [&str; 4] = ["uncertainty", "sigma", "σ", "standard_error"];
+/// Words before the name of a quantity that make it the uncertainty of the quantity: `delta e`, `u(e)`, `± e`.
+const BEFORE: [&str; 11] = ["±", "+-", "+/-", "delta", "δ", "d", "u", "sigma", "σ", "std", "error"];
+/// Words after it: `e_err`.
+const AFTER: [&str; 8] =
+    ["uncertainty", "unc", "err", "error", "sigma", "std", "standard_error", "±"];
+
+/// Returns all names of the uncertainty of a restitution, the preferred one first.
+pub(super) fn uncertainties() -> &'static [&'static str] {
+    static NAMES: LazyLock<Vec<String>> = LazyLock::new(|| {
+        let of = |name: &&str| {
+            let after = AFTER.map(|word| format!("{name}_{word}"));
+            let before = BEFORE.iter().flat_map(|word| {
+                [format!("{word}_{name}"), format!("{word}{name}"), format!("{word}({name})")]
+            });
+            after.into_iter().chain(before).collect::<Vec<String>>()
+        };
+        RESTITUTIONS.iter().flat_map(of).chain(UNCERTAINTIES.map(String::from)).collect()
+    });
+    static WORDS: LazyLock<Vec<&'static str>> =
+        LazyLock::new(|| NAMES.iter().map(String::as_str).collect());
+    &WORDS
+}
+
 pub(super) const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];
 /// Columns that identify the lower and the upper body; a sweep's own names come last.
 pub(super) const DIAMETERS: [[&str; 2]; 2] =
@@ -87,7 +111,14 @@ const ANGLES: [&str; 4] = ["alpha", "beta", "alpha_uncertainty", "beta_uncertain
 /// Returns all names that a column may have, without units; among synonyms the preferred name comes first.
 pub(super) fn column_names() -> Vec<&'static str> {
     let diameters = DIAMETERS.map(|[name, _]| name);
-    let all: [&[&str]; 6] =
-        [&SPEEDS, &RESTITUTIONS, &UNCERTAINTIES, &CONTACT_TIMES, &diameters, &ANGLES];
+    let all: [&[&str]; 7] = [
+        &SPEEDS,
+        &RESTITUTIONS,
+        &["restitution_uncertainty"],
+        &UNCERTAINTIES,
+        &CONTACT_TIMES,
+        &diameters,
+        &ANGLES,
+    ];
     all.concat()
 }

@@ -1,7 +1,7 @@
 //! Reads restitutions over speeds from a table of a measurement or a sweep, of one pair of bodies or of several pairs
 //! that the table distinguishes by their diameters.
 
-use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, UNCERTAINTIES};
+use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, uncertainties};
 use super::data_error::DataError;
 use super::pairs::MeasuredPairs;
 use super::restitutions::{MAX_UNCERTAINTY, Restitutions, UnevenUncertainties};
@@ -178,7 +178,7 @@ impl Columns {
             speeds,
             other_speed,
             restitution: table.require(&RESTITUTIONS, "restitution")?,
-            uncertainty: table.find(&UNCERTAINTIES)?,
+            uncertainty: table.find(uncertainties())?,
             contact_time: match wanted.contact_times {
                 true => table.find(&CONTACT_TIMES)?,
                 false => None,

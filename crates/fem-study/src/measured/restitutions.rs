@@ -1,6 +1,7 @@
 //! Restitutions over approach speeds, from a measurement or a sweep.
 
 use crate::fit::Point;
+use crate::fit::cradle::{Measured, impossible_restitution};
 
 use super::data_error::DataError;
 
@@ -108,10 +109,28 @@ impl Restitutions {
             )),
             None => {}
         }
+        warnings.extend(self.impossible());
         if !self.unread.is_empty() {
             warnings.push(format!("columns that are not read: {}", self.unread.join(", ")));
         }
         warnings
+    }
+
+    /// Returns a warning of the largest restitution above 1, which no collision has.
+    fn impossible(&self) -> Option<String> {
+        let above = |point: &&Point| point.restitution > 1.0;
+        let n = self.points.iter().filter(above).count();
+        let is_larger = |a: &&Point, b: &&Point| a.restitution.total_cmp(&b.restitution);
+        let worst = self.points.iter().filter(above).max_by(is_larger)?;
+        let place = self.points.iter().position(|point| point == worst).unwrap_or(0);
+        let uncertainty = worst.restitution_uncertainty.unwrap_or(0.0);
+        let reason = impossible_restitution(Measured { value: worst.restitution, uncertainty })?;
+        let rows = if n == 1 { "1 row".to_string() } else { format!("{n} rows") };
+        let what = format!(
+            "{reason} in {rows}, at most {}: scatter, or a wrong column",
+            worst.restitution
+        );
+        Some(self.fault(place, what).to_string())
     }
 
     /// Returns an error about a point with its line, or its index for a point from code.

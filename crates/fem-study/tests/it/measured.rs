@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use fem_case::RowsFault;
+use fem_case::schema::{BodyTable, MaterialTable};
+use fem_case::{Case, CaseFile, RowsFault};
 use fem_study::fit::cradle::Measured;
 use fem_study::measured::{
-    DataError, Kind, MeasuredPairs, Restitutions, UncertaintyError, decode, parse_measured,
+    DataError, Kind, MeasuredPairs, Restitutions, Table, UncertaintyError, decode, parse_measured,
     rows_below,
 };
 
@@ -129,4 +130,60 @@ fn an_uncertainty_is_set_once_and_within_its_range() {
     assert_eq!(measured.points[0].restitution_uncertainty, Some(1.0));
     let again = measured.set_uncertainty(0.1);
     assert_eq!(again, Err(UncertaintyError::Known("e".to_string())));
+}
+
+fn ball() -> Case {
+    let glass = MaterialTable::from_youngs_modulus_poissons_ratio(2500.0, 70e9, 0.2);
+    let ball = BodyTable::sphere("ball", 0.01, "glass").approaching(1.0);
+    Case::of(CaseFile::of_bodies(BodyTable::wall("floor"), ball).with_material("glass", glass))
+        .unwrap()
+}
+
+/// The uncertainty of a restitution has many names; that of another quantity is none of them.
+#[test]
+fn names_of_uncertainties_are_read() {
+    let read = |name: &str| {
+        let table = Table::parse("e.csv", &format!("v_m_s;e;{name}\n1;0,9;0,02\n2;0,8;0,02\n"));
+        let data = Restitutions::read(&table.unwrap(), ball().scene()).unwrap();
+        data.points[1].restitution_uncertainty
+    };
+    for name in [
+        "± e",
+        "±e",
+        "+- e",
+        "delta e",
+        "Δe",
+        "u(e)",
+        "u_e",
+        "sigma_e",
+        "σ(e)",
+        "e_err",
+        "e error",
+        "COR_std",
+        "uncertainty",
+        "sigma",
+        "restitution_uncertainty",
+        "u(e) [-]",
+        "de",
+    ] {
+        assert_eq!(read(name), Some(0.02), "{name}");
+    }
+    assert_eq!(read("u(e) [%]"), Some(2e-4));
+    for name in ["u(v)", "delta v", "speed_err", "e2", "temperature"] {
+        assert_eq!(read(name), None, "{name}");
+    }
+}
+
+/// A restitution above 1 is warned of in the words of the cradle, with its line; above 1.2 it is an error.
+#[test]
+fn restitutions_above_one_are_warned_of() {
+    let read = |rows: &str| {
+        let table = Table::parse("e.csv", &format!("speed_m_s,e,u(e)\n{rows}")).unwrap();
+        Restitutions::read(&table, ball().scene()).map(|data| data.warnings())
+    };
+    assert_eq!(read("1,0.9,0.02\n2,1.0,0.02\n").unwrap(), [""; 0]);
+    let warnings = read("1,0.9,0.02\n2,1.01,0.02\n3,1.04,0.02\n").unwrap();
+    let expected = "e.csv:4: restitution above 1 by 2.0 of its uncertainty in 2 rows, at most 1.04: scatter, or a wrong column";
+    assert_eq!(warnings, [expected]);
+    assert!(read("1,1.21,0.02\n").unwrap_err().to_string().contains("the restitution is 1.21"));
 }

@@ -38,6 +38,9 @@ fn the_elastic_loss_is_that_of_elastic_runs() {
         let ratio = null.one_minus_restitution / elastic;
         assert!((1.0 / 3.0..3.0).contains(&ratio), "{time}: {null:?} {elastic:e}");
         assert_eq!(null.estimated, is_estimated, "{time}");
+        // The part by vibrations is known of an estimate alone.
+        assert_eq!(null.vibrations.is_some(), is_estimated, "{time}");
+        assert!(null.vibrations <= Some(null.one_minus_restitution), "{null:?}");
         let (own, all) = (summary.element_updates.unwrap(), summary.cost.all_element_updates);
         // The elastic run is counted.
         assert!(is_estimated || all.unwrap() > own, "{all:?} {own}");

@@ -52,3 +52,4 @@ mod unequal_bodies;
 mod unresolved_contact;
 mod validity_warnings;
 mod warning_advice;
+mod what_matters;

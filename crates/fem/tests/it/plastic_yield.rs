@@ -1,5 +1,8 @@
 //! Warnings about plastic yield, in every model.
 
+use std::f64::consts::PI;
+
+use fem::QuantityOfInterest;
 use fem::effects::EffectDecision;
 
 use crate::scene::{ELASTIC_GLASS, simulation_of};
@@ -128,5 +131,113 @@ fn rubber_does_not_yield() {
         let strength = "material.steel.yield_strength='1 MPa'";
         let (_, warnings) = decision_on(STEEL, &[model, soft, slow, strength]);
         assert!(warnings.contains("yields from"), "{model}: {warnings}");
+    }
+}
+
+/// Mean pressure over the yield strength, over E*a/(Y R), of an elastic–perfectly plastic sphere under load: finite elements
+/// at finite strain, which agree with three other programs. The first one is Hertz' at first yield, 4/(3π) E*a/(Y R) with
+/// E*a/(Y R) = 1.61 π/2, below which the contact is Hertz'.
+const MEAN_PRESSURE: [(f64, f64); 8] = [
+    (2.53, 1.073),
+    (4.0, 1.6),
+    (6.0, 2.0),
+    (10.0, 2.2),
+    (15.0, 2.4),
+    (20.0, 2.6),
+    (29.0, 2.77),
+    (61.0, 2.85),
+];
+/// Restitution of such a sphere at E*/Y = 230, over the speed in speeds of first yield, from the same computations.
+const RESTITUTION: [(f64, f64); 3] = [(1.5, 0.99), (2.0, 0.98), (5.0, 0.91)];
+
+fn mean_pressure(x: f64) -> f64 {
+    let above = MEAN_PRESSURE.partition_point(|point| point.0 < x);
+    if above == 0 {
+        return 4.0 / (3.0 * PI) * x;
+    }
+    let [(x0, p0), (x1, p1)] =
+        [above - 1, above.min(MEAN_PRESSURE.len() - 1)].map(|k| MEAN_PRESSURE[k]);
+    if x1 > x0 { p0 + (p1 - p0) * (x - x0) / (x1 - x0) } else { p0 }
+}
+
+/// Contact time, peak force, approach and contact radius of an impact under that pressure, in units of
+/// R = Y = m = 1, with the contact radius a² = R δ/c: c falls from 1 for an elastic contact to 1/2 for a fully plastic one, from
+/// E*a/(Y R) = 40 on (Johnson, section 6.3). The bodies part as Hertz' do, with the restitution e.
+fn impact(modulus: f64, speed: f64, c: f64, restitution: f64) -> [f64; 4] {
+    let (n, step) = (1_000_000, 1e-7);
+    let (mut energy, mut time) = (0.5 * speed * speed, 0.0);
+    let mut last = [0.0; 3];
+    for k in 0..n {
+        let radius = step * (f64::from(k) + 0.5);
+        let force = mean_pressure(modulus * radius) * PI * radius * radius;
+        // dδ = 2 c a da.
+        let closing = 2.0 * c * radius * step;
+        let now = (2.0 * energy).sqrt();
+        energy -= force * closing;
+        last = [force, c * radius * radius, radius];
+        if energy <= 0.0 {
+            break;
+        }
+        time += closing / now;
+    }
+    let [force, approach, radius] = last;
+    // W' = 2/5 F δ' of the rebound, over half of Hertz' contact time 2.943 δ'/v'.
+    let rebound = 0.5 * (restitution * speed).powi(2) / (0.4 * force);
+    [time + 0.5 * 2.943 * rebound / (restitution * speed), force, approach, radius]
+}
+
+/// The part of plastic flow in the error bars covers impacts of an elastic–perfectly plastic sphere on a rigid wall.
+#[test]
+fn error_bars_cover_plastic_impacts() {
+    const BALL: &str = "
+[material.metal]
+density = 1000
+youngs_modulus = 209.3e6
+poissons_ratio = 0.3
+yield_strength = 1e6
+
+[[body]]
+name = 'wall'
+wall = {}
+
+[[body]]
+name = 'ball'
+sphere = { diameter = 0.02 }
+material = 'metal'
+approach_speed = 1
+
+[model.hertz]
+";
+    let first = simulation_of(BALL, &[""; 0]).setup().estimate.hertz;
+    let (modulus, yield_strength) = (first.pair().contact_modulus(), 1e6);
+    assert!((modulus / yield_strength / 230.0 - 1.0).abs() < 1e-3, "{modulus}");
+    // p₀ = 1.61 Y at first yield.
+    let yields_at = (1.61 * yield_strength / first.peak_pressure()).powf(2.5);
+    let (radius, mass) = (first.pair().effective_radius(), first.pair().effective_mass());
+    let unit_of_speed = (yield_strength * radius.powi(3) / mass).sqrt();
+    for (over, restitution) in RESTITUTION {
+        let speed = over * yields_at;
+        let simulation = simulation_of(BALL, &[&format!("body.1.approach_speed={speed}")]);
+        let summary = simulation.summary(&simulation.run(&mut ()));
+        let check = |quantity: QuantityOfInterest, plastic: f64| {
+            let computed = summary.collision.number(quantity).unwrap();
+            let bar = summary.uncertainty.parts(quantity).model.unwrap();
+            assert!(
+                (computed - plastic).abs() <= bar,
+                "{over} v_y: {quantity:?} {computed} ± {bar}, plastic {plastic}"
+            );
+        };
+        check(QuantityOfInterest::Restitution, restitution);
+        // E*a/(Y R) is at most 5: the contact is still nearly elastic.
+        let radius_over_yield = |x: f64| 1.0 - 0.5 * (x - 2.5) / (40.0 - 2.5);
+        let hertz = simulation.setup().estimate.hertz.max_contact_radius();
+        for c in [1.0, radius_over_yield(modulus / yield_strength * hertz / radius)] {
+            let [time, force, approach, contact] =
+                impact(modulus / yield_strength, speed / unit_of_speed, c, restitution);
+            check(QuantityOfInterest::ContactTime, time * radius / unit_of_speed);
+            check(QuantityOfInterest::PeakForce, force * yield_strength * radius.powi(2));
+            check(QuantityOfInterest::MaxApproach, approach * radius);
+            check(QuantityOfInterest::MaxContactRadius, contact * radius);
+        }
     }
 }

@@ -39,7 +39,7 @@ pub struct Arguments {
     #[command(flatten)]
     columns: ColumnArguments,
     /// The law, such as bordbar_hyppanen or ting; `all` finds the law that explains the data best [default:
-    /// that of the case's model]
+    /// that of the case's model, or all]
     #[arg(long, value_name = "LAW", value_parser = parse_wanted)]
     law: Option<Wanted>,
     /// Parameters to fit, such as a,n [default: the damping parameter]
@@ -113,13 +113,8 @@ fn fitted<T>(
         true => Restitutions::read_with_contact_times(table, case.scene())?,
         false => Restitutions::read(table, case.scene())?,
     };
-    let wanted = arguments.law.or_else(|| family_of(case.scene()).map(Wanted::One));
-    let wanted = wanted.ok_or_else(|| {
-        Failure::bad_input("--law is missing, and the case's [model] names no law").with_help(
-            "name one, such as --law kuwabara_kono, or find the one that explains the data best with \
-             --law all; docs/fits.md lists the laws",
-        )
-    })?;
+    let of_case = || family_of(case.scene()).map(Wanted::One);
+    let wanted = arguments.law.or_else(of_case).unwrap_or(Wanted::All);
     let ranking = match wanted {
         Wanted::One(_) => None,
         Wanted::All => Some(ranked(arguments, case, &data)?),
@@ -179,10 +174,8 @@ fn ranked(arguments: &Arguments, case: &Case, data: &Restitutions) -> Result<Law
         ("--bounds", &arguments.bounds),
     ];
     if let Some((option, _)) = of_one.iter().find(|(_, given)| !given.is_empty()) {
-        return Err(Failure::bad_input(format!(
-            "{option} applies to a single law, not to --law all"
-        ))
-        .with_help("leave it out, or name the law"));
+        return Err(Failure::bad_input(format!("{option} applies to a single law, not to all"))
+            .with_help("leave it out, or name the law, such as --law kuwabara_kono"));
     }
     Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule))?)
 }

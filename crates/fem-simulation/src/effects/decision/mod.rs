@@ -34,6 +34,9 @@ pub trait NamedEffect: Sync {
     /// Returns whether the effect is physics or a part of the computation.
     fn kind(&self) -> EffectKind;
 
+    /// Returns an explanation of the effect in one sentence, for reports and the page.
+    fn explanation(&self) -> &'static str;
+
     /// Returns the case's switch for the effect, if `[effects]` has one.
     fn switch(&self, effects: &EffectsTable) -> Option<Switch>;
 
@@ -42,7 +45,7 @@ pub trait NamedEffect: Sync {
 }
 
 macro_rules! effects {
-    ($($(#[doc = $doc:literal])+ $kind:ident $effect:ident = $name:literal $($key:ident)?;)+) => {
+    ($($(#[doc = $doc:literal])+ $kind:ident $effect:ident = $name:literal $($key:ident)?: $words:literal;)+) => {
         $(
             $(#[doc = $doc])+
             #[derive(Clone, Copy, Debug)]
@@ -62,6 +65,10 @@ macro_rules! effects {
                     EffectKind::$kind
                 }
 
+                fn explanation(&self) -> &'static str {
+                    $words
+                }
+
                 fn switch(&self, _effects: &EffectsTable) -> Option<Switch> {
                     None$(.or(_effects.$key))?
                 }
@@ -78,45 +85,63 @@ macro_rules! effects {
     };
 }
 
-// One row per effect: its kind, its name in results, and its key in `[effects]` if it can be switched.
+// One row per effect: its kind, its name in results, its key in `[effects]` if it can be switched, and its explanation.
 effects! {
     /// Relaxation of the materials.
-    Physical Viscoelasticity = "viscoelasticity" viscoelasticity;
+    Physical Viscoelasticity = "viscoelasticity" viscoelasticity:
+        "The material relaxes while it is compressed and gives back less energy than it took.";
     /// Loss of a material whose relaxation is not known.
-    Physical MaterialLoss = "material loss";
+    Physical MaterialLoss = "material loss":
+        "A material without a relaxation is computed as elastic: its own loss is missing.";
     /// The dashpot of a contact law.
-    Physical DashpotEffect = "dashpot";
+    Physical DashpotEffect = "dashpot":
+        "The law's dashpot resists the approach and stands for all losses together.";
     /// Compliance of the spheres beyond that of half-spaces.
-    Physical FiniteSizeEffect = "finite size";
+    Physical FiniteSizeEffect = "finite size":
+        "A sphere also deforms as a whole, not only at its contact.";
     /// Finite strain and rotations.
-    Physical FiniteStrain = "finite strain" finite_strain;
+    Physical FiniteStrain = "finite strain" finite_strain:
+        "At strains of several per cent the change of shape changes stiffness and contact.";
     /// Tangential slip between the surfaces of unlike materials.
-    Physical SurfaceSlip = "surface slip" surface_slip;
+    Physical SurfaceSlip = "surface slip" surface_slip:
+        "Surfaces of unlike materials slide on each other as they are pressed together.";
     /// Plastic yield of the bodies.
-    Physical PlasticYield = "plastic yield";
+    Physical PlasticYield = "plastic yield":
+        "Above its yield strength a material deforms permanently, which no model computes.";
     /// Attraction of the surfaces.
-    Physical AdhesionEffect = "adhesion";
+    Physical AdhesionEffect = "adhesion":
+        "Surfaces attract each other: slow bodies stick, and faster ones lose energy.";
     /// Waves radiated into a large partner.
-    Physical PartnerWaves = "partner waves" partner_waves;
+    Physical PartnerWaves = "partner waves" partner_waves:
+        "Waves that do not return from a large body within the contact carry energy away.";
     /// Two identical bodies computed as one against a rigid plane.
-    Numerical MirrorSymmetry = "mirror symmetry" mirror_symmetry;
+    Numerical MirrorSymmetry = "mirror symmetry" mirror_symmetry:
+        "Two equal bodies are mirror images of each other, so only one is computed.";
     /// The stiffer body computed as a rigid one.
-    Physical RigidPartner = "rigid partner" rigid_partner;
+    Physical RigidPartner = "rigid partner" rigid_partner:
+        "A much stiffer partner hardly deforms and is treated as rigid.";
     /// Inertia of the bodies' own deformation.
-    Physical Vibration = "vibration";
+    Physical Vibration = "vibration":
+        "A struck body keeps vibrating after the contact and retains that energy.";
     /// Hourglass control: the stiffness that elements with one integration point need against deformation modes
     /// without mean strain.
-    Numerical HourglassControl = "hourglass control" hourglass_control;
+    Numerical HourglassControl = "hourglass control" hourglass_control:
+        "Elements with one stress point have deformation modes without stiffness; a small one suppresses them.";
     /// Artificial viscosity that spreads steep fronts over several elements.
-    Numerical BulkViscosity = "bulk viscosity" bulk_viscosity;
+    Numerical BulkViscosity = "bulk viscosity" bulk_viscosity:
+        "An artificial viscosity spreads steep wave fronts of fast impacts over a few elements.";
     /// Penalty springs at integration points, which resist penetration, in place of a contact that allows none.
-    Numerical PenaltySprings = "penalty springs";
+    Numerical PenaltySprings = "penalty springs":
+        "Springs keep the surfaces apart and allow a small overlap.";
     /// Weight of the bodies.
-    Physical Gravity = "gravity";
+    Physical Gravity = "gravity":
+        "Weight acts before, during and after the contact.";
     /// The candidate region of the contact search.
-    Numerical ContactSearch = "contact search";
+    Numerical ContactSearch = "contact search":
+        "Contact is searched for only as far from the axis as it can reach.";
     /// Mass scaling: mass moved to light nodes for a longer time step.
-    Numerical MassScaling = "mass scaling";
+    Numerical MassScaling = "mass scaling":
+        "Mass is moved to the lightest nodes, which allows longer time steps.";
 }
 
 /// Returns the effect of this name.

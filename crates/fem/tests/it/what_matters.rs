@@ -1,0 +1,83 @@
+//! One rule decides which effects matter, so that no face shows a collision as elastic that a warning calls something else:
+//! every warning of physics belongs to an effect that matters, over all pairs of library materials.
+
+use fem::Simulation;
+use fem_case::library::materials;
+use fem_case::schema::{BodyTable, ModelTable};
+use fem_case::{Case, CaseFile};
+
+const SPEEDS: [&str; 4] = ["1 cm/s", "10 cm/s", "1 m/s", "10 m/s"];
+/// Longest warning that is read in one look.
+const MAX_LENGTH: usize = 230;
+
+/// Words of warnings, and the effects of which one must matter where a warning has the word.
+const OF_WORDS: [(&str, &[&str]); 9] = [
+    ("yields from", &["plastic yield"]),
+    ("plastic flow", &["plastic yield"]),
+    ("waves", &["partner waves", "vibration"]),
+    ("vibrations", &["vibration"]),
+    ("contact radius", &["finite strain"]),
+    ("elastic law", &["finite strain"]),
+    ("no relaxation for", &["material loss"]),
+    ("stick", &["adhesion"]),
+    ("slip", &["surface slip"]),
+];
+
+/// Returns the summary of a ball on another one of a material, or on a half-space.
+fn summary(materials: [&str; 2], on_block: bool, speed: &str, model: ModelTable) -> fem::Summary {
+    let [lower, upper] = materials.map(|name| format!("lib:{name}"));
+    let lower = match on_block {
+        true => BodyTable::half_space("lower", lower),
+        false => BodyTable::sphere("lower", "10 mm", lower),
+    };
+    let upper = BodyTable::sphere("upper", "10 mm", upper).approaching(speed);
+    let mut file = CaseFile::of_bodies(lower, upper);
+    file.model = Some(model);
+    let simulation = Simulation::new(Case::of(file).unwrap()).unwrap();
+    simulation.summary(&simulation.run(&mut ()))
+}
+
+fn check(of: &str, summary: &fem::Summary) {
+    let matters = |name: &str| {
+        summary.effects.iter().any(|it| it.decision.name == name && it.decision.matters)
+    };
+    for (k, warning) in summary.warnings.iter().enumerate() {
+        assert!(
+            warning.chars().count() <= MAX_LENGTH,
+            "{of}: {}: {warning}",
+            warning.chars().count()
+        );
+        assert!(!summary.warnings[..k].contains(warning), "{of}: twice: {warning}");
+        for (word, names) in OF_WORDS.iter().filter(|(word, _)| warning.contains(word)) {
+            assert!(names.iter().any(|name| matters(name)), "{of}: {word}: {warning}");
+        }
+    }
+    // What changes the result most is warned of, unless yield makes the warning pointless.
+    for (name, word) in [("plastic yield", "plastic flow"), ("material loss", "no relaxation for")]
+    {
+        let is_silent = name != "plastic yield" && matters("plastic yield");
+        let is_told = summary.warnings.iter().any(|warning| warning.contains(word));
+        assert!(!matters(name) || is_silent || is_told, "{of}: {name}: {:?}", summary.warnings);
+    }
+}
+
+/// Over all pairs by Hertz' theory, and by Ting's for a material that relaxes, on a sphere and on a block of its own.
+#[test]
+fn effects_that_are_warned_of_matter() {
+    let names: Vec<&str> = materials().keys().map(String::as_str).collect();
+    let relaxes = |name: &str| materials()[name].material.relaxation.is_some();
+    for (k, first) in names.iter().enumerate() {
+        for second in &names[k..] {
+            for speed in SPEEDS {
+                let pair = [*first, *second];
+                let of = format!("{first}, {second}, {speed}");
+                check(&of, &summary(pair, false, speed, ModelTable::hertz()));
+                if first == second {
+                    let ting =
+                        if relaxes(first) { ModelTable::ting() } else { ModelTable::hertz() };
+                    check(&format!("{of}, block"), &summary(pair, true, speed, ting));
+                }
+            }
+        }
+    }
+}
