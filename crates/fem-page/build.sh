@@ -16,7 +16,7 @@ folder=${CARGO_TARGET_DIR:-target}
 module=$folder/$target/page/fem_page.wasm
 
 # Scripts in the order in which they stand on each other.
-scripts=(units effects materials scene links runner results picture controls stories telling taking page)
+scripts=(units accounts materials scene links runner results picture controls stories telling taking page)
 
 script() {
   local name
