@@ -38,7 +38,7 @@ check('what is wrong is said at its place, and the numbers stand back', async ()
   await number.press('Enter');
   await page.locator('#fault').waitFor();
   assert.match(await page.locator('#fault').innerText(), /Approach speed: -3/);
-  assert.match(await page.locator('.slider[data-key="speed"] .field-fault').innerText(), /Between 0.01 and 10/);
+  assert.match(await page.locator('.slider[data-key="speed"] .field-fault').innerText(), /Between 0.001 and 10/);
   assert.match(await page.locator('#status').innerText(), /Not computed/);
   assert.equal(await page.locator('main.stale').count(), 1);
   assert.deepEqual(complaints, []);
@@ -84,9 +84,9 @@ check('what is too large is refused, and a worker that does not hear is replaced
 
 check('what of a link cannot be used is said, with the setting', async () => {
   for (const [words, expected] of [
-    ['striker.diameter=-1', /Diameter of the striker.*“-1”.*0.1 to 200 mm.*22.2 mm/],
+    ['striker.diameter=-1', /Diameter of the striker.*“-1”.*0.01 to 200 mm.*22.2 mm/],
     ['speed=-5', /Approach speed.*“-5”/],
-    ['speed=1e99', /Approach speed.*0.01 to 10/],
+    ['speed=1e99', /Approach speed.*0.001 to 10/],
     ['speed=', /Approach speed.*nothing is given/],
     ['speed=0x10', /Approach speed.*no number/],
     ['speed=NaN', /Approach speed.*no number/],

@@ -40,6 +40,25 @@ check('the numbers of five shipped cases are the command’s to 1e-9', async () 
   await page.context().close();
 });
 
+check('uncertain inputs have a column of their own, and adhesion a speed', async () => {
+  const { page, complaints } = await open(browser, address);
+  await settled(page);
+  const column = page.locator('#numbers td:nth-child(7)').first();
+  assert.ok(!(await column.isVisible()) && !(await page.locator('#adhesion').isVisible()));
+  const glass = readFileSync(join(cases, 'glass_0.5ms.toml'), 'utf8');
+  const uncertain = `${glass.replace('"63 GPa"', '"63 ± 2 GPa"')}\n[contact]\nwork_of_adhesion = "0.1 J/m^2"\n[model]\ncondensed = {}\n`;
+  const own = await ran(page, () => paste(page, uncertain));
+  assert.ok(own.summary.uncertainty.contact_time_s.input > 0 && difference(own.summary, native(uncertain)) < SAME);
+  assert.match(await page.locator('#numbers tr:nth-child(2) td:nth-child(7)').innerText(), /\d µs/);
+  assert.match(await page.locator('#adhesion').innerText(), /100 mJ.* stick. These are faster/);
+  assert.match(await page.locator('#case').textContent(), /63 ± 2 GPa/);
+  await ran(page, () => page.click('#sliders-back'));
+  await ran(page, () => page.selectOption('select[data-key="adhesion.kind"]', 'work'));
+  assert.ok(await page.locator('#adhesion').isVisible() && await page.locator('#slider-adhesion-work').isVisible());
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
 check('a slider can be dragged, and the numbers are the command’s', async () => {
   const { page, complaints } = await open(browser, address);
   const before = await settled(page);
@@ -52,10 +71,10 @@ check('a slider can be dragged, and the numbers are the command’s', async () =
     window.addresses = 0;
     history.replaceState = (...values) => { window.addresses += 1; replace(...values); };
   });
-  await page.mouse.move(box.x + 0.566 * box.width, y);
+  await page.mouse.move(box.x + 0.675 * box.width, y);
   await page.mouse.down();
   for (let k = 1; k <= 20; k += 1) {
-    const moved = await ran(page, () => page.mouse.move(box.x + (0.566 + 0.01 * k) * box.width, y));
+    const moved = await ran(page, () => page.mouse.move(box.x + (0.675 + 0.01 * k) * box.width, y));
     took.push(moved.milliseconds);
   }
   await page.mouse.up();

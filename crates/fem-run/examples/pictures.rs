@@ -17,16 +17,19 @@
 mod list;
 
 use std::error::Error;
+use std::io::{BufRead, BufReader, Write};
+use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::{env, fs};
+use std::time::Duration;
+use std::{env, fs, thread};
 
 use list::{OWN_CASES, PICTURES, Picture, Source};
 
 /// The page that `crates/fem-page/build.sh` builds.
 const PAGE: &str = "target/page/index.html";
-/// Time in which a page must be complete, ms.
-const PATIENCE: u32 = 30_000;
+/// Time in which the browser page computes its first collision.
+const PATIENCE: Duration = Duration::from_secs(8);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = env::args().skip(1);
@@ -46,13 +49,19 @@ fn main() -> Result<(), Box<dyn Error>> {
                 ran.push(line);
             }
         }
+        println!("{}", picture.name);
         let target = images.join(picture.name);
         match picture.source {
             Source::Figure(path) => fs::write(&target, on_paper(&fs::read_to_string(path)?))?,
-            Source::Page(path, size) => shoot(&place.path().join(path), size, &target)?,
-            Source::BrowserPage(size) => shoot(&root.join(PAGE), size, &target)?,
+            Source::Page(path, size) => {
+                let page = place.path().join(path);
+                shoot(&format!("file://{}", page.display()), size, &target)?;
+            }
+            Source::BrowserPage(size) => match fs::read_to_string(root.join(PAGE)) {
+                Ok(page) => shoot(&served(page)?, size, &target)?,
+                Err(error) => println!("{} is not made: {PAGE}: {error}", picture.name),
+            },
         }
-        println!("{}", picture.name);
     }
     Ok(())
 }
@@ -92,24 +101,54 @@ fn on_paper(svg: &str) -> String {
     }
 }
 
-/// Writes a screenshot of a page; says so if there is no page or no browser.
-fn shoot(page: &Path, [width, height]: [u32; 2], target: &Path) -> Result<(), Box<dyn Error>> {
-    let browser = env::var_os("CHROMIUM").map_or("chromium".into(), PathBuf::from);
-    let silent = || {
-        let mut command = Command::new(&browser);
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        command
-    };
-    if !page.exists() || !silent().arg("--version").status().is_ok_and(|status| status.success()) {
-        let lacking = if page.exists() { &browser } else { page };
-        println!("not made: {} is missing, which {} needs", lacking.display(), target.display());
-        return Ok(());
+/// Serves a page to one browser and returns its address. The page loads an image that comes after [`PATIENCE`], for which
+/// the browser waits before it takes a screenshot; a page that computes in a worker is complete by then.
+fn served(page: String) -> Result<String, Box<dyn Error>> {
+    let listener = TcpListener::bind("127.0.0.1:0")?;
+    let address = format!("http://{}/", listener.local_addr()?);
+    let page = page.replacen("</body>", "<img src=\"late\" alt=\"\" hidden></body>", 1);
+    thread::spawn(move || {
+        for stream in listener.incoming().filter_map(Result::ok) {
+            let page = page.clone();
+            thread::spawn(move || answer(stream, &page));
+        }
+    });
+    Ok(address)
+}
+
+fn answer(mut stream: std::net::TcpStream, page: &str) -> std::io::Result<()> {
+    let mut lines = BufReader::new(&stream).lines();
+    let first = lines.next().transpose()?.unwrap_or_default();
+    while lines.next().transpose()?.is_some_and(|line| !line.is_empty()) {}
+    drop(lines);
+    let is_page = first.starts_with("GET / ");
+    if !is_page {
+        thread::sleep(PATIENCE);
     }
-    let mut command = silent();
+    let (status, body) = if is_page { ("200 OK", page) } else { ("404 Not Found", "") };
+    let head = format!(
+        "HTTP/1.1 {status}\r\nContent-Type: text/html; charset=utf-8\r\nContent-Length: {}\r\nConnection: \
+         close\r\n\r\n",
+        body.len()
+    );
+    stream.write_all(head.as_bytes())?;
+    stream.write_all(body.as_bytes())
+}
+
+/// Writes a screenshot of a page; says so if there is no browser.
+fn shoot(page: &str, [width, height]: [u32; 2], target: &Path) -> Result<(), Box<dyn Error>> {
+    let browser = env::var_os("CHROMIUM").map_or("chromium".into(), PathBuf::from);
+    let mut command = Command::new(&browser);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
     command.args(["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]);
     command.arg(format!("--window-size={width},{height}"));
-    command.arg(format!("--virtual-time-budget={PATIENCE}"));
-    command.arg(format!("--screenshot={}", target.display()));
-    let status = command.arg(format!("file://{}", page.display())).status()?;
-    if status.success() { Ok(()) } else { Err(format!("{}: no screenshot", page.display()).into()) }
+    command.arg(format!("--screenshot={}", target.display())).arg(page);
+    match command.status() {
+        Err(error) => {
+            println!("{} is not made: {}: {error}", target.display(), browser.display());
+            Ok(())
+        }
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{page}: no screenshot: {status}").into()),
+    }
 }

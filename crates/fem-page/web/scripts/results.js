@@ -44,19 +44,34 @@ export function showNumbers(summary) {
   const rows = QUANTITIES.map(([key, name, unit]) => {
     const [own, hertz] = [summary[key], summary.hertz[key]];
     const { discretisation, model, model_at_least: least, input } = summary.uncertainty[key];
-    const known = (discretisation ?? 0) + (model ?? least ?? 0) + (input ?? 0);
-    const sign = discretisation === null || model === null ? '>' : '±';
-    const off = sign === '>' && known === 0 ? null : known;
+    const part = (size, atLeast = null) => {
+      if (size !== null) return element('td', showBeside(size, own, unit));
+      return element('td', atLeast ? `> ${showBeside(atLeast, own, unit)}` : '–');
+    };
     const row = element('tr');
     const ratio = own === null || hertz === null ? '–' : (own / hertz).toFixed(4);
     const number = element('td', show(own, unit), { 'data-key': key });
     if (own !== null) number.dataset.value = own;
-    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), element('td', off === null ? '–' : `${sign} ${showBeside(off, own, unit)}`));
+    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), part(discretisation), part(model, least), part(input));
     return row;
   });
   at('numbers').tBodies[0].replaceChildren(...rows);
+  const hasElements = summary.bodies.some((body) => body.elements > 0);
+  at('numbers').tHead.rows[0].cells[4].textContent = hasElements ? '± mesh' : '± numerics';
+  const hasInputs = QUANTITIES.some(([key]) => summary.uncertainty[key].input);
+  at('numbers').classList.toggle('without-inputs', !hasInputs);
+  showAdhesion(summary.adhesion);
   const warnings = summary.stopped_because === null ? summary.warnings : [`Not complete: ${summary.stopped_because}`, ...summary.warnings];
   at('warnings').replaceChildren(...warnings.map((text) => element('li', sentence(plain(text)))));
+}
+
+// Shows below which speed the bodies stick, if the case gives their adhesion.
+function showAdhesion(adhesion) {
+  at('adhesion').hidden = !adhesion;
+  if (!adhesion) return;
+  const { sticking_speed_m_s: speed, work_of_adhesion_j_m2: work, sticks } = adhesion;
+  const end = sticks ? 'These are slower: they stay together.' : 'These are faster.';
+  at('adhesion').textContent = `Adhesion: with a work of adhesion of ${show(work, 'J/m²', 3)} bodies below ${show(speed, 'm/s', 2)} stick. ${end}`;
 }
 
 // Shows the model, and why it was chosen if the program chose it.

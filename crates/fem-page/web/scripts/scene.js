@@ -3,11 +3,12 @@ import { materialNames, materialTable } from './materials.js';
 
 // The sliders: range, displayed unit, whether it is logarithmic.
 export const SLIDERS = {
-  'striker.diameter': { from: 0.1, to: 200, unit: 'mm', isLogarithmic: true },
-  'partner.diameter': { from: 0.1, to: 200, unit: 'mm', isLogarithmic: true },
-  'speed': { from: 0.01, to: 10, unit: 'm/s', isLogarithmic: true },
+  'striker.diameter': { from: 0.01, to: 200, unit: 'mm', isLogarithmic: true },
+  'partner.diameter': { from: 0.01, to: 200, unit: 'mm', isLogarithmic: true },
+  'speed': { from: 0.001, to: 10, unit: 'm/s', isLogarithmic: true },
   'relaxation.time': { from: 1, to: 100000, unit: 'µs', isLogarithmic: true },
   'relaxation.weight': { from: 0, to: 1, unit: '', isLogarithmic: false },
+  'adhesion.work': { from: 1, to: 1000, unit: 'mJ/m²', isLogarithmic: true },
   'law.a': { from: 0.01, to: 100, unit: 'µs', isLogarithmic: true },
   'law.e': { from: 0.05, to: 1, unit: '', isLogarithmic: false },
 };
@@ -16,6 +17,7 @@ export const CHOICES = {
   'partner.shape': ['sphere', 'wall', 'half_space'],
   'relaxation.kind': ['library', 'none', 'term'],
   'relaxation.acts_on': ['all', 'shear'],
+  'adhesion.kind': ['none', 'work'],
   'model': ['condensed', 'fem', 'ting', 'hertz', 'law', 'auto'],
   'law.kind': ['kuwabara_kono', 'tsuji'],
 };
@@ -32,6 +34,8 @@ export const LABELS = {
   'relaxation.time': 'Relaxation time',
   'relaxation.weight': 'Relaxing share',
   'relaxation.acts_on': 'What relaxes',
+  'adhesion.kind': 'Adhesion',
+  'adhesion.work': 'Work of adhesion',
   'model': 'Model',
   'law.kind': 'Contact law',
   'law.a': 'Dissipation time',
@@ -50,6 +54,8 @@ export const FIRST = {
   'relaxation.time': 369,
   'relaxation.weight': 1,
   'relaxation.acts_on': 'all',
+  'adhesion.kind': 'none',
+  'adhesion.work': 100,
   'model': 'condensed',
   'law.kind': 'kuwabara_kono',
   'law.a': 1,
@@ -74,6 +80,7 @@ export function isMeant(key, state) {
   if (key === 'partner.diameter') return state['partner.shape'] === 'sphere';
   if (key === 'partner.material') return state['partner.shape'] !== 'wall';
   if (['relaxation.time', 'relaxation.weight', 'relaxation.acts_on'].includes(key)) return state['relaxation.kind'] === 'term';
+  if (key === 'adhesion.work') return state['adhesion.kind'] === 'work';
   if (key === 'law.kind') return state.model === 'law';
   if (key === 'law.a') return state.model === 'law' && state['law.kind'] === 'kuwabara_kono';
   if (key === 'law.e') return state.model === 'law' && state['law.kind'] === 'tsuji';
@@ -116,12 +123,13 @@ half_space = {}
 material = "${state['partner.material']}"`,
   };
   const bodies = shape === 'sphere' ? [striker, partners.sphere] : [partners[shape], striker];
+  const contact = isMeant('adhesion.work', state) ? `[contact]\nwork_of_adhesion = "${state['adhesion.work']} mJ/m^2"\n\n` : '';
   const tables = [...names].map((name) => materialTable(name, relaxation));
   return `title = "${titleOf(state)}"
 
 ${[...tables, ...bodies].join('\n\n')}
 
-[model]
+${contact}[model]
 ${modelTable(state)}
 `;
 }

@@ -69,6 +69,7 @@ fn error_text(
     let parts = [
         part(numerics, parts.discretisation, None),
         part("neglected effects", parts.model, parts.model_at_least),
+        parts.input.and_then(|size| part("inputs", Some(size), None)),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| format!("± {}", parts.join(" + ")))
@@ -113,5 +114,13 @@ mod tests {
             text("± mesh 0.16 + neglected effects not known, at least 1.7")
         );
         assert_eq!(of(None, Some(0.0), None), text("± mesh not known"));
+        let parts = Parts {
+            discretisation: Some(0.16),
+            model: Some(0.5),
+            model_at_least: None,
+            input: Some(0.3),
+        };
+        let with_inputs = text("± mesh 0.16 + neglected effects 0.5 + inputs 0.3");
+        assert_eq!(error_text(&parts, "mesh", 1e-9, &rounded), with_inputs);
     }
 }

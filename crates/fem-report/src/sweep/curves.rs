@@ -48,8 +48,8 @@ impl FigurePoint {
             let parts = ["discretisation", "model"]
                 .map(|part| there(format!("uncertainty_{part}_{column}")));
             // A bar of one known part would be too short.
-            let error =
-                parts[0].zip(parts[1]).map(|(discretisation, model)| discretisation + model);
+            let input = number(&format!("uncertainty_input_{column}")).unwrap_or(0.0);
+            let error = parts[0].zip(parts[1]).map(|(mesh, model)| mesh + model + input);
             // Hertz' restitution is 1.
             let hertz =
                 (*column != "restitution").then(|| there(format!("hertz_{column}"))).flatten();
