@@ -61,6 +61,8 @@ pub struct EffectDecisions {
     pub all: Vec<EffectDecision>,
     /// Warnings, in the same order.
     pub warnings: Vec<String>,
+    /// Warnings of the finished collision.
+    pub(crate) warnings_of_result: Vec<String>,
     /// Names of effects whose warnings are pointless beside one that the run lacks.
     silenced: Vec<&'static str>,
 }
@@ -95,7 +97,7 @@ impl EffectDecisions {
             if let (Some(decision), false) = (own, warnings.is_empty()) {
                 decision.matters = true;
             }
-            self.warnings.extend(warnings);
+            self.warnings_of_result.extend(warnings);
         }
     }
 }

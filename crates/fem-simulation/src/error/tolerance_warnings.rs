@@ -15,6 +15,8 @@ use crate::simulation::Simulation;
 const MAX_RATIO: f64 = 100.0;
 /// Elements across the contact below which a mesh is reported as too coarse before the run.
 const MIN_ACROSS: f64 = 3.0;
+/// Characters of a warning that is read in one look.
+const MAX_LENGTH: usize = 230;
 /// Elements across the contact that are advised: most estimates are then below 1 %.
 const ADVISED_ACROSS: f64 = 5.5;
 
@@ -77,11 +79,8 @@ pub(crate) fn tolerance_warning(
     let remedy = match &errors.not_refined {
         Some(NotRefined::Scatter(scatter)) => {
             let of_any_mesh = format!(", of which {} remains on any mesh", miss.printed(*scatter));
-            return Some(format!(
-                "{}{of_any_mesh}: raise accuracy.tolerance{}",
-                miss.described(),
-                others(&missed)
-            ));
+            let text = format!("{}{of_any_mesh}: raise accuracy.tolerance", miss.described());
+            return Some(with_others(text, &missed));
         }
         Some(NotRefined::Setting(setting)) => {
             cause = setting.described();
@@ -95,11 +94,14 @@ pub(crate) fn tolerance_warning(
         Some(NotRefined::Gravity) => {
             format!("with gravity the mesh is not refined automatically; {write}, or ")
         }
-        Some(NotRefined::TooExpensive { updates: Some(updates) }) => format!(
-            "a finer mesh would take {:.1e} element updates; write limits.element_updates = {:.0e}, or {write}, or ",
-            *updates as f64,
-            rounded_up(*updates)
-        ),
+        Some(NotRefined::TooExpensive { updates: Some(updates) }) => {
+            let text = format!(
+                "{} because of the mesh, limited by its cost: write limits.element_updates = {:.0e}, or {write}",
+                miss.described(),
+                rounded_up(*updates)
+            );
+            return Some(with_others(text, &missed));
+        }
         Some(NotRefined::Stopped(why)) => format!("on a finer mesh {why}, or "),
         Some(NotRefined::Rejected(fault)) => match fault.key() {
             Some(key) if key.starts_with("limits.") => {
@@ -111,11 +113,8 @@ pub(crate) fn tolerance_warning(
             format!("{write}, or ")
         }
     };
-    Some(format!(
-        "{} because of {cause}: {remedy}raise accuracy.tolerance{}",
-        miss.described(),
-        others(&missed)
-    ))
+    let text = format!("{} because of {cause}: {remedy}raise accuracy.tolerance", miss.described());
+    Some(with_others(text, &missed))
 }
 
 /// Returns the advised element size for a contact radius (m), rounded down to two digits.
@@ -126,14 +125,21 @@ fn advised_size(contact_radius: f64) -> String {
     Unit::fitting(size, "m").with_digits(2).show(size)
 }
 
-/// Lists the misses after the first one.
-fn others(missed: &[ToleranceMiss]) -> String {
-    let others: Vec<String> =
-        missed[1..].iter().map(|other| other.described_after(&missed[0])).collect();
-    match others.is_empty() {
-        true => String::new(),
-        false => format!("; also missed: {}", others.join(", ")),
-    }
+/// Adds the misses after the first one to a warning: with their sizes if it stays short, else their names or number alone.
+fn with_others(text: String, missed: &[ToleranceMiss]) -> String {
+    let Some((first, others)) = missed.split_first().filter(|(_, others)| !others.is_empty())
+    else {
+        return text;
+    };
+    let listed = |of: &dyn Fn(&ToleranceMiss) -> String| {
+        let others: Vec<String> = others.iter().map(of).collect();
+        format!("{text}; also missed: {}", others.join(", "))
+    };
+    let whole = listed(&|other| other.described_after(first));
+    let names = listed(&|other| other.quantity.name().to_string());
+    let is_short = |text: &String| text.chars().count() <= MAX_LENGTH;
+    let shortest = format!("{text}; also missed: {} more", others.len());
+    [whole, names].into_iter().find(is_short).unwrap_or(shortest)
 }
 
 /// Returns the ratio by which elements of this size (m) must become smaller, as far as a mesh can help.
