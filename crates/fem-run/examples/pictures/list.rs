@@ -20,9 +20,10 @@ pub enum Source {
     BrowserPage([u32; 2]),
 }
 
-/// Files beside the shipped cases: a case and two sweeps of it.
-pub const OWN_CASES: [(&str, &str); 3] = [
+/// Files beside the shipped cases: a case and sweeps.
+pub const OWN_CASES: [(&str, &str); 4] = [
     ("ball.toml", include_str!("ball.toml")),
+    ("keys.toml", include_str!("keys.toml")),
     ("relaxation.toml", include_str!("relaxation.toml")),
     ("sizes.toml", include_str!("sizes.toml")),
 ];
@@ -51,7 +52,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 19] = [
+pub const PICTURES: [Picture; 22] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -60,6 +61,22 @@ pub const PICTURES: [Picture; 19] = [
         [1000, 1010],
     ),
     figure("sweep.svg", &["sweep cases/sweep_speed.toml"], "runs/sweep_speed/sweep.svg"),
+    figure("sweep-keys.svg", &["sweep cases/keys.toml"], "runs/keys/sweep.svg"),
+    figure(
+        "cradle.svg",
+        &[
+            "cradle --length 0.2 --diameters 22.2mm,15.9mm --data validation/data/cradle_trials.csv --angle-uncertainty 0.1deg",
+        ],
+        "runs/cradle_trials_cradle/cradle.svg",
+    ),
+    figure(
+        "export.svg",
+        &[
+            "new mine --material soda-lime-glass",
+            "export mine.toml --data validation/data/spreadsheet.csv --columns speed=v,restitution=COR,uncertainty=u",
+        ],
+        "runs/mine_export/export.svg",
+    ),
     figure(
         "fit.svg",
         &[
