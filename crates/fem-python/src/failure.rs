@@ -3,16 +3,15 @@
 use fem_command::{Failure, Status};
 use pyo3::prelude::*;
 
-/// Returns the exception of a failure: its class follows from the exit status; it has the message and the
-/// position.
+/// Returns the exception of a failure: its class follows from the exit status; it has the position, and the
+/// message in Python's words.
 pub fn raised(py: Python<'_>, failure: &Failure) -> PyErr {
-    let class = match failure.status() {
+    let kind = match failure.status() {
         Status::BadInput => "InputError",
         Status::Failed => "RunError",
         Status::Interrupted => "Interrupted",
     };
     let make = || -> PyResult<PyErr> {
-        let class = py.import("fem_run._errors")?.getattr(class)?;
         let case = failure.case_error();
         let place = (
             case.map(|case| case.source_name()),
@@ -20,8 +19,8 @@ pub fn raised(py: Python<'_>, failure: &Failure) -> PyErr {
             case.and_then(|case| case.column()),
             case.and_then(|case| case.key()),
         );
-        let error = class.call1((failure.text(), failure.advice(), place))?;
-        Ok(PyErr::from_value(error))
+        let create = py.import("fem_run._errors")?.getattr("from_command")?;
+        Ok(PyErr::from_value(create.call1((kind, failure.text(), failure.advice(), place))?))
     };
     make().unwrap_or_else(|error| error)
 }

@@ -65,6 +65,12 @@ pub fn cradle(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<Stri
     done(py, JobInput::default(), data, options, fem_command::cradle)
 }
 
+/// Returns the options of the jobs as JSON.
+#[pyfunction]
+pub fn options() -> String {
+    fem_command::options().to_string()
+}
+
 /// Returns the library of materials as JSON.
 #[pyfunction]
 pub fn materials() -> String {

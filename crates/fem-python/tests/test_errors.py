@@ -1,4 +1,4 @@
-"""What is wrong is said in the words of the command, with file, position and key."""
+"""What is wrong is said in the words of the command, with Python's arguments, file, position and key."""
 
 import os
 import pickle
@@ -9,6 +9,7 @@ import time
 import pytest
 
 import fem_run
+from fem_run._words import in_python
 
 
 @pytest.mark.parametrize(
@@ -34,7 +35,8 @@ def test_a_bad_change_raises_what_the_command_prints(glass, command):
     with pytest.raises(fem_run.InputError) as raised:
         case.with_({"body.0.approach_speed": "1 m"})
     ran = command(glass, '--set=body.0.approach_speed="1 m"', check=False)
-    assert ran.stderr.strip() == f"error: {raised.value}".strip()
+    assert in_python(ran.stderr).strip() == f"error: {raised.value}".strip()
+    assert raised.value.file == '{"body.0.approach_speed": …}'
     assert raised.value.key == "body.0.approach_speed" and "speed" in raised.value.help
     with pytest.raises(TypeError):
         case.with_({"title": object()})
@@ -55,7 +57,7 @@ def test_bad_options_and_data_raise_what_the_commands_print(glass, command, tmp_
             call()
         ran = command(*words, cwd=tmp_path, check=False)
         assert ran.returncode == 2
-        assert ran.stderr.strip() == f"error: {raised.value}".strip()
+        assert in_python(ran.stderr).strip() == f"error: {raised.value}".strip()
     with pytest.raises(fem_run.InputError, match="the laws are"):
         fem_run.fit(case, tmp_path / "e.csv", law="none")
     with pytest.raises(fem_run.InputError, match="did you mean pmma"):

@@ -76,7 +76,7 @@ def test_what_a_sweep_cannot_vary(case, vary, words):
         (lambda case: fem_run.fit(case, {"speed_m_s": np.ones((2, 2)), "restitution": [0.9, 0.9]}), fem_run.InputError, "shape (2, 2)"),
         (lambda case: fem_run.fit(case, {"speed_m_s": [1.0], "restitution": [float("nan")]}), fem_run.InputError, ""),
         (lambda case: fem_run.fit(case, {"speed_m_s": [1.0], "restitution": ["much"]}), fem_run.InputError, "much"),
-        (lambda case: fem_run.fit(case, {"v": [1.0], "e": [0.9]}, low="ting"), fem_run.InputError, "--low"),
+        (lambda case: fem_run.fit(case, {"v": [1.0], "e": [0.9]}, low="ting"), TypeError, "unexpected keyword argument 'low'"),
         (lambda case: fem_run.fit(case, "none.csv"), fem_run.InputError, "no such file"),
         (lambda case: fem_run.fit(case, "."), fem_run.InputError, ".: "),
         (lambda case: fem_run.invert(case, "much"), fem_run.InputError, "much"),
@@ -97,7 +97,7 @@ def test_what_a_function_cannot_take(case, call, error, words, tmp_path, monkeyp
     monkeypatch.chdir(tmp_path)
     with pytest.raises(error) as raised:
         call(case)
-    assert words in str(raised.value)
+    assert words in str(raised.value) and "--" not in str(raised.value)
 
 
 def test_progress_into_a_pipe_is_lines(glass):

@@ -8,8 +8,9 @@ use fem::measured::Table;
 use fem::results::Summary;
 use fem_case::Case;
 use fem_collision::Collision;
+use fem_laws::LawFamily;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use crate::{commands, text::Failure};
 
@@ -43,6 +44,36 @@ fn parsed<A: Args>(job: &'static str, before: &[&str], options: &[String]) -> Re
         let end = text.find("\n\nUsage:").or(text.find("\n\nFor more")).unwrap_or(text.len());
         Failure::bad_input(text[..end].trim_end())
     })
+}
+
+/// Returns the options of the jobs by job and name, for front ends that declare them: whether an option is a flag, and
+/// the values that it may have, or `null` if they cannot be listed.
+pub fn options() -> Value {
+    use commands::laws::{calibrate, cradle, export, fit, invert};
+    json!({
+        "calibrate": options_of::<calibrate::Arguments>(),
+        "cradle": options_of::<cradle::Arguments>(),
+        "export": options_of::<export::Arguments>(),
+        "fit": options_of::<fit::Arguments>(),
+        "invert": options_of::<invert::Arguments>(),
+    })
+}
+
+fn options_of<A: Args>() -> Value {
+    let describe = |option: &clap::Arg| {
+        let is_flag = !option.get_action().takes_values();
+        let is_law = option.get_value_names().is_some_and(|names| *names == ["LAW"]);
+        let values: Vec<String> = match is_law {
+            true => LawFamily::ALL.iter().map(|family| family.name().to_string()).collect(),
+            false => {
+                let values = option.get_possible_values();
+                values.iter().map(|value| value.get_name().to_string()).collect()
+            }
+        };
+        let values = (!is_flag && !values.is_empty()).then_some(values);
+        Some((option.get_long()?.to_string(), json!({ "flag": is_flag, "values": values })))
+    };
+    Line::<A>::command().get_arguments().filter_map(describe).collect::<Map<_, _>>().into()
 }
 
 /// Returns numbers as JSON.

@@ -30,7 +30,9 @@ mod text;
 use std::ffi::OsString;
 use std::time::Instant;
 
-pub use jobs::{JobInput, calibrate, check, cradle, export, fit, invert, material, stopped};
+pub use jobs::{
+    JobInput, calibrate, check, cradle, export, fit, invert, material, options, stopped,
+};
 pub use progress::stopwatch::{Stopwatch, Timed};
 pub use result_folder::run_files::save;
 pub use text::failure::{Failure, Status};

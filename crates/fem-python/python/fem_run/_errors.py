@@ -1,8 +1,10 @@
-"""Errors, with the messages of the command."""
+"""Errors, with the messages of the command in Python's words."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+from ._words import in_python
 
 if TYPE_CHECKING:
     from ._result import Result
@@ -12,11 +14,11 @@ _Place = tuple[str | None, int | None, int | None, str | None]
 
 
 class Error(Exception):
-    """An error of fem-run. ``str()`` returns the whole text, as the command prints it.
+    """An error of fem-run. ``str()`` returns the whole text: what the command prints, in Python's words.
 
     Attributes:
         help: what is allowed, or what to do.
-        file: name of the case, or the override, ``--set body.0.approach_speed=…``.
+        file: name of the case, or the change, ``{"body.0.approach_speed": …}``.
         line, column: position of the error in the file, from 1.
         key: dotted path of the key.
     """
@@ -52,6 +54,14 @@ class Interrupted(Error, KeyboardInterrupt):
     table of the members that are done."""
 
     result: Result | Table | None = None
+
+
+def from_command(kind: str, text: str, help: str | None, place: _Place) -> Error:
+    """Creates the exception of a failure of the command; ``kind`` is the name of its class."""
+    kinds: dict[str, type[Error]] = {"InputError": InputError, "RunError": RunError, "Interrupted": Interrupted}
+    file, line, column, key = place
+    name = None if file is None else in_python(file)
+    return kinds[kind](in_python(text), None if help is None else in_python(help), (name, line, column, key))
 
 
 def bad_input(message: str, help: str) -> InputError:

@@ -1,17 +1,17 @@
 """Contact laws, calibration and experiments: the results of the commands of these names, without their files.
 
-Keyword arguments are the options of the command: ``contact_time=True`` for ``--contact-time``, lists for options that
-may be repeated, ``columns={"speed": "v"}`` for the names of columns. Data are the path of a CSV file, a
-:class:`fem_run.Table`, a data frame, or a dict of columns with the names of docs/fits.md: ``speed_m_s``,
-``restitution``.
+Keyword arguments are the options of the command: ``contact_time=True`` for ``--contact-time``, lists and dicts for
+options that may be repeated, a pair for a range. ``columns={"speed": "v"}`` names columns of the data. Quantities are
+numbers in SI or strings with a unit. Data are the path of a CSV file, a :class:`fem_run.Table`, a data frame, or a
+dict of columns with the names of docs/fits.md: ``speed_m_s``, ``restitution``.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
 
 import numpy as np
 
@@ -19,60 +19,197 @@ from . import _native
 from ._case import Case
 from ._errors import bad_input, shown
 from ._sweep import Table, _array
+from ._words import in_python
+
+#: A contact law.
+Law = Literal[
+    "linear",
+    "power",
+    "hertz",
+    "kuwabara_kono",
+    "hunt_crossley",
+    "tsuji",
+    "zhang_whiten",
+    "falcon",
+    "mishra_murty",
+    "schwager_poeschel",
+    "morgado_oppenheim",
+    "bordbar_hyppanen",
+    "ting",
+]
+#: When a contact ends: at zero force, or at zero overlap.
+End = Literal["zero_force", "zero_overlap"]
+#: A number in SI, or a text with a unit.
+Quantity = float | str
+#: Names of columns by their meaning.
+Columns = Mapping[str, str]
 
 #: Options that take a list in one word; others are repeated.
 _LISTED = {"free", "diameters", "masses"}
 
 
-def fit(case: Case, data: Any, **options: Any) -> dict[str, Any]:
+def fit(
+    case: Case,
+    data: Any,
+    *,
+    law: Law | Literal["all"] | None = None,
+    free: str | Sequence[str] | None = None,
+    param: Mapping[str, Quantity] | None = None,
+    end: End | None = None,
+    bounds: Mapping[str, tuple[Quantity, Quantity]] | None = None,
+    profile: str | None = None,
+    compare: Law | Sequence[Law] | None = None,
+    contact_time: bool = False,
+    confidence: float | None = None,
+    columns: Columns | None = None,
+) -> dict[str, Any]:
     """Fits parameters of a contact law to restitutions over speed: ``fit(case, table, law="ting")``.
 
-    Options: ``law``, ``free``, ``param``, ``end``, ``bounds``, ``profile``, ``compare``, ``contact_time``,
-    ``confidence``. Returns the keys of ``fit.json``, SI.
+    Args:
+        case: the two bodies.
+        data: restitutions, and their uncertainties if there are any.
+        law: the law; by default that of the case's model, or ``"all"``: the one that explains the data best.
+        free: parameters to fit; by default the damping.
+        param: values of other parameters, and starts of the free ones.
+        end: when a contact ends.
+        bounds: range of each free parameter, ``{"n": (0.3, 1.5)}``.
+        profile: parameter over which the error is computed with all others fitted again.
+        compare: laws that are fitted too.
+        contact_time: whether the column ``contact_time_s`` is fitted too.
+        confidence: level of the intervals, 0.95 by default.
+        columns: names of the columns by their meaning.
+
+    Returns:
+        The keys of ``fit.json``, SI.
 
     Raises:
         InputError: the options or the data are invalid.
     """
-    return json.loads(_native.fit(_native_of(case), _data(data), _words(options)))
+    return _found(_native.fit(_native_of(case), _data(data), _words(locals())))
 
 
-def invert(case: Case, restitution: float, **options: Any) -> dict[str, Any]:
+def invert(
+    case: Case,
+    restitution: Quantity,
+    *,
+    law: Law | None = None,
+    find: str | None = None,
+    param: Mapping[str, Quantity] | None = None,
+    end: End | None = None,
+    speed: Quantity | None = None,
+) -> dict[str, Any]:
     """Finds the parameter of a law that gives a restitution at one speed.
 
-    Options: ``law``, ``find``, ``param``, ``end``, ``speed``. Returns ``solutions``, each with ``law``,
-    ``parameter``, ``value`` and ``contact_time_s``, SI, and ``unsolved``: laws with the reason.
+    Args:
+        case: the two bodies.
+        restitution: between 0 and 1.
+        law: the law; by default that of the case's model, or else all.
+        find: the parameter; by default the damping.
+        param: values of other parameters.
+        end: when a contact ends.
+        speed: the approach speed; by default that of the case.
+
+    Returns:
+        ``solutions``, each with ``law``, ``parameter``, ``value`` and ``contact_time_s``, SI, and ``unsolved``: laws
+        with the reason.
     """
-    words = _words({"restitution": restitution, **options})
-    return json.loads(_native.invert(_native_of(case), None, words))
+    return _found(_native.invert(_native_of(case), None, _words(locals())))
 
 
-def export(case: Case, data: Any = None, **options: Any) -> dict[str, Any]:
+def export(
+    case: Case,
+    data: Any = None,
+    *,
+    speeds: tuple[Quantity, Quantity] | str | None = None,
+    materials: str | Sequence[str] | None = None,
+    diameters: Quantity | Sequence[Quantity] | None = None,
+    tolerance: float | None = None,
+    columns: Columns | None = None,
+) -> dict[str, Any]:
     """Writes input for DEM codes and robotics that reproduces the restitutions.
 
-    For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. Options: ``speeds``,
-    ``tolerance``, and ``materials`` and ``diameters`` for a table of all pairs. Returns the keys of
-    ``export.json``, and ``texts``: the files by name.
+    For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo.
+
+    Args:
+        case: the two bodies.
+        data: restitutions; by default they are computed.
+        speeds: range of the computed restitutions; by default a decade about the speed of the case.
+        materials: names of materials for a table of all pairs, of the case or ``"lib:NAME"``.
+        diameters: diameters of spheres for a table of all pairs.
+        tolerance: largest error of the restitution at which a snippet counts as valid, 0.01 by default.
+        columns: names of the columns by their meaning.
+
+    Returns:
+        The keys of ``export.json``, and ``texts``: the files by name.
     """
-    return json.loads(_native.export(_native_of(case), _data(data), _words(options)))
+    return _found(_native.export(_native_of(case), _data(data), _words(locals())))
 
 
-def calibrate(case: Case, data: Any, **options: Any) -> dict[str, Any]:
+def calibrate(
+    case: Case,
+    data: Any,
+    *,
+    terms: int | None = None,
+    times: tuple[Quantity, Quantity] | None = None,
+    acts_on: Literal["all", "shear"] | None = None,
+    material: str | None = None,
+    regularisation: float | None = None,
+    uncertainty: float | None = None,
+    model: Literal["condensed", "ting"] | None = None,
+    confidence: float | None = None,
+    columns: Columns | None = None,
+) -> dict[str, Any]:
     """Finds a Prony series from measured restitutions, and what they leave undetermined.
 
-    Options: ``terms``, ``times``, ``acts_on``, ``material``, ``regularisation``, ``uncertainty``, ``model``,
-    ``confidence``. Returns the keys of ``calibrate.json``, and ``relaxation_toml`` to paste into a case.
+    Args:
+        case: the bodies and their instantaneous moduli.
+        data: restitutions, of several pairs if they have the columns ``diameter_1_mm`` and ``diameter_2_mm``.
+        terms: number of terms, 4 by default.
+        times: relaxation times of the first and the last term.
+        acts_on: the moduli that relax.
+        material: the material to calibrate if the bodies differ.
+        regularisation: the error of a restitution that costs as much as a weight of 1.
+        uncertainty: standard uncertainty of the restitutions if the data have none.
+        model: the model that computes the collisions, ``"condensed"`` by default.
+        confidence: level of the ranges, 0.95 by default.
+        columns: names of the columns by their meaning.
+
+    Returns:
+        The keys of ``calibrate.json``, and ``relaxation_toml`` to paste into a case.
     """
-    return json.loads(_native.calibrate(_native_of(case), _data(data), _words(options)))
+    return _found(_native.calibrate(_native_of(case), _data(data), _words(locals())))
 
 
-def cradle(data: Any = None, **options: Any) -> Any:
+def cradle(
+    data: Any = None,
+    *,
+    length: Quantity | None = None,
+    diameters: Sequence[Quantity] | None = None,
+    masses: Sequence[Quantity] | None = None,
+    alpha: Quantity | None = None,
+    beta: Quantity | None = None,
+    angle_uncertainty: Quantity | None = None,
+    gravity: Quantity | None = None,
+    columns: Columns | None = None,
+) -> Any:
     """Computes the restitution from the angles of a Newton's cradle: ``cradle(length="20 cm", diameters=["22.2 mm", "15.9
     mm"], alpha="20 deg", beta="24 deg")``.
 
-    Options: ``length``, ``diameters`` or ``masses``, ``alpha``, ``beta``, ``angle_uncertainty``, ``gravity``.
-    Returns speed, restitution and velocities with their uncertainties, SI; for data, columns with one row per trial.
+    Args:
+        data: trials with the columns ``alpha_deg`` and ``beta_deg``; without them ``alpha`` and ``beta`` are one.
+        length: distance from the pivot to a ball's centre; ``"20 cm ± 1 mm"`` has a standard uncertainty.
+        diameters: those of the first and the second ball, of the same material.
+        masses: those of the first and the second ball.
+        alpha: angle from which the first ball is released.
+        beta: angle to which the second ball rises.
+        angle_uncertainty: uncertainty of angles without one.
+        gravity: acceleration of free fall, 9.80665 m/s² by default.
+        columns: names of the columns by their meaning.
+
+    Returns:
+        Speed, restitution and velocities with their uncertainties, SI; for data, columns with one row per trial.
     """
-    found = json.loads(_native.cradle(_data(data), _words(options)))
+    found = _found(_native.cradle(_data(data), _words(locals())))
     if isinstance(found, dict):
         return found
     names = found[0] if found else {}
@@ -85,28 +222,47 @@ def check(case: Case) -> str:
     return case.check()
 
 
-def _words(options: Mapping[str, Any]) -> list[str]:
+def _found(text: str) -> Any:
+    """Returns the numbers of a job; its warnings and reasons are in Python's words."""
+    found = json.loads(text)
+    if isinstance(found, dict):
+        if "warnings" in found:
+            found["warnings"] = [in_python(warning) for warning in found["warnings"]]
+        if "unsolved" in found:
+            found["unsolved"] = {law: in_python(reason) for law, reason in found["unsolved"].items()}
+    return found
+
+
+def _words(arguments: Mapping[str, Any]) -> list[str]:
+    """Returns the arguments of a function, but for case and data, as options of the command."""
     words: list[str] = []
-    for name, value in options.items():
+    for name, value in arguments.items():
         option = "--" + name.replace("_", "-")
-        if value is None or value is False:
+        if name in ("case", "data") or value is None or value is False:
             continue
         if value is True:
             words.append(option)
         elif isinstance(value, Mapping):
             words += [f"{option}={key}={_text(inner)}" for key, inner in value.items()]
-        elif isinstance(value, (list, tuple)) and name in _LISTED:
+        elif name in _LISTED and _is_list(value):
             words.append(f"{option}={','.join(map(_text, value))}")
         elif isinstance(value, tuple):
-            words.append(f"{option}={'..'.join(map(_text, value))}")
-        elif isinstance(value, list):
+            words.append(f"{option}={_text(value)}")
+        elif _is_list(value):
             words += [f"{option}={_text(inner)}" for inner in value]
         else:
             words.append(f"{option}={_text(value)}")
     return words
 
 
+def _is_list(value: Any) -> bool:
+    return isinstance(value, (Sequence, np.ndarray)) and not isinstance(value, (str, bytes))
+
+
 def _text(value: Any) -> str:
+    """Returns a value as a word of the command; a pair is a range."""
+    if isinstance(value, tuple):
+        return "..".join(map(_text, value))
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
