@@ -75,11 +75,32 @@ pub fn options() -> String {
 #[pyfunction]
 pub fn materials() -> String {
     let entry = |(name, found): (&String, &library::Material)| {
-        let library::Material { title, source, range, material } = found;
-        let value = json!({ "title": title, "source": source, "range": range, "table": material });
+        let library::Material { title, source, range, material, measured } = found;
+        let value = json!({
+            "title": title,
+            "source": source,
+            "range": range,
+            "table": material,
+            "measured": measured.iter().map(measured_json).collect::<Value>(),
+        });
         (name.clone(), value)
     };
     Value::Object(library::materials().iter().map(entry).collect()).to_string()
+}
+
+/// Returns a measured restitution as JSON, with its points as columns.
+fn measured_json(measured: &library::MeasuredRestitution) -> Value {
+    let (speeds, restitutions): (Vec<f64>, Vec<f64>) = measured.points().into_iter().unzip();
+    json!({
+        "name": measured.name,
+        "source": measured.source,
+        "bodies": measured.bodies,
+        "size": measured.size,
+        "temperature": measured.temperature,
+        "speed_m_s": speeds,
+        "restitution": restitutions,
+        "scatter": measured.scatter(),
+    })
 }
 
 /// Runs `fem-run materials NAME`.

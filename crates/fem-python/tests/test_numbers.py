@@ -167,6 +167,9 @@ def test_the_library_of_materials():
     pmma = fem_run.materials["pmma"]
     assert pmma["source"] and pmma["table"]["density"] > 1000
     assert "density" in fem_run.materials.toml("pmma")
+    ice = fem_run.materials["ice"]["measured"][0]
+    data = {name: ice[name] for name in ("speed_m_s", "restitution")}
+    assert ice["source"] and len(data["restitution"]) == 12
     case = fem_run.Case.from_dict(
         {
             "body": [

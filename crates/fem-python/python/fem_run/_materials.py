@@ -11,7 +11,12 @@ from . import _native
 
 
 class Materials(Mapping[str, "dict[str, Any]"]):
-    """Materials by name: ``title``, ``source`` and ``range`` as text, and ``table`` as in a case, SI."""
+    """Materials by name: ``title``, ``source`` and ``range`` as text, ``table`` as in a case, SI, and ``measured``.
+
+    ``measured`` has a dict for each published measurement of restitutions: ``name``, ``source``, ``bodies``, ``size``,
+    ``temperature``, ``scatter`` (standard deviation), and the columns ``speed_m_s`` and ``restitution``, which
+    :func:`fem_run.fit` takes as data.
+    """
 
     @cached_property
     def _all(self) -> dict[str, dict[str, Any]]:
