@@ -99,6 +99,12 @@ impl Case {
         self.case.file().to_toml().unwrap_or_default()
     }
 
+    /// Returns the tables of the case as JSON in SI.
+    fn to_json(&self) -> PyResult<String> {
+        serde_json::to_string(self.case.file())
+            .map_err(|error| PyRuntimeError::new_err(error.to_string()))
+    }
+
     /// Returns the number at a key in SI, and its unit.
     fn number_at(&self, parts: Vec<String>) -> Option<(f64, &'static str)> {
         self.case.file().number_at(parts.iter().map(String::as_str))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import json
 import os
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -17,7 +18,7 @@ class Case:
     """A valid case: two bodies, their collision, and the model that computes it.
 
     Created by :meth:`load` or :meth:`from_dict`. A case does not change; :meth:`with_` returns another one. Cases
-    can be pickled.
+    can be pickled and copied, and be keys of a dict. They are equal if their tables are the same.
     """
 
     __slots__ = ("_native",)
@@ -101,6 +102,10 @@ class Case:
         """Returns the text of a case file, with numbers in SI."""
         return self._native.to_toml()
 
+    def to_dict(self) -> dict[str, Any]:
+        """Returns the tables of the case with numbers in SI, from which :meth:`from_dict` makes an equal case."""
+        return json.loads(self._native.to_json())
+
     def number(self, key: str) -> tuple[float, str] | None:
         """Returns the number at a dotted key in SI and its unit; ``None`` if the case does not give it."""
         if not isinstance(key, str):
@@ -128,6 +133,18 @@ class Case:
     def identity(self) -> str:
         """The identity of the result with this build, which is also the name of a sweep's member."""
         return self._native.identity()
+
+    def __eq__(self, other: object) -> bool:
+        return self.to_toml() == other.to_toml() if isinstance(other, Case) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.to_toml())
+
+    def __copy__(self) -> Case:
+        return self
+
+    def __deepcopy__(self, _: dict[int, Any]) -> Case:
+        return self
 
     def __reduce__(self) -> tuple[object, ...]:
         return _unpickled, self._native.parts()

@@ -5,14 +5,19 @@ from __future__ import annotations
 import html
 import json
 import os
+from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._errors import bad_input
+from ._shown import axes_or_new, quantity, scale_of
+
 if TYPE_CHECKING:
     import pyvista
+    from matplotlib.axes import Axes
 
     from . import _native
 
@@ -28,9 +33,47 @@ _SHOWN = {
 
 
 class Result:
-    """A computed collision. The keys of :attr:`summary` are also attributes: ``result.restitution``."""
+    """A computed collision. The keys of :attr:`summary` are also attributes: ``result.restitution``.
 
-    def __init__(self, outcome: _native.Outcome, stem: str) -> None:
+    Results are equal if their numbers are, whatever their runs cost. They can be copied, pickled and hashed; a pickled
+    one keeps summary, history and snapshots, but :meth:`save` belongs to the process that computed it.
+    """
+
+    restitution: float | None
+    contact_time_s: float | None
+    peak_force_n: float | None
+    max_approach_m: float | None
+    max_contact_radius_m: float | None
+    peak_pressure_pa: float | None
+    peak_force_raw_n: float | None
+    radius_and_pressure: str
+    elastic_null: dict[str, Any] | None
+    contact_episodes: int
+    hertz: dict[str, Any]
+    energy: dict[str, Any]
+    momentum_residual_relative: float | None
+    bounces: list[dict[str, Any]] | None
+    adhesion: dict[str, Any] | None
+    rest: dict[str, Any] | None
+    bodies: list[dict[str, Any]]
+    time_step_s: float | None
+    steps: int | None
+    element_updates: int | None
+    cost: dict[str, Any]
+    effects: list[dict[str, Any]]
+    coarser_meshes: list[dict[str, Any]] | None
+    models_considered: list[dict[str, Any]] | None
+    warnings: list[str]
+    complete: bool
+    stopped_because: str | None
+    program: str
+    version: str
+    numerics: str
+    made_from: str
+    files: list[str]
+    case: dict[str, Any]
+
+    def __init__(self, outcome: _native.Outcome | _Pickled, stem: str) -> None:
         self._outcome = outcome
         self._stem = stem
 
@@ -95,32 +138,116 @@ class Result:
         known = sum(part for part in parts.values() if part is not None)
         return known, None not in (parts["discretisation"], parts["model"])
 
-    def __getattr__(self, name: str) -> Any:
-        if not name.startswith("_") and name in self.summary:
-            return self.summary[name]
-        raise AttributeError(f"a result has no {name!r}; its summary has {', '.join(self.summary)}")
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            if name in self.summary:
+                return self.summary[name]
+            raise AttributeError(f"a result has no {name!r}; its summary has {', '.join(self.summary)}")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Result):
+            return NotImplemented
+        return self._numbers() == other._numbers() and same_arrays(self.history, other.history)
+
+    def __hash__(self) -> int:
+        return hash((self.summary["made_from"], self.summary["restitution"], self.summary["complete"]))
+
+    def __copy__(self) -> Result:
+        return Result(self._outcome, self._stem)
+
+    def __deepcopy__(self, _: dict[int, Any]) -> Result:
+        return Result(self._outcome, self._stem)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        one = self._outcome
+        return _unpickled, (one.summary(), one.history(), one.snapshots(), one.folder_name(self._stem), self._stem)
+
+    def _numbers(self) -> dict[str, Any]:
+        """Returns the summary without what differs between runs."""
+        return {key: value for key, value in self.summary.items() if key not in ("cost", "files")}
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self.summary})
 
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the contact force over time with matplotlib, ``pip install fem-run[plot]``, and returns the axes.
+
+        Raises:
+            ImportError: matplotlib is not installed.
+            InputError: the model computes no history.
+        """
+        if "contact_force_n" not in self.history or not len(self.history["time_s"]):
+            raise bad_input("this result has no history to plot", "the models fem, condensed and law compute one")
+        axes = axes_or_new(axes)
+        scales = []
+        for name, unit in (("time_s", "s"), ("contact_force_n", "N")):
+            values = self.history[name]
+            scales.append((values, *scale_of(float(np.nanmax(np.abs(values))), unit)))
+        (times, per_s, s), (forces, per_n, n) = scales
+        axes.plot(per_s * times, per_n * forces)
+        axes.set(xlabel=f"time [{s}]", ylabel=f"contact force [{n}]")
+        axes.set_title(self.summary["case"].get("title") or "", fontsize="medium", wrap=True)
+        return axes
+
+    def _shown(self, key: str, unit: str) -> str:
+        return quantity(self.summary[key], *self._error_bar(key), unit)
+
     def __repr__(self) -> str:
-        shown = [f"{key}={self.summary[key]!r}" for key in _SHOWN]
+        shown = [f"{name} {self._shown(key, unit)}" for key, (name, unit) in _SHOWN.items()]
         shown += [] if self.summary["complete"] else ["complete=False"]
         return f"<fem_run.Result {', '.join(shown)}>"
 
     def _repr_html_(self) -> str:
-        def row(key: str, name: str, unit: str) -> str:
-            value, (bar, is_whole) = self.summary[key], self._error_bar(key)
-            shown = "–" if value is None else f"{value:.6g}"
-            sign = "±" if is_whole else "error at least"
-            error = "" if value is None or not bar else f"{sign} {bar:.1g}"
-            return f"<tr><td>{name}</td><td>{shown}</td><td>{error}</td><td>{unit}</td></tr>"
-
-        rows = "".join(row(key, *names) for key, names in _SHOWN.items())
+        names = _SHOWN.items()
+        rows = "".join(f"<tr><td>{name}</td><td>{self._shown(key, unit)}</td></tr>" for key, (name, unit) in names)
         title = html.escape(self.summary["case"].get("title") or "")
         warnings = "".join(f"<li>{html.escape(text)}</li>" for text in self.summary["warnings"])
         warnings_text = f"Warnings:<ul>{warnings}</ul>" if warnings else ""
         return f"<table><caption>{title}</caption>{rows}</table>{warnings_text}"
+
+
+class _Pickled:
+    """The numbers of a result from another process, in the form of ``_native.Outcome``."""
+
+    def __init__(self, summary: str, history: Any, snapshots: Any, folder: str) -> None:
+        self._parts = summary, history, snapshots, folder
+
+    def summary(self) -> str:
+        return self._parts[0]
+
+    def history(self) -> list[tuple[str, NDArray[np.float64]]]:
+        return self._parts[1]
+
+    def snapshots(self) -> list[Any]:
+        return self._parts[2]
+
+    def folder_name(self, _: str) -> str:
+        return self._parts[3]
+
+    def failure(self) -> None:
+        return None
+
+    def save(self, folder: str, stem: str, force: bool) -> None:
+        raise bad_input(
+            f"{folder}: a result that was pickled cannot be saved",
+            "save it in the process that computed it, or run its case again",
+        )
+
+
+def _unpickled(summary: str, history: Any, snapshots: Any, folder: str, stem: str) -> Result:
+    return Result(_Pickled(summary, history, snapshots, folder), stem)
+
+
+def same_arrays(one: Mapping[str, NDArray[Any]], other: Mapping[str, NDArray[Any]]) -> bool:
+    """Returns whether columns have the same names and values; missing numbers are equal."""
+    return list(one) == list(other) and all(_same(one[name], other[name]) for name in one)
+
+
+def _same(one: NDArray[Any], other: NDArray[Any]) -> bool:
+    return np.array_equal(one, other, equal_nan=one.dtype.kind == other.dtype.kind == "f")
 
 
 class Snapshot:

@@ -15,9 +15,12 @@ from . import _native, _toml
 from ._case import Case
 from ._errors import Error, Interrupted, RunError, bad_input, shown
 from ._progress import reporter
+from ._result import same_arrays
+from ._shown import axes_or_new, errors_of, label
 
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.axes import Axes
 
 #: Identity of each member, and its summary as JSON if it was computed.
 _Found = list[tuple[str, "str | None"]]
@@ -47,11 +50,43 @@ class Table(Mapping[str, "NDArray[Any]"]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def __eq__(self, other: object) -> bool:
+        return same_arrays(self, other) if isinstance(other, Table) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
     def to_pandas(self) -> pandas.DataFrame:
         """Returns a data frame of pandas, which must be installed."""
         import pandas
 
         return pandas.DataFrame(self._columns)
+
+    def plot(self, y: str = "restitution", x: str | None = None, axes: Axes | None = None) -> Axes:
+        """Draws a column over another one with error bars by matplotlib, ``pip install fem-run[plot]``.
+
+        Args:
+            y: the column to draw.
+            x: the column below it; by default the first varied key in SI.
+            axes: the axes to draw on; new ones if ``None``.
+
+        Raises:
+            KeyError: the table has no such column.
+            ImportError: matplotlib is not installed.
+        """
+        numbers = [name for name, column in self._columns.items() if column.dtype.kind in "fi"]
+        if x is None:
+            keys = [name for name in numbers if "." in name]
+            x = next((name for name in keys if any(name.startswith(f"{key}_") for key in self._columns)), [*keys, *numbers][0])
+        for name in (x, y):
+            if name not in numbers:
+                raise KeyError(f"{name!r} is no column of numbers; there are: {', '.join(numbers)}")
+        axes = axes_or_new(axes)
+        axes.errorbar(self[x], self[y], yerr=errors_of(self, y), fmt=".", capsize=3)
+        values = self[x][np.isfinite(self[x])]
+        if len(values) and values.min() > 0 and values.max() > 10 * values.min():
+            axes.set_xscale("log")
+        axes.set(xlabel=label(x), ylabel=label(y))
+        return axes
 
     def to_csv(self) -> str:
         """Returns the table as CSV text; :func:`fit` and others also accept the table itself."""
