@@ -194,7 +194,6 @@ def test_pictures_for_notebooks(glass):
 def test_plots_of_results_and_tables(glass, monkeypatch):
     from matplotlib import pyplot
 
-    monkeypatch.setattr(pyplot, "show", None)
     pyplot.switch_backend("Agg")
     case = fem_run.Case.load(glass).with_({"model.ting": {}})
     axes = case.run().plot()

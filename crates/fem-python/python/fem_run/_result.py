@@ -69,6 +69,7 @@ class Result:
     program: str
     version: str
     numerics: str
+    measured_restitution: list[dict[str, Any]]
     made_from: str
     files: list[str]
     case: dict[str, Any]
