@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use fem::measured::{Table, decode};
+use fem::measured::{Table, decode, is_of_library, library_table};
 use fem_case::library;
 use fem_command::{Failure, JobInput};
 use pyo3::exceptions::PyRuntimeError;
@@ -24,7 +24,11 @@ fn done(
     job: fn(&JobInput, &[String]) -> Result<Value, Failure>,
 ) -> PyResult<String> {
     let work = || -> Result<Value, Failure> {
-        let table = data.map(|(name, bytes)| Table::parse(&name, &decode(&bytes))).transpose()?;
+        let read = |(name, bytes): (String, Vec<u8>)| match is_of_library(&name) {
+            true => library_table(&name).map(|(table, _)| table),
+            false => Table::parse(&name, &decode(&bytes)),
+        };
+        let table = data.map(read).transpose()?;
         job(&JobInput { table, ..given }, &options)
     };
     let numbers = py.detach(work).or_raise(py)?;

@@ -170,6 +170,11 @@ def test_the_library_of_materials():
     ice = fem_run.materials["ice"]["measured"][0]
     data = {name: ice[name] for name in ("speed_m_s", "restitution")}
     assert ice["source"] and len(data["restitution"]) == 12
+    spheres = fem_run.Case.load(ROOT / "cases" / "ice_2cm.toml")
+    own, named = (fem_run.fit(spheres, one, law="mishra_murty") for one in (data, f"lib:ice/{ice['name']}"))
+    assert named["parameters"][0]["value"] == pytest.approx(own["parameters"][0]["value"], rel=1e-6)
+    with pytest.raises(fem_run.InputError, match="unobtainium"):
+        fem_run.fit(spheres, "lib:unobtainium")
     case = fem_run.Case.from_dict(
         {
             "body": [

@@ -2,8 +2,9 @@
 
 Keyword arguments are the options of the command: ``contact_time=True`` for ``--contact-time``, lists and dicts for
 options that may be repeated, a pair for a range. ``columns={"speed": "v"}`` names columns of the data. Quantities are
-numbers in SI or strings with a unit. Data are the path of a CSV file, a :class:`fem_run.Table`, a data frame, or a
-dict of columns with the names of docs/fits.md: ``speed_m_s``, ``restitution``.
+numbers in SI or strings with a unit. Data are the path of a CSV file, a :class:`fem_run.Table`, a data frame, a
+measurement of the materials library, ``"lib:ice"``, or a dict of columns with the names of docs/fits.md:
+``speed_m_s``, ``restitution``.
 """
 
 from __future__ import annotations
@@ -276,6 +277,8 @@ def _data(data: Any) -> tuple[str, bytes] | None:
     """Returns the name of the data and their bytes."""
     if data is None:
         return None
+    if isinstance(data, str) and data.startswith("lib:"):
+        return data, b""
     if isinstance(data, (str, os.PathLike)):
         return _file(os.fspath(data))
     if isinstance(data, Table):
