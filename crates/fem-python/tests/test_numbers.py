@@ -173,6 +173,8 @@ def test_the_library_of_materials():
     spheres = fem_run.Case.load(ROOT / "cases" / "ice_2cm.toml")
     own, named = (fem_run.fit(spheres, one, law="mishra_murty") for one in (data, f"lib:ice/{ice['name']}"))
     assert named["parameters"][0]["value"] == pytest.approx(own["parameters"][0]["value"], rel=1e-6)
+    assert repr(named).startswith("<fem_run.Fit mishra_murty: ") and " ± " in repr(named) and "12 points" in repr(named)
+    assert "<table><caption>mishra_murty" in named._repr_html_() and " ± " in named._repr_html_()
     with pytest.raises(fem_run.InputError, match="unobtainium"):
         fem_run.fit(spheres, "lib:unobtainium")
     case = fem_run.Case.from_dict(

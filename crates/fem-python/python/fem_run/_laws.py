@@ -9,6 +9,7 @@ measurement of the materials library, ``"lib:ice"``, or a dict of columns with t
 
 from __future__ import annotations
 
+import html
 import json
 import os
 from collections.abc import Mapping, Sequence
@@ -19,6 +20,7 @@ import numpy as np
 from . import _native
 from ._case import Case
 from ._errors import bad_input, shown
+from ._shown import quantity
 from ._sweep import Table, _array
 from ._words import in_python
 
@@ -49,6 +51,27 @@ Columns = Mapping[str, str]
 _LISTED = {"free", "diameters", "masses"}
 
 
+class Fit(dict[str, Any]):
+    """The keys of ``fit.json``, SI; shown as the values of the parameters with their standard errors."""
+
+    def _values(self) -> dict[str, str]:
+        return {
+            one["key"]: quantity(one["value"], one["standard_error"] or 0.0, True, one["unit"] or "")
+            for one in self["parameters"]
+        }
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{key} = {value}" for key, value in self._values().items())
+        return f"<fem_run.Fit {self['law']}: {values}; rms error {self['rms']:.3g} of {self['points']} points>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><td>{html.escape(key)}</td><td>{value}</td></tr>" for key, value in self._values().items())
+        rows += f"<tr><td>rms error</td><td>{self['rms']:.3g}, {self['points']} points</td></tr>"
+        warnings = "".join(f"<li>{html.escape(text)}</li>" for text in self["warnings"])
+        warnings_text = f"Warnings:<ul>{warnings}</ul>" if warnings else ""
+        return f"<table><caption>{html.escape(self['law'])}</caption>{rows}</table>{warnings_text}"
+
+
 def fit(
     case: Case,
     data: Any,
@@ -63,7 +86,7 @@ def fit(
     contact_time: bool = False,
     confidence: float | None = None,
     columns: Columns | None = None,
-) -> dict[str, Any]:
+) -> Fit:
     """Fits parameters of a contact law to restitutions over speed: ``fit(case, table, law="ting")``.
 
     Args:
@@ -86,7 +109,7 @@ def fit(
     Raises:
         InputError: the options or the data are invalid.
     """
-    return _found(_native.fit(_native_of(case), _data(data), _words(locals())))
+    return Fit(_found(_native.fit(_native_of(case), _data(data), _words(locals()))))
 
 
 def invert(

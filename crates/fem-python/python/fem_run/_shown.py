@@ -13,7 +13,7 @@ _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"
 
 def scale_of(value: float, unit: str) -> tuple[float, str]:
     """Returns the factor to a unit with a prefix that leaves one to three digits before the point, and that unit."""
-    if not unit or not value or not math.isfinite(value):
+    if not unit.isalpha() or not value or not math.isfinite(value):
         return 1.0, unit
     power = min(max(3 * math.floor(math.log10(abs(value)) / 3), -12), 12)
     return 10.0**-power, _PREFIXES[power] + unit
