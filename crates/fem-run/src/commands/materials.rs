@@ -54,8 +54,11 @@ pub fn one(name: &str) -> Result<String, Failure> {
     }
     if let [first, ..] = &measured[..] {
         comments.push(comment(&format!(
-            "As data: fem-run fit CASE --data lib:{name}, or lib:{name}/{} for one of several.",
-            first.name
+            "As data: fem-run fit CASE --data lib:{name}{}.",
+            match measured.len() {
+                1 => String::new(),
+                _ => format!(", or lib:{name}/{} for one of several", first.name),
+            }
         )));
     }
     Ok(format!("{}\n{text}", comments.join("\n")))
@@ -75,10 +78,11 @@ fn list() -> Result<String, CaseError> {
             show(moduli.youngs_modulus(), "Pa"),
             format!("{:.4}", moduli.poissons_ratio()),
             if material.relaxation().is_some() { "yes" } else { "no" }.to_string(),
+            if entry.measured.is_empty() { "no" } else { "yes" }.to_string(),
             entry.title.clone(),
         ]);
     }
-    let list = headed("name|>density|>Young's|>Poisson's|relaxes|what", rows);
+    let list = headed("name|>density|>Young's|>Poisson's|relaxes|measured|what", rows);
     Ok(format!(
         "{list}\nIn a case: material = \"lib:NAME\". Source and range: fem-run materials NAME\n"
     ))

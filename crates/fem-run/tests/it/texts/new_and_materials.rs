@@ -10,6 +10,8 @@ fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
         let row = list.lines().find(|line| line.starts_with(&format!("{name} ")));
         assert!(row.is_some(), "{name}: {list}");
     }
+    let ice = list.lines().find(|line| line.starts_with("ice ")).unwrap();
+    assert!(ice.contains(" no       yes "), "{list}");
     let one = place.succeed("materials lib:pmma").stdout;
     assert!(one.contains("# Source: ") && one.contains("# Range: "), "{one}");
     assert!(one.lines().all(|line| line.len() <= 100), "{one}");
