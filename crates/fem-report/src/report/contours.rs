@@ -65,7 +65,7 @@ pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Co
 const MAX_RESULTS: usize = 6;
 
 /// Returns the picture of one panel per result at its peak force, all in one window and on one scale; `None` unless at
-/// least two results have fields, and at most [`MAX_RESULTS`].
+/// least two results have fields, and at most `MAX_RESULTS`.
 pub fn contours_at_peak(results: &[StoredResult]) -> Option<Contour> {
     let mut shown: Vec<(&StoredResult, &FieldFile)> = Vec::new();
     let (mut stresses, mut widest) = (Vec::new(), 0.0f64);

@@ -208,11 +208,14 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
 }
 
 /// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows, and what it holds: the
-/// loss by vibrations that the bodies keep, or numerical dissipation where it is below the error.
+/// loss by vibrations that the bodies keep, or numerical dissipation where it is below the error. There is none where
+/// neglected effects may change it by more than this or by an unknown amount.
 fn elastic_deficit(summary: &Summary) -> Option<String> {
     let deficit = 1.0 - summary.collision.restitution?;
-    let bar = summary.uncertainty.parts(QuantityOfInterest::Restitution).discretisation;
-    if deficit.abs() >= NEARLY_ELASTIC {
+    let parts = summary.uncertainty.parts(QuantityOfInterest::Restitution);
+    let bar = parts.discretisation;
+    let known = deficit.abs().max(bar.unwrap_or(0.0));
+    if deficit.abs() >= NEARLY_ELASTIC || parts.model.is_none_or(|neglected| neglected > known) {
         return None;
     }
     let shown = with_known_digits(deficit, bar);
