@@ -52,6 +52,12 @@ pub enum ModelError {
     /// A rigid body is to be at finite strain.
     #[error("a rigid body does not deform and cannot be at finite strain")]
     StrainOfRigid,
+    /// A material that flows is to be at small strain, or to follow another hyperelastic law than Hencky's.
+    #[error("plastic flow is computed at finite strain with the law \"hencky\", found {law:?}")]
+    FlowWithoutHencky {
+        /// Name of the law, or "none" at small strain.
+        law: &'static str,
+    },
     /// A material has more relaxation terms than elements at finite strain can keep.
     #[error(
         "the material has {n_terms} relaxation terms, and at finite strain at most {most} are allowed: merge \

@@ -90,6 +90,17 @@ pub enum MaterialError {
         value: f64,
     },
 
+    /// Plastic flow of a material that relaxes.
+    #[error("plastic flow and relaxation in the same material are not computed")]
+    FlowWithRelaxation,
+
+    /// Plastic flow with another hyperelastic law than Hencky's.
+    #[error("plastic flow is computed with the hyperelastic law \"hencky\", found {law:?}")]
+    FlowWithLaw {
+        /// Name of the law.
+        law: &'static str,
+    },
+
     /// An exponent of Swift's power law outside its range.
     #[error("flow.hardening.swift.exponent must be above 0 and at most 1, found {value:?}")]
     HardeningExponent {

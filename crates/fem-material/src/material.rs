@@ -1,4 +1,4 @@
-//! A density, instantaneous moduli and, if the material relaxes, a Prony series.
+//! A density, instantaneous moduli and, if the material relaxes, a Prony series, or if it flows, a flow rule.
 //!
 //! ```math
 //! G(t) = G_0\, g(t), \qquad K(t) = K_0\, g(t) \text{ or } K_0, \qquad
@@ -12,15 +12,17 @@
 use crate::elastic::ElasticModuli;
 use crate::error::{MaterialError, positive};
 use crate::finite::HyperelasticLaw;
+use crate::flow::FlowRule;
 use crate::prony::{ActsOn, PronySeries};
 
-/// A checked isotropic linear material, elastic or viscoelastic.
+/// A checked isotropic material: elastic, viscoelastic or elastic–plastic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     density: f64,
     instantaneous: ElasticModuli,
     relaxation: Option<PronySeries>,
     law: Option<HyperelasticLaw>,
+    flow: Option<Box<FlowRule>>,
 }
 
 impl Material {
@@ -34,7 +36,7 @@ impl Material {
         relaxation: Option<PronySeries>,
     ) -> Result<Self, MaterialError> {
         let density = positive("density", density)?;
-        Ok(Self { density, instantaneous, relaxation, law: None })
+        Ok(Self { density, instantaneous, relaxation, law: None, flow: None })
     }
 
     /// Sets the law at finite strain; it has no effect at small strain.
@@ -43,13 +45,27 @@ impl Material {
         Self { law: Some(law), ..self }
     }
 
+    /// Adds plastic flow, which is computed at finite strain with Hencky's law.
+    ///
+    /// # Errors
+    /// The material relaxes, or its law is another one.
+    pub fn with_flow(self, flow: FlowRule) -> Result<Self, MaterialError> {
+        if self.relaxation.is_some() {
+            return Err(MaterialError::FlowWithRelaxation);
+        }
+        match self.law {
+            None | Some(HyperelasticLaw::Hencky) => Ok(Self { flow: Some(Box::new(flow)), ..self }),
+            Some(law) => Err(MaterialError::FlowWithLaw { law: law.name() }),
+        }
+    }
+
     /// Returns the elastic material with the same density and instantaneous moduli.
     pub fn without_relaxation(&self) -> Self {
         Self { relaxation: None, ..self.clone() }
     }
 
     /// Returns the elastic material with the same density and the equilibrium moduli;
-    /// `None` for a material that flows.
+    /// `None` for a fluid.
     pub fn at_equilibrium(&self) -> Option<Self> {
         let Some(series) = &self.relaxation else { return Some(self.clone()) };
         let left = series.equilibrium_weight();
@@ -65,9 +81,13 @@ impl Material {
         self.density
     }
 
-    /// Returns the law at finite strain; the default is neo-Hooke's.
+    /// Returns the law at finite strain; the default is neo-Hooke's, and Hencky's for a material that flows.
     pub fn law(&self) -> HyperelasticLaw {
-        self.law.unwrap_or_default()
+        let default = match self.flow {
+            Some(_) => HyperelasticLaw::Hencky,
+            None => HyperelasticLaw::default(),
+        };
+        self.law.unwrap_or(default)
     }
 
     /// Returns the law at finite strain, if it was set.
@@ -83,6 +103,11 @@ impl Material {
     /// Returns the relaxation; `None` for an elastic material.
     pub fn relaxation(&self) -> Option<&PronySeries> {
         self.relaxation.as_ref()
+    }
+
+    /// Returns the flow rule; `None` for a material that does not flow plastically.
+    pub fn flow(&self) -> Option<&FlowRule> {
+        self.flow.as_deref()
     }
 
     /// Returns G at `time` (s) after a step of strain.

@@ -140,6 +140,8 @@ impl Check<'_> {
                 let keys = ["relaxation_time", "decay_rate"].map(|key| at_term(*index, key));
                 (keys.into_iter().filter(is_given).collect(), None)
             }
+            MaterialError::FlowWithRelaxation => (vec![at("flow"), at("relaxation")], None),
+            MaterialError::FlowWithLaw { .. } => (vec![at("hyperelastic"), at("flow")], None),
             MaterialError::HardeningExponent { .. }
             | MaterialError::FlowRows { .. }
             | MaterialError::FlowStrain { .. }

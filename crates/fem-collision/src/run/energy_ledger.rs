@@ -38,6 +38,8 @@ pub enum Account {
     LeftBefore,
     /// Kinetic energy of the separation that adhesion prevents.
     Adhesion,
+    /// Energy dissipated by plastic flow.
+    PlasticWork,
 }
 
 /// The side of the energy balance on which an account is entered.
@@ -77,6 +79,7 @@ const LINES: &[(Account, &str, BalanceSide, ShownIn)] = &[
     (Account::Potential, "potential", BalanceSide::Held, ShownIn::WhereFilled),
     (Account::LeftBefore, "left_before", BalanceSide::Held, ShownIn::WhereFilled),
     (Account::Adhesion, "adhesion", BalanceSide::Lost, ShownIn::WhereFilled),
+    (Account::PlasticWork, "plastic_work", BalanceSide::Lost, ShownIn::WhereFilled),
 ];
 
 impl Account {

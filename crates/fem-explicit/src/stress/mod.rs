@@ -7,7 +7,7 @@
 //! kernel         element loops of small strain: forces and strain energy
 //! elements       elements that lie anywhere, in blocks of four
 //! rows           elements that lie in rows, in eights
-//! finite         hyperelastic laws at finite strain, elastic or relaxing
+//! finite         hyperelastic laws at finite strain, elastic, relaxing or flowing
 //! partly_finite  finite strain near the contact alone, small strain elsewhere
 //! ```
 
@@ -53,6 +53,12 @@ pub(crate) fn stress_of_body(
     material: &Material,
     finite_strain: Option<FiniteStrainChoice>,
 ) -> Result<Box<dyn Stress>, ModelError> {
+    let law = finite_strain.map(|choice| choice.law);
+    if material.flow().is_some() && law != Some(HyperelasticLaw::Hencky) {
+        return Err(ModelError::FlowWithoutHencky {
+            law: law.map_or("none", HyperelasticLaw::name),
+        });
+    }
     let Some(FiniteStrainChoice { law, within }) = finite_strain else {
         return Ok(small_strain(mesh.nodes().len(), mesh.quads(), geometries, material));
     };

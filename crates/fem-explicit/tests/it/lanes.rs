@@ -1,12 +1,14 @@
 //! Kernels give the same bits on lanes of every kind.
 
-use fem_collision::{Approach, BodyInput, Expectation, OutputRequest};
+use fem_collision::{Account, Approach, BodyInput, Expectation, OutputRequest};
 use fem_explicit::{
     BulkViscosity, ExplicitBodies, ModelParts, NodeForce, Run, Settings, ViscosityCoefficients,
     limit_lanes,
 };
 use fem_material::finite::HyperelasticLaw;
-use fem_material::{ActsOn, PronySeries, PronyTerm};
+use fem_material::{
+    ActsOn, FlowPoint, FlowRule, Hardening, Material, PronySeries, PronyTerm, RateFactor,
+};
 
 use crate::common::{unit_glass, unit_sphere};
 
@@ -14,7 +16,12 @@ use crate::common::{unit_glass, unit_sphere};
 fn model(weights: &[f64], acts_on: ActsOn, parts: ModelParts, viscosity: bool) -> ExplicitBodies {
     let term = |(k, &weight): (usize, &f64)| PronyTerm { weight, relaxation_time: 0.2 + k as f64 };
     let terms = weights.iter().enumerate().map(term).collect();
-    let (mesh, material) = (unit_sphere(10.0), unit_glass(PronySeries::new(terms, acts_on).ok()));
+    model_of(unit_glass(PronySeries::new(terms, acts_on).ok()), parts, viscosity)
+}
+
+/// A unit sphere of a material that hits a wall.
+fn model_of(material: Material, parts: ModelParts, viscosity: bool) -> ExplicitBodies {
+    let mesh = unit_sphere(10.0);
     let coefficients = ViscosityCoefficients::default();
     let force = BulkViscosity::new(&mesh, &material, coefficients, 0.7).unwrap();
     let forces = viscosity.then(|| Box::new(force) as Box<dyn NodeForce>);
@@ -62,6 +69,36 @@ fn lanes_of_every_kind_give_the_same_bits() {
                 assert!(state_on(widest, &model) == plain, "{law:?} {weights:?} {widest}");
             }
         }
+    }
+}
+
+/// Rules with hardening and rate of every kind, in all elements and near the contact alone.
+#[test]
+fn lanes_of_every_kind_give_the_same_bits_where_elements_flow() {
+    let yield_strength = 0.02;
+    let point = |(plastic_strain, flow_stress)| FlowPoint { plastic_strain, flow_stress };
+    let table = [(0.0, 0.02), (0.01, 0.03), (0.1, 0.035)].map(point).to_vec();
+    let rate = Some(RateFactor { coefficient: 0.02, reference_rate: 1e-3 });
+    for (hardening, rate, within) in [
+        (Hardening::Linear { yield_strength, modulus: 0.01 }, None, None),
+        (Hardening::Swift { yield_strength, strain: 0.002, exponent: 0.2 }, rate, Some(0.6)),
+        (Hardening::Table(table), rate, None),
+    ] {
+        let parts = ModelParts {
+            finite_strain: [None, Some(HyperelasticLaw::Hencky)],
+            finite_strain_within: within,
+            ..ModelParts::default()
+        };
+        let rule = FlowRule::new(hardening.clone(), rate).unwrap();
+        let model = model_of(unit_glass(None).with_flow(rule).unwrap(), parts, false);
+        let plain = state_on(0, &model);
+        for widest in 1..=2 {
+            assert!(state_on(widest, &model) == plain, "{hardening:?} {widest}");
+        }
+        let mut run = Run::new(&model, EXPECTED, &OutputRequest::history());
+        assert_eq!(run.advance(50), None);
+        let row = run.finish().history.last().copied().unwrap();
+        assert!(row.energy(Account::PlasticWork).unwrap() > 0.0, "{hardening:?}: no flow");
     }
 }
 

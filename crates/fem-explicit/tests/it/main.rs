@@ -5,6 +5,7 @@ mod collision;
 mod common;
 mod deformed;
 mod finite_strain;
+mod flow;
 mod half_space;
 mod lanes;
 mod massless;

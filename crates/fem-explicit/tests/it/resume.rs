@@ -12,16 +12,17 @@ use fem_material::ActsOn;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
-/// Elastic, relaxing with constant Poisson's ratio, relaxing in shear with two terms, and that at finite
-/// strain.
-fn materials() -> [Pair; 4] {
+/// Elastic, relaxing with constant Poisson's ratio, relaxing in shear with two terms, that at finite strain, and flowing.
+fn materials() -> [Pair; 5] {
     let shear = Pair {
         relaxation: Some(ActsOn::Shear),
         terms: &[(0.3, 2e-5), (0.5, 1e-3)],
         ..Pair::small()
     };
     let finite = Pair { law: Some(HyperelasticLaw::NeoHooke), ..shear.clone() };
-    [Pair::small(), Pair { relaxation: Some(ActsOn::All), ..Pair::small() }, shear, finite]
+    let flowing =
+        Pair { law: Some(HyperelasticLaw::Hencky), yield_strength: Some(3e8), ..Pair::small() };
+    [Pair::small(), Pair { relaxation: Some(ActsOn::All), ..Pair::small() }, shear, finite, flowing]
 }
 
 fn requests() -> [SnapshotRequest; 3] {

@@ -257,10 +257,10 @@ impl ElasticPlastic {
                     let start = N::splat(line.at_zero).plus_product(slope, plastic_strain);
                     let on_line = trial.minus_product(jacobian, start)
                         / three_g.plus_product(jacobian, slope);
-                    let place = |flown: N| (plastic_strain + flown) * N::splat(line.start.recip());
                     flown = match k {
                         0 => on_line,
-                        _ => place(flown).choose_within(1.0, flown, on_line),
+                        _ => ((plastic_strain + flown) * N::splat(line.start.recip()))
+                            .choose_within(1.0, flown, on_line),
                     };
                 }
                 flown

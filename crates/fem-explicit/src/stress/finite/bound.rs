@@ -16,7 +16,7 @@ use fem_mesh::SphereMesh;
 
 use super::super::traits::LumpedElement;
 use super::block::{Block, Blocks, Numbers, place};
-use super::internal_variables::{self, InternalVariables};
+use super::internal_variables;
 use super::kernel::{Conjugate, Deformation};
 use super::law::Law;
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
@@ -155,11 +155,13 @@ impl<'a, W: Law> LaneKernel<WIDE> for Bound<'a, W> {
     #[inline(always)]
     fn on<L: Lanes<WIDE>>(self, output: &mut Self::Output) {
         let Self { blocks, metrics, law, u, history } = self;
-        let n_terms = if history.is_empty() { 0 } else { law.weights().len() };
-        assert!(internal_variables::is_valid(history, n_terms, blocks.n_elements()));
-        let mut internal: InternalVariables<L> = InternalVariables::none();
+        let mut internal = law.undeformed::<L>();
+        let n_fields = if history.is_empty() { 0 } else { law.n_fields() };
+        assert!(internal_variables::has_fields(history, n_fields, blocks.n_elements()));
         for (place, (block, metric)) in blocks.checked(&[u.len()]).iter().zip(metrics).enumerate() {
-            internal.load(n_terms, history, blocks.slots(place));
+            if n_fields > 0 {
+                law.load(&mut internal, history, blocks.slots(place));
+            }
             // SAFETY: the field has been checked against the corner numbers.
             let strain = unsafe { Deformation::<L>::gather(block, u) };
             output(block, metric, &eigenvalues(&strain, block, metric, law, &internal));
@@ -174,7 +176,7 @@ fn eigenvalues<L: Lanes<WIDE>, W: Law>(
     block: &Block,
     metric: &Metric,
     law: &W,
-    internal: &InternalVariables<L>,
+    internal: &W::Internal<L>,
 ) -> [f64; WIDE] {
     let length = L::load(&metric.length);
     let step = L::splat(STRAIN_STEP);

@@ -2,17 +2,18 @@
 
 use std::fmt;
 
+use fem_collision::Account;
 use fem_material::finite::{
     AxisymmetricTensor, Hyperelastic, HyperelasticLaw, Inverted, SymmetricTensor,
 };
 
 use super::ElementResponse;
 use super::block::{Blocks, Slots};
-use super::hourglass::Amplitudes;
+use super::hourglass::Deformed;
 use super::kernel::{self, BlockResponse, BlockStress, Deformation};
-use super::law::ElasticLaw;
+use super::law::{ElasticLaw, Law};
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
-use crate::part::{Field, NodalField};
+use crate::part::{Accounts, Field, NodalField};
 
 /// A law for the loops, and the same law by its name.
 pub(super) struct ElasticResponse<W> {
@@ -65,8 +66,10 @@ impl<W: ElasticLaw> ElementResponse for ElasticResponse<W> {
         self.solid.cauchy(h)
     }
 
-    fn energies(&self, blocks: &Blocks, u: &Field, _: &[NodalField]) -> (f64, f64) {
-        (kernel::stored_energy(blocks, &self.law, u), 0.0)
+    fn add_energies(&self, blocks: &Blocks, u: &Field, _: &[NodalField], accounts: &mut Accounts) {
+        accounts.energies.add(Account::Strain, kernel::stored_energy(blocks, &self.law, u));
+        // The account is present for an elastic body too, and empty.
+        accounts.powers.add(Account::ViscousDissipation, 0.0);
     }
 }
 
@@ -99,10 +102,9 @@ impl<L: Lanes<WIDE>, W: ElasticLaw> BlockResponse<L> for Elastic<'_, W> {
         &mut self,
         _: usize,
         deformation: &Deformation<L>,
+        _: &Deformed<L>,
         pulled_back: (L, L),
     ) -> BlockStress<L> {
-        let (first_piola, volume_change) = self.law.first_piola(&deformation.h, &[]);
-        let amplitudes = Amplitudes::new(pulled_back, self.law.equilibrium_weight());
-        BlockStress { first_piola, volume_change, amplitudes }
+        self.law.stress(&deformation.h, pulled_back, &())
     }
 }

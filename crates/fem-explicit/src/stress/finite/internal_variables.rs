@@ -11,12 +11,9 @@
 //!
 //! Elements are in the order of their blocks ([`Slots`]), so that a loop reads and writes them one after the other.
 
-use fem_material::finite::{AxisymmetricTensor, InverseMetric, ViscousStrain};
+use fem_material::finite::{InverseMetric, ViscousStrain};
 
 use super::block::Slots;
-use super::hourglass::Amplitudes;
-use super::kernel::BlockStress;
-use super::law::Law;
 use crate::lanes::{Lanes, WIDE};
 use crate::part::{Field, NodalField};
 
@@ -53,24 +50,6 @@ impl<L: Lanes<WIDE>, const MOST: usize> InternalVariables<L, MOST> {
             (self.metrics[term], self.amplitudes[term]) = (strain.inverse_metric(), amplitude);
         }
     }
-
-    /// Returns the stress of elements of a law with a displacement gradient and a hourglass amplitude (m), which has
-    /// been pulled back.
-    #[inline(always)]
-    pub fn stress<W: Law>(
-        &self,
-        law: &W,
-        h: &AxisymmetricTensor<L>,
-        pulled_back: (L, L),
-    ) -> BlockStress<L> {
-        let weights = law.weights();
-        let (first_piola, volume_change) = law.first_piola(h, &self.metrics[..weights.len()]);
-        let mut amplitudes = Amplitudes::new(pulled_back, law.equilibrium_weight());
-        for (term, &weight) in weights.iter().enumerate() {
-            amplitudes.add_term(weight, self.amplitudes[term]);
-        }
-        BlockStress { first_piola, volume_change, amplitudes }
-    }
 }
 
 /// Reads the fields of a term for the elements of a block.
@@ -101,11 +80,9 @@ pub(super) fn store_term<L: Lanes<WIDE>>(
     slots.store(&mut history[first + 2], r, y);
 }
 
-/// Returns whether a history has fields for a number of terms and elements.
-pub(super) fn is_valid(history: &[NodalField], n_terms: usize, n_elements: usize) -> bool {
-    n_terms <= MAX_FINITE_STRAIN_TERMS
-        && history.len() >= FIELDS_PER_TERM * n_terms
-        && history[..FIELDS_PER_TERM * n_terms].iter().all(|field| field.len() >= n_elements)
+/// Returns whether a history has a number of fields that are long enough for a number of elements.
+pub(super) fn has_fields(history: &[NodalField], n_fields: usize, n_elements: usize) -> bool {
+    history.len() >= n_fields && history[..n_fields].iter().all(|field| field.len() >= n_elements)
 }
 
 /// Returns the internal variables of one element: those of the law, and its viscous amplitudes, m.

@@ -4,7 +4,6 @@ use fem_material::finite::AxisymmetricTensor;
 
 use super::block::{Block, Blocks, load_three};
 use super::hourglass::{Amplitudes, Deformed};
-use super::internal_variables::InternalVariables;
 use super::law::{ElasticLaw, Law};
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use crate::part::Field;
@@ -28,6 +27,7 @@ pub(super) trait BlockResponse<L> {
         &mut self,
         place: usize,
         deformation: &Deformation<L>,
+        deformed: &Deformed<L>,
         pulled_back: (L, L),
     ) -> BlockStress<L>;
 }
@@ -49,7 +49,8 @@ pub(super) fn subtract_forces<L: Lanes<WIDE>, R: BlockResponse<L>>(
         // SAFETY: the fields have been checked against the corner numbers.
         let deformation = unsafe { Deformation::<L>::gather(block, u) };
         let deformed = deformation.deformed(block, shear);
-        let stress = response.stress(place, &deformation, deformed.pull_back(deformation.q));
+        let stress =
+            response.stress(place, &deformation, &deformed, deformed.pull_back(deformation.q));
         volumes.observe(stress.volume_change, deformation.h.tt);
         // SAFETY: as above.
         unsafe { forces_of(block, &deformed, &stress).scatter_subtract(block, f) };
@@ -149,14 +150,14 @@ impl<L: Lanes<WIDE>> Deformation<L> {
 
     /// Returns the derivatives of the energy at fixed internal variables.
     #[inline(always)]
-    pub fn conjugate<W: Law, const MOST: usize>(
+    pub fn conjugate<W: Law>(
         &self,
         block: &Block,
         law: &W,
-        internal: &InternalVariables<L, MOST>,
+        internal: &W::Internal<L>,
     ) -> Conjugate<L> {
         let deformed = self.deformed(block, law.shear());
-        let stress = internal.stress(law, &self.h, deformed.pull_back(self.q));
+        let stress = law.stress(&self.h, deformed.pull_back(self.q), internal);
         forces_of(block, &deformed, &stress)
     }
 

@@ -11,13 +11,13 @@
 //! ([`hourglass`]). Both are functions of the displacement, so forces are the derivative of an energy; both are
 //! invariant under rigid rotation of the meridian plane; at small strain both agree with the small-strain element.
 //!
-//! A new constitutive model (for instance a return map of plastic flow) is an [`ElementResponse`]: it declares its
-//! internal variables and computes the first Piola–Kirchhoff stress of a block ([`kernel::BlockResponse`]); the loop
+//! A new constitutive model is an [`ElementResponse`]: it declares its internal variables and computes the first Piola–Kirchhoff stress of a block ([`kernel::BlockResponse`]); the loop
 //! from displacement to forces is shared.
 //!
 //! ```text
 //! elastic             elastic response
 //! relaxing            viscoelastic response: update of internal variables, energies
+//! flowing             elastic–plastic response: the same
 //! internal_variables  their place in the history
 //! law                 stress and energy of a law, on lanes
 //! kernel              the element loops: forces, energy
@@ -31,6 +31,7 @@
 mod block;
 mod bound;
 mod elastic;
+mod flowing;
 mod hourglass;
 mod internal_variables;
 mod kernel;
@@ -41,7 +42,6 @@ mod stability;
 
 use std::fmt;
 
-use fem_collision::Account;
 use fem_element::QuadGeometry;
 use fem_material::Material;
 use fem_material::finite::{
@@ -56,6 +56,7 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use block::{Blocks, Slots};
 use bound::Metrics;
 use elastic::ElasticResponse;
+use flowing::FlowingResponse;
 pub use internal_variables::MAX_FINITE_STRAIN_TERMS;
 use law::Law;
 use relaxing::RelaxingResponse;
@@ -105,8 +106,20 @@ trait ElementResponse: fmt::Debug + Send + Sync + 'static {
         history: &[NodalField],
     ) -> Result<SymmetricTensor, Inverted>;
 
-    /// Returns the stored energy (J) and the dissipated power, W.
-    fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64);
+    /// Adds the energy that the elements store, and what they dissipate.
+    fn add_energies(
+        &self,
+        blocks: &Blocks,
+        u: &Field,
+        history: &[NodalField],
+        accounts: &mut Accounts,
+    );
+
+    /// Returns whether the law can lose ellipticity, so that unstable elements have to be searched for. Plastic flow
+    /// bounds the elastic shear strain far below that limit.
+    fn can_lose_ellipticity(&self) -> bool {
+        !self.law_name().is_always_elliptic()
+    }
 }
 
 /// Makes the stress of a material at finite strain on some elements of a mesh, which it numbers by their places in the
@@ -123,6 +136,10 @@ pub(super) fn finite_strain(
     let solid = Hyperelastic::new(law, moduli);
     let blocks = Blocks::pack(mesh, geometries, elements);
     let metrics = Metrics::pack(mesh, geometries, elements, material.density());
+    if let Some(flow) = material.flow() {
+        let response = FlowingResponse::new(moduli, flow.clone());
+        return Box::new(FiniteStrain { blocks, metrics, response });
+    }
     if let Some(series) = material.relaxation().filter(|series| series.relaxes()) {
         let response = RelaxingResponse::new(&solid, series);
         return Box::new(FiniteStrain { blocks, metrics, response });
@@ -225,10 +242,7 @@ impl<R: ElementResponse> Stress for FiniteStrain<R> {
     }
 
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
-        let (stored, power) = self.response.energies(&self.blocks, motion.displacement, history);
-        accounts.energies.add(Account::Strain, stored);
-        // The account is present for an elastic body too, and empty.
-        accounts.powers.add(Account::ViscousDissipation, power);
+        self.response.add_energies(&self.blocks, motion.displacement, history, accounts);
     }
 }
 
@@ -261,7 +275,7 @@ impl<R: ElementResponse> FiniteStrainStress for FiniteStrain<R> {
     }
 
     fn can_lose_stability(&self) -> bool {
-        !self.response.law_name().is_always_elliptic()
+        self.response.can_lose_ellipticity()
     }
 
     fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<UnstableElement> {

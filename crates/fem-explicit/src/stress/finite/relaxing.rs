@@ -8,6 +8,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use fem_collision::Account;
 use fem_material::finite::{
     AxisymmetricTensor, Hyperelastic, HyperelasticLaw, InverseMetric, Inverted, Shape,
     SymmetricTensor, Viscoelastic, ViscousStep, ViscousStrain,
@@ -16,12 +17,12 @@ use fem_material::{PronySeries, RelaxationStep};
 
 use super::ElementResponse;
 use super::block::{Blocks, Slots};
-use super::hourglass::Amplitudes;
+use super::hourglass::{Amplitudes, Deformed};
 use super::internal_variables::{self, InternalVariables, MAX_FINITE_STRAIN_TERMS};
 use super::kernel::{self, BlockResponse, BlockStress, Deformation, Volumes};
 use super::law::{Law, RelaxingLaw};
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
-use crate::part::{Field, NodalField};
+use crate::part::{Accounts, Field, NodalField};
 use crate::time::step_levels;
 
 /// A relaxing law for the loops, and the same law by its name.
@@ -123,10 +124,17 @@ impl ElementResponse for RelaxingResponse {
         advanced.is_valid
     }
 
-    fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64) {
+    fn add_energies(
+        &self,
+        blocks: &Blocks,
+        u: &Field,
+        history: &[NodalField],
+        accounts: &mut Accounts,
+    ) {
         let mut sums = (0.0, 0.0);
         run_wide_lanes(Energies { blocks, strain: self, u, history }, &mut sums);
-        sums
+        accounts.energies.add(Account::Strain, sums.0);
+        accounts.powers.add(Account::ViscousDissipation, sums.1);
     }
 }
 
@@ -146,7 +154,7 @@ impl LaneKernel<WIDE> for Energies<'_> {
         let Self { blocks, strain: RelaxingResponse { law, solid, relaxation_times, .. }, .. } =
             self;
         let (weights, n_terms) = (law.weights(), solid.n_terms());
-        assert!(internal_variables::is_valid(self.history, n_terms, blocks.n_elements()));
+        assert!(internal_variables::has_fields(self.history, law.n_fields(), blocks.n_elements()));
         let zero = L::splat(0.0);
         let none = ViscousStrain { rr: zero, yy: zero, ry: zero, volume_change: zero };
         let mut strains = [none; MAX_FINITE_STRAIN_TERMS];
@@ -181,20 +189,13 @@ impl LaneKernel<WIDE> for Energies<'_> {
 }
 
 /// The element loop over a step with a displacement at its end; without a step the deformation is instantaneous.
-pub(super) struct Advance<'a, W> {
+#[derive(Clone, Copy)]
+pub(super) struct Advance<'a> {
     pub blocks: &'a Blocks,
-    pub law: &'a W,
+    pub law: &'a RelaxingLaw,
     pub step: Option<&'a Step>,
     pub u: &'a Field,
 }
-
-impl<W> Clone for Advance<'_, W> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<W> Copy for Advance<'_, W> {}
 
 /// The output of [`Advance`].
 pub(super) struct Advanced<'a> {
@@ -206,7 +207,7 @@ pub(super) struct Advanced<'a> {
     pub is_valid: bool,
 }
 
-impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
+impl<'a> LaneKernel<WIDE> for Advance<'a> {
     type Output = Advanced<'a>;
 
     #[inline(always)]
@@ -219,16 +220,17 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
     }
 }
 
-impl<W: Law> Advance<'_, W> {
+impl Advance<'_> {
     /// The loop for up to `MOST` terms; its result does not depend on `MOST`.
     #[inline(always)]
     pub fn of_terms<L: Lanes<WIDE>, const MOST: usize>(self, advanced: &mut Advanced<'_>) {
         let Self { blocks, law, step, u } = self;
         let Advanced { internal: fields, forces, is_valid } = advanced;
         let n_terms = law.weights().len();
+        let n_fields = internal_variables::n_element_fields(n_terms);
         assert!(
             n_terms <= MOST
-                && internal_variables::is_valid(fields, n_terms + 1, blocks.n_elements())
+                && internal_variables::has_fields(fields, n_fields, blocks.n_elements())
         );
         let internal = InternalVariables::<L, MOST>::none();
         let mut response = Relaxing { blocks, law, step, fields, internal };
@@ -237,20 +239,21 @@ impl<W: Law> Advance<'_, W> {
 }
 
 /// The relaxing response of blocks: internal variables advance to the deformation, and the stress follows from both.
-struct Relaxing<'a, W, L, const MOST: usize> {
+struct Relaxing<'a, L, const MOST: usize> {
     blocks: &'a Blocks,
-    law: &'a W,
+    law: &'a RelaxingLaw,
     step: Option<&'a Step>,
     fields: &'a mut [NodalField],
     internal: InternalVariables<L, MOST>,
 }
 
-impl<L: Lanes<WIDE>, W: Law, const MOST: usize> BlockResponse<L> for Relaxing<'_, W, L, MOST> {
+impl<L: Lanes<WIDE>, const MOST: usize> BlockResponse<L> for Relaxing<'_, L, MOST> {
     #[inline(always)]
     fn stress(
         &mut self,
         place: usize,
         deformation: &Deformation<L>,
+        _: &Deformed<L>,
         pulled_back: (L, L),
     ) -> BlockStress<L> {
         let Self { blocks, law, step, fields, internal } = self;
@@ -271,7 +274,7 @@ impl<L: Lanes<WIDE>, W: Law, const MOST: usize> BlockResponse<L> for Relaxing<'_
         }
         let (whole, amplitude) = (after.0.remembered(), after.1);
         internal_variables::store_term(fields, n_terms, slots, &whole, amplitude);
-        internal.stress(*law, &deformation.h, pulled_back)
+        law.stress_of(&deformation.h, pulled_back, internal)
     }
 }
 

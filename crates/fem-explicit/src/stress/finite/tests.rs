@@ -1,12 +1,12 @@
 //! The elements at finite strain: derivatives, objectivity, patches, the limit of small strain.
 
+use fem_collision::Account;
 use fem_material::finite::{AxisymmetricTensor, Number};
 use fem_material::{ActsOn, ElasticModuli, PronySeries, PronyTerm};
 use fem_mesh::Side;
 
 use super::super::small_strain;
 use super::block::Block;
-use super::internal_variables::InternalVariables;
 use super::kernel::{Conjugate, Deformation};
 use super::law::Law;
 use super::*;
@@ -24,6 +24,7 @@ fn mesh() -> SphereMesh {
     unit_sphere(8.0, Side::Above)
 }
 
+mod flow;
 mod relaxation;
 
 fn leading(n_elements: usize) -> Vec<usize> {
@@ -189,9 +190,9 @@ const Q: [f64; 2] = [0.2, -0.3];
 
 /// Returns the derivatives for a deformed quad with an hourglass amplitude: stress (rr, ry, yr, yy, tt) and amplitude
 /// forces.
-fn conjugate_with(
-    law: &impl Law,
-    internal: &InternalVariables<Plain<WIDE>>,
+fn conjugate_with<W: Law>(
+    law: &W,
+    internal: &W::Internal<Plain<WIDE>>,
     [rr, ry, yr, yy, tt]: [f64; 5],
     q: [f64; 2],
 ) -> ([f64; 5], [f64; 2]) {
@@ -203,7 +204,7 @@ fn conjugate_with(
 }
 
 fn conjugate(law: &impl Law, f: [f64; 5], q: [f64; 2]) -> ([f64; 5], [f64; 2]) {
-    conjugate_with(law, &InternalVariables::none(), f, q)
+    conjugate_with(law, &law.undeformed(), f, q)
 }
 
 fn turn([x, y]: [f64; 2], angle: f64) -> [f64; 2] {

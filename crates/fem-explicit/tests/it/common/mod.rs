@@ -9,7 +9,7 @@ use fem_explicit::{
     ExplicitBodies, ModelParts, Run, RunState, Settings, SmallStrainContact, collide,
 };
 use fem_material::finite::HyperelasticLaw;
-use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_material::{ActsOn, ElasticModuli, FlowRule, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
 
 /// Hertz' contact time and approach at 0.5 m/s.
@@ -34,6 +34,8 @@ pub struct Pair {
     pub terms: &'static [(f64, f64)],
     /// At finite strain.
     pub law: Option<HyperelasticLaw>,
+    /// Yield strength of a perfectly plastic pair, Pa.
+    pub yield_strength: Option<f64>,
     /// Units of length, time and mass in m, s and kg.
     pub units: [f64; 3],
     pub candidate_radius: f64,
@@ -55,6 +57,7 @@ impl Default for Pair {
             relaxation: None,
             terms: &[(1.0, 1.0 / 2708.0)],
             law: None,
+            yield_strength: None,
             units: [1.0; 3],
             candidate_radius: 0.35e-3,
             history_rows: 1000,
@@ -90,7 +93,11 @@ impl Pair {
             };
             PronySeries::new(self.terms.iter().map(term).collect(), acts_on).unwrap()
         });
-        Material::new(2390.0 * mass / length.powi(3), moduli, relaxation).unwrap()
+        let material = Material::new(2390.0 * mass / length.powi(3), moduli, relaxation).unwrap();
+        match self.yield_strength {
+            Some(strength) => material.with_flow(FlowRule::perfect(strength).unwrap()).unwrap(),
+            None => material,
+        }
     }
 
     pub fn sphere(&self, body: usize) -> BodyInput {

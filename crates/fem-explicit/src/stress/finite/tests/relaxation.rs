@@ -15,14 +15,14 @@ const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
 const TERMS: [(f64, f64); 2] = [(0.3, 0.2), (0.5, 2.0)];
 
 /// The elements of a body on a path that the test chooses.
-struct March {
-    stress: Box<dyn Stress>,
-    history: Vec<NodalField>,
-    u: Vec<[f64; 2]>,
+pub(super) struct March {
+    pub stress: Box<dyn Stress>,
+    pub history: Vec<NodalField>,
+    pub u: Vec<[f64; 2]>,
 }
 
 impl March {
-    fn new(mut stress: Box<dyn Stress>, mesh: &SphereMesh, time_step: f64) -> Self {
+    pub fn new(mut stress: Box<dyn Stress>, mesh: &SphereMesh, time_step: f64) -> Self {
         stress.set_time_step(time_step);
         let of_elements = vec![vec![[0.0; 2]; mesh.quads().len()]; stress.n_element_history()];
         let of_nodes = vec![vec![[0.0; 2]; mesh.nodes().len()]; stress.n_history()];
@@ -30,7 +30,7 @@ impl March {
         Self { stress, history, u: vec![[0.0; 2]; mesh.nodes().len()] }
     }
 
-    fn step(&mut self, time_step: f64, u: &Field) {
+    pub fn step(&mut self, time_step: f64, u: &Field) {
         let rate = |(after, before): (&[f64; 2], &[f64; 2])| {
             [0, 1].map(|axis: usize| (after[axis] - before[axis]) / time_step)
         };
@@ -40,7 +40,7 @@ impl March {
         self.stress.advance(&motion, &mut self.history);
     }
 
-    fn forces(&self) -> Vec<[f64; 2]> {
+    pub fn forces(&self) -> Vec<[f64; 2]> {
         let mut f = vec![[0.0; 2]; self.u.len()];
         self.stress.subtract_forces(&motion(&self.u), &self.history, &mut f).unwrap();
         f
@@ -55,7 +55,7 @@ impl March {
     }
 }
 
-fn scaled(shape: &Field, factor: f64) -> Vec<[f64; 2]> {
+pub(super) fn scaled(shape: &Field, factor: f64) -> Vec<[f64; 2]> {
     shape.iter().map(|u| u.map(|u| factor * u)).collect()
 }
 
@@ -157,7 +157,7 @@ fn a_rotation_turns_relaxed_stress() {
         let solid = Hyperelastic::new(law, series_of.instantaneous());
         let law =
             RelaxingLaw::of(&Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
-        let mut past = InternalVariables::none();
+        let mut past = law.undeformed();
         let splat = Plain::<WIDE>::splat;
         let strain = |rr, yy, ry, volume| ViscousStrain {
             rr: splat(rr),
