@@ -12,4 +12,5 @@ export const ACCOUNT_WORDS = {
   potential: 'height',
   left_before: 'energy left in the bodies by earlier contacts',
   adhesion: 'held back by adhesion',
+  plastic_work: 'heat from plastic flow',
 };
