@@ -160,9 +160,8 @@ impl FiniteStrain {
         });
         let BodyStrain { name, material, .. } = unstable.next()?;
         let warning = format!(
-            "{}, the law of {name}, is expected to lose its stability under the contact's pressure: elements \
-             collapse, and the run may stop; use another material.NAME.hyperelastic, such as neo-hooke, which is \
-             stable at any deformation",
+            "{}, the law of {name}, is expected to lose its stability under the contact's pressure, and the \
+             run may stop; use another material.NAME.hyperelastic, such as neo-hooke, which is always stable",
             material.law().name()
         );
         let number = FiniteStrain.relevance(scene, estimate)?.number;
