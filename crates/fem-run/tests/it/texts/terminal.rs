@@ -38,7 +38,9 @@ fn report_of_a_run_fits_on_a_screen() {
                          { name = 'b', sphere.diameter = '10 mm', material = 'lib:steel' }]\n";
     place.write("steel.toml", steel);
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
-    for name in ["glass_0.5ms", "ball_on_block", "dust_grain", "three_bounces"] {
+    for name in
+        ["glass_0.5ms", "glass_0.5ms_elastic", "ball_on_block", "dust_grain", "three_bounces"]
+    {
         let file = format!("{name}.toml");
         std::fs::copy(cases.join(&file), place.path(&file)).unwrap();
     }
@@ -51,7 +53,8 @@ fn report_of_a_run_fits_on_a_screen() {
             "ball_on_block.toml --set model=hertz",
             "effects off; above the tolerance: partner waves; -v lists them",
         ),
-        ("dust_grain.toml", "1 - restitution:"),
+        ("dust_grain.toml", "restitution                1.0000           0"),
+        ("glass_0.5ms_elastic.toml --set model.condensed={}", "1 - restitution: less than "),
         ("three_bounces.toml --set model=ting", "bounces:  3, with restitution 0.|gravity"),
         (
             "three_bounces.toml --set model=condensed --set stop.bounces=500",
@@ -72,6 +75,9 @@ fn report_of_a_run_fits_on_a_screen() {
         let all = place.succeed((command, "--force --out out -v")).stdout;
         assert!(all.contains("\nEffects\n") && lines(&all) > 20, "{all}");
     }
+    // Neglected effects may change more than the numerical error of closed forms.
+    let dust = place.succeed("dust_grain.toml --force --out out").stdout;
+    assert!(!dust.contains("1 - restitution"), "{dust}");
     let uncertain =
         "glass_0.5ms.toml --set model=ting --set 'material.glass.youngs_modulus=\"63 ± 2 GPa\"'";
     place
