@@ -68,8 +68,6 @@ impl<W: ElasticLaw> ElementResponse for ElasticResponse<W> {
 
     fn add_energies(&self, blocks: &Blocks, u: &Field, _: &[NodalField], accounts: &mut Accounts) {
         accounts.energies.add(Account::Strain, kernel::stored_energy(blocks, &self.law, u));
-        // The account is present for an elastic body too, and empty.
-        accounts.powers.add(Account::ViscousDissipation, 0.0);
     }
 }
 

@@ -2,8 +2,8 @@
 //! the hourglass shape.
 //!
 //! The elastic hourglass amplitude is scaled as the return map scales the deviator of the stress: an element that flows
-//! cannot store more energy in its hourglass shape than in its mean shape. What it loses is plastic work, the force at
-//! the end of the step times the amplitude that flows.
+//! cannot store more energy in its hourglass shape than in its mean shape. The energy that it loses is plastic work:
+//! the force at the end of the step times the amplitude that flows.
 //!
 //! As with relaxation one loop takes the internal variables to the end of a step and computes the forces there. Fields of
 //! history, one pair per element:
@@ -27,7 +27,7 @@ use super::ElementResponse;
 use super::block::{Blocks, Slots};
 use super::hourglass::{Amplitudes, Deformed};
 use super::internal_variables;
-use super::kernel::{self, BlockResponse, BlockStress, Deformation, Volumes};
+use super::kernel::{self, Advanced, BlockResponse, BlockStress, Deformation, Volumes};
 use super::law::Law;
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use crate::part::{Accounts, Field, NodalField};
@@ -213,8 +213,6 @@ impl ElementResponse for FlowingResponse {
         run_wide_lanes(Energies { blocks, law: &self.law, u, history }, &mut sums);
         accounts.energies.add(Account::Strain, sums.0);
         accounts.energies.add(Account::PlasticWork, sums.1);
-        // The account is present for a body that does not relax too, and empty.
-        accounts.powers.add(Account::ViscousDissipation, 0.0);
     }
 
     fn can_lose_ellipticity(&self) -> bool {
@@ -228,14 +226,6 @@ struct Advance<'a> {
     law: &'a FlowingLaw,
     time_step: Option<f64>,
     u: &'a Field,
-}
-
-/// The output of [`Advance`]: internal variables, internal forces (N, subtracted), and whether every element has a positive
-/// volume.
-struct Advanced<'a> {
-    internal: &'a mut [NodalField],
-    forces: &'a mut Field,
-    is_valid: bool,
 }
 
 impl<'a> LaneKernel<WIDE> for Advance<'a> {
@@ -317,10 +307,6 @@ impl LaneKernel<WIDE> for Energies<'_> {
             work =
                 (work + elements.hourglass_work).plus_product(volume, elements.state.plastic_work);
         }
-        let (stored, work): ([f64; WIDE], [f64; WIDE]) = (stored.to_array(), work.to_array());
-        *sums = match volumes.are_valid() {
-            true => (stored.iter().sum(), work.iter().sum()),
-            false => (f64::NAN, f64::NAN),
-        };
+        *sums = volumes.checked_sums(stored, work);
     }
 }

@@ -6,7 +6,7 @@ use super::block::{Block, Blocks, load_three};
 use super::hourglass::{Amplitudes, Deformed};
 use super::law::{ElasticLaw, Law};
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
-use crate::part::Field;
+use crate::part::{Field, NodalField};
 
 /// The stress of the elements of a block.
 pub(super) struct BlockStress<L> {
@@ -56,6 +56,16 @@ pub(super) fn subtract_forces<L: Lanes<WIDE>, R: BlockResponse<L>>(
         unsafe { forces_of(block, &deformed, &stress).scatter_subtract(block, f) };
     }
     volumes.are_valid()
+}
+
+/// The output of a loop that takes internal variables to the end of a step.
+pub(super) struct Advanced<'a> {
+    /// Internal variables of the elements.
+    pub internal: &'a mut [NodalField],
+    /// Internal forces are subtracted here, N.
+    pub forces: &'a mut Field,
+    /// Whether every element has a positive volume.
+    pub is_valid: bool,
 }
 
 /// Returns the derivatives of the energy by the deformation of a block, from its stress.
@@ -227,6 +237,16 @@ impl<L: Lanes<WIDE>> Volumes<L> {
         let (least, zero): ([f64; WIDE], [f64; WIDE]) =
             (self.least.to_array(), self.zero.to_array());
         least.iter().all(|change| *change > -1.0) && zero.iter().all(|zero| *zero == 0.0)
+    }
+
+    /// Returns two sums over all lanes; not numbers where a volume is not positive.
+    #[inline(always)]
+    pub fn checked_sums(&self, first: L, second: L) -> (f64, f64) {
+        let (first, second): ([f64; WIDE], [f64; WIDE]) = (first.to_array(), second.to_array());
+        match self.are_valid() {
+            true => (first.iter().sum(), second.iter().sum()),
+            false => (f64::NAN, f64::NAN),
+        }
     }
 }
 

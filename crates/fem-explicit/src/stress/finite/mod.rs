@@ -42,6 +42,7 @@ mod stability;
 
 use std::fmt;
 
+use fem_collision::Account;
 use fem_element::QuadGeometry;
 use fem_material::Material;
 use fem_material::finite::{
@@ -242,6 +243,8 @@ impl<R: ElementResponse> Stress for FiniteStrain<R> {
     }
 
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
+        // The account is present for a body that does not relax too, and empty.
+        accounts.powers.add(Account::ViscousDissipation, 0.0);
         self.response.add_energies(&self.blocks, motion.displacement, history, accounts);
     }
 }

@@ -19,7 +19,7 @@ use super::ElementResponse;
 use super::block::{Blocks, Slots};
 use super::hourglass::{Amplitudes, Deformed};
 use super::internal_variables::{self, InternalVariables, MAX_FINITE_STRAIN_TERMS};
-use super::kernel::{self, BlockResponse, BlockStress, Deformation, Volumes};
+use super::kernel::{self, Advanced, BlockResponse, BlockStress, Deformation, Volumes};
 use super::law::{Law, RelaxingLaw};
 use crate::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use crate::part::{Accounts, Field, NodalField};
@@ -180,11 +180,7 @@ impl LaneKernel<WIDE> for Energies<'_> {
             stored = (stored + deformed.energy(&all)).plus_product(volume, energy);
             power = power.plus_product(volume, rate);
         }
-        let (stored, power): ([f64; WIDE], [f64; WIDE]) = (stored.to_array(), power.to_array());
-        *sums = match volumes.are_valid() {
-            true => (stored.iter().sum(), power.iter().sum()),
-            false => (f64::NAN, f64::NAN),
-        };
+        *sums = volumes.checked_sums(stored, power);
     }
 }
 
@@ -195,16 +191,6 @@ pub(super) struct Advance<'a> {
     pub law: &'a RelaxingLaw,
     pub step: Option<&'a Step>,
     pub u: &'a Field,
-}
-
-/// The output of [`Advance`].
-pub(super) struct Advanced<'a> {
-    /// Internal variables of the elements.
-    pub internal: &'a mut [NodalField],
-    /// Internal forces are subtracted here, N.
-    pub forces: &'a mut Field,
-    /// Whether every element has a positive volume.
-    pub is_valid: bool,
 }
 
 impl<'a> LaneKernel<WIDE> for Advance<'a> {

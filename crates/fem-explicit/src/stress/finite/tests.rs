@@ -1,6 +1,5 @@
 //! The elements at finite strain: derivatives, objectivity, patches, the limit of small strain.
 
-use fem_collision::Account;
 use fem_material::finite::{AxisymmetricTensor, Number};
 use fem_material::{ActsOn, ElasticModuli, PronySeries, PronyTerm};
 use fem_mesh::Side;
