@@ -127,8 +127,7 @@ pub fn decide(
     let is_lacking =
         |own: &Support, relevance: &Relevance| relevance.is_needed && *own == Support::Lacks;
     let lacked = relevances.iter().filter(|(_, own, _, relevance)| is_lacking(own, relevance));
-    let silenced: Vec<&str> = lacked.flat_map(|(effect, ..)| effect.silences()).copied().collect();
-    decisions.silenced.clone_from(&silenced);
+    decisions.silenced = lacked.flat_map(|(effect, ..)| effect.silences()).copied().collect();
     for (effect, own, switch, relevance) in relevances {
         let obeys = own.obeys();
         let (is_needed, note) = (relevance.is_needed, relevance.warning.clone());
@@ -139,7 +138,7 @@ pub fn decide(
         }
         let is_lacking = !active && !is_inherent;
         let is_physics = active && effect.kind() == EffectKind::Physical;
-        let is_warned = !warnings.is_empty() && !silenced.contains(&effect.name());
+        let is_warned = !warnings.is_empty() && !decisions.silenced.contains(&effect.name());
         let matters = is_physics || is_lacking && is_needed || is_warned;
         let name = effect.name();
         decisions.all.push(EffectDecision { name, active, reason, matters, is_lacking });
