@@ -12,6 +12,8 @@ const TOP: [&str; 8] =
 const APART: [(&str, &str); 2] = [("fem-fuzz", "fuzz"), ("fem-validate", "validation")];
 /// Placeholders in paths.
 const PLACEHOLDERS: [&str; 5] = ["NAME", "CASE", "<", "*", "…"];
+/// Lists of the pages of docs/: the index, and the summary from which mdBook makes a site.
+const LISTS: [&str; 2] = ["README.md", "SUMMARY.md"];
 /// Keywords that define an item.
 const DEFINERS: [&str; 9] =
     ["const", "enum", "fn", "macro_rules!", "mod", "static", "struct", "trait", "type"];
@@ -111,18 +113,20 @@ fn links_in_docs_have_targets() {
     assert!(faults.is_empty(), "links that lead nowhere:\n{}", faults.join("\n"));
 }
 
-/// The index links to every page.
+/// The index and the summary of the site link to every page once and to no other page of docs/.
 #[test]
-fn every_page_is_in_the_index() {
+fn every_page_is_in_the_index_and_on_the_site() {
     let pages = Page::all();
     let of_docs = pages.iter().filter_map(|page| page.path.strip_prefix("docs/"));
-    let names: Vec<&str> = of_docs.filter(|name| *name != "README.md").collect();
+    let names: Vec<&str> = of_docs.filter(|name| !LISTS.contains(name)).collect();
     assert!(names.len() > 20);
-    let links: Vec<String> =
-        Page::load("docs/README.md").links().into_iter().map(|link| link.text).collect();
-    let missing: Vec<&&str> =
-        names.iter().filter(|name| !links.iter().any(|link| link == **name)).collect();
-    assert!(missing.is_empty(), "docs/README.md leads to no {missing:?}");
+    for list in LISTS {
+        let links = Page::load(&format!("docs/{list}")).links();
+        let mut linked: Vec<&str> = links.iter().map(|link| link.text.as_str()).collect();
+        linked.retain(|link| !link.starts_with("../") && !LISTS.contains(link));
+        linked.sort_unstable();
+        assert_eq!(linked, names, "pages of docs/{list}, and those in docs/");
+    }
 }
 
 #[test]
