@@ -77,6 +77,7 @@ pub use scene::{
     WorkOfAdhesion, impact_speed,
 };
 pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
+pub use source::changes::readable_name;
 pub use source::similar_words::nearest;
 pub use sweep::Sweep;
 pub use sweep::axes::{Axis, AxisValue, SweptKey};

@@ -16,7 +16,7 @@ import fem_run
 from conftest import COARSE, ROOT
 
 #: What differs from run to run, or between memory and folder.
-OWN = {"cost", "files", "case", "made_from"}
+OWN = {"cost", "files", "case", "made_from", "source"}
 
 
 def rest(summary):

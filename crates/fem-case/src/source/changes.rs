@@ -104,20 +104,30 @@ pub(crate) fn titled(title: &str, changes: &[Change]) -> String {
 
 /// Returns a name with the changes appended, fit for a folder on any system: `glass-approach_speed=1m_s`.
 pub(crate) fn folder_name(stem: &str, changes: &[Change]) -> String {
-    let fit = |c: char| match c {
-        ' ' => None,
-        'µ' => Some('u'),
-        c if c.is_ascii_alphanumeric() || "-._+".contains(c) => Some(c),
-        _ => Some('_'),
-    };
     let mut name = stem.to_string();
     for Change { key, value } in changes {
-        let key: String = key.replace(' ', "_").chars().filter_map(fit).collect();
-        let value: String = value.replace('…', "").chars().filter_map(fit).collect();
+        let key = readable_name(&key.replace(' ', "_"));
+        let value = readable_name(&value.replace('…', ""));
         name += &if value.is_empty() { format!("-{key}") } else { format!("-{key}={value}") };
     }
-    let end = name.char_indices().map(|(at, c)| at + c.len_utf8());
-    let end = end.take_while(|end| *end <= MAX_NAME_LENGTH.max(stem.len())).last().unwrap_or(0);
+    truncated(name, MAX_NAME_LENGTH.max(stem.len()))
+}
+
+/// Returns words as a part of a name of a file or folder that is valid on any system and of bounded length: `60 µm`
+/// becomes `60um`.
+pub fn readable_name(words: &str) -> String {
+    let fit = |c: char| match c {
+        ' ' | '"' | '\'' => None,
+        'µ' => Some('u'),
+        c if c.is_ascii_alphanumeric() || "-._+=".contains(c) => Some(c),
+        _ => Some('_'),
+    };
+    truncated(words.chars().filter_map(fit).collect(), MAX_NAME_LENGTH)
+}
+
+fn truncated(mut name: String, length: usize) -> String {
+    let ends = name.char_indices().map(|(at, c)| at + c.len_utf8());
+    let end = ends.take_while(|end| *end <= length).last().unwrap_or(0);
     name.truncate(end);
     name
 }

@@ -15,6 +15,7 @@ use serde::Deserialize;
 use crate::case::{Case, text_at};
 use crate::error::CaseError;
 use crate::quantity::{Count, Quantity};
+use crate::source::changes::{changes, folder_name};
 use crate::source::document::{Document, Insertions};
 use crate::source::error_recovery::{KeyRepair, read_repaired};
 use crate::source::explain::explain;
@@ -120,6 +121,19 @@ impl Sweep {
     /// Returns the path of the base case.
     pub fn base_path(&self) -> &Path {
         &self.base.path
+    }
+
+    /// Returns the texts of the sweep file and of the base case.
+    pub fn texts(&self) -> [&str; 2] {
+        [&self.text, &self.base.text]
+    }
+
+    /// Returns the name of the default result folder: that of the sweep file, `stem`, and the overrides that change the
+    /// scene, as for a case ([`Case::folder_name`]).
+    pub fn folder_name(&self, stem: &str) -> String {
+        let first: Vec<_> = self.choice(0).into_iter().enumerate().collect();
+        let changes = self.case(&first).map(|case| changes(case.file(), &self.base.overrides));
+        folder_name(stem, &changes.unwrap_or_default())
     }
 
     /// Returns the index of the member's value on each axis.

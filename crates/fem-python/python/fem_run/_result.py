@@ -71,6 +71,7 @@ class Result:
     numerics: str
     measured_restitution: list[dict[str, Any]]
     made_from: str
+    source: str | None
     files: list[str]
     case: dict[str, Any]
 

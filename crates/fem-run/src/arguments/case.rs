@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use fem_case::{Case, CaseError};
 
+use crate::result_folder::Origin;
 use crate::text::standard_output;
 
 const STDIN: &str = "-";
@@ -61,11 +62,26 @@ impl CaseArguments {
         self.overridden(&[&self.set[..], within.tolerance.as_slice()].concat())
     }
 
+    /// Returns the origin of a result that is computed with another tolerance.
+    pub fn origin_within(
+        &self,
+        within: &ToleranceArguments,
+        command: &str,
+        made_from: String,
+    ) -> Origin {
+        self.origin(command, made_from).with_options(within.tolerance.as_slice())
+    }
+
     fn overridden(&self, overrides: &[String]) -> Result<Case, CaseError> {
         if self.case.as_os_str() == STDIN {
             return Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), overrides);
         }
         Case::load(&self.case, overrides)
+    }
+
+    /// Returns the origin of a result of `command` that is made from this case and has this digest.
+    pub fn origin(&self, command: &str, made_from: String) -> Origin {
+        Origin::of_digest(command, made_from).with_file(&self.case).with_options(&self.set)
     }
 
     pub fn name(&self) -> String {

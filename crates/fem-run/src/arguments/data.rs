@@ -4,8 +4,12 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use fem::measured::{DataError, Table, decode, is_of_library, library_table};
+use fem::{case_identity, digest_of};
+use fem_case::Case;
 
+use super::case::CaseArguments;
 use super::law::split;
+use crate::result_folder::Origin;
 use crate::text::{Failure, one_line, standard_output};
 
 /// Options for reading measured data.
@@ -49,9 +53,31 @@ impl ColumnArguments {
         Ok(table.renamed(&names)?)
     }
 
-    /// Returns the data file and these options as one text, which is part of a result's identity.
-    pub fn identity(&self, path: &Path) -> String {
-        path.display().to_string() + &self.columns.join(",")
+    /// Returns the origin of a result of `command` from a case, if there is one, and a data file. The digest is that of
+    /// their content.
+    pub fn origin(
+        &self,
+        command: &str,
+        case: Option<(&CaseArguments, &Case)>,
+        data: Option<&Path>,
+    ) -> Origin {
+        let mut parts = vec![command.as_bytes().to_vec()];
+        parts.extend(case.map(|(_, case)| case_identity(case).into_bytes()));
+        parts.extend(data.map(|path| {
+            let name = || path.as_os_str().as_encoded_bytes().to_vec();
+            std::fs::read(path).unwrap_or_else(|_| name())
+        }));
+        parts.extend(self.columns.iter().map(|text| text.clone().into_bytes()));
+        let digest = digest_of(parts.iter().map(Vec::as_slice));
+        let origin = match case {
+            Some((arguments, _)) => arguments.origin(command, digest),
+            None => Origin::of_digest(command, digest),
+        };
+        let origin = match data.and_then(Path::to_str).filter(|name| is_of_library(name)) {
+            Some(name) => origin.with_options(&[name.to_string()]),
+            None => data.into_iter().fold(origin, |origin, path| origin.with_file(path)),
+        };
+        origin.with_options(&self.columns)
     }
 }
 

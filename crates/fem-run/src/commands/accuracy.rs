@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::accuracy::{Measurement, Study, Variant, Variants};
-use fem::{CaseError, Identity, Monitor, Progress, Simulation};
+use fem::{CaseError, Identity, Monitor, Progress, Simulation, digest_of};
 use fem_case::engineering::show;
 use fem_report::accuracy::{
     AccuracyResult, csv, figure, json, markdown, sentences, terminal_tables,
@@ -60,7 +60,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let variants = Variants::of(&case)?;
     let identity = Identity::of(&case)?;
     let stem = arguments.input.stem();
-    let mut output = arguments.output.claim(&stem, "accuracy", &[identity.case])?;
+    let digest = digest_of(["accuracy".as_bytes(), identity.case.as_bytes()]);
+    let origin = arguments.input.origin_within(&arguments.within, "accuracy", digest);
+    let mut output = arguments.output.claim(&stem, "accuracy", origin)?;
     if !quiet {
         announce(&arguments.input.name(), &variants, budget);
     }

@@ -19,12 +19,12 @@ use crate::progress::RunProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::progress::stopwatch::Timed;
 use crate::progress::stopwatch::peak_memory_with;
+use crate::result_folder::ResultFolder;
 use crate::result_folder::ResultPath;
 use crate::result_folder::restart::{
     RESTART_FILE, RestartArguments, RestartWriter, announce_restart, read_restart,
 };
 use crate::result_folder::run_files::{WrittenResult, longest_name, write_result};
-use crate::result_folder::{OverwritePolicy, ResultFolder};
 use crate::text::run_report::{Detail, report};
 use crate::text::{Failure, one_line, shown, standard_output};
 
@@ -34,12 +34,13 @@ pub struct Options {
     /// Folder for the result [default: runs/CASE, with the name of the case file]
     ///
     /// Values of --set that change the scene are appended to the default: runs/glass-approach_speed=1m_s.
-    /// An existing folder is replaced only if it is empty or holds a result of the same case; differences in
-    /// [output] do not count. Other files in it are kept. Without --out a result of another case is kept too,
-    /// and the run writes to a new folder next to it.
+    /// An existing folder is replaced only if it is empty or holds a result of the same case file and overrides,
+    /// perhaps before the file was edited, or of an equal case; differences in [output] do not count. Other
+    /// files in it are kept. Without --out another result is kept too, and the run writes to a new folder next
+    /// to it.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace the result of another case
+    /// Replace any other result
     #[arg(long)]
     force: bool,
     /// Maximum number of threads; without effect on a single run, which is fastest on one
@@ -75,14 +76,14 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let making = begin.elapsed().as_secs_f64();
     let identity = Identity::of(simulation.case())?;
     let stem = input.stem();
-    let replaces = OverwritePolicy::only(&identity.case, options.force);
+    let origin = input.origin_within(&options.within, "run", identity.case.clone());
     let name = simulation.case().folder_name(&stem);
-    let place = ResultPath::choose(options.out.as_deref(), &name, &identity.case, &replaces);
+    let place = ResultPath::choose(options.out.as_deref(), &name, &origin, options.force);
     let restart_state = match options.restart.restart {
         true => find_restart_state(&place, &identity)?,
         false => None,
     };
-    let folder = ResultFolder::claim(&place.out, &longest_name(&stem), replaces)?;
+    let folder = ResultFolder::claim(&place.out, &longest_name(&stem), origin, options.force)?;
     let mut estimator = ErrorEstimator::default();
     let RefinedBeforeRun { simulation, is_open } = match &restart_state {
         Some(state) => {
@@ -115,7 +116,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let (stopwatch, watch) = watch.stop();
     watch.finish();
 
-    let written = write_result(folder.path(), &stem, &computed, &stopwatch, Keep::All, left);
+    let written = write_result(&folder, &stem, &computed, &stopwatch, Keep::All, left);
     let WrittenResult { summary, text, fault } = written;
     let published = match summary.files.is_empty() {
         true => Ok(None),
@@ -213,11 +214,9 @@ impl Announced<'_> {
         if let Some(finer) = forecast.finer.filter(|_| has_steps && detail == Detail::All) {
             line += &format!("; adaptive refinement may add {}", finer.in_words());
         }
-        if detail == Detail::All || place.taken.is_some() {
-            line += &format!("; result: {}", place.out.display());
-        }
-        if let Some(taken) = &place.taken {
-            line += &format!(" ({} holds another case)", taken.display());
+        let note = place.note();
+        if detail == Detail::All || !note.is_empty() {
+            line += &format!("; result: {}{note}", place.out.display());
         }
         let _ = writeln!(stderr(), "{}", one_line(&line));
         let warnings = simulation.warnings_before();

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+use fem::digest_of;
 use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some, load};
 use fem_case::{CaseFile, Sweep};
 use fem_report::sweep::FigureChoice;
@@ -12,6 +13,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::arguments::case::{parse_count, stem_of};
 use crate::progress::CheckProgress;
 use crate::progress::interrupt::Interrupt;
+use crate::result_folder::Origin;
 use crate::sweep::{
     Collector, Manifest, Shard, ShardFilter, SlurmBatch, SlurmOptions, SweepCost, SweepFolder,
     SweepJob, SweepOutcome, announce, conclude, report, run_members, status, warning_lines,
@@ -31,9 +33,14 @@ pub struct Arguments {
     sweep: PathBuf,
     /// Folder for the results [default: runs/<the sweep file's stem>]
     ///
-    /// An existing folder must be empty or that of a sweep, which is then continued.
+    /// Values of --set that change the scene are appended to the default, as for a case. An existing folder must
+    /// be empty or that of the same sweep file and overrides, perhaps before the file was edited, or of an equal
+    /// sweep, which is then continued. Without --out another sweep is kept, and a new folder lies next to it.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Continue in the folder of another sweep and replace its table; its members are kept
+    #[arg(long)]
+    force: bool,
     /// Override a key of the base case by its dotted path; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -71,6 +78,7 @@ struct Work<'a> {
     arguments: &'a Arguments,
     sweep: &'a Sweep,
     out: &'a Path,
+    origin: &'a Origin,
     pool: &'a ThreadPool,
     interrupt: Interrupt,
     /// Cost estimate of the members that are left, made when it is first needed.
@@ -83,15 +91,19 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let interrupt = Interrupt::listen();
     let sweep = load(&arguments.sweep, &arguments.set)?;
+    let origin = Origin::of_digest("sweep", digest_of(sweep.texts().map(str::as_bytes)))
+        .with_inputs(&arguments.set)
+        .with_file(&arguments.sweep);
     let out = match &arguments.out {
         Some(out) => out.clone(),
-        None => Path::new("runs").join(stem_of(&arguments.sweep)),
+        None => default_folder(&sweep.folder_name(&stem_of(&arguments.sweep)), &origin, arguments),
     };
     let pool = thread_pool(arguments.threads)?;
     let work = Work {
         arguments,
         sweep: &sweep,
         out: &out,
+        origin: &origin,
         pool: &pool,
         interrupt,
         expected: OnceCell::new(),
@@ -102,11 +114,34 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// Returns `runs/<name>`, or a folder next to it if that holds another sweep.
+fn default_folder(name: &str, origin: &Origin, arguments: &Arguments) -> PathBuf {
+    let default = Path::new("runs").join(name);
+    let is_taken = SweepFolder::at(&default, ShardFilter::All).only_of(origin).other_sweep();
+    match (is_taken, origin.distinction()) {
+        (Some(_), words) if !arguments.force && !words.is_empty() => {
+            default.with_file_name(format!("{name}-{words}"))
+        }
+        _ => default,
+    }
+}
+
 impl Work<'_> {
+    fn folder(&self, filter: ShardFilter) -> SweepFolder {
+        let folder = SweepFolder::at(self.out, filter);
+        if self.arguments.force { folder } else { folder.only_of(self.origin) }
+    }
+
+    fn manifest<'m>(&'m self, members: &'m [Member]) -> Manifest<'m> {
+        let Self { arguments, sweep, origin, out, .. } = self;
+        let (made_from, source) = (origin.made_from(), origin.source(out));
+        Manifest { sweep, members, set: &arguments.set, made_from, source }
+    }
+
     /// Computes a shard, usually the whole, and then writes table and figure of all members that are done.
     fn compute(&self, shard: Shard) -> Result<(), Failure> {
-        let Self { arguments, sweep, out, pool, .. } = self;
-        let mut folder = SweepFolder::at(out, ShardFilter::All);
+        let Self { arguments, sweep, pool, .. } = self;
+        let mut folder = self.folder(ShardFilter::All);
         folder.check()?;
         let mut numbers = KeyNumbers::new(sweep);
         let mut checking = CheckProgress::new(sweep.n_members(), arguments.quiet);
@@ -129,7 +164,7 @@ impl Work<'_> {
             }
             None => None,
         };
-        let mark = Manifest { sweep, members, set: &arguments.set };
+        let mark = self.manifest(members);
         folder.claim(|file| mark.write(file))?;
         if let Some(batch) = batch {
             return self.hand_over(&batch, &folder, &checked);
@@ -159,8 +194,8 @@ impl Work<'_> {
 
     /// Computes a shard and reads no other member.
     fn compute_shard(&self, shard: Shard) -> Result<(), Failure> {
-        let Self { arguments, sweep, out, pool, .. } = self;
-        let mut folder = SweepFolder::at(out, ShardFilter::Shard(shard));
+        let Self { arguments, sweep, pool, .. } = self;
+        let mut folder = self.folder(ShardFilter::Shard(shard));
         folder.check()?;
         let places = shard.places(sweep.n_members());
         let mut checking = CheckProgress::new(places.len(), arguments.quiet);
@@ -171,7 +206,7 @@ impl Work<'_> {
         if arguments.dry_run {
             return Ok(());
         }
-        let mark = Manifest { sweep, members: &checked.members, set: &arguments.set };
+        let mark = self.manifest(&checked.members);
         folder.join(|file| mark.write(file))?;
         run_members(&self.job(&folder, &checked.members, shard), &checked.left)?;
         folder.refresh();

@@ -18,7 +18,7 @@ use crate::arguments::case::parse_count;
 use crate::progress::ItemProgress;
 use crate::progress::interrupt::Interrupt;
 use crate::result_folder::whole_file::OwnedFileKind;
-use crate::result_folder::{OverwritePolicy, ResultFolder};
+use crate::result_folder::{Origin, ResultFolder};
 use crate::text::{Failure, headed, one_line, shown, standard_output, table};
 
 /// Identifies the Markdown tables of this command.
@@ -90,8 +90,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for path in arguments.table.iter().chain(&arguments.scenes) {
         TABLE.check(path)?;
     }
-    let replaces = OverwritePolicy::only(MADE_FROM, arguments.force);
-    let folder = ResultFolder::claim(&arguments.out, ".summary.json.XXXXXX.tmp", replaces)?;
+    let origin = Origin::of_digest("validate", MADE_FROM.to_string());
+    let longest_name = ".summary.json.XXXXXX.tmp";
+    let folder = ResultFolder::claim(&arguments.out, longest_name, origin, arguments.force)?;
     let interrupt = Interrupt::listen();
     let results = run(&claims, arguments, &interrupt)?;
     let is_complete = results.len() == claims.len();

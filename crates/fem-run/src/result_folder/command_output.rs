@@ -3,12 +3,11 @@
 
 use std::path::PathBuf;
 
-use fem::digest_of;
 use fem::results::PROGRAM;
 use serde::Serialize;
 use serde_json::json;
 
-use super::{OverwritePolicy, ResultFolder, ResultPath};
+use super::{Origin, ResultFolder, ResultPath};
 use crate::text::{Failure, shown, standard_output};
 
 /// Options for the result folder of a command.
@@ -16,12 +15,12 @@ use crate::text::{Failure, shown, standard_output};
 pub struct OutputArguments {
     /// Folder for the result [default: in runs/, named after the input and the command]
     ///
-    /// An existing folder is replaced only if it is empty or holds a result of the same command, case and
-    /// data. Other files in it are kept. Without --out another result is kept too, and the files go into a
-    /// new folder next to it.
+    /// An existing folder is replaced only if it is empty or holds a result of the same command from the same
+    /// files and overrides, perhaps before they were edited, or from equal ones. Other files in it are kept.
+    /// Without --out another result is kept too, and the files go into a new folder next to it.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Replace the result of another case or other data
+    /// Replace any other result
     #[arg(long)]
     pub force: bool,
     /// Print nothing but errors and warnings
@@ -30,23 +29,20 @@ pub struct OutputArguments {
 }
 
 impl OutputArguments {
-    /// Claims the folder without touching its content. It may replace a result of the same command that was
-    /// made from the same `inputs`, such as a case's identity and a file's path.
+    /// Claims the folder without touching its content. It may replace a result of the same command and origin.
     pub fn claim(
         &self,
         stem: &str,
         command: &str,
-        inputs: &[String],
+        origin: Origin,
     ) -> Result<CommandOutput, Failure> {
-        let inputs = inputs.iter().map(String::as_bytes);
-        let made_from = digest_of(std::iter::once(command.as_bytes()).chain(inputs));
-        let replaces = OverwritePolicy::only(&made_from, self.force);
         let folder = format!("{stem}_{command}");
-        let place = ResultPath::choose(self.out.as_deref(), &folder, &made_from, &replaces);
+        let place = ResultPath::choose(self.out.as_deref(), &folder, &origin, self.force);
         let longest_name = "liggghts_coeff_restitution.in.tmp";
-        let folder = ResultFolder::claim(&place.out, longest_name, replaces)?;
+        let made_from = origin.made_from().to_string();
+        let folder = ResultFolder::claim(&place.out, longest_name, origin, self.force)?;
         let (files, quiet) = (vec![format!("{command}.json")], self.quiet);
-        Ok(CommandOutput { folder, made_from, files, quiet })
+        Ok(CommandOutput { folder, made_from, place, files, quiet })
     }
 }
 
@@ -55,6 +51,7 @@ impl OutputArguments {
 pub struct CommandOutput {
     folder: ResultFolder,
     made_from: String,
+    place: ResultPath,
     files: Vec<String>,
     quiet: bool,
 }
@@ -94,13 +91,19 @@ impl CommandOutput {
         numbers["program"] = json!(PROGRAM);
         numbers["version"] = json!(env!("CARGO_PKG_VERSION"));
         numbers["made_from"] = json!(self.made_from);
+        numbers["source"] = json!(self.folder.source());
         numbers["files"] = std::iter::once(&name).chain(&self.files).cloned().collect();
         self.write(&name, format!("{numbers:#}\n"))?;
         let place = self.folder.publish(true)?;
         if self.quiet {
             return Ok(());
         }
-        standard_output::print(&format!("{}\nResult: {}\n", text(), shown(&place)))
+        standard_output::print(&format!(
+            "{}\nResult: {}{}\n",
+            text(),
+            shown(&place),
+            self.place.note()
+        ))
     }
 }
 

@@ -36,6 +36,7 @@ pub struct ExistingResult {
     /// Names of the files that the program wrote; all others belong to the user.
     files: BTreeSet<String>,
     made_from: Option<String>,
+    source: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -43,6 +44,7 @@ struct OwnershipKeys {
     program: String,
     files: Vec<String>,
     made_from: Option<String>,
+    source: Option<String>,
 }
 
 impl ExistingOutput {
@@ -60,14 +62,15 @@ impl ExistingOutput {
         let finished = IDENTIFYING_FILES.iter().find_map(|name| {
             let text = fs::read(path.join(name)).ok()?;
             let keys: OwnershipKeys = serde_json::from_slice(&text).ok()?;
-            (keys.program == PROGRAM).then_some((keys.files, keys.made_from))
+            (keys.program == PROGRAM).then_some((keys.files, keys.made_from, keys.source))
         });
-        let unfinished = || Some((Vec::new(), Some(restart_head(path)?.case)));
-        Ok(finished.or_else(unfinished).map_or(Self::Foreign, |(files, made_from)| {
+        let unfinished = || Some((Vec::new(), Some(restart_head(path)?.case), None));
+        Ok(finished.or_else(unfinished).map_or(Self::Foreign, |(files, made_from, source)| {
             let hidden = [RESTART_FILE, LOCK_FILE, REPORT_FILE].map(String::from);
             Self::Result(ExistingResult {
                 files: files.into_iter().chain(hidden).collect(),
                 made_from,
+                source,
             })
         }))
     }
@@ -77,6 +80,11 @@ impl ExistingResult {
     /// Returns the digest of the input that the result was made from, if it is recorded.
     pub fn made_from(&self) -> Option<&str> {
         self.made_from.as_deref()
+    }
+
+    /// Returns the files and options that the result was made from, if they are recorded ([`super::Origin::source`]).
+    pub fn source(&self) -> Option<&str> {
+        self.source.as_deref()
     }
 
     /// Moves the user's files from `old` to `new`. A name that exists there gets `.kept` appended.

@@ -2,16 +2,17 @@
 //! there in one step at the end.
 //!
 //! ```text
-//! whole_file ─ existing_output ─ hidden_folder ─ ResultFolder ─ run_files, restart, command_output
+//! whole_file ─ existing_output ─ origin ─ hidden_folder ─ ResultFolder ─ run_files, restart, command_output
 //! ```
 //!
 //! An old result stays in place until then, and survives a run that is rejected or killed. It is replaced by
-//! a complete or interrupted result of the same case. Files that users put into a result folder are moved
+//! a complete or interrupted result of the same [`Origin`]. Files that users put into a result folder are moved
 //! to the new one.
 
 pub mod command_output;
 mod existing_output;
 mod hidden_folder;
+mod origin;
 pub mod restart;
 pub mod run_files;
 pub mod whole_file;
@@ -28,6 +29,7 @@ use whole_file::write_lasting;
 
 pub use existing_output::missing_parents;
 pub use hidden_folder::recover_leftovers;
+pub use origin::Origin;
 
 const ATTEMPTS: usize = 100;
 /// Looks at a folder after which it counts as foreign.
@@ -35,53 +37,52 @@ const LOOKS: usize = 5;
 /// Digits of the digest in the name of a folder.
 const DIGITS: usize = 8;
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum OverwritePolicy {
-    Any,
-    /// Results that were made from the input with this digest.
-    MadeFrom(String),
-}
-
-impl OverwritePolicy {
-    pub fn only(made_from: &str, force: bool) -> Self {
-        if force { Self::Any } else { Self::MadeFrom(made_from.to_string()) }
-    }
-
-    fn allows(&self, old: &ExistingResult) -> bool {
-        match self {
-            Self::Any => true,
-            Self::MadeFrom(own) => old.made_from() == Some(own),
-        }
-    }
-}
-
 #[derive(Debug)]
 pub struct ResultPath {
     pub out: PathBuf,
-    /// The default folder, if it holds the result of another case.
+    /// The default folder, if it holds another result.
     pub taken: Option<PathBuf>,
+    /// Whether the folder holds the result of an earlier version of the same files, which will be replaced.
+    pub replaces_earlier: bool,
 }
 
 impl ResultPath {
-    /// Returns `out` if it is given, and else `runs/<name>`. If that holds a result that may not be replaced,
-    /// the folder is `runs/<name>-<digits of made_from>`.
-    pub fn choose(
-        out: Option<&Path>,
-        name: &str,
-        made_from: &str,
-        replaces: &OverwritePolicy,
-    ) -> Self {
+    /// Returns `out` if it is given, and else `runs/<name>`. If that holds a result that may not be replaced, the
+    /// folder is `runs/<name>-<distinction>` or, if that is taken too, `runs/<name>-<digits of made_from>`.
+    pub fn choose(out: Option<&Path>, name: &str, origin: &Origin, force: bool) -> Self {
+        let allows = |old: &ExistingResult, at: &Path| force || origin.replaces(old, at);
+        let existing = |path: &Path| match ExistingOutput::at(path) {
+            Ok(ExistingOutput::Result(old)) => Some(old),
+            _ => None,
+        };
+        let at = |out: &Path, taken: Option<PathBuf>| {
+            let is_earlier = |old: ExistingResult| {
+                allows(&old, out) && old.made_from() != Some(origin.made_from())
+            };
+            let replaces_earlier = existing(out).is_some_and(is_earlier);
+            Self { out: out.to_path_buf(), taken, replaces_earlier }
+        };
         if let Some(out) = out {
-            return Self { out: out.to_path_buf(), taken: None };
+            return at(out, None);
         }
+        let is_free = |path: &Path| existing(path).is_none_or(|old| allows(&old, path));
         let default = Path::new("runs").join(name);
-        match ExistingOutput::at(&default) {
-            Ok(ExistingOutput::Result(old)) if !replaces.allows(&old) => {
-                let digits = made_from.get(..DIGITS).unwrap_or(made_from);
-                let out = default.with_file_name(format!("{name}-{digits}"));
-                Self { out, taken: Some(default) }
-            }
-            _ => Self { out: default, taken: None },
+        if is_free(&default) {
+            return at(&default, None);
+        }
+        let digits = origin.made_from().get(..DIGITS).unwrap_or(origin.made_from());
+        let named = |suffix: &str| default.with_file_name(format!("{name}-{suffix}"));
+        let readable = Some(origin.distinction()).filter(|words| !words.is_empty());
+        let readable = readable.map(|words| named(&words)).filter(|path| is_free(path));
+        at(&readable.unwrap_or_else(|| named(digits)), Some(default))
+    }
+
+    /// Returns why the folder is not the default one, or what it replaces, to follow its name.
+    pub fn note(&self) -> String {
+        match (&self.taken, self.replaces_earlier) {
+            (Some(taken), _) => format!(" ({} holds another result)", shown(taken)),
+            (None, true) => " (replaces an earlier result)".to_string(),
+            (None, false) => String::new(),
         }
     }
 }
@@ -94,33 +95,37 @@ pub struct ResultFolder {
     /// The absolute path with symbolic links resolved.
     target: PathBuf,
     hidden: Option<HiddenFolder>,
-    replaces: OverwritePolicy,
+    /// What the result to come is made from; without it, it may replace any.
+    origin: Option<Origin>,
+    force: bool,
     /// Parent folders that were created, the innermost first.
     made: Vec<PathBuf>,
 }
 
 impl ResultFolder {
-    /// Claims `out` without touching its content, and recovers what killed runs left next to it. `longest_name`
-    /// is the longest file name to come.
+    /// Claims `out` for a result of this origin without touching its content, and recovers what killed runs left next
+    /// to it. `longest_name` is the longest file name to come; `force` allows it to replace any result.
     pub fn claim(
         out: &Path,
         longest_name: &str,
-        replaces: OverwritePolicy,
+        origin: Origin,
+        force: bool,
     ) -> Result<Self, Failure> {
         if let Some(parent) = resolve(out)?.parent() {
             recover_leftovers(parent);
         }
-        Self::claim_recovered(out, longest_name, replaces)
+        Self::claim_recovered(out, longest_name, Some(origin), force)
     }
 
     /// Claims a folder where nothing is left to recover.
     pub fn claim_recovered(
         out: &Path,
         longest_name: &str,
-        replaces: OverwritePolicy,
+        origin: Option<Origin>,
+        force: bool,
     ) -> Result<Self, Failure> {
         let target = resolve(out)?;
-        check_place(out, &target, &replaces)?;
+        check_place(out, &target, |old| allows(origin.as_ref(), force, old, &target))?;
         let cannot = |error: io::Error| {
             let message = format!("--out {}: a result cannot be written here: {error}", shown(out));
             Failure::bad_input(message).with_help("name a folder in a place that you may write to")
@@ -129,7 +134,7 @@ impl ResultFolder {
         let made = missing_parents(&target);
         // A folder beside the target of a link is not beside the link.
         let shown = if out.is_symlink() { target.clone() } else { out.to_path_buf() };
-        let mut folder = Self { shown, target, hidden: None, replaces, made };
+        let mut folder = Self { shown, target, hidden: None, origin, force, made };
         fs::create_dir_all(&parent).map_err(cannot)?;
         // The system rejects an impossible name only now.
         ExistingOutput::at(&folder.target).map_err(cannot)?;
@@ -158,14 +163,30 @@ impl ResultFolder {
     pub fn publish(mut self, is_whole: bool) -> Result<PathBuf, Failure> {
         let Some(mut hidden) = self.hidden.take() else { return Ok(self.shown.clone()) };
         self.made.clear();
-        let replaces = self.replaces.clone();
-        let may_replace = |old: &ExistingResult| is_whole && replaces.allows(old);
+        let may_replace = |old: &ExistingResult| {
+            is_whole && allows(self.origin.as_ref(), self.force, old, &self.target)
+        };
         let placed = put_in_place(&mut hidden, &self.target, &self.shown, may_replace);
-        placed.map_err(|error| {
-            let place = shown(&self.shown);
-            let message = format!("--out {place}: the result cannot be moved here: {error}");
-            Failure::failed(message).with_help(format!("it is kept in {}", shown(&hidden.keep())))
-        })
+        let place = shown(&self.shown);
+        match placed {
+            // The place was free for this result when it was claimed.
+            Ok(beside) if is_whole && beside != self.shown => {
+                let message = format!("--out {place}: another result was written here meanwhile");
+                Err(Failure::failed(message)
+                    .with_help(format!("that result stays; this one is in {}", shown(&beside))))
+            }
+            Ok(place) => Ok(place),
+            Err(error) => {
+                let message = format!("--out {place}: the result cannot be moved here: {error}");
+                let kept = format!("it is kept in {}", shown(&hidden.keep()));
+                Err(Failure::failed(message).with_help(kept))
+            }
+        }
+    }
+
+    /// Returns the source of the result to come ([`Origin::source`]).
+    pub fn source(&self) -> Option<String> {
+        self.origin.as_ref().and_then(|origin| origin.source(&self.target))
     }
 }
 
@@ -196,7 +217,15 @@ fn resolve(out: &Path) -> Result<PathBuf, Failure> {
     path.ok_or_else(|| fault("this is not the name of a folder"))
 }
 
-fn check_place(out: &Path, target: &Path, replaces: &OverwritePolicy) -> Result<(), Failure> {
+fn allows(origin: Option<&Origin>, force: bool, old: &ExistingResult, target: &Path) -> bool {
+    force || origin.is_none_or(|origin| origin.replaces(old, target))
+}
+
+fn check_place(
+    out: &Path,
+    target: &Path,
+    allows: impl Fn(&ExistingResult) -> bool,
+) -> Result<(), Failure> {
     let named = shown(out);
     let refuse = |found: &str| {
         Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
@@ -208,11 +237,12 @@ fn check_place(out: &Path, target: &Path, replaces: &OverwritePolicy) -> Result<
         Ok(ExistingOutput::File) => refuse("a file is in the way"),
         Ok(ExistingOutput::Foreign) => refuse("this folder is not a result of fem-run"),
         Ok(ExistingOutput::Absent) => Ok(()),
-        Ok(ExistingOutput::Result(old)) if !replaces.allows(&old) => {
-            let message = format!("--out {named}: this folder holds the result of another case");
+        Ok(ExistingOutput::Result(old)) if !allows(&old) => {
+            let source = old.source().map_or(String::new(), |source| format!(": {source}"));
+            let message = format!("--out {named}: this folder holds another result{source}");
             Err(Failure::bad_input(message).with_help(
-                "name another folder with --out, or replace that result with --force; cases that differ \
-                 only in [output] count as the same",
+                "name another folder with --out, or replace that result with --force; without it, a result \
+                 replaces only one of the same files and overrides, or of the same case",
             ))
         }
         Ok(ExistingOutput::Empty | ExistingOutput::Result(_)) => {

@@ -18,7 +18,7 @@ use fem_collision::{Collision, SnapshotInstant};
 use fem_report::report::{REPORT_FILE, StoredResult, report_page};
 use fem_report::section_view::{contour_of_frames, half_width, mirrored, sections};
 
-use super::{OverwritePolicy, ResultFolder, whole_file::write_whole};
+use super::{Origin, ResultFolder, whole_file::write_whole};
 use crate::{progress::stopwatch::Stopwatch, text::Failure};
 
 const RESERVE_FILE: &str = ".fem-run-room";
@@ -38,7 +38,7 @@ pub struct WrittenResult {
 }
 
 /// Writes the result folder that `fem-run CASE --out FOLDER` would write, with file names from `stem`.
-/// `force` allows it to replace the result of another case.
+/// `force` allows it to replace any other result.
 pub fn save(
     folder: &Path,
     stem: &str,
@@ -47,9 +47,9 @@ pub fn save(
     force: bool,
 ) -> Result<(), Failure> {
     let identity = Identity::of(computed.simulation.case())?;
-    let replaces = OverwritePolicy::only(&identity.case, force);
-    let place = ResultFolder::claim(folder, &longest_name(stem), replaces)?;
-    let written = write_result(place.path(), stem, computed, stopwatch, Keep::All, &[]);
+    let origin = Origin::of_digest("run", identity.case);
+    let place = ResultFolder::claim(folder, &longest_name(stem), origin, force)?;
+    let written = write_result(&place, stem, computed, stopwatch, Keep::All, &[]);
     if !written.summary.files.is_empty() {
         place.publish(written.fault.is_none())?;
     }
@@ -58,7 +58,7 @@ pub fn save(
 
 /// Writes the files of a result that `keep` asks for, in addition to the files `others` that exist already.
 pub fn write_result(
-    folder: &Path,
+    place: &ResultFolder,
     stem: &str,
     computed: &ComputedCollision,
     stopwatch: &Stopwatch,
@@ -66,10 +66,12 @@ pub fn write_result(
     others: &[&str],
 ) -> WrittenResult {
     let ComputedCollision { simulation, collision, errors } = computed;
+    let folder = place.path();
     let warnings = computed.warnings();
     let files = [SUMMARY_FILE].iter().chain(others).map(ToString::to_string).collect();
     let mut summary =
         Summary::of(simulation, collision, errors, stopwatch.spent(), warnings, files);
+    summary.source = place.source();
     let mut missing = None;
     if keep == Keep::All {
         let written = reserve_space(folder, &summary)

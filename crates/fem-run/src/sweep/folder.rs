@@ -13,9 +13,9 @@ use serde_json::Value;
 
 use super::member_store::{MemberFile, MemberStore, ShardFilter};
 use super::shard::Shard;
-use crate::result_folder::missing_parents;
 use crate::result_folder::recover_leftovers;
 use crate::result_folder::whole_file::{PREFIX, write_streamed};
+use crate::result_folder::{Origin, missing_parents};
 use crate::text::{Failure, shown};
 
 /// The manifest: the varied keys, and the values and identities of the members.
@@ -24,19 +24,43 @@ pub const FIGURE_FILE: &str = "sweep.svg";
 const MEMBERS: &str = "members";
 /// Summaries that are in memory at the same time.
 const AT_ONCE: usize = 1024;
-/// Bytes that identify a manifest.
-const HEAD: u64 = 256;
+/// Bytes of a manifest that have the program and the source of the sweep.
+const HEAD: u64 = 16 << 10;
 
 #[derive(Debug)]
 pub struct SweepFolder {
     path: PathBuf,
+    /// What the sweep is made from; without it, or with force, the folder may be that of any sweep.
+    origin: Option<Origin>,
     store: MemberStore,
 }
 
 impl SweepFolder {
     /// Opens a folder, which may not exist yet; `filter` selects the member files that are read.
     pub fn at(out: &Path, filter: ShardFilter) -> Self {
-        Self { path: out.to_path_buf(), store: MemberStore::of(out.join(MEMBERS), filter) }
+        let store = MemberStore::of(out.join(MEMBERS), filter);
+        Self { path: out.to_path_buf(), origin: None, store }
+    }
+
+    /// Restricts the folder to a sweep of this origin.
+    #[must_use]
+    pub fn only_of(self, origin: &Origin) -> Self {
+        Self { origin: Some(origin.clone()), ..self }
+    }
+
+    /// Returns the source of the sweep in the folder if it is another one than this. The manifest of an older version
+    /// names no source.
+    pub fn other_sweep(&self) -> Option<String> {
+        let head = manifest_head(&self.path);
+        let text = |key: &str| -> Option<String> {
+            let at = head.find(&format!("\"{key}\":"))? + key.len() + 3;
+            let mut values = serde_json::Deserializer::from_str(&head[at..]).into_iter();
+            values.next()?.ok()
+        };
+        let (made_from, source) = (text("made_from")?, text("source"));
+        let origin = self.origin.as_ref()?;
+        let is_same = origin.is_same(Some(&made_from), source.as_deref(), &self.path);
+        (!is_same).then(|| source.unwrap_or_default())
     }
 
     /// Checks whether the folder can be claimed, without writing.
@@ -64,7 +88,16 @@ impl SweepFolder {
             }
             Err(_) => {}
         }
-        Ok(())
+        match self.other_sweep() {
+            None => Ok(()),
+            Some(source) => {
+                let message = format!("--out {named}: this folder holds another sweep: {source}");
+                Err(Failure::bad_input(message).with_help(
+                    "name another folder with --out, or replace the table of that sweep with --force; its \
+                     members stay",
+                ))
+            }
+        }
     }
 
     /// Claims a new or empty folder or that of an earlier sweep, and writes the manifest.
@@ -187,12 +220,17 @@ fn is_ours(path: &Path) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Whether there is a manifest. It begins with the program's name; that of a million members is too long to
-/// be read whole.
+/// Whether there is a manifest. It begins with the program's name.
 fn has_manifest(path: &Path) -> bool {
+    let mut head = manifest_head(path);
+    head.retain(|c| !c.is_ascii_whitespace());
+    head.starts_with(&format!("{{\"program\":\"{PROGRAM}\","))
+}
+
+/// Returns the first keys of the manifest; that of a million members is too long to be read whole.
+fn manifest_head(path: &Path) -> String {
     let mut head = Vec::new();
     let file = File::open(path.join(MANIFEST_FILE));
     let _ = file.and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    head.retain(|byte| !byte.is_ascii_whitespace());
-    head.starts_with(format!("{{\"program\":\"{PROGRAM}\",").as_bytes())
+    String::from_utf8_lossy(&head).into_owned()
 }

@@ -12,6 +12,8 @@ pub struct Manifest<'a> {
     pub sweep: &'a Sweep,
     pub members: &'a [Member],
     pub set: &'a [String],
+    pub made_from: &'a str,
+    pub source: Option<String>,
 }
 
 impl Manifest<'_> {
@@ -24,7 +26,7 @@ impl Manifest<'_> {
 
 impl Serialize for Manifest<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { sweep, members, set } = self;
+        let Self { sweep, members, set, made_from, source } = self;
         let places = sweep.keys().zip(sweep.places());
         let vary = places.map(|(swept, (axis, key))| {
             let values = sweep.axes[axis].values.iter().map(|element| element.text(key));
@@ -33,6 +35,8 @@ impl Serialize for Manifest<'_> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("program", PROGRAM)?;
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
+        map.serialize_entry("made_from", made_from)?;
+        map.serialize_entry("source", source)?;
         map.serialize_entry("case", &sweep.base_path().display().to_string())?;
         map.serialize_entry("set", set)?;
         map.serialize_entry("combine", sweep.combine.word())?;

@@ -18,8 +18,8 @@ use super::shard::Shard;
 use crate::progress::interrupt::Interrupt;
 use crate::progress::stopwatch::{Stopwatch, Timed};
 use crate::progress::{ItemMonitor, ItemProgress};
+use crate::result_folder::ResultFolder;
 use crate::result_folder::run_files::{longest_name, write_result};
-use crate::result_folder::{OverwritePolicy, ResultFolder};
 use crate::text::failure::Failure;
 
 pub struct SweepJob<'a> {
@@ -117,9 +117,9 @@ impl ResultKeeper<'_> {
             return self.append(stem, ran, stopwatch);
         }
         let out = folder.member(stem);
-        let place = ResultFolder::claim_recovered(&out, &longest_name(stem), OverwritePolicy::Any)
+        let place = ResultFolder::claim_recovered(&out, &longest_name(stem), None, true)
             .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;
-        let written = write_result(place.path(), stem, ran, stopwatch, sweep.keep, &[]);
+        let written = write_result(&place, stem, ran, stopwatch, sweep.keep, &[]);
         if let Some(fault) = written.fault {
             return Err(fault);
         }

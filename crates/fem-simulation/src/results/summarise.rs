@@ -90,6 +90,7 @@ impl Summary {
             version: env!("CARGO_PKG_VERSION"),
             numerics: NUMERICS,
             made_from: simulation.input_digest(&collision.approach),
+            source: None,
             files,
             case: simulation.resolved_at(&collision.approach),
             warnings: warnings.into_iter().chain(numbers.warning()).collect(),

@@ -74,6 +74,9 @@ pub struct Summary {
     pub numerics: &'static str,
     /// Identity of the case ([`Simulation::input_digest`](crate::Simulation::input_digest)).
     pub made_from: String,
+    /// The case file as seen from the result folder, with the overrides; `None` if the case comes from no file. A new
+    /// result from the same file replaces this one.
+    pub source: Option<String>,
     /// Names of the files in the result folder.
     pub files: Vec<String>,
     /// The resolved case.

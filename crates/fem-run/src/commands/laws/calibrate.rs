@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use fem::calibrate::{Calibration, CalibrationFault, CalibrationModel, SettingNames, Settings};
-use fem::case_identity;
 use fem::measured::{MeasuredPairs, Table, UncertaintyError};
 use fem_case::Case;
 use fem_case::parse_quantity;
@@ -91,8 +90,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let table = arguments.columns.read(&arguments.data)?;
     let (found, warnings) = found(arguments, &case, &table)?;
     let picture = calibration_figure(&found).map_err(CalibrationFault::Fit)?;
-    let inputs = [case_identity(&case), arguments.columns.identity(&arguments.data)];
-    let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", &inputs)?;
+    let from_case = Some((&arguments.input, &case));
+    let origin = arguments.columns.origin("calibrate", from_case, Some(&arguments.data));
+    let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", origin)?;
     output.write("relaxation.toml", found.relaxation_toml())?;
     output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals())?;
     output.write("calibrate.svg", picture)?;

@@ -83,8 +83,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return standard_output::print(&one(&cradle, &trial, &swing));
     };
     let swings = swings(&cradle, &arguments.columns.read(path)?, arguments)?;
-    let inputs = [arguments.columns.identity(path)];
-    let mut output = arguments.output.claim(&stem_of(path), "cradle", &inputs)?;
+    let origin = arguments.columns.origin("cradle", None, Some(path));
+    let mut output = arguments.output.claim(&stem_of(path), "cradle", origin)?;
     let header = [
         "speed_m_s",
         "restitution",

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use fem::case_identity;
 use fem::fit::FitError;
 use fem::fit::dem::{Snippet, grain_snippets};
 use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers};
@@ -16,6 +15,7 @@ use crate::arguments::case::CaseArguments;
 use crate::arguments::data::ColumnArguments;
 use crate::arguments::law::{parse_length, parse_share, parse_speed};
 use crate::jobs::value_of;
+use crate::result_folder::Origin;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
 use crate::text::standard_output;
@@ -64,7 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =
-        arguments.output.claim(&arguments.input.stem(), "export", &[case_identity(&case)])?;
+        arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(&case))?;
     for snippet in &snippets {
         output.write(snippet.name, &snippet.text)?;
     }
@@ -108,6 +108,18 @@ impl Arguments {
         !(self.materials.is_empty() && self.diameters.is_empty())
     }
 
+    fn origin(&self, case: &Case) -> Origin {
+        let data = self.data.as_deref();
+        let origin = self.columns.origin("export", Some((&self.input, case)), data);
+        let grains: Vec<String> = self
+            .materials
+            .iter()
+            .cloned()
+            .chain(self.diameters.iter().map(|d| d.to_string()))
+            .collect();
+        origin.with_inputs(&grains)
+    }
+
     fn check_tolerance(&self) -> Result<(), Failure> {
         if self.tolerance > 0.0 && self.tolerance < 1.0 {
             return Ok(());
@@ -127,9 +139,8 @@ fn pairs(arguments: &Arguments, case: &Case) -> Result<(PairExport, Vec<PairNumb
 
 fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
     let (export, rows) = pairs(arguments, case)?;
-    let grains = format!("{:?} {:?}", arguments.materials, arguments.diameters);
-    let inputs = [case_identity(case), grains];
-    let mut output = arguments.output.claim(&arguments.input.stem(), "export", &inputs)?;
+    let mut output =
+        arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(case))?;
     output.write("pairs.csv", pairs_csv(&rows)?)?;
     for (name, text) in grain_snippets(&export.grains, &export.of_codes()) {
         output.write(name, text)?;

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use fem::case_identity;
 use fem::fit::{Free, Problem};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
 use fem::measured::{Restitutions, Table};
@@ -148,8 +147,9 @@ fn fitted<T>(
 
 fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Failure> {
     let Found { fitted, law, ranking } = found;
-    let inputs = [case_identity(case), arguments.columns.identity(&arguments.data)];
-    let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
+    let from_case = Some((&arguments.input, case));
+    let origin = arguments.columns.origin("fit", from_case, Some(&arguments.data));
+    let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", origin)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
     if let Some(ranking) = ranking {
         output.write("ranking.csv", ranking_csv(ranking))?;

@@ -83,7 +83,7 @@ impl Place {
         serde_json::from_slice(&self.read(name)).unwrap()
     }
 
-    /// Returns a result without its cost, which the report page shows: all other files as text or bytes, by
+    /// Returns a result without its cost, which the report page shows, and without its source: all other files as text or bytes, by
     /// name.
     pub fn result(&self, folder: &str) -> Vec<(String, Vec<u8>)> {
         let file = |name: String| {
@@ -92,7 +92,9 @@ impl Place {
                 return (name, self.read(path));
             }
             let mut summary = self.json(&path);
-            summary.as_object_mut().unwrap().remove("cost").unwrap();
+            for key in ["cost", "source"] {
+                summary.as_object_mut().unwrap().remove(key).unwrap();
+            }
             (name, summary.to_string().into_bytes())
         };
         self.list(folder).into_iter().filter(|name| name != "report.html").map(file).collect()

@@ -55,7 +55,7 @@ fn a_packed_sweep_has_one_file_the_same_table_and_survives_a_kill() {
     // Results in folders are used too, and the other way round.
     for file in ["packed.toml", "folders.toml"] {
         for out in ["packed", "folders"] {
-            let said = sweep(&place, [file, "--out", out]);
+            let said = sweep(&place, [file, "--force", "--out", out]);
             assert!(said.contains("30 already done, 0 to run"), "{said}");
         }
     }
