@@ -144,6 +144,7 @@ def export(
     case: Case,
     data: Any = None,
     *,
+    fit: str | os.PathLike[str] | None = None,
     speeds: tuple[Quantity, Quantity] | str | None = None,
     materials: str | Sequence[str] | None = None,
     diameters: Quantity | Sequence[Quantity] | None = None,
@@ -157,10 +158,13 @@ def export(
     Args:
         case: the two bodies.
         data: restitutions; by default they are computed.
-        speeds: range of the computed restitutions; by default a decade about the speed of the case.
+        fit: the folder of a fit, or its ``fit.json``; the fitted law then gives the restitutions.
+        speeds: range of the computed restitutions; by default a decade about the speed of the case, or the speeds of
+            the fit.
         materials: names of materials for a table of all pairs, of the case or ``"lib:NAME"``.
         diameters: diameters of spheres for a table of all pairs.
-        tolerance: largest error of the restitution at which a snippet counts as valid, 0.01 by default.
+        tolerance: largest error of the restitution at which a snippet counts as valid; by default 0.01 or, if that is
+            larger, the scatter of the data.
         columns: names of the columns by their meaning.
 
     Returns:

@@ -1,7 +1,7 @@
 //! The result folder of a fit, a calibration, an export, a cradle or a study of accuracy: `<command>.json`, which
 //! identifies it, and other files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use fem::results::PROGRAM;
 use serde::Serialize;
@@ -57,6 +57,11 @@ pub struct CommandOutput {
 }
 
 impl CommandOutput {
+    /// Returns the folder that the files will be in.
+    pub fn place(&self) -> &Path {
+        &self.place.out
+    }
+
     pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
         self.files.push(name.to_string());
         std::fs::write(self.folder.path().join(name), bytes).map_err(|error| {

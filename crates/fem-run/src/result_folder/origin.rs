@@ -49,6 +49,14 @@ impl Origin {
         self
     }
 
+    /// Adds an input file and its content.
+    #[must_use]
+    pub fn with_data_file(mut self, path: &Path) -> Self {
+        let content = std::fs::read(path).unwrap_or_default();
+        self.made_from = digest_of([self.made_from.as_bytes(), &content]);
+        self.with_file(path)
+    }
+
     /// Adds inputs that are neither files nor part of the digest.
     #[must_use]
     pub fn with_inputs(mut self, inputs: &[String]) -> Self {

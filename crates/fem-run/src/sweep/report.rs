@@ -58,7 +58,8 @@ pub fn member_file_size(n_members: usize) -> String {
 }
 
 pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder: &Path) -> String {
-    let keys = sweep.keys().map(|swept| swept.key.as_str());
+    let keys: Vec<&str> = sweep.keys().map(|swept| swept.key.as_str()).collect();
+    let keys = keys.iter().map(|key| shortest_end(key, &keys));
     let quantities = ["restitution", "contact time T", "T / Hertz", "peak force F", "F / Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
     let row = |row: &Row| {
@@ -79,6 +80,18 @@ pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder:
         text += &format!("\n{n_done} of {n_members} members are done.\n");
     }
     text + &format!("\nResult: {}\n", shown(&folder.join(SWEEP_FILE)))
+}
+
+/// Returns the last parts of a dotted key that no other of the keys ends with: `approach_speed`.
+fn shortest_end<'k>(key: &'k str, keys: &[&str]) -> &'k str {
+    let is_unique = |end: &&str| {
+        let is_end = |other: &&&str| {
+            other.strip_suffix(*end).is_some_and(|rest| rest.is_empty() || rest.ends_with('.'))
+        };
+        keys.iter().filter(is_end).count() == 1
+    };
+    let dots = key.rmatch_indices('.').map(|(at, _)| &key[at + 1..]);
+    dots.chain([key]).find(is_unique).unwrap_or(key)
 }
 
 fn result_cells(row: &Row) -> [String; 5] {
@@ -152,4 +165,18 @@ pub fn warning_lines<'t>(
         lines.push(format!("… and {n_omitted} more, in the column `warnings` of sweep.csv"));
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_named_by_their_shortest_unique_end() {
+        let keys = ["body.0.approach_speed", "body.0.sphere.diameter", "body.1.sphere.diameter"];
+        let short: Vec<&str> = keys.iter().map(|key| shortest_end(key, &keys)).collect();
+        assert_eq!(short, ["approach_speed", "0.sphere.diameter", "1.sphere.diameter"]);
+        let quoted = ["material.glass.youngs_modulus", "mesh.growth"];
+        assert_eq!(shortest_end(quoted[1], &quoted), "growth");
+    }
 }

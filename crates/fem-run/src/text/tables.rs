@@ -1,26 +1,52 @@
 //! Tables on stdout: aligned columns of text, wrapped to the width of the terminal.
 
 use comfy_table::CellAlignment::{self, Left, Right};
-use comfy_table::{ContentArrangement, Row, Table};
+use comfy_table::{ColumnConstraint, ContentArrangement, Row, Table, Width};
 use fem_case::Scene;
 use fem_case::engineering::show;
 use fem_mesh::{Quality, SphereMesh};
 use indicatif::HumanCount;
 
-/// Returns a table without lines; long cells of the last column wrap.
+/// Blanks between two columns.
+const GAP: u16 = 2;
+
+/// Returns a table without lines; on a terminal long cells wrap between words.
 pub fn table<R: Into<Row>>(
     alignment: &[CellAlignment],
     rows: impl IntoIterator<Item = R>,
 ) -> String {
-    let mut table = Table::new();
+    laid_out(Table::new(), alignment, rows)
+}
+
+fn laid_out<R: Into<Row>>(
+    mut table: Table,
+    alignment: &[CellAlignment],
+    rows: impl IntoIterator<Item = R>,
+) -> String {
     table.load_style(comfy_table::presets::NOTHING);
     table.set_content_arrangement(ContentArrangement::Dynamic);
     table.add_rows(rows);
-    for (column, alignment) in table.column_iter_mut().zip(alignment) {
+    let mut widths = vec![0; alignment.len()];
+    for row in table.row_iter() {
+        for (width, cell) in widths.iter_mut().zip(row.cell_iter()) {
+            let words = cell.content();
+            let words = words.split_whitespace().map(|word| word.chars().count());
+            *width = words.fold(*width, usize::max);
+        }
+    }
+    for ((column, alignment), width) in table.column_iter_mut().zip(alignment).zip(widths) {
         column.set_cell_alignment(*alignment);
-        column.set_padding((0, 2));
+        column.set_padding((0, GAP));
+        // A narrower column would break its longest word.
+        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(GAP);
+        column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
     }
     table.trim_fmt() + "\n"
+}
+
+/// Returns a text whose lines break between words at the width of a small terminal.
+pub fn wrapped(text: &str) -> String {
+    textwrap::fill(text, textwrap::Options::new(80).break_words(false))
 }
 
 /// Returns such a table below a header, whose cells `|` separates; `>` begins a column with numbers on the right.
@@ -69,4 +95,33 @@ pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
         "body|>elements|>nodes|>smallest scaled Jacobian|>largest aspect ratio|edge lengths",
         rows,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table that is wider than the terminal breaks between words, and is wider than it rather than breaking one.
+    #[test]
+    fn narrow_tables_break_between_words() {
+        let header = ["code", "model", "input", "gives e", "valid from, to", "worst error", "file"];
+        let row = [
+            "MercuryDPM",
+            "LinearViscoelasticSpecies",
+            "stiffness 1.2345e5, dissipation 0.12345",
+            "depends on v",
+            "158.1 mm/s to 1.581 m/s",
+            "0.0123",
+            "lammps_coeff_restitution.in",
+        ];
+        for width in [80, 100, 120] {
+            let mut narrow = Table::new();
+            narrow.set_width(width);
+            let text = laid_out(narrow, &[Left; 7], [header, row]);
+            let found: Vec<&str> = text.split_whitespace().collect();
+            for word in header.iter().chain(&row).flat_map(|cell| cell.split_whitespace()) {
+                assert!(found.contains(&word), "{word} at {width}:\n{text}");
+            }
+        }
+    }
 }

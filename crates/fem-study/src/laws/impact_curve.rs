@@ -7,11 +7,14 @@ use fem_laws::{EndRule, HertzImpact, LawFamily, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;
+use super::stored_fit::StoredFit;
 use crate::measured::{DataError, Restitutions};
 use fem_simulation::Reduced;
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
+/// Error of e at which a law counts as valid, without scatter.
+const DEFAULT_TOLERANCE: f64 = 0.01;
 
 /// Restitutions and contact times, ascending in speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +25,11 @@ pub struct ImpactCurve {
     pub has_hertz_times: bool,
     /// Materials whose loss is taken as 0 because the library has none; empty for measured data.
     pub unknown_loss: Vec<String>,
+    /// The law that the curve is that of, if it is one that was fitted to data.
+    pub law: Option<LawFamily>,
+    /// The deviation of e that is explained by the scatter of the data: three standard deviations of measured points, one
+    /// of a law fitted to them, 0 for computed points.
+    pub scatter: f64,
 }
 
 impl ImpactCurve {
@@ -35,7 +43,27 @@ impl ImpactCurve {
             let error = DataError::new(&data.name, "one speed only");
             return Err(error.with_help("a range of validity needs two speeds or more").into());
         }
-        Ok(Self::of(&scene.pair()?, data.points.clone())?)
+        let curve = Self::of(&scene.pair()?, data.points.clone())?;
+        let uncertainties = data.points.iter().map(|point| point.restitution_uncertainty);
+        let given: Option<Vec<f64>> = uncertainties.collect();
+        let deviation = given.map_or_else(|| standard_deviation(&curve.points), |all| rms(&all));
+        Ok(Self { scatter: 3.0 * deviation, ..curve })
+    }
+
+    /// Computes the curve of a fitted law over the speeds of its data, or from one speed to another, m/s.
+    ///
+    /// # Errors
+    /// A collision cannot be computed.
+    pub fn fitted(fit: &StoredFit, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
+        let point = |speed: f64| {
+            let outcome = fit.model.outcome(&fit.values, speed)?;
+            let point = Point::new(speed, outcome.restitution);
+            Ok(Point { contact_time: outcome.contact_time, ..point })
+        };
+        let points = speeds_between(speeds.unwrap_or(fit.speeds)).map(point);
+        let points = points.collect::<Result<_, FitError>>()?;
+        let curve = Self::of(fit.model.pair(), points)?;
+        Ok(Self { law: Some(fit.family()), scatter: fit.scatter, ..curve })
     }
 
     /// Computes the curve with the case's reduced model, or Ting's model for a case with elements, from one speed to
@@ -47,13 +75,12 @@ impl ImpactCurve {
         let reduced = reduced(case)?;
         let (middle, decade) = (case.scene().approach_speed(), 10f64.sqrt());
         let (low, high) = speeds.unwrap_or((middle / decade, middle * decade));
-        let point = |k: usize| {
-            let speed = low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64);
+        let point = |speed: f64| {
             let impact = reduced.impact(speed)?;
             let point = Point::new(speed, impact.restitution);
             Ok(Point { contact_time: impact.contact_time, ..point })
         };
-        let points: Vec<Point> = (0..N_SPEEDS).map(point).collect::<Result<_, FitError>>()?;
+        let points = speeds_between((low, high)).map(point).collect::<Result<_, FitError>>()?;
         let unpublished = case.scene().materials_without_loss();
         let unknown_loss = unpublished.into_iter().map(String::from).collect();
         Ok(Self { unknown_loss, ..Self::of(&reduced.scene().pair()?, points)? })
@@ -68,12 +95,18 @@ impl ImpactCurve {
             }
             point.restitution_uncertainty = None;
         }
-        Ok(Self { points, has_hertz_times, unknown_loss: Vec::new() })
+        Ok(Self { points, has_hertz_times, unknown_loss: Vec::new(), law: None, scatter: 0.0 })
     }
 
     /// Returns the slowest and the fastest speed, m/s.
     pub fn speeds(&self) -> (f64, f64) {
         (self.points[0].speed, self.points[self.points.len() - 1].speed)
+    }
+
+    /// Returns the error of e up to which a law counts as valid by default: 0.01, or the scatter of the data if that is
+    /// larger.
+    pub fn default_tolerance(&self) -> f64 {
+        self.scatter.max(DEFAULT_TOLERANCE)
     }
 
     /// Returns the range of validity of a law, whose restitution is given by speed: first speed, last speed (m/s) and
@@ -108,6 +141,32 @@ impl ImpactCurve {
     }
 }
 
+/// Returns speeds in equal ratios, m/s.
+fn speeds_between((low, high): (f64, f64)) -> impl Iterator<Item = f64> {
+    (0..N_SPEEDS).map(move |k| low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64))
+}
+
+fn rms(values: &[f64]) -> f64 {
+    let sum: f64 = values.iter().map(|value| value * value).sum();
+    (sum / values.len().max(1) as f64).sqrt()
+}
+
+/// Returns the standard deviation of the restitutions about any smooth curve over the logarithm of speed, from the
+/// distance of each point to the line between its neighbours; 0 for fewer than three points.
+///
+/// The estimator is that of Gasser, Sroka & Jennen-Steinmetz 1986, *Biometrika* **73**, 625.
+fn standard_deviation(points: &[Point]) -> f64 {
+    let distance = |three: &[Point]| {
+        let [first, middle, last] = [&three[0], &three[1], &three[2]];
+        let span = (last.speed / first.speed).ln();
+        let share = if span > 0.0 { (last.speed / middle.speed).ln() / span } else { 0.5 };
+        let line = share * first.restitution + (1.0 - share) * last.restitution;
+        let weight = share * share + (1.0 - share) * (1.0 - share) + 1.0;
+        (line - middle.restitution) / weight.sqrt()
+    };
+    rms(&points.windows(3).map(distance).collect::<Vec<_>>())
+}
+
 /// Returns the case's own model, or Ting's in place of one with elements.
 fn reduced(case: &Case) -> Result<Reduced, LawFault> {
     let of = |case: &Case| Reduced::new(case.scene()).map_err(|refusal| refusal.in_case(case));
@@ -118,4 +177,24 @@ fn reduced(case: &Case) -> Result<Reduced, LawFault> {
     let half_spaces = TingTable { finite_size: Some(false), ..TingTable::default() };
     let model = ModelTable { ting: Some(half_spaces), ..ModelTable::default() };
     Ok(of(&case.edited(|file| file.model = Some(model))?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line over the logarithm of speed has no scatter, and alternating errors ± s have the standard deviation s in the
+    /// mean of many: each point is 2 s from the line between its neighbours.
+    #[test]
+    fn the_scatter_of_points_is_that_about_a_smooth_curve() {
+        let curve = |error: f64| -> Vec<Point> {
+            let signs = (0..40).map(|k| if k % 2 == 0 { error } else { -error });
+            let speeds = (0..40).map(|k| 0.1 * 1.1f64.powi(k));
+            speeds.zip(signs).map(|(v, s)| Point::new(v, 0.9 - 0.02 * v.ln() + s)).collect()
+        };
+        assert!(standard_deviation(&curve(0.0)) < 1e-12);
+        let expected = 0.02 * 2.0 / 1.5f64.sqrt();
+        assert!((standard_deviation(&curve(0.02)) / expected - 1.0).abs() < 1e-9);
+        assert_eq!(standard_deviation(&curve(0.02)[..2]), 0.0);
+    }
 }

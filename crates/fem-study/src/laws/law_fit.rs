@@ -1,6 +1,8 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
 use crate::fit::{Fit, FitError, Free, Model, Problem, Profile};
+use fem_case::engineering::number;
+use fem_case::schema::End;
 use fem_laws::{LawFamily, ParameterRole};
 
 use super::law_fault::LawFault;
@@ -111,6 +113,33 @@ impl<'a> LawFit<'a> {
                 fitted.and_then(|fitted| fitted.contact_time),
             ]
         })
+    }
+
+    /// Returns the root mean square of the residuals of e.
+    pub fn scatter(&self) -> f64 {
+        let residuals = self.residuals().filter_map(|row| row[4]);
+        let (n, sum) = residuals.fold((0.0, 0.0), |(n, sum), r| (n + 1.0, sum + r * r));
+        f64::sqrt(sum / f64::max(n, 1.0))
+    }
+
+    /// Returns the law as the table `[model]` of a case; `None` for Ting's, whose parameter is the material's relaxation.
+    pub fn model_toml(&self) -> Option<String> {
+        let family = self.problem.model.family();
+        if family == LawFamily::Ting {
+            return None;
+        }
+        let parameters = family.parameters().iter().zip(&self.fit.values);
+        let mut keys: Vec<String> = parameters
+            .map(|(parameter, value)| {
+                // Enough digits for the restitution, and not those of a false precision.
+                format!("{} = {}", parameter.key, number(*value, 6))
+            })
+            .collect();
+        if family.end_rule().is_none() {
+            let end = End::from(self.problem.model.end_rule());
+            keys.push(format!("end = \"{}\"", end.word()));
+        }
+        Some(format!("[model]\nlaw = {{ {} = {{ {} }} }}\n", family.name(), keys.join(", ")))
     }
 
     /// Returns warnings about the fit.

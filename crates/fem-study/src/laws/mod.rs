@@ -50,6 +50,7 @@ mod law_ranking;
 mod pair_export;
 mod parameter;
 mod stored;
+mod stored_fit;
 
 pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of};
 pub use dem_export::{DemExport, FittedLaw};
@@ -60,6 +61,7 @@ pub use law_inversion::{LawInversion, needs_more};
 pub use law_ranking::{LawRanking, RankedLaw};
 pub use pair_export::{FittedPair, PairExport, PairNumbers};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
+pub use stored_fit::StoredFit;
 
 pub use crate::fit::FitError;
 pub use fem_laws::{EndRule, LawFamily};

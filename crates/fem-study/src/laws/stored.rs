@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::dem_export::DemExport;
 use super::law_fit::LawFit;
+use super::stored_fit::bodies;
 use crate::fit::dem::{Snippet, Sphere, restitution_of};
 use crate::fit::{Fit, Model, Point, Profile, ProfilePoint};
 
@@ -22,6 +23,10 @@ impl LawFit<'_> {
             "law": family.name(),
             "end": End::from(problem.model.end_rule()),
             "points": problem.points.len(),
+            "speeds_m_s": self.data.speeds(),
+            "scatter": self.scatter(),
+            "bodies": bodies(problem.model),
+            "model_toml": self.model_toml(),
             "weighted": problem.has_uncertainties(),
             "confidence": self.confidence,
             "parameters": parameters.map(|(k, one)| self.parameter(k, one)).collect::<Value>(),
@@ -81,6 +86,7 @@ impl DemExport {
         };
         json!({
             "case": case,
+            "fitted_law": self.curve.law.map(LawFamily::name),
             "wall": export.spheres.len() < 2,
             "spheres": export.spheres.iter().map(sphere).collect::<Value>(),
             "tolerance": export.tolerance,

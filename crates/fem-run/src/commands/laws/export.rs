@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use fem::fit::FitError;
 use fem::fit::dem::{Snippet, grain_snippets};
-use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers};
+use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers, StoredFit};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_report::law_figures::export_figure;
 use serde_json::Value;
 
-use super::export_text::{export_text, pairs_csv, pairs_json, pairs_text};
+use super::export_text::{export_text, law_note, pairs_csv, pairs_json, pairs_text};
 use crate::arguments::case::CaseArguments;
 use crate::arguments::data::ColumnArguments;
 use crate::arguments::law::{parse_length, parse_share, parse_speed};
@@ -18,13 +18,17 @@ use crate::jobs::value_of;
 use crate::result_folder::Origin;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::failure::Failure;
+use crate::text::shown;
 use crate::text::standard_output;
+
+/// Error of e up to which the one e of a pair counts as valid by default.
+const PAIRS_TOLERANCE: f64 = 0.01;
 
 /// Write input for DEM codes and robotics that reproduces the restitutions
 ///
 /// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. The restitutions come from
-/// the sweep.csv of a sweep over speeds, from a measurement or, without --data, from the case's model: its
-/// law, or Ting's model in place of finite elements. Each snippet states the speeds for which it is valid.
+/// the sweep.csv of a sweep over speeds, from a measurement, from a law fitted to one or, without --data
+/// and --fit, from the case's model: its law, or Ting's model in place of finite elements. Each snippet states the speeds for which it is valid.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -34,7 +38,12 @@ pub struct Arguments {
     data: Option<PathBuf>,
     #[command(flatten)]
     columns: ColumnArguments,
-    /// Range of speeds to compute, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
+    /// The result of fem-run fit, its folder or its fit.json: the fitted law gives the restitutions, over the
+    /// speeds of its data
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["data", "materials", "diameters"])]
+    fit: Option<PathBuf>,
+    /// Range of speeds to compute, such as '5 cm/s..2 m/s' [default: a decade around that of the case, or the
+    /// speeds of the fit]
     #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
     speeds: Option<(f64, f64)>,
     /// Write one table for all pairs of spheres of these materials, of the case or lib:NAME [default with
@@ -46,9 +55,10 @@ pub struct Arguments {
     #[arg(long, value_name = "LENGTHS", value_delimiter = ',', value_parser = parse_length,
         conflicts_with = "data")]
     diameters: Vec<f64>,
-    /// Largest error of the restitution at which a snippet counts as valid
-    #[arg(long, value_name = "E", default_value_t = 0.01, value_parser = parse_share)]
-    tolerance: f64,
+    /// Largest error of the restitution at which a snippet counts as valid [default: 0.01 or, if that is larger,
+    /// the scatter of the data: three standard deviations of measured points, one of a fit]
+    #[arg(long, value_name = "E", value_parser = parse_share)]
+    tolerance: Option<f64>,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -59,7 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return write_pairs(arguments, &case);
     }
     let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
-    if table.is_none() {
+    if table.is_none() && arguments.fit.is_none() {
         standard_output::warn(case.scene().unknown_loss());
     }
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
@@ -70,7 +80,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     output.write("export.svg", export_figure(&fitted))?;
     output.publish(&fitted.numbers(&arguments.input.name(), &snippets), || {
-        let mut text = export_text(&fitted.export, &snippets);
+        let mut text = export_text(&fitted, &snippets);
+        text += &law_note(&fitted, arguments.data.is_some());
         if fitted.curve.has_hertz_times {
             text += "\nThe data have no contact times: the linear models use those of Hertz.\n";
         }
@@ -117,22 +128,43 @@ impl Arguments {
             .cloned()
             .chain(self.diameters.iter().map(|d| d.to_string()))
             .collect();
-        origin.with_inputs(&grains)
+        let origin = origin.with_inputs(&grains);
+        self.fit_file().into_iter().fold(origin, |origin, file| origin.with_data_file(&file))
     }
 
-    fn check_tolerance(&self) -> Result<(), Failure> {
-        if self.tolerance > 0.0 && self.tolerance < 1.0 {
-            return Ok(());
+    /// Returns the path of the fit.json.
+    fn fit_file(&self) -> Option<PathBuf> {
+        let path = self.fit.as_ref()?;
+        Some(if path.is_dir() { path.join("fit.json") } else { path.clone() })
+    }
+
+    fn stored_fit(&self, case: &Case) -> Result<Option<StoredFit>, Failure> {
+        let Some(path) = self.fit_file() else { return Ok(None) };
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(&path).map_err(|error| {
+            Failure::bad_input(format!("--fit {}: {error}", shown(&path))).with_help(
+                "name the folder of a fit: fem-run fit CASE --data FILE writes runs/FILE_fit",
+            )
+        })?;
+        Ok(Some(StoredFit::read(case, &name, &text)?))
+    }
+
+    fn checked_tolerance(&self) -> Result<Option<f64>, Failure> {
+        match self.tolerance {
+            Some(tolerance) if !(tolerance > 0.0 && tolerance < 1.0) => {
+                let message = format!("--tolerance must be between 0 and 1, found {tolerance:?}");
+                Err(Failure::bad_input(message)
+                    .with_help("give the largest error of e, such as 0.01"))
+            }
+            tolerance => Ok(tolerance),
         }
-        let message = format!("--tolerance must be between 0 and 1, found {:?}", self.tolerance);
-        Err(Failure::bad_input(message).with_help("give the largest error of e, such as 0.01"))
     }
 }
 
 fn pairs(arguments: &Arguments, case: &Case) -> Result<(PairExport, Vec<PairNumbers>), Failure> {
-    arguments.check_tolerance()?;
-    let Arguments { materials, diameters, speeds, tolerance, .. } = arguments;
-    let export = PairExport::of(case, materials, diameters, *speeds, *tolerance)?;
+    let tolerance = arguments.checked_tolerance()?.unwrap_or(PAIRS_TOLERANCE);
+    let Arguments { materials, diameters, speeds, .. } = arguments;
+    let export = PairExport::of(case, materials, diameters, *speeds, tolerance)?;
     let rows = export.numbers();
     Ok((export, rows))
 }
@@ -155,15 +187,17 @@ fn fitted(
     case: &Case,
     table: Option<&Table>,
 ) -> Result<(DemExport, Vec<Snippet>), Failure> {
-    arguments.check_tolerance()?;
-    let curve = match table {
-        None => ImpactCurve::computed(case, arguments.speeds)?,
-        Some(table) => {
+    let tolerance = arguments.checked_tolerance()?;
+    let curve = match (table, arguments.stored_fit(case)?) {
+        (None, Some(fit)) => ImpactCurve::fitted(&fit, arguments.speeds)?,
+        (None, None) => ImpactCurve::computed(case, arguments.speeds)?,
+        (Some(table), _) => {
             let data = Restitutions::read_with_contact_times(table, case.scene())?;
             ImpactCurve::measured(case.scene(), &data)?
         }
     };
-    let fitted = DemExport::of(case, curve, arguments.tolerance).map_err(|error| {
+    let tolerance = tolerance.unwrap_or_else(|| curve.default_tolerance());
+    let fitted = DemExport::of(case, curve, tolerance).map_err(|error| {
         let is_lossless = matches!(error, FitError::Insensitive { .. });
         let failure = Failure::from(error);
         if is_lossless {

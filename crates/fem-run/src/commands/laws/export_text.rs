@@ -2,39 +2,70 @@
 
 use std::collections::BTreeSet;
 
-use fem::fit::dem::{Export, Snippet};
-use fem::laws::{PairExport, PairNumbers};
+use fem::fit::dem::Snippet;
+use fem::laws::{DemExport, PairExport, PairNumbers};
 use fem_case::engineering::{number, show};
+use fem_laws::LawFamily;
 use serde_json::{Value, json};
 
 use crate::jobs::value_of;
 use crate::text::standard_output;
-use crate::text::{Failure, headed};
+use crate::text::{Failure, headed, wrapped};
 
-pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
+pub fn export_text(fitted: &DemExport, snippets: &[Snippet]) -> String {
+    let DemExport { export, curve, .. } = fitted;
     let row = |snippet: &Snippet| {
         let [from, to, worst] = snippet.validity;
         let entries =
             snippet.entries.iter().map(|(key, value)| format!("{key} {}", number(*value, 5)));
         [
-            snippet.code.to_string(),
-            snippet.model.to_string(),
+            snippet.name.to_string(),
             entries.collect::<Vec<_>>().join(", "),
-            snippet.restitution.map_or("depends on v".to_string(), |e| format!("{e:.4}")),
+            snippet.restitution.map_or("e(v)".to_string(), |e| format!("{e:.4}")),
             valid_speeds(Some(from).filter(|from| *from <= to), Some(to)),
             format!("{worst:.4}"),
-            snippet.name.to_string(),
         ]
     };
-    let header = "code|model|input|>gives e|valid from, to|>worst error|file";
+    let header = "file|input|>gives e|valid from, to|>worst error";
     format!(
-        "{}, {} to {}; each snippet is valid where its error of the restitution is at most {}\n\n{}",
+        "{}, {} to {}\nA snippet is valid where its error of the restitution is at most {}{}.\n\n{}",
         standard_output::one_line(&export.title),
         show(export.speeds.0, "m/s"),
         show(export.speeds.1, "m/s"),
-        export.tolerance,
+        number(export.tolerance, 2),
+        match export.tolerance == curve.scatter {
+            true => ", the scatter of the data",
+            false => "",
+        },
         headed(header, snippets.iter().map(row))
     )
+}
+
+/// Returns which laws the files have, and why not the one that fits best.
+pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
+    let own = match fitted.curve.law {
+        Some(LawFamily::KuwabaraKono) => Some("lammps_viscoelastic.in"),
+        Some(LawFamily::Tsuji) => Some("lammps_tsuji.in"),
+        Some(LawFamily::Linear) => Some("liggghts_hooke.in"),
+        _ => None,
+    };
+    let note = match (fitted.curve.law.map(LawFamily::name), own) {
+        (None, _) if !has_data => return String::new(),
+        (None, _) => {
+            "Each file has the law of its code that is nearest to the data. Whether another law explains them \
+             better: fem-run fit, whose result --fit takes."
+                .to_string()
+        }
+        (Some(law), Some(file)) => format!(
+            "{file} has the fitted law, {law}. Each other file has the law of its code that is nearest to it."
+        ),
+        (Some(law), None) => format!(
+            "None of these codes has the fitted law, {law}. Each file has the law of its code that is nearest \
+             to it: one e for all speeds, Kuwabara-Kono (lammps_viscoelastic.in) or Hunt-Crossley \
+             (drake_point_contact.py)."
+        ),
+    };
+    format!("\n{}\n", wrapped(&note))
 }
 
 /// Returns the speeds for which a snippet is valid.

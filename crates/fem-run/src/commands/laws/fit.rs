@@ -10,7 +10,7 @@ use fem_laws::LawFamily;
 use fem_report::law_figures::{fit_figure, histories_figure};
 use serde_json::Value;
 
-use super::fit_text::{answer, fit_text, ranking_csv, ranking_text};
+use super::fit_text::{answer, fit_text, next_steps, ranking_csv, ranking_text};
 use crate::arguments::case::{CaseArguments, stem_of};
 use crate::arguments::data::ColumnArguments;
 use crate::arguments::law::{
@@ -159,10 +159,12 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     let histories = histories_figure(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
     standard_output::warn(fitted.warnings());
+    let next = next_steps(fitted, &arguments.input.name(), output.place());
     output.publish(&fitted.numbers(&arguments.input.name()), || {
         answer(fitted, ranking.as_ref())
             + &ranking.as_ref().map_or(String::new(), ranking_text)
             + &fit_text(fitted, law)
+            + &next
     })
 }
 

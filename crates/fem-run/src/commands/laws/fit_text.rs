@@ -1,5 +1,7 @@
 //! The texts of a fit and of a ranking of laws.
 
+use std::path::Path;
+
 use fem::fit::{Estimate, Profile};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem_case::engineering::{Unit, number, show};
@@ -8,7 +10,7 @@ use fem_laws::LawFamily;
 
 use fem_report::law_figures::evidence;
 
-use crate::text::{headed, one_line, show_value};
+use crate::text::{headed, one_line, show_value, shown};
 
 /// Returns the first line of the text: the fitted parameters with their standard errors.
 pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
@@ -102,6 +104,17 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         text += &format!("{name}: rms error {:.4} with {}\n", fit.rms, values.join(", "));
     }
     text
+}
+
+/// Returns the law as a case has it, and the command that writes it for other codes.
+pub fn next_steps(fitted: &LawFit<'_>, case: &str, folder: &Path) -> String {
+    let model = fitted.model_toml().map_or(String::new(), |toml| {
+        format!(
+            "\nThe law in a case of the same bodies; its e has all losses of the data:\n\n{toml}"
+        )
+    });
+    let (case, folder) = (one_line(case), shown(folder));
+    format!("{model}\nInput for DEM codes: fem-run export {case} --fit {folder}\n")
 }
 
 fn profile_words(profile: Option<&Profile>, shown: impl Fn(f64) -> String) -> String {

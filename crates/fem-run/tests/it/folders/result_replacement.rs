@@ -143,7 +143,7 @@ fn every_command_keeps_results_of_other_inputs() {
         let folders = place.list("runs");
         assert_eq!(folders.len(), 2, "{command}: {folders:?}");
         std::fs::remove_dir_all(place.path("runs")).unwrap();
-        std::fs::create_dir(place.path(&format!("{}_foreign", &out[6..]))).unwrap();
+        std::fs::create_dir(place.path(format!("{}_foreign", &out[6..]))).unwrap();
         place.write(&format!("{}_foreign/notes.txt", &out[6..]), "mine");
         for force in ["", " --force"] {
             assert_eq!(run(inputs[0], &format!("{out}_foreign{force}")).code, Some(2), "{command}");

@@ -310,6 +310,66 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     assert_eq!(ran.stderr.matches("help: ").count(), 1, "{}", ran.stderr);
 }
 
+/// A fitted law is exported as it is, or each file says which law it has instead; the scatter of the data does not make
+/// every snippet invalid. The printed law computes the fitted restitutions.
+#[test]
+fn a_fit_is_exported_and_is_a_model() {
+    let place = Place::new();
+    // A law with scatter of 0.02, more than the default tolerance.
+    let rows: String = (0..16)
+        .map(|k| {
+            let v = 0.1 * 1.2f64.powi(k);
+            let e = 0.93 - 0.08 * v.powf(0.2) + if k % 2 == 0 { 0.02 } else { -0.02 };
+            format!("{v},{e}\n")
+        })
+        .collect();
+    place.write("e.csv", &format!("speed_m_s,restitution\n{rows}"));
+    let ran = place.succeed("fit case.toml --data e.csv --law kuwabara_kono");
+    ran.prints("[model]\nlaw = { kuwabara_kono = { a = |end = \"zero_force\" } }|export case.toml --fit runs/e_fit\n");
+    let fit = place.json("runs/e_fit/fit.json");
+    let a = fit["parameters"][0]["value"].as_f64().unwrap();
+
+    let ran = place.succeed("export case.toml --fit runs/e_fit");
+    ran.prints("lammps_viscoelastic.in has the fitted law, kuwabara_kono|the scatter of the data");
+    let export = place.json("runs/case_export/export.json");
+    assert!((export["dissipation_time_s"].as_f64().unwrap() / a - 1.0).abs() < 1e-6);
+    assert_eq!(export["fitted_law"], "kuwabara_kono");
+    let tolerance = export["tolerance"].as_f64().unwrap();
+    assert!((0.015..0.03).contains(&tolerance), "{tolerance}");
+    let viscoelastic = &export["snippets"][1];
+    assert!(viscoelastic["worst_error"].as_f64().unwrap() < 1e-6, "{viscoelastic}");
+    assert_eq!(viscoelastic["valid_from_m_s"], fit["speeds_m_s"][0]);
+
+    // Data with scatter are valid somewhere, and a tolerance that is given counts.
+    place
+        .succeed("export case.toml --data e.csv --out data")
+        .prints("fem-run fit, whose result --fit takes");
+    let of_data = place.json("data/export.json");
+    assert!(of_data["snippets"][1]["valid_from_m_s"].is_number(), "{of_data}");
+    let given = "export case.toml --data e.csv --tolerance 0.01 --out given";
+    place.succeed(given).prints("only at 1.541 m/s");
+    // No code has this one.
+    place.succeed("fit case.toml --data e.csv --law mishra_murty --out other");
+    let ran = place.succeed("export case.toml --fit other/fit.json --speeds 0.1..1 --out mm");
+    ran.prints("None of these codes has the fitted law, mishra_murty");
+
+    // The printed law makes the fitted restitution.
+    let toml = fit["model_toml"].as_str().unwrap();
+    place.write("law.toml", &(CASE.to_string() + toml));
+    let residuals = place.text("runs/e_fit/residuals.csv");
+    let row: Vec<&str> = residuals.lines().nth(6).unwrap().split(',').collect();
+    let speed = format!("body.0.approach_speed={}", row[0]);
+    place.succeed(["law.toml", "--out", "law", "--set", &speed]);
+    let e = place.json("law/summary.json")["restitution"].as_f64().unwrap();
+    let fitted: f64 = row[3].parse().unwrap();
+    assert!((e - fitted).abs() < 1e-5, "{e} {fitted}");
+
+    let other = "export case.toml --fit runs/e_fit --set body.0.sphere.diameter=1cm";
+    place.fails(2, other).tells("this fit is one of other bodies than those of the case");
+    place.fails(2, "export case.toml --fit case.toml").tells("not the result of a fit");
+    place.fails(2, "export case.toml --fit nowhere").tells("--fit nowhere");
+}
+
 /// A pair in a table gets the same input as the pair alone; a pair without relaxation loses nothing.
 #[test]
 fn export_makes_all_pairs_of_materials_and_sizes() {
