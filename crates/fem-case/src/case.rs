@@ -27,9 +27,9 @@ const MAX_FILE: u64 = 16 << 20;
 /// A valid case: as written, as a scene, and with the origins of its keys.
 #[derive(Clone, Debug)]
 pub struct Case {
-    file: CaseFile,
-    scene: Scene,
-    document: Document,
+    pub(crate) file: CaseFile,
+    pub(crate) scene: Scene,
+    pub(crate) document: Document,
     defaults: Defaults,
     changes: Vec<Change>,
 }
@@ -182,11 +182,10 @@ impl Case {
         // Without a key to repair, this is the only fault that is reported.
         let of_sweep = |key: &&str| tree.get_ref().get_key_value(*key);
         if let Some((key, _)) = ["vary", "combine"].iter().find_map(of_sweep) {
-            let message = format!("unknown key `{}`", key.get_ref());
             return Err(document
-                .error_on(key.span(), message)
-                .labelled("unknown key")
-                .with_help("a file that varies keys of a case is a sweep: fem-run sweep FILE"));
+                .error_on(key.span(), "this file is a sweep, not a case")
+                .labelled("a key of sweeps")
+                .with_help("compute it with fem-run sweep FILE, or run the case that it names"));
         }
         let mut file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;

@@ -95,8 +95,8 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     fem_figure::svg(&charts).unwrap_or_default()
 }
 
-/// Returns `histories.svg`: approach rate and velocity of the first body over time at one speed (m/s),
-/// elastic and with the law, and the overlap at several speeds.
+/// Returns `histories.svg`: approach rate and, if both bodies can move, velocity of the first one over time at one speed
+/// (m/s), elastic and with the law, and the overlap at several speeds.
 pub fn histories_figure(
     scene: &Scene,
     model: &Model,
@@ -123,11 +123,12 @@ pub fn histories_figure(
             .with(series(&damped, name, COLOURS[0], Mark::Line, &scaled))
     };
     let first_name = &scene.bodies()[0].name();
-    let charts = [
-        panel("approach rate", &|rate| rate),
-        panel(&format!("velocity of {first_name}"), &first),
-        overlap_chart(model, values, speed, &time)?,
-    ];
+    let mut charts = vec![panel("approach rate", &|rate| rate)];
+    // Beside an immovable body the other one has the approach rate.
+    if share > 0.0 && share < 1.0 {
+        charts.push(panel(&format!("velocity of {first_name}"), &first));
+    }
+    charts.push(overlap_chart(model, values, speed, &time)?);
     Ok(fem_figure::svg(&charts).unwrap_or_default())
 }
 

@@ -1,13 +1,17 @@
 //! Plausibility checks: numbers of a scene that are possible but unlikely, such as after a forgotten unit, and losses that
-//! the materials do not include. They cause warnings, never errors.
+//! the materials do not include. They cause warnings; [`Case::check_units`] rejects such a number without a unit.
 
 use fem_material::Material;
 
+use crate::case::Case;
 use crate::engineering::{number, show};
+use crate::error::CaseError;
 use crate::library::{self, MeasuredRestitution};
 use crate::scene::Scene;
 use crate::scene::body::{Body, Shape};
 use crate::scene::model::ModelChoice;
+use crate::schema::CaseFile;
+use crate::source::toml_syntax::{join, quote_key};
 
 /// Diameters above this, m, are unlikely.
 const MAX_DIAMETER: f64 = 100.0;
@@ -97,51 +101,168 @@ impl Scene {
 
     /// Returns one warning per number that is so unusual that a unit was probably forgotten.
     pub fn implausible_numbers(&self) -> Vec<String> {
+        (0..2).flat_map(|side| self.implausible(side)).map(|found| found.message).collect()
+    }
+
+    /// Returns the implausible numbers of a body.
+    fn implausible(&self, side: usize) -> Vec<Implausible> {
         let mut found = Vec::new();
-        let diameters = self.bodies.each_ref().map(|body| body.diameter());
-        for (k, body) in self.bodies.iter().enumerate() {
-            let name = body.name();
-            let key = format!("body.{k}.sphere.diameter");
-            let other = diameters[1 - k];
-            if let Some(diameter) = diameters[k] {
-                if diameter > MAX_DIAMETER {
-                    found.push(format!(
-                        "the diameter of {name} is {} ({key}); a bare number is in metres",
-                        show(diameter, "m")
-                    ));
-                } else if let Some(other) = other
-                    && diameter >= LARGE
-                    && diameter > MAX_RATIO * other
-                {
-                    found.push(format!(
-                        "the diameter of {name} is {} ({key}), that of the other body {}; a \
-                         bare number is in metres",
+        let body = &self.bodies[side];
+        let name = body.name();
+        let key = format!("body.{side}.sphere.diameter");
+        let other = self.bodies[1 - side].diameter();
+        if let Some(diameter) = body.diameter() {
+            let others = other.filter(|other| diameter >= LARGE && diameter > MAX_RATIO * other);
+            let others =
+                others.map(|other| format!(", that of the other body {}", show(other, "m")));
+            if diameter > MAX_DIAMETER || others.is_some() {
+                found.push(Implausible {
+                    number: Number::Diameter,
+                    message: format!(
+                        "the diameter of {name} is {} ({key}){}; a bare number is in metres",
                         show(diameter, "m"),
-                        show(other, "m")
-                    ));
-                }
+                        others.unwrap_or_default()
+                    ),
+                });
             }
-            let (Shape::Sphere { material, .. } | Shape::HalfSpace { material }) = &body.shape
-            else {
-                continue;
-            };
-            let density = material.density();
-            if !DENSITIES.contains(&density) {
-                found.push(format!(
+        }
+        let (Shape::Sphere { material, .. } | Shape::HalfSpace { material }) = &body.shape else {
+            return found;
+        };
+        let density = material.density();
+        if !DENSITIES.contains(&density) {
+            found.push(Implausible {
+                number: Number::Density,
+                message: format!(
                     "the density of {name} is {} kg/m^3, but solids have 10 to 25000 kg/m^3; a number \
                      without a unit is in kg/m^3",
                     number(density, 5)
-                ));
-            }
-            let modulus = material.instantaneous().youngs_modulus();
-            if !YOUNGS_MODULI.contains(&modulus) {
-                found.push(format!(
+                ),
+            });
+        }
+        let modulus = material.instantaneous().youngs_modulus();
+        if !YOUNGS_MODULI.contains(&modulus) {
+            found.push(Implausible {
+                number: Number::Modulus,
+                message: format!(
                     "Young's modulus of {name} is {}; solids have 100 Pa to 2 TPa, and a \
                      bare number is in Pa",
                     show(modulus, "Pa")
-                ));
-            }
+                ),
+            });
         }
         found
+    }
+}
+
+/// A number that is so unusual that a unit was probably forgotten.
+struct Implausible {
+    number: Number,
+    message: String,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Number {
+    Diameter,
+    Density,
+    Modulus,
+}
+
+impl Case {
+    /// Rejects implausible numbers that the file or an override gives without a unit, and bare diameters of 1 m and more.
+    ///
+    /// # Errors
+    /// All such numbers, each with its place. With a unit the same number is only warned of.
+    pub fn check_units(&self) -> Result<(), CaseError> {
+        let mut faults = Vec::new();
+        for (side, message, key, unit) in self.unusual_keys() {
+            let text = self.document.value_text(&key);
+            let Ok(bare) = text.trim_matches(['"', '\'']).trim().parse::<f64>() else { continue };
+            let intended = match unit {
+                "m" => "mm",
+                "Pa" => "GPa",
+                _ => "g/cm^3",
+            };
+            let last = key.rsplit('.').next().unwrap_or(&key).to_string();
+            let is_known = faults.iter().any(|(_, known)| *known == key);
+            if !is_known {
+                let fault = self.error_at(&key, message).with_help(format!(
+                    "write the unit: {last} = \"{bare} {intended}\", or {last} = \"{bare} {unit}\" if {} is so",
+                    self.scene.bodies[side].name()
+                ));
+                faults.push((fault, key));
+            }
+        }
+        let faults = faults.into_iter().map(|(fault, _)| fault).collect();
+        CaseError::joined(faults).map_or(Ok(()), Err)
+    }
+
+    /// Gives the unusual numbers of a resolved case their units, so that it can be run ([`check_units`](Self::check_units)).
+    pub fn name_units(&self, file: &mut CaseFile) {
+        for (side, _, key, unit) in self.unusual_keys() {
+            let parts: Vec<String> = self.key_parts(side, &key);
+            let Some((value, _)) = file.number_at(parts.iter().map(String::as_str)) else {
+                continue;
+            };
+            let text = format!("{value:?} {unit}");
+            let body = &mut file.body[side];
+            match parts.last().map(String::as_str) {
+                Some("diameter") => {
+                    body.sphere
+                        .iter_mut()
+                        .for_each(|sphere| sphere.diameter = text.as_str().into());
+                }
+                Some(last) => {
+                    let name = body.material.clone().unwrap_or_default();
+                    let Some(material) = file.material.get_mut(&name) else { continue };
+                    match last {
+                        "density" => material.density = text.as_str().into(),
+                        "youngs_modulus" => material.youngs_modulus = Some(text.as_str().into()),
+                        "shear_modulus" => material.shear_modulus = Some(text.as_str().into()),
+                        _ => material.bulk_modulus = Some(text.as_str().into()),
+                    }
+                }
+                None => {}
+            }
+        }
+    }
+
+    fn key_parts(&self, side: usize, key: &str) -> Vec<String> {
+        let last = key.rsplit('.').next().unwrap_or(key);
+        match last {
+            "diameter" => ["body", &side.to_string(), "sphere", last].map(String::from).to_vec(),
+            last => {
+                let name = self.file.body[side].material.clone().unwrap_or_default();
+                vec!["material".to_string(), name, last.to_string()]
+            }
+        }
+    }
+
+    /// Returns body, message, key and SI unit of numbers that need a unit to be accepted.
+    fn unusual_keys(&self) -> Vec<(usize, String, String, &'static str)> {
+        let mut keys = Vec::new();
+        for (side, body) in self.scene.bodies.iter().enumerate() {
+            let material = self.file.body[side].material.as_deref().unwrap_or_default();
+            let of_material = |key: &str| join(&join("material", &quote_key(material)), key);
+            let diameter = format!("body.{side}.sphere.diameter");
+            let mut found = self.scene.implausible(side);
+            let is_told = found.iter().any(|one| one.number == Number::Diameter);
+            if let Some(large) = body.diameter().filter(|diameter| *diameter >= LARGE && !is_told) {
+                let message = format!("the diameter of {} is {}", body.name(), show(large, "m"));
+                found.push(Implausible { number: Number::Diameter, message });
+            }
+            for Implausible { number, message } in found {
+                match number {
+                    Number::Diameter => keys.push((side, message, diameter.clone(), "m")),
+                    Number::Density => keys.push((side, message, of_material("density"), "kg/m^3")),
+                    Number::Modulus => {
+                        for key in ["youngs_modulus", "shear_modulus", "bulk_modulus"] {
+                            keys.push((side, message.clone(), of_material(key), "Pa"));
+                        }
+                    }
+                }
+            }
+        }
+        keys
     }
 }

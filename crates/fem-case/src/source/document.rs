@@ -14,7 +14,7 @@ use crate::library;
 use crate::source::error_recovery::KeyRepair;
 use crate::source::key_origins::{KeyOrigin, KeyOrigins};
 use crate::source::overrides::{self, Assignment, OverrideError};
-use crate::source::toml_syntax::{decimal_comma, first_line, line_at};
+use crate::source::toml_syntax::{first_line, syntax_help};
 
 /// One text and its position in the common offsets.
 #[derive(Clone, Debug)]
@@ -57,16 +57,9 @@ impl Document {
         document.add(name.to_string(), text, 0);
         let mut tree = DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            let help = decimal_comma(line_at(text, span.start)).map_or(
-                "the file must be TOML: one `key = value` per line; a value with a unit is a \
-                 string in quotes, \"22.2 mm\""
-                    .to_string(),
-                |number| {
-                    format!(
-                        "a decimal comma? write {number}; a value with a unit is a string in quotes, \"{number} mm\""
-                    )
-                },
-            );
+            let (line, help) = syntax_help(text, span.start);
+            // An open quote or bracket is reported where the next line begins.
+            let span = if (line.start..=line.end).contains(&span.start) { span } else { line };
             document.error_in(0, span, first_line(error.message())).with_help(help)
         })?;
         overrides::expand_choices(tree.get_mut());

@@ -50,6 +50,36 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
                     .into(),
             )
         }
+        "spin" | "rotation" | "angular_velocity" | "omega" => Some(
+            "the collision is head-on and without spin: remove the key".into(),
+        ),
+        "velocity" | "speed" | "initial_velocity" | "impact_speed" | "v" if first == "body" => {
+            let number = split_unit(value.trim_matches(['"', '\''])).0;
+            let sign = match number < 0.0 {
+                true => ", which is positive towards the other body",
+                false => "",
+            };
+            let value = value.trim_start_matches(['-']).replacen("\"-", "\"", 1);
+            Some(format!("a body has an approach speed{sign}: approach_speed = {value}"))
+        }
+        "restitution" | "coefficient_of_restitution" | "cor" | "e"
+            if ["", "body", "contact", "material", "model"].contains(&first) => Some(
+            "the restitution is a result, not an input: give the material a relaxation or a yield strength, or a law \
+             in [model] whose damping fem-run invert finds for a restitution"
+                .into(),
+        ),
+        "damping" | "viscosity" | "loss_factor" if first != "model" => Some(
+            "losses come from [material.NAME.relaxation], from [material.NAME] yield_strength or from a law in [model]"
+                .into(),
+        ),
+        "mass" if ["body", "material"].contains(&first) => Some(
+            "the mass follows from the diameter and the density of the material: remove the key".into(),
+        ),
+        "E" | "e_modulus" | "elastic_modulus" | "modulus" | "stiffness" if first == "material" => {
+            Some(format!("the key is youngs_modulus = {value}"))
+        }
+        "nu" | "ν" if first == "material" => Some(format!("the key is poissons_ratio = {value}")),
+        "rho" | "ρ" if first == "material" => Some(format!("the key is density = {value}")),
         "gravity" if table == "effects" => Some("the table [gravity] switches gravity on".into()),
         _ if KEYS_OF_CASE.contains(&first) && KEYS_OF_CASE.contains(&key) => Some(format!(
             "`{key}` belongs to the case, and this line is in the table {table}: write it above the first [table] of \

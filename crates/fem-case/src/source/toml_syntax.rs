@@ -1,6 +1,8 @@
 //! TOML syntax: dotted paths of keys (`body.0.sphere.diameter`, `material."my glass".density`), spans
 //! relative to another start, and single-line messages.
 
+use std::ops::Range;
+
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
@@ -14,16 +16,55 @@ pub(crate) fn quote_key(key: &str) -> String {
     if !key.is_empty() && key.chars().all(is_bare) { key.to_string() } else { format!("{key:?}") }
 }
 
-/// Returns the line of a text around an offset.
-pub(crate) fn line_at(text: &str, offset: usize) -> &str {
+/// Returns the span of the line of a text around an offset.
+fn line_around(text: &str, offset: usize) -> Range<usize> {
     let (before, after) = text.split_at_checked(offset).unwrap_or((text, ""));
     let start = before.rfind('\n').map_or(0, |at| at + 1);
     let end = after.find('\n').map_or(text.len(), |at| before.len() + at);
-    &text[start..end]
+    start..end
+}
+
+/// Returns the line that causes a syntax error at an offset, and what to write in it. It is the line of the offset, or the
+/// one before it, which may have an open quote.
+pub(crate) fn syntax_help(text: &str, offset: usize) -> (Range<usize>, String) {
+    const CURLY: [char; 7] = ['“', '”', '„', '‘', '’', '«', '»'];
+    let own = line_around(text, offset);
+    let before = line_around(text, own.start.saturating_sub(1));
+    let of = |line: &Range<usize>| -> Option<String> {
+        // A comment may have any signs.
+        let line = text[line.clone()].split('#').next().unwrap_or_default();
+        if line.contains(CURLY) {
+            return Some(format!("write straight quotes: {}", line.replace(CURLY, "\"").trim()));
+        }
+        if !line.matches('"').count().is_multiple_of(2) {
+            return Some(
+                "a quote is missing: a string has one at both ends, \"22.2 mm\"".to_string(),
+            );
+        }
+        if let Some(number) = decimal_comma(line) {
+            return Some(format!(
+                "a decimal comma? write {number}; a value with a unit is a string in quotes, \"{number} mm\""
+            ));
+        }
+        let bare = text.get(offset..)?.lines().next()?.split(['#', ',', '}', ']']).next()?.trim();
+        let is_words =
+            bare.starts_with(|c: char| c.is_alphanumeric()) && !bare.contains(['=', '"', '\'']);
+        (is_words && line.contains(bare)).then(|| format!("write it in quotes: \"{bare}\""))
+    };
+    let quote = |line: &Range<usize>| of(line).filter(|help| help.contains("quote"));
+    match (of(&own), quote(&before)) {
+        (Some(help), _) => (own, help),
+        (None, Some(help)) => (before, help),
+        (None, None) => {
+            let help = "the file must be TOML: one `key = value` per line; a value with a unit is a string in \
+                        quotes, \"22.2 mm\"";
+            (own, help.to_string())
+        }
+    }
 }
 
 /// Returns the number with a decimal comma that a line gives to a key, with a point: `0.2` of `gap = 0,2`.
-pub(crate) fn decimal_comma(line: &str) -> Option<String> {
+fn decimal_comma(line: &str) -> Option<String> {
     line.split('=').skip(1).find_map(|after| {
         let after = after.trim_start();
         let is_part = |c: char| c.is_ascii_digit() || c == ',' || c == '-';

@@ -76,6 +76,17 @@ impl Sweep {
             _ => error,
         })?;
         let (document, tree) = Document::parse(&name, &text, &[], None, &[])?;
+        if let (Some((body, _)), false) =
+            (tree.get_ref().get_key_value("body"), tree.get_ref().contains_key("vary"))
+        {
+            return Err(document
+                .error_on(body.span(), "this file is a case, not a sweep")
+                .labelled("a table of cases")
+                .with_help(
+                    "run it with fem-run FILE; a sweep names it, case = \"FILE\", and has lists of values, \
+                     [vary] \"body.0.approach_speed\" = [0.1, 1]",
+                ));
+        }
         let folder = path.parent().unwrap_or(Path::new(""));
         let (file, mut faults) = read_repaired(|repairs| {
             let (document, tree) = Document::parse(&name, &text, &[], None, repairs)?;

@@ -221,7 +221,14 @@ impl Check<'_> {
                         LawTable::KEYS.iter().find(is_it).map_or("", |own| own.kind.example);
                     let message = format!("the key `{key}` is missing in {path}");
                     let error = self.error(path, message);
-                    return Err(error.with_help(format!("write {key} = {example}")));
+                    // A bare number has no typical size.
+                    let value = match example.starts_with('"') {
+                        true => format!("{key} = …, such as {example}"),
+                        false => format!("{key} = …, a number in SI"),
+                    };
+                    return Err(error.with_help(format!(
+                        "write {value}; fem-run fit finds it from measured restitutions, fem-run invert from one"
+                    )));
                 }
             };
             values.extend(value.map(|value| (key, value)));

@@ -211,7 +211,10 @@ fn shared_text(results: &[StoredResult]) -> String {
     match text.is_empty() {
         true => text,
         false => {
-            format!("{text} Such errors cancel in a difference but for half of the smaller one.")
+            format!(
+                "{text} Such errors cancel in a difference but for half of the smaller one. The errors by uncertain \
+                 inputs of both count in full."
+            )
         }
     }
 }

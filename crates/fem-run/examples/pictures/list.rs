@@ -56,7 +56,7 @@ pub const PICTURES: [Picture; 22] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
-        &[GLASS, ELASTIC, "report runs/glass_0.5ms runs/glass_0.5ms_elastic"],
+        &[GLASS, ELASTIC, "report runs/glass_0.5ms runs/glass_0.5ms_elastic --out comparison.html"],
         "comparison.html",
         [1000, 1010],
     ),

@@ -73,10 +73,13 @@ impl CaseArguments {
     }
 
     fn overridden(&self, overrides: &[String]) -> Result<Case, CaseError> {
-        if self.case.as_os_str() == STDIN {
-            return Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), overrides);
-        }
-        Case::load(&self.case, overrides)
+        let case = if self.case.as_os_str() == STDIN {
+            Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), overrides)?
+        } else {
+            Case::load(&self.case, overrides)?
+        };
+        case.check_units()?;
+        Ok(case)
     }
 
     /// Returns the origin of a result of `command` that is made from this case and has this digest.

@@ -88,12 +88,30 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
         }
         _ => error.exit(),
     };
-    let text = match near_command(&word) {
-        _ if word == "run" => "running a case needs no command: fem-run CASE.toml".to_string(),
-        Some(near) => format!("{text}; did you mean {near}?"),
-        None => text,
+    let text = match (other_word(&word), near_command(&word)) {
+        (Some(way), _) => format!("{word} is not a command: {way}"),
+        (None, Some(near)) => format!("{text}; did you mean {near}?"),
+        (None, None) => text,
     };
     command.error(error.kind(), text).exit()
+}
+
+/// Returns how to do what a word means that is no command but that other programs have; `None` for any other word or for an
+/// existing file.
+fn other_word(word: &str) -> Option<&'static str> {
+    const WORDS: [(&[&str], &str); 6] = [
+        (&["run", "solve", "simulate", "start"], "run a case with fem-run CASE.toml"),
+        (&["compare", "diff"], "fem-run report A B compares the results in the folders A and B"),
+        (&["init", "create"], "fem-run new NAME writes a case"),
+        (&["list", "library"], "fem-run materials lists the library"),
+        (&["convergence", "study"], "fem-run accuracy CASE.toml compares meshes and models"),
+        (
+            &["show", "view", "open"],
+            "fem-run report FOLDER writes a page, fem-run plot FOLDER a figure",
+        ),
+    ];
+    let way = WORDS.iter().find(|(words, _)| words.contains(&word)).map(|(_, way)| *way);
+    way.filter(|_| !Path::new(word).exists())
 }
 
 fn names_of(command: &clap::Command) -> Vec<String> {
@@ -114,13 +132,18 @@ impl Arguments {
     pub fn execute(self, started: Instant) -> Result<(), Failure> {
         match (self.command, self.input) {
             (Some(command), _) => command.execute(Self::command),
-            (None, Some(input)) => match near_command(&input.name()) {
-                Some(near) => Err(Failure::bad_input(format!(
+            (None, Some(input)) => match (other_word(&input.name()), near_command(&input.name())) {
+                (Some(way), _) => Err(Failure::bad_input(format!(
+                    "{}: there is no such file and no such command",
+                    one_line(&input.name())
+                ))
+                .with_help(way)),
+                (None, Some(near)) => Err(Failure::bad_input(format!(
                     "{}: there is no such file and no such command",
                     one_line(&input.name())
                 ))
                 .with_help(format!("did you mean fem-run {near}?"))),
-                None => run::execute(&input, &self.options, started),
+                (None, None) => run::execute(&input, &self.options, started),
             },
             // clap prints its help if there are no arguments at all.
             (None, None) => Ok(()),

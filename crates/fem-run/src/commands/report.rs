@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use fem_case::readable_name;
 use fem_report::report::{
     Quantity, REPORT_FILE, StoredResult, bounce_charts, comparison_page, contour_of_result,
     energy_chart, history_chart, loop_chart, pressure_chart, report_page,
@@ -31,7 +32,8 @@ pub struct ReportArguments {
     /// Result folders of runs
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
-    /// The page, - for standard output [default: FOLDER/report.html; for several folders comparison.html]
+    /// The page, - for standard output [default: FOLDER/report.html; for several folders their names,
+    /// A-B-comparison.html]
     ///
     /// An existing file is replaced only if it is such a page.
     #[arg(long, value_name = "FILE")]
@@ -45,13 +47,19 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     let records = StoredResult::read_all(&arguments.folders)?;
     let (text, usual) = match (records.as_slice(), arguments.folders.as_slice()) {
         ([record], [folder]) => (report_page(record)?, folder.join(REPORT_FILE)),
-        _ => (comparison_page(&records)?, PathBuf::from("comparison.html")),
+        _ => (comparison_page(&records)?, default_name(&records, "comparison.html")),
     };
     let path = arguments.out.clone().unwrap_or(usual);
     match PAGE.write(&path, &text)? {
         Some(written) if !arguments.quiet => standard_output::print(&written),
         _ => Ok(()),
     }
+}
+
+/// Returns a file name for these results, so that those of others are not replaced: `A-B-comparison.html`.
+fn default_name(records: &[StoredResult], what: &str) -> PathBuf {
+    let names: Vec<String> = records.iter().map(|record| readable_name(&record.name)).collect();
+    PathBuf::from(format!("{}-{what}", readable_name(&names.join("-"))))
 }
 
 /// Identifies the pictures of this command.
@@ -73,7 +81,7 @@ pub struct PlotArguments {
     /// The figure to draw
     #[arg(long, value_name = "FIGURE")]
     what: Figure,
-    /// The file, - for standard output [default: FIGURE.svg]
+    /// The file, - for standard output [default: the names of the folders and the figure, A-force.svg]
     ///
     /// An existing file is replaced only if it is such a picture.
     #[arg(long, value_name = "FILE")]
@@ -137,7 +145,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     };
     let name = clap::ValueEnum::to_possible_value(&figure);
     let name = name.map_or(String::new(), |value| format!("{}.svg", value.get_name()));
-    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
+    let path = arguments.out.clone().unwrap_or_else(|| default_name(&records, &name));
     let svg = svg.replacen('>', &format!(">\n{}", PICTURE.marker), 1);
     match PICTURE.write(&path, &svg)? {
         Some(written) if !arguments.quiet => standard_output::print(&written),

@@ -49,6 +49,9 @@ pub struct Options {
     /// The tolerance of the results.
     #[command(flatten)]
     within: ToleranceArguments,
+    /// Compute on the finest mesh if no mesh meets the tolerance; without it this is an error
+    #[arg(long)]
+    best: bool,
     /// Whether to write or read a restart file.
     #[command(flatten)]
     restart: RestartArguments,
@@ -64,6 +67,14 @@ pub struct Options {
 }
 
 impl Options {
+    /// Rejects a tolerance that no mesh meets, unless the best mesh is asked for.
+    fn check_tolerance(&self, simulation: &Simulation) -> Result<(), Failure> {
+        let Some(why) = simulation.out_of_reach().filter(|_| !self.best) else { return Ok(()) };
+        let error = simulation.case().error_at("accuracy.tolerance", why);
+        let help = "raise the tolerance, or add --best to compute the best result that there is, on the finest mesh";
+        Err(error.with_help(help).into())
+    }
+
     fn detail(&self) -> Detail {
         if self.verbose { Detail::All } else { Detail::Short }
     }
@@ -73,6 +84,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let interrupt = Interrupt::listen();
     let begin = Instant::now();
     let simulation = Simulation::new(input.load_within(&options.within)?)?;
+    options.check_tolerance(&simulation)?;
     let making = begin.elapsed().as_secs_f64();
     let identity = Identity::of(simulation.case())?;
     let stem = input.stem();

@@ -7,6 +7,8 @@ use fem_case::engineering::show;
 use fem_mesh::{Quality, SphereMesh};
 use indicatif::HumanCount;
 
+/// Longest cells, in characters, that do not wrap where there is room.
+const SHORT: usize = 28;
 /// Blanks between two columns.
 const GAP: u16 = 2;
 
@@ -26,18 +28,23 @@ fn laid_out<R: Into<Row>>(
     table.load_style(comfy_table::presets::NOTHING);
     table.set_content_arrangement(ContentArrangement::Dynamic);
     table.add_rows(rows);
-    let mut widths = vec![0; alignment.len()];
+    // The widths of the longest words, below which a column would break one, and those at which short cells do not wrap.
+    let mut widths = vec![[0, 0]; alignment.len()];
     for row in table.row_iter() {
-        for (width, cell) in widths.iter_mut().zip(row.cell_iter()) {
-            let words = cell.content();
-            let words = words.split_whitespace().map(|word| word.chars().count());
-            *width = words.fold(*width, usize::max);
+        for ([word, cell], own) in widths.iter_mut().zip(row.cell_iter()) {
+            let text = own.content();
+            let words = text.split_whitespace().map(|word| word.chars().count());
+            *word = words.fold(*word, usize::max);
+            *cell = text.chars().count().max(*cell);
         }
     }
+    let unwrapped = |[word, cell]: &[usize; 2]| if *cell <= SHORT { *cell } else { *word };
+    let width: usize = widths.iter().map(|width| unwrapped(width) + usize::from(GAP)).sum();
+    let fits = table.width().is_none_or(|available| width <= usize::from(available));
+    let widths = widths.iter().map(|width| if fits { unwrapped(width) } else { width[0] });
     for ((column, alignment), width) in table.column_iter_mut().zip(alignment).zip(widths) {
         column.set_cell_alignment(*alignment);
         column.set_padding((0, GAP));
-        // A narrower column would break its longest word.
         let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(GAP);
         column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
     }

@@ -119,7 +119,8 @@ fn meaningless_files_and_command_lines_are_rejected() {
         (&["."], "folder"),
         (&["binary.toml"], "UTF-8"),
         (&["empty.toml"], "body"),
-        (&["sweep.toml"], "is a sweep: fem-run sweep FILE"),
+        (&["sweep.toml"], "this file is a sweep, not a case"),
+        (&["check", "sweep.toml"], "compute it with fem-run sweep FILE"),
         (&["case.toml", "--threads", "-1"], "--threads"),
         (&["case.toml", "--threads", "0"], "give a whole number, at least 1"),
         (&["case.toml", "--threads", "many"], "give a whole number, at least 1"),
@@ -136,7 +137,9 @@ fn meaningless_files_and_command_lines_are_rejected() {
         (&["case"], "did you mean case.toml?"),
         (&["--quiet"], "CASE"),
         (&["case.toml", "--out", ""], "--out"),
-        (&["run", "case.toml"], "running a case needs no command: fem-run CASE.toml"),
+        (&["run", "case.toml"], "run is not a command: run a case with fem-run CASE.toml"),
+        (&["compare", "runs/a", "runs/b"], "fem-run report A B compares the results"),
+        (&["compare"], "fem-run report A B compares the results"),
         (&["invert", "case.toml", "--restitution", "92"], "92 % is --restitution 0.92"),
         (&["invert", "case.toml", "--restitution", "1"], "such as 0.92"),
         (&["check", "case.toml", "--set", "model=tingg"], "did you mean `ting`?"),
@@ -145,7 +148,65 @@ fn meaningless_files_and_command_lines_are_rejected() {
         let message = refused(&place, arguments);
         assert!(message.contains(expected), "{message}");
     }
-    place.fails(2, "sweep case.toml").tells("is a case: fem-run FILE");
+    let ran = place.fails(2, "sweep case.toml");
+    ran.tells("this file is a case, not a sweep|run it with fem-run FILE");
+    assert_eq!(ran.stderr.matches("error: ").count(), 1, "{}", ran.stderr);
+}
+
+/// A number without its unit is no long run: it is rejected with its place, and runs with the unit, also as the resolved case
+/// that `check` prints.
+#[test]
+fn implausible_bare_numbers_are_rejected_and_a_unit_admits_them() {
+    let place = Place::new();
+    for (set, expected) in [
+        (
+            "material.glass.youngs_modulus=2.93",
+            "youngs_modulus = \"2.93 GPa\", or youngs_modulus = \"2.93 Pa\"",
+        ),
+        ("body.0.sphere.diameter=10", "diameter = \"10 mm\", or diameter = \"10 m\""),
+        ("material.glass.density=2.39", "density = \"2.39 g/cm^3\""),
+    ] {
+        for command in ["", "check", "export", "accuracy"] {
+            let words: Vec<&str> =
+                command.split_whitespace().chain(["case.toml", "--set", set]).collect();
+            let message = refused(&place, &words);
+            assert!(message.contains(expected), "{message}");
+        }
+    }
+    let all = "case.toml --set material.glass.youngs_modulus=2.93 --set material.glass.density=1 --set body.1.sphere.diameter=15";
+    let message = refused(&place, &all.split(' ').collect::<Vec<_>>());
+    assert_eq!(message.matches("error: ").count(), 3, "{message}");
+    let soft = [
+        "--set",
+        "material.glass.youngs_modulus='2.93 Pa'",
+        "--set",
+        "body.0.sphere.diameter='10 m'",
+    ];
+    let ting = "--set model.ting={} --set body.0.approach_speed='1 um/s'";
+    let ran = place.succeed(("check case.toml --resolved", soft, ting));
+    place.write("resolved.toml", &ran.stdout);
+    place.succeed("resolved.toml --out a -q");
+    place.succeed(("case.toml --out b -q", soft, ting));
+    let e = |out: &str| place.json(&format!("{out}/summary.json"))["restitution"].clone();
+    assert_eq!(e("a"), e("b"));
+}
+
+/// A tolerance that no mesh meets is an error before the run, unless the best mesh is asked for.
+#[test]
+fn a_tolerance_out_of_reach_is_rejected() {
+    let place = Place::with(&CASE.replace("[mesh]\ncontact_element_size = \"90 um\"\n", ""));
+    for model in ["model.fem={}", "model.condensed={}"] {
+        let words = ["case.toml", "--tolerance", "1e-9", "--set", model];
+        let message = refused(&place, &words);
+        assert!(
+            message.contains("accuracy.tolerance cannot be met") && message.contains("--best"),
+            "{message}"
+        );
+    }
+    // `check` announces it; --best runs, here into a limit.
+    place.succeed("check case.toml --tolerance 1e-9 --set model.fem={}").prints("cannot be met");
+    let limited = "case.toml --tolerance 1e-9 --best --set model.fem={} --set limits.elements=1000";
+    place.fails(2, limited).tells("limits.elements");
 }
 
 #[test]

@@ -95,6 +95,9 @@ pub struct Plan {
     pub warnings: Vec<String>,
 }
 
+/// The first words of the warning about a tolerance that no mesh meets.
+const UNREACHABLE: &str = "accuracy.tolerance cannot be met";
+
 impl Plan {
     /// Returns the plan of a scene.
     ///
@@ -141,7 +144,7 @@ impl Plan {
             let across = rule.across;
             warnings.push(match rule.is_for_tolerance {
                 true => format!(
-                    "accuracy.tolerance cannot be met: even {across:.0} elements across the contact leave an error of about {} \
+                    "{UNREACHABLE}: even {across:.0} elements across the contact leave an error of about {} \
                      of the peak force; raise accuracy.tolerance",
                     percent(reached)
                 ),
@@ -185,6 +188,12 @@ impl Plan {
     /// Those of [`Plan::of`], with their place in the case.
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
         Self::of(case.scene()).map_err(|rejection| rejection.in_case(case))
+    }
+
+    /// Returns why no mesh meets `accuracy.tolerance`, if the case asks for a smaller error than the finest mesh has.
+    pub fn out_of_reach(&self) -> Option<&str> {
+        let warning = self.warnings.iter().find(|warning| warning.starts_with(UNREACHABLE));
+        warning.map(String::as_str)
     }
 
     /// Returns the element sizes of both bodies at the contact, m.

@@ -180,6 +180,11 @@ impl Simulation {
         &self.resolved
     }
 
+    /// Returns why no mesh meets `accuracy.tolerance`, if the case asks for a smaller error than that of the finest mesh.
+    pub fn out_of_reach(&self) -> Option<&str> {
+        self.setup().elements.as_ref()?.plan.out_of_reach()
+    }
+
     /// Replaces the output request of the case.
     ///
     /// # Errors

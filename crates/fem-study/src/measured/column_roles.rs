@@ -19,10 +19,14 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 14] = [
+const ENDINGS: [UnitSuffix; 20] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
+    ending("_um_s", 1e-6, [1, 0, -1]),
     ending("_km_h", 1.0 / 3.6, [1, 0, -1]),
+    ending("_ft_s", 0.3048, [1, 0, -1]),
+    ending("_in_s", 0.0254, [1, 0, -1]),
+    ending("_mph", 0.44704, [1, 0, -1]),
     ending("_m_s", 1.0, [1, 0, -1]),
     ending("_us", 1e-6, [0, 0, 1]),
     ending("_ms", 1e-3, [0, 0, 1]),
@@ -33,6 +37,8 @@ const ENDINGS: [UnitSuffix; 14] = [
     ending("_rad", 1.0, [0; 3]),
     ending("_percent", 1e-2, [0; 3]),
     ending("_mm", 1e-3, [1, 0, 0]),
+    ending("_cm", 1e-2, [1, 0, 0]),
+    ending("_um", 1e-6, [1, 0, 0]),
     ending("_m", 1.0, [1, 0, 0]),
 ];
 
@@ -77,7 +83,39 @@ pub(super) const SPEEDS: [&str; 10] = [
 pub(super) const RESTITUTIONS: [&str; 5] =
     ["restitution", "coefficient_of_restitution", "restitution_coefficient", "cor", "e"];
 /// Uncertainties whose names do not say of what.
-const UNCERTAINTIES: [&str; 4] = ["uncertainty", "sigma", "σ", "standard_error"];
+const UNCERTAINTIES: [&str; 13] = [
+    "uncertainty",
+    "sigma",
+    "σ",
+    "standard_error",
+    "standard_deviation",
+    "std",
+    "stdev",
+    "std.dev.",
+    "std._dev.",
+    "sd",
+    "s.d.",
+    "err",
+    "error",
+];
+/// The first parts of a sweep's dotted keys: the tables of a case.
+const KEY_TABLES: [&str; 13] = [
+    "material", "body", "start", "gravity", "stop", "mesh", "contact", "time", "output", "model",
+    "accuracy", "effects", "limits",
+];
+/// Signs that part a value from its uncertainty.
+pub(super) const SIGNS: [&str; 3] = ["±", "+/-", "+-"];
+
+/// Returns whether a column has the values of a key that a sweep varies: `body.0.approach_speed`.
+pub(super) fn is_key(header: &str) -> bool {
+    header.split_once('.').is_some_and(|(table, _)| KEY_TABLES.contains(&table))
+}
+
+/// Returns the name of the column of a column's uncertainty: `speed_uncertainty_cm_s` for `speed_cm_s`.
+pub(super) fn uncertainty_of(header: &str) -> String {
+    let unit = ending_of(header).map_or("", |unit| unit.text);
+    format!("{}_uncertainty{unit}", header.strip_suffix(unit).unwrap_or(header))
+}
 /// Words before the name of a quantity that make it the uncertainty of the quantity: `delta e`, `u(e)`, `± e`.
 const BEFORE: [&str; 11] = ["±", "+-", "+/-", "delta", "δ", "d", "u", "sigma", "σ", "std", "error"];
 /// Words after it: `e_err`.

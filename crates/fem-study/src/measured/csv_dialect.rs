@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use fem_case::parse_quantity;
 
-use super::column_roles::ending_like;
+use super::column_roles::{SIGNS, bare, ending_like, ending_of, uncertainty_of};
 
 /// Returns the text of a file: UTF-16, recognised by its byte order mark or its zeros, UTF-8, or else Latin-1.
 pub fn decode(bytes: &[u8]) -> String {
@@ -62,23 +62,56 @@ pub(super) fn separator(text: &str) -> (u8, &str) {
     (separator, text)
 }
 
-/// Returns the name of a column in the spelling of lookups: in lower case, with `_` for spaces and a unit in brackets as
-/// an ending. `Impact speed [cm/s]` is `impact_speed_cm_s`.
+/// Returns the name of a column in the spelling of lookups: in lower case, with `_` for spaces and with a unit as an ending.
+/// `Impact speed [cm/s]` is `impact_speed_cm_s`, and so are `Impact speed in cm/s` and `Impact speed / (cm/s)`.
 pub(super) fn column_name(header: &str) -> String {
     let header = header.trim();
-    let bracketed = ['[', '('].iter().find_map(|open| {
-        let (name, unit) = header.split_once(*open)?;
-        Some((name.trim(), unit.trim_end_matches([']', ')']).trim()))
-    });
     let joined = |name: &str| name.to_lowercase().split_whitespace().collect::<Vec<_>>().join("_");
-    match bracketed {
-        Some((name, "-" | "1" | "")) => joined(name),
-        Some((name, unit)) => match ending_of_unit(unit) {
-            Some(ending) => joined(name) + ending,
-            None => joined(header),
-        },
-        None => joined(header),
+    let is_none = |unit: &str| ["-", "1", ""].contains(&unit);
+    for (before, after) in [("[", "]"), ("(", ")"), (" in ", ""), (",", ""), ("/", "")] {
+        let Some((name, unit)) = header.split_once(before) else { continue };
+        let name = joined(name.trim().trim_end_matches(['/', ',']).trim_end_matches(" in"));
+        let unit = unit.trim().trim_end_matches(after).trim();
+        match ending_of_unit(unit) {
+            Some(ending) => return name + ending,
+            None if is_none(unit) && !after.is_empty() => return name,
+            None => {}
+        }
     }
+    joined(header)
+}
+
+/// Returns the header with the names of columns that are only a sign, `±`, completed by the column before.
+pub(super) fn with_signs_named(header: Vec<String>) -> Vec<String> {
+    let mut named: Vec<String> = Vec::new();
+    for name in header {
+        let before = named.last().filter(|_| SIGNS.contains(&bare(&name)));
+        let completed = before.map(|before| match ending_of(&name) {
+            Some(unit) => uncertainty_of(&format!("{}{}", bare(before), unit.text)),
+            None => uncertainty_of(before),
+        });
+        named.push(completed.unwrap_or(name));
+    }
+    named
+}
+
+/// Returns a value and its uncertainty from a cell such as `0.91 ± 0.02` or `30 ± 0.5 cm/s`, each with its unit; `None` for
+/// any other cell. An uncertainty in per cents is a share of the value.
+pub(super) fn value_and_uncertainty(cell: &str) -> Option<[String; 2]> {
+    let (value, uncertainty) = SIGNS.iter().find_map(|sign| cell.split_once(sign))?;
+    let (value, uncertainty) = (value.trim(), uncertainty.trim());
+    let number = |text: &str| with_point(text).parse::<f64>().ok();
+    let (Some(bare), None) = (number(value), number(uncertainty)) else {
+        return Some([value.to_string(), uncertainty.to_string()]);
+    };
+    if let Some(share) = uncertainty.strip_suffix('%').and_then(|share| number(share.trim())) {
+        let own = format!("{:?}", bare.abs() * share * 1e-2);
+        let own = if value.contains(',') { own.replace('.', ",") } else { own };
+        return Some([value.to_string(), own]);
+    }
+    let is_digit = |c: char| c.is_ascii_digit() || ".,eE+-".contains(c);
+    let unit = uncertainty.trim_start_matches(is_digit).trim();
+    Some([format!("{value} {unit}"), uncertainty.to_string()])
 }
 
 /// Returns the ending of a name that stands for a unit.

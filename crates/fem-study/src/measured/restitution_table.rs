@@ -1,7 +1,7 @@
 //! Reads restitutions over speeds from a table of a measurement or a sweep, of one pair of bodies or of several pairs
 //! that the table distinguishes by their diameters.
 
-use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, uncertainties};
+use super::column_roles::{CONTACT_TIMES, DIAMETERS, RESTITUTIONS, SPEEDS, is_key, uncertainties};
 use super::data_error::DataError;
 use super::pairs::MeasuredPairs;
 use super::restitutions::{MAX_UNCERTAINTY, Restitutions, UnevenUncertainties};
@@ -81,7 +81,7 @@ fn read_rows(
         &[&OPTIONAL[..], wanted.names].concat(),
         |name| {
             // A sweep's keys have dots in their names; their values are the same in all rows here.
-            name.contains('.')
+            is_key(name)
                 || COLUMNS.iter().any(|known| known == name)
                 || [&WRITTEN[..], &CONTACT_TIMES].iter().any(|known| known.contains(&name))
         },
@@ -249,9 +249,9 @@ fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError>
         // A sweep has each key twice, as written and in SI.
         let is_twin = |other: &String| {
             let ending = header.strip_prefix(other.as_str());
-            other.contains('.') && ending.is_some_and(|ending| ending.starts_with('_'))
+            is_key(other) && ending.is_some_and(|ending| ending.starts_with('_'))
         };
-        if header.contains('.')
+        if is_key(header)
             && !may_vary.contains(&column)
             && !table.header().iter().any(is_twin)
             && let Some(row) = (1..table.n_rows()).find(|row| !is_same(*row))

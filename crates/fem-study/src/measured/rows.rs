@@ -8,7 +8,7 @@ use super::data_error::DataError;
 use super::table::Table;
 
 /// Returns, for each row of a table, the cells below these names, as a case accepts them: a cell whose unit
-/// stands in the name of its column is a number in SI.
+/// stands in the name of its column has the unit in SI, so that the case rejects one of another dimension.
 ///
 /// # Errors
 /// The text is no table, lacks a column, or has a cell without a value.
@@ -45,7 +45,16 @@ fn read(source: &str, bytes: &[u8], names: &[String]) -> Result<Vec<Vec<String>>
         }
         let header = &table.header()[*column];
         match ending_of(header).filter(|_| header != name) {
-            Some(ending) => Ok(format!("{:?}", table.number(row, *column, ending.dimension)?)),
+            Some(ending) => {
+                let number = table.number(row, *column, ending.dimension)?;
+                let unit = match ending.dimension {
+                    [1, 0, -1] => " m/s",
+                    [1, 0, 0] => " m",
+                    [0, 0, 1] => " s",
+                    _ => "",
+                };
+                Ok(format!("{number:?}{unit}"))
+            }
             None if table.has_decimal_commas() => {
                 Ok(with_point(table.text(row, *column)).to_string())
             }

@@ -9,9 +9,10 @@ use std::fmt::Display;
 
 use fem_case::{nearest, parse_quantity};
 
-use super::column_roles::{bare, column_names, ending_of, readings};
+use super::column_roles::{bare, column_names, ending_of, is_key, readings, uncertainty_of};
 use super::csv_dialect::{
-    column_name, is_missing, separator, tabs_for_blanks, with_point, with_units,
+    column_name, is_missing, separator, tabs_for_blanks, value_and_uncertainty, with_point,
+    with_signs_named, with_units,
 };
 use super::data_error::{DataError, one_line};
 
@@ -79,7 +80,7 @@ impl Table {
                 "write a line above it that names the columns, such as speed_m_s,restitution",
             ));
         }
-        let mut header: Vec<String> = header.iter().map(column_name).collect();
+        let mut header = with_signs_named(header.iter().map(column_name).collect());
         let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
         for record in reader.records() {
             let place = |position: Option<&csv::Position>| {
@@ -103,6 +104,7 @@ impl Table {
             }
             rows.push((line, cells));
         }
+        split_uncertainties(&mut header, &mut rows);
         if let [(_, first), (_, second), ..] = rows.as_slice()
             && let Some(names) = with_units(&header, first, second)
         {
@@ -113,7 +115,44 @@ impl Table {
             return Err(DataError::new(&name, "there is no row below the header"));
         }
         let has_decimal_commas = separator != b',';
-        Ok(Self { name, header, header_line, rows, has_decimal_commas, named: Vec::new() })
+        let named = Vec::new();
+        let table = Self { name, header, header_line, rows, has_decimal_commas, named };
+        table.check_header()?;
+        table.check_decimal_signs()?;
+        Ok(table)
+    }
+
+    /// Rejects two columns of the same name, of which a reader would take one.
+    fn check_header(&self) -> Result<(), DataError> {
+        let mut columns = self.header.iter().enumerate().filter(|(_, name)| !name.is_empty());
+        let twice = columns.find_map(|(column, name)| {
+            let first = self.header[..column].iter().position(|other| other == name)?;
+            Some((name, first + 1, column + 1))
+        });
+        let Some((name, first, second)) = twice else { return Ok(()) };
+        let message = format!("the columns {first} and {second} have the same name, {name}");
+        Err(self.header_fault(message).in_column(name).with_help("rename one of the two"))
+    }
+
+    /// Rejects a comma in a number if other numbers of the table have points: one of the two separates thousands.
+    fn check_decimal_signs(&self) -> Result<(), DataError> {
+        if !self.has_decimal_commas {
+            return Ok(());
+        }
+        let number_with = |cell: &str, sign: char| {
+            cell.contains(sign) && parse_quantity(&with_point(cell)).is_ok()
+        };
+        let cells = || {
+            let rows = self.rows.iter().enumerate();
+            rows.flat_map(|(row, (_, cells))| cells.iter().map(move |cell| (row, cell)))
+        };
+        let point = cells().find(|(_, cell)| number_with(cell, '.'));
+        let comma = cells().find(|(_, cell)| number_with(cell, ','));
+        let (Some((_, point)), Some((row, comma))) = (point, comma) else { return Ok(()) };
+        let message = format!("\"{comma}\" has a comma, and \"{point}\" a point");
+        Err(self.fault(row, message).with_help(
+            "write all numbers with decimal points or all with decimal commas, and no separator of thousands",
+        ))
     }
 
     /// Returns the table with columns renamed: `speed` for a column `v`. A name without a unit keeps that of the header.
@@ -142,7 +181,7 @@ impl Table {
             };
             let name = column_name(name);
             let known = column_names();
-            if !readings(&name).any(|reading| known.contains(&reading) || reading.contains('.')) {
+            if !readings(&name).any(|reading| known.contains(&reading) || is_key(reading)) {
                 let near = nearest(bare(&name), &known, 0.8);
                 let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
                 let help = format!("{near}a column may be {}", known.join(", "));
@@ -150,7 +189,13 @@ impl Table {
                 return Err(DataError::new(&self.name, message).with_help(help));
             }
             let unit = ending_of(&found[column]).filter(|_| ending_of(&name).is_none());
-            self.header[column] = name + unit.map_or("", |unit| unit.text);
+            let name = name + unit.map_or("", |unit| unit.text);
+            // Its uncertainty, perhaps of the same cells, is renamed with it.
+            let own = uncertainty_of(&found[column]);
+            if let Some(uncertainty) = found.iter().position(|other| *other == own) {
+                self.header[uncertainty] = uncertainty_of(&name);
+            }
+            self.header[column] = name;
             self.named.push(column);
         }
         Ok(self)
@@ -328,6 +373,24 @@ impl Table {
     /// Returns an error about the names of columns.
     pub fn header_fault(&self, message: impl Display) -> DataError {
         DataError::new(&self.name, message).in_line(self.header_line)
+    }
+}
+
+/// Splits the cells of columns with values like `0.91 ± 0.02`, and adds a column for the uncertainties.
+fn split_uncertainties(header: &mut Vec<String>, rows: &mut [(u64, Vec<String>)]) {
+    for column in 0..header.len() {
+        let split = |cells: &[String]| value_and_uncertainty(&cells[column]);
+        let name = uncertainty_of(&header[column]);
+        if header.contains(&name) || !rows.iter().any(|(_, cells)| split(cells).is_some()) {
+            continue;
+        }
+        header.push(name);
+        for (_, cells) in rows.iter_mut() {
+            let [value, uncertainty] =
+                split(cells).unwrap_or_else(|| [cells[column].clone(), String::new()]);
+            cells[column] = value;
+            cells.push(uncertainty);
+        }
     }
 }
 

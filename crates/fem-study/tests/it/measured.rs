@@ -77,8 +77,8 @@ fn tables_are_read_in_all_dialects() {
         (&b"body.0.approach_speed,d1\n0.5 m/s,10 mm\n"[..], ["10 mm", "0.5 m/s"]),
         (b"# pairs\nD1;body.0.approach_speed\n10 mm;0,5 m/s\n", ["10 mm", "0.5 m/s"]),
         (b"d1\tbody.0.approach_speed\n0,01\t0,5\n", ["0.01", "0.5"]),
-        (b"sep=;\nd1 [mm];body.0.approach_speed\n10;0,5\n", ["0.01", "0.5"]),
-        (b"d1_mm,body.0.approach_speed_cm_s,\xb5\n10,50,1\n", ["0.01", "0.5"]),
+        (b"sep=;\nd1 [mm];body.0.approach_speed\n10;0,5\n", ["0.01 m", "0.5"]),
+        (b"d1_mm,body.0.approach_speed_cm_s,\xb5\n10,50,1\n", ["0.01 m", "0.5 m/s"]),
         (b"# d1  e\nd1  body.0.approach_speed\n\n 0,01   0,5\n", ["0.01", "0.5"]),
     ] {
         assert_eq!(rows(text, names).unwrap(), [expected], "{}", String::from_utf8_lossy(text));
@@ -94,6 +94,8 @@ fn row_errors_name_file_line_and_column() {
         ("d1;d3\n1;2\n", "there is no column d2; found are d1, d3"),
         ("d1;d2\n", "no row"),
         ("d1_mm;d2\n1 kg;2\n", "pairs.csv:2"),
+        ("d1;d2;d1\n1;2;3\n", "pairs.csv:1: the columns 1 and 3 have the same name, d1"),
+        ("d1;d2\n0.5;2\n3;1,500\n", "pairs.csv:3: \"1,500\" has a comma, and \"0.5\" a point"),
     ] {
         let fault = rows(text.as_bytes(), names).unwrap_err();
         assert!(fault.message.contains(expected), "{text}: {}", fault.message);
@@ -172,6 +174,35 @@ fn names_of_uncertainties_are_read() {
     for name in ["u(v)", "delta v", "speed_err", "e2", "temperature"] {
         assert_eq!(read(name), None, "{name}");
     }
+}
+
+/// Values and uncertainties are read wherever spreadsheets and papers put them, by the one reader of all commands.
+#[test]
+fn tables_of_papers_and_spreadsheets_are_read() {
+    for (text, speed, uncertainty) in [
+        ("v in m/s;e\n0,5;0,91 ± 0,02\n1;0,9 ± 0,02\n", 0.5, Some(0.02)),
+        ("v / (cm/s);e\n50;0,91 +/- 0,02\n60;0,9 ± 0,02\n", 0.5, Some(0.02)),
+        ("v/(cm/s);e;±\n50;0,91;0,02\n60;0,9;0,02\n", 0.5, Some(0.02)),
+        ("v [cm/s];±;e;±\n50;1;0,91;0,02\n60;1;0,9;0,02\n", 0.5, Some(0.02)),
+        ("v [ft/s];e;s.d.\n10;0,91;0,02\n20;0,9;0,02\n", 3.048, Some(0.02)),
+        ("v in mph,e,std. dev.\n10,0.91,0.02\n20,0.9,0.02\n", 4.4704, Some(0.02)),
+        ("v,e\n30 ± 0.5 cm/s,0.5 ± 10 %\n40 ± 0.5 cm/s,0.4 ± 10 %\n", 0.3, Some(0.05)),
+        ("v (m/s);COR (%)\n0,5;91 ± 2\n1;90 ± 2\n", 0.5, Some(0.02)),
+        ("v, m/s;e\n0,5;0,91\n1;0,9\n", 0.5, None),
+    ] {
+        let table = Table::parse("e.csv", text).unwrap();
+        let data = Restitutions::read(&table, ball().scene()).unwrap();
+        let point = &data.points[0];
+        assert!((point.speed - speed).abs() < 1e-12, "{text}: {}", point.speed);
+        let found = point.restitution_uncertainty;
+        let is_same = |(a, b): (f64, f64)| (a - b).abs() < 1e-12;
+        assert!(found.zip(uncertainty).map_or(found == uncertainty, is_same), "{text}: {found:?}");
+    }
+    // Renaming a column takes the uncertainty of its cells with it.
+    let table = Table::parse("e.csv", "v;bounce\n1;0,91 ± 0,02\n2;0,9 ± 0,02\n").unwrap();
+    let table = table.renamed(&[("restitution", "bounce")]).unwrap();
+    let data = Restitutions::read(&table, ball().scene()).unwrap();
+    assert_eq!(data.points[0].restitution_uncertainty, Some(0.02));
 }
 
 /// A restitution above 1 is warned of in the words of the cradle, with its line; above 1.2 it is an error.

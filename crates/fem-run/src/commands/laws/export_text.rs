@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use fem::fit::dem::Snippet;
 use fem::laws::{DemExport, PairExport, PairNumbers};
-use fem_case::engineering::{number, show};
+use fem_case::engineering::{Unit, number, show};
 use fem_laws::LawFamily;
 use serde_json::{Value, json};
 
@@ -20,25 +20,27 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet]) -> String {
             snippet.entries.iter().map(|(key, value)| format!("{key} {}", number(*value, 5)));
         [
             snippet.name.to_string(),
-            entries.collect::<Vec<_>>().join(", "),
-            snippet.restitution.map_or("e(v)".to_string(), |e| format!("{e:.4}")),
             valid_speeds(Some(from).filter(|from| *from <= to), Some(to)),
-            format!("{worst:.4}"),
+            format!("{worst:.3}"),
+            entries.collect::<Vec<_>>().join(", "),
         ]
     };
-    let header = "file|input|>gives e|valid from, to|>worst error";
-    format!(
-        "{}, {} to {}\nA snippet is valid where its error of the restitution is at most {}{}.\n\n{}",
+    let header = "file|valid|>worst|input";
+    let of_scatter =
+        if export.tolerance == curve.scatter { ", the scatter of the data" } else { "" };
+    let heading = format!(
+        "{}, {} to {}",
         standard_output::one_line(&export.title),
         show(export.speeds.0, "m/s"),
         show(export.speeds.1, "m/s"),
+    );
+    let judged = format!(
+        "A snippet is valid where its error of the restitution is at most {}{of_scatter}; worst: its largest error. \
+         Models with one e for all speeds have {:.4}; where a code makes another e of its input, the input is corrected.",
         number(export.tolerance, 2),
-        match export.tolerance == curve.scatter {
-            true => ", the scatter of the data",
-            false => "",
-        },
-        headed(header, snippets.iter().map(row))
-    )
+        export.restitution
+    );
+    format!("{heading}\n\n{}\n\n{}", wrapped(&judged), headed(header, snippets.iter().map(row)))
 }
 
 /// Returns which laws the files have, and why not the one that fits best.
@@ -71,8 +73,14 @@ pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
 /// Returns the speeds for which a snippet is valid.
 fn valid_speeds(from: Option<f64>, to: Option<f64>) -> String {
     match (from, to) {
-        (Some(from), Some(to)) if from == to => format!("only at {}", show(from, "m/s")),
-        (Some(from), Some(to)) => format!("{} to {}", show(from, "m/s"), show(to, "m/s")),
+        (Some(from), Some(to)) => {
+            let unit = Unit::fitting(to, "m/s");
+            let [low, high] = [from, to].map(|speed| number(unit.scaled(speed), 3));
+            match from == to {
+                true => format!("at {high} {}", unit.symbol()),
+                false => format!("{low} to {high} {}", unit.symbol()),
+            }
+        }
         _ => "nowhere".to_string(),
     }
 }

@@ -251,10 +251,10 @@ fn single_file_commands_overwrite_no_foreign_file() {
         (own("mine.svg"), "mine.svg"),
         (own("runs/case/summary.json"), "runs/case/summary.json"),
         (own("mine.png"), "mine.png"),
-        (vec!["plot", "runs/case", "--what", "force"], "force.svg"),
+        (vec!["plot", "runs/case", "--what", "force"], "case-force.svg"),
         (vec!["report", "runs/case", "--out", "mine.html"], "mine.html"),
         (vec!["report", "runs/case", "--out", "case.toml"], "case.toml"),
-        (vec!["report", "runs/case", "runs/other"], "comparison.html"),
+        (vec!["report", "runs/case", "runs/other"], "case-other-comparison.html"),
     ] {
         let old = match name {
             "runs/case/summary.json" => summary.clone(),

@@ -155,10 +155,17 @@ impl Effect for PartnerWaves {
         let warning = (lost > SMALL_LOSS).then(|| {
             format!(
                 "shear waves cross {name} only {least:.2} times during the contact, less than {RETURN_LIMIT}: \
-                 they do not return and take {} of the energy, {} of the restitution, which this model leaves out; \
+                 they do not return and take {} of the energy, {} of the restitution, which {}; \
                  {} them",
                 percent(share),
                 number(lost, 2),
+                match scene.model() {
+                    // The loss of a law is the user's.
+                    ModelChoice::Law { .. } => {
+                        "the law has if it was fitted to measurements, and else leaves out"
+                    }
+                    _ => "this model leaves out",
+                },
                 if term { "models fem and ting have" } else { "model fem has" }
             )
         });
