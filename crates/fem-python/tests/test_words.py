@@ -18,7 +18,7 @@ FUNCTIONS = {name: getattr(fem_run, name) for name in ("calibrate", "cradle", "e
 OF_THE_COMMAND = {"at", "data", "force", "out", "quiet", "set"}
 #: Sources whose messages only the command prints.
 NOT_IN_PYTHON = re.compile(
-    r"fem-run/src/(sweep/|commands/(accuracy|mesh|new|report|shell|sweep|validate)|arguments/mod|result_folder/(restart|whole_file))"
+    r"fem-run/src/(sweep/|commands/(accuracy|mesh|new|report|run|shell|sweep|validate)|arguments/mod|result_folder/(restart|whole_file))"
     r"|fem-report/src/accuracy|fem-(page|python)/"
 )
 #: Values in messages that look like a word of a sentence.

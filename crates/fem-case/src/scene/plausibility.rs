@@ -197,34 +197,25 @@ impl Case {
         CaseError::joined(faults).map_or(Ok(()), Err)
     }
 
-    /// Gives the unusual numbers of a resolved case their units, so that it can be run ([`check_units`](Self::check_units)).
-    pub fn name_units(&self, file: &mut CaseFile) {
+    /// Returns this case in another form, such as the resolved one, as TOML ([`CaseFile::to_toml`]). Its unusual numbers have
+    /// their units, so that it can be run ([`check_units`](Self::check_units)).
+    ///
+    /// # Errors
+    /// Those of [`CaseFile::to_toml`].
+    pub fn toml_of(&self, file: &CaseFile) -> Result<String, toml::ser::Error> {
+        let mut tree = toml::Value::try_from(file)?;
         for (side, _, key, unit) in self.unusual_keys() {
-            let parts: Vec<String> = self.key_parts(side, &key);
-            let Some((value, _)) = file.number_at(parts.iter().map(String::as_str)) else {
-                continue;
-            };
-            let text = format!("{value:?} {unit}");
-            let body = &mut file.body[side];
-            match parts.last().map(String::as_str) {
-                Some("diameter") => {
-                    body.sphere
-                        .iter_mut()
-                        .for_each(|sphere| sphere.diameter = text.as_str().into());
-                }
-                Some(last) => {
-                    let name = body.material.clone().unwrap_or_default();
-                    let Some(material) = file.material.get_mut(&name) else { continue };
-                    match last {
-                        "density" => material.density = text.as_str().into(),
-                        "youngs_modulus" => material.youngs_modulus = Some(text.as_str().into()),
-                        "shear_modulus" => material.shear_modulus = Some(text.as_str().into()),
-                        _ => material.bulk_modulus = Some(text.as_str().into()),
-                    }
-                }
-                None => {}
+            let parts = self.key_parts(side, &key);
+            let number = parts.iter().try_fold(&mut tree, |value, part| match value {
+                toml::Value::Table(table) => table.get_mut(part),
+                toml::Value::Array(array) => array.get_mut(side),
+                _ => None,
+            });
+            if let Some(number) = number.filter(|number| number.is_float()) {
+                *number = toml::Value::String(format!("{number} {unit}"));
             }
         }
+        toml::to_string(&tree)
     }
 
     fn key_parts(&self, side: usize, key: &str) -> Vec<String> {

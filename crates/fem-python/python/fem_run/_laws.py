@@ -12,6 +12,7 @@ from __future__ import annotations
 import html
 import json
 import os
+import tempfile
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
@@ -144,7 +145,7 @@ def export(
     case: Case,
     data: Any = None,
     *,
-    fit: str | os.PathLike[str] | None = None,
+    fit: str | os.PathLike[str] | Fit | None = None,
     speeds: tuple[Quantity, Quantity] | str | None = None,
     materials: str | Sequence[str] | None = None,
     diameters: Quantity | Sequence[Quantity] | None = None,
@@ -158,7 +159,7 @@ def export(
     Args:
         case: the two bodies.
         data: restitutions; by default they are computed.
-        fit: the folder of a fit, or its ``fit.json``; the fitted law then gives the restitutions.
+        fit: the result of :func:`fit`, the folder of one or its ``fit.json``; the fitted law then gives the restitutions.
         speeds: range of the computed restitutions; by default a decade about the speed of the case, or the speeds of
             the fit.
         materials: names of materials for a table of all pairs, of the case or ``"lib:NAME"``.
@@ -170,7 +171,16 @@ def export(
     Returns:
         The keys of ``export.json``, and ``texts``: the files by name.
     """
-    return _found(_native.export(_native_of(case), _data(data), _words(locals())))
+    words = _words({**locals(), "fit": None})
+    if fit is None:
+        return _found(_native.export(_native_of(case), _data(data), words))
+    with tempfile.TemporaryDirectory() as folder:
+        path = fit
+        if isinstance(fit, Mapping):
+            path = os.path.join(folder, "fit.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(fit, file)
+        return _found(_native.export(_native_of(case), _data(data), [*words, f"--fit={os.fspath(path)}"]))
 
 
 def calibrate(

@@ -87,9 +87,8 @@ impl Checked {
     }
 
     fn resolved(&self) -> Result<String, Failure> {
-        let mut file = self.simulation.resolved().clone();
-        self.simulation.case().name_units(&mut file);
-        let resolved = file.to_toml().map_err(|error| {
+        let resolved = self.simulation.case().toml_of(self.simulation.resolved());
+        let resolved = resolved.map_err(|error| {
             Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
         })?;
         Ok(format!("{}\n{resolved}", as_comment(&self.expectation)))

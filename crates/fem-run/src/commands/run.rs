@@ -103,6 +103,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         }
         None => estimator.refine_before_run(simulation, || true),
     };
+    check_memory(&simulation, &estimator)?;
     let mut printed = Vec::new();
     if !options.quiet {
         let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
@@ -156,6 +157,23 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
             Err(stopped(stop, &summary, &kept))
         }
         _ => Ok(()),
+    }
+}
+
+/// Rejects a run that is expected to take more memory than the case allows, with its reference runs.
+fn check_memory(simulation: &Simulation, estimator: &ErrorEstimator) -> Result<(), Failure> {
+    let limit = simulation.case().scene().limits().memory;
+    let expected = peak_memory_with(simulation, estimator);
+    match expected.zip(limit).filter(|(expected, limit)| expected > limit) {
+        None => Ok(()),
+        Some((expected, _)) => {
+            let expected = estimated(expected as f64, "B");
+            let message =
+                format!("the run takes about {expected} of memory, reference runs included");
+            let error = simulation.case().error_at("limits.memory", message);
+            let help = "raise limits.memory, or set a larger mesh.contact_element_size or accuracy.tolerance";
+            Err(error.with_help(help).into())
+        }
     }
 }
 

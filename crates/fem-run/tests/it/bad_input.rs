@@ -174,21 +174,37 @@ fn implausible_bare_numbers_are_rejected_and_a_unit_admits_them() {
         }
     }
     let all = "case.toml --set material.glass.youngs_modulus=2.93 --set material.glass.density=1 --set body.1.sphere.diameter=15";
-    let message = refused(&place, &all.split(' ').collect::<Vec<_>>());
-    assert_eq!(message.matches("error: ").count(), 3, "{message}");
+    let ran = place.fails(2, all);
+    assert_eq!(ran.stderr.matches("error: ").count(), 3, "{}", ran.stderr);
     let soft = [
         "--set",
         "material.glass.youngs_modulus='2.93 Pa'",
         "--set",
         "body.0.sphere.diameter='10 m'",
     ];
-    let ting = "--set model.ting={} --set body.0.approach_speed='1 um/s'";
+    let ting = "--set model.hertz={} --set body.0.approach_speed=1e-6";
     let ran = place.succeed(("check case.toml --resolved", soft, ting));
     place.write("resolved.toml", &ran.stdout);
     place.succeed("resolved.toml --out a -q");
     place.succeed(("case.toml --out b -q", soft, ting));
     let e = |out: &str| place.json(&format!("{out}/summary.json"))["restitution"].clone();
     assert_eq!(e("a"), e("b"));
+}
+
+/// The memory that a run announces is held to the limit, with that of the program and of reference runs.
+#[test]
+fn the_announced_memory_is_limited() {
+    let place = Place::new();
+    for model in ["model.fem={}", "model.condensed={}"] {
+        let run = |memory: &str| {
+            let memory = format!("limits.memory='{memory}'");
+            place.run(["case.toml", "--set", model, "--set", &memory, "--out", "out", "--force"])
+        };
+        let ran = run("5 MB");
+        assert_eq!(ran.code, Some(2), "{model}: {}", ran.stderr);
+        ran.tells("limits.memory|of memory, reference runs included");
+        assert_eq!(run("1 GB").code, Some(0), "{model}");
+    }
 }
 
 /// A tolerance that no mesh meets is an error before the run, unless the best mesh is asked for.

@@ -110,7 +110,8 @@ fn check_prints_the_size_of_metre_spheres_without_a_warning() {
         let sizes: Vec<&str> = sizes.iter().flat_map(|set| set.splitn(2, ' ')).collect();
         place.succeed((command, "case.toml --set model=hertz", &sizes))
     };
-    for (value, is_told) in [("22.2", true), ("'2 m'", true), ("'99 cm'", false), ("0.0222", false)]
+    for (value, is_told) in
+        [("22.2m", true), ("'2 m'", true), ("'99 cm'", false), ("0.0222", false)]
     {
         let words = "(bare numbers are in metres)";
         let checked = run("check", value);

@@ -70,6 +70,7 @@ pub fn check_some(
     mut see: impl FnMut(&Member, &CaseFile),
 ) -> Result<Checked, CaseError> {
     let look = |index: usize, case: &Case| {
+        case.check_units()?;
         let (member, resolved) = Member::resolved(index, case)?;
         let is_left = is_own(index) && !is_done(&member);
         let element_updates = is_left.then(|| Simulation::element_updates_of(case)).transpose()?;

@@ -54,8 +54,8 @@ pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
     let note = match (fitted.curve.law.map(LawFamily::name), own) {
         (None, _) if !has_data => return String::new(),
         (None, _) => {
-            "Each file has the law of its code that is nearest to the data. Whether another law explains them \
-             better: fem-run fit, whose result --fit takes."
+            "Each file has the law of its code that is nearest to the data. Whether another law explains them better: \
+             fem-run fit, and then --fit FOLDER."
                 .to_string()
         }
         (Some(law), Some(file)) => format!(

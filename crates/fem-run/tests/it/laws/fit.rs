@@ -335,7 +335,7 @@ fn a_fit_is_exported_and_is_a_model() {
     let a = fit["parameters"][0]["value"].as_f64().unwrap();
 
     let ran = place.succeed("export case.toml --fit runs/e_fit");
-    ran.prints("lammps_viscoelastic.in has the fitted law, kuwabara_kono|the scatter of the data");
+    ran.prints("lammps_viscoelastic.in has the fitted law, kuwabara_kono|scatter of the data");
     let export = place.json("runs/case_export/export.json");
     assert!((export["dissipation_time_s"].as_f64().unwrap() / a - 1.0).abs() < 1e-6);
     assert_eq!(export["fitted_law"], "kuwabara_kono");
@@ -346,9 +346,7 @@ fn a_fit_is_exported_and_is_a_model() {
     assert_eq!(viscoelastic["valid_from_m_s"], fit["speeds_m_s"][0]);
 
     // Data with scatter are valid somewhere, and a tolerance that is given counts.
-    place
-        .succeed("export case.toml --data e.csv --out data")
-        .prints("fem-run fit, whose result --fit takes");
+    place.succeed("export case.toml --data e.csv --out data").prints("and then --fit FOLDER");
     let of_data = place.json("data/export.json");
     assert!(of_data["snippets"][1]["valid_from_m_s"].is_number(), "{of_data}");
     let given = "export case.toml --data e.csv --tolerance 0.01 --out given";
@@ -542,7 +540,7 @@ fn fit_reads_common_tables() {
 fn quiet_keeps_warnings() {
     let place = Place::new();
     place.write("e.csv", "speed_m_s,restitution\n0.1,0.92\n1,0.9\n");
-    let odd = "--set body.0.sphere.diameter=500 --quiet";
+    let odd = "--set body.0.sphere.diameter=500m --quiet";
     for command in [
         "fit case.toml --law tsuji --data e.csv",
         "export case.toml --data e.csv",

@@ -249,3 +249,20 @@ fn a_range_may_begin_in_another_unit() {
         assert!((middle - 0.1f64.sqrt()).abs() < 1e-15, "{middle}");
     }
 }
+
+/// A list of diameters without a unit is one of metres: it is rejected with its place in the sweep file.
+#[test]
+fn bare_numbers_of_a_sweep_need_their_unit() {
+    let place = Place::new();
+    let sweep = |values: &str| {
+        place.write(
+            "sweep.toml",
+            &format!("case = 'case.toml'\n[vary]\nbody.0.sphere.diameter = {values}\n"),
+        );
+        place.run("sweep sweep.toml --dry-run --set model.ting={}")
+    };
+    let ran = sweep("[0.01, 10]");
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    ran.tells("sweep.toml:3|diameter = \"10 mm\"");
+    assert_eq!(sweep("['1 cm', '10 m']").code, Some(0));
+}

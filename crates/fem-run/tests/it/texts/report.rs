@@ -112,7 +112,7 @@ fn report_of_a_run_with_fields_has_all_sections() {
     for what in ["contours", "force", "approach", "radius", "pressure", "energy", "profile", "loop"]
     {
         place.succeed(["plot", "runs/case", "--what", what]);
-        let svg = place.text(format!("{what}.svg"));
+        let svg = place.text(format!("case-{what}.svg"));
         assert!(svg.starts_with("<svg xmlns=") && svg.ends_with("</svg>\n"), "{what}");
     }
 }

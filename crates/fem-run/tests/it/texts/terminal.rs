@@ -93,11 +93,11 @@ fn quiet_prints_only_errors_and_warnings() {
     assert_eq!(ran.stdout, "");
     ran.tells(" because of the mesh");
     assert!(ran.stderr.lines().all(|line| line.starts_with("warning: ")), "{}", ran.stderr);
-    // 22.2 mm with the unit forgotten: not rejected, but reported.
+    // A sphere that is really so large is not rejected, but reported.
     for command in
         [&["case.toml", "--set", "model=hertz", "--out", "odd"][..], &["check", "case.toml"]]
     {
-        let odd = ["--quiet", "--set", "body.0.sphere.diameter=22.2"];
+        let odd = ["--quiet", "--set", "body.0.sphere.diameter=22.2 m"];
         let ran = place.succeed((command, odd));
         assert_eq!(ran.stdout, "");
         ran.tells("warning: the diameter of striker is 22.20 m");
