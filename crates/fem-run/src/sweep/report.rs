@@ -60,7 +60,7 @@ pub fn member_file_size(n_members: usize) -> String {
 pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder: &Path) -> String {
     let keys: Vec<&str> = sweep.keys().map(|swept| swept.key.as_str()).collect();
     let keys = keys.iter().map(|key| shortest_end(key, &keys));
-    let quantities = ["restitution", "contact time T", "T / Hertz", "peak force F", "F / Hertz"];
+    let quantities = ["restitution", "contact time T", "T/Hertz", "peak force F", "F/Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
     let row = |row: &Row| {
         let said = sweep.displayed(row.index);
