@@ -74,6 +74,18 @@ pub fn number(value: f64, digits: usize) -> String {
     }
 }
 
+/// Formats a range with two digits: `0.16 to 0.31`, `29 to 49 µs`; one number if both ends print alike.
+pub fn range([low, high]: [f64; 2], symbol: &str) -> String {
+    let unit = Unit::fitting(high, symbol);
+    let scaled = |value: f64| if symbol.is_empty() { value } else { unit.scaled(value) };
+    let [low, high] = [low, high].map(|value| number(scaled(value), 2));
+    let ends = if low == high { high } else { format!("{low} to {high}") };
+    match symbol {
+        "" => ends,
+        _ => format!("{ends} {}", unit.symbol()),
+    }
+}
+
 /// Shortens a text that begins with a number of more than seven digits, `5.49602204001348 cm/s`, to five digits.
 /// Other texts are unchanged.
 pub fn shortened(text: &str) -> String {
@@ -110,6 +122,19 @@ mod tests {
             assert_eq!(show(value, symbol), expected);
         }
         assert_eq!(Unit::fitting(62.8212e-6, "s").with_digits(5).show(62.8212e-6), "62.821 µs");
+    }
+
+    #[test]
+    fn ranges_have_two_digits_and_one_unit() {
+        for (ends, symbol, expected) in [
+            ([0.1643, 0.3141], "", "0.16 to 0.31"),
+            ([29.27e-6, 49.22e-6], "s", "29 to 49 µs"),
+            ([391.1, 1754.3], "N", "0.39 to 1.8 kN"),
+            ([0.0, 0.0], "", "0"),
+            ([1.434e-7, 1.434e-7], "N", "140 nN"),
+        ] {
+            assert_eq!(range(ends, symbol), expected);
+        }
     }
 
     #[test]

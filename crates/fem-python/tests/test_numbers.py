@@ -198,6 +198,15 @@ def test_pictures_for_notebooks(glass):
     assert "Warnings" not in result._repr_html_() and "complete" not in repr(result)
 
 
+def test_an_estimate_of_what_a_run_lacks_leads():
+    balls = [{"name": name, "sphere": {"diameter": 0.01}, "material": "lib:steel"} for name in "ab"]
+    balls[0]["approach_speed"] = 5
+    result = fem_run.Case.from_dict({"body": balls, "model": {"hertz": {}}}).run()
+    assert "restitution about 0.16 to 0.31 (1 if it stayed elastic), contact time about 29 to 49 µs (" in repr(result)
+    assert "about 0.16 to 0.31" in result._repr_html_()
+    assert result.estimate["effect"] == "plastic yield" and result.estimate["low"]["restitution"] < 0.2
+
+
 def test_plots_of_results_and_tables(glass, monkeypatch):
     from matplotlib import pyplot
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._errors import bad_input
-from ._shown import axes_or_new, quantity, scale_of
+from ._shown import axes_or_new, quantity, scale_of, value_range
 
 if TYPE_CHECKING:
     import pyvista
@@ -45,6 +45,7 @@ class Result:
     max_approach_m: float | None
     max_contact_radius_m: float | None
     peak_pressure_pa: float | None
+    estimate: dict[str, Any] | None
     peak_force_raw_n: float | None
     radius_and_pressure: str
     elastic_null: dict[str, Any] | None
@@ -195,7 +196,16 @@ class Result:
         return axes
 
     def _shown(self, key: str, unit: str) -> str:
+        if self.summary["estimate"]:
+            return self._estimated(key, unit)
         return quantity(self.summary[key], *self._error_bar(key), unit)
+
+    def _estimated(self, key: str, unit: str) -> str:
+        """Returns the estimate that leads, before the number of the run."""
+        estimate = self.summary["estimate"]
+        low, high, own = estimate["low"][key], estimate["high"][key], self.summary[key]
+        answer = "not estimated" if low is None or high is None else f"about {value_range(low, high, unit)}"
+        return answer if own is None else f"{answer} ({quantity(own, 0.0, True, unit)} {estimate['run_is']})"
 
     def __repr__(self) -> str:
         shown = [f"{name} {self._shown(key, unit)}" for key, (name, unit) in _SHOWN.items()]

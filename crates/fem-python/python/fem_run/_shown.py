@@ -35,6 +35,17 @@ def quantity(value: float | None, bar: float, is_whole: bool, unit: str) -> str:
     return f"{number} {unit}".strip() + f" (error at least {error})"
 
 
+def value_range(low: float, high: float, unit: str) -> str:
+    """Returns ``29 to 49 µs``: both ends with two digits, in one unit; one number if they are alike."""
+    factor, unit = scale_of(high, unit)
+    ends = [_two_digits(factor * end) for end in (low, high)]
+    return (ends[1] if ends[0] == ends[1] else " to ".join(ends)) + f" {unit}".rstrip()
+
+
+def _two_digits(value: float) -> str:
+    return f"{float(f'{value:.1e}'):g}"
+
+
 def axes_or_new(axes: Axes | None) -> Axes:
     """Returns the axes to draw on.
 

@@ -1,7 +1,7 @@
 //! The quantities of interest of a collision with their error bars, as cards on the report page.
 
 use fem::results::Parts;
-use fem_case::engineering::{Unit, show};
+use fem_case::engineering::{Unit, range, show};
 use fem_collision::QuantityOfInterest;
 
 use super::stored_result::StoredResult;
@@ -27,6 +27,9 @@ pub fn cards(result: &StoredResult) -> Vec<Card> {
 }
 
 fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
+    if let Some(run_is) = result.run_is() {
+        return estimated_card(result, quantity, run_is);
+    }
     let key = quantity.key();
     let value = result.number(&[key])?;
     let hertz = result.number(&["hertz", key]);
@@ -49,6 +52,33 @@ fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
         value: with_error(scaled(value), error.map(scaled)),
         unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
         notes,
+    })
+}
+
+/// Returns the card of a quantity whose estimate leads, with the number of the run as a note.
+fn estimated_card(
+    result: &StoredResult,
+    quantity: QuantityOfInterest,
+    run_is: &str,
+) -> Option<Card> {
+    let estimate = result.estimate(quantity);
+    let value = result.number(&[quantity.key()]);
+    let shown = value.map(|value| match quantity.unit() {
+        "" => format!("{value:.4}"),
+        unit => show(value, unit),
+    });
+    let text = estimate.map(|ends| range(ends, quantity.unit()));
+    let (value, unit) = match &text {
+        Some(text) if !quantity.unit().is_empty() => text.rsplit_once(' ')?,
+        Some(text) => (text.as_str(), ""),
+        None => ("not estimated", ""),
+    };
+    let note = shown.map(|shown| format!("{shown} {run_is}"));
+    (estimate.is_some() || note.is_some()).then(|| Card {
+        name: name(result, quantity),
+        value: value.to_string(),
+        unit: unit.to_string(),
+        notes: estimate.map(|_| "estimate".to_string()).into_iter().chain(note).collect(),
     })
 }
 

@@ -167,6 +167,17 @@ impl StoredResult {
         }
     }
 
+    /// Returns what the estimate that leads says the run's quantities are; `None` if the run has the answer.
+    pub fn run_is(&self) -> Option<&str> {
+        self.summary.get("estimate")?.get("run_is")?.as_str()
+    }
+
+    /// Returns the ends of a quantity's estimate, SI.
+    pub fn estimate(&self, quantity: QuantityOfInterest) -> Option<[f64; 2]> {
+        let end = |end: &str| self.number(&["estimate", end, quantity.key()]);
+        Some([end("low")?, end("high")?])
+    }
+
     /// Returns a text of the summary by its key, or an empty one.
     pub fn text(&self, key: &str) -> &str {
         self.summary.get(key).and_then(Value::as_str).unwrap_or_default()

@@ -104,11 +104,10 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         None => estimator.refine_before_run(simulation, || true),
     };
     check_memory(&simulation, &estimator)?;
-    let mut printed = Vec::new();
     if !options.quiet {
         let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
         let announced = Announced { simulation: &simulation, estimator: &estimator, forecast };
-        printed = announced.print(&input.name(), &place, started, options.detail());
+        announced.print(&input.name(), &place, started, options.detail());
         if options.restart.restart {
             announce_restart(restart_state.as_ref());
         }
@@ -143,7 +142,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         (true, _) => standard_output::print(&text)?,
         (false, true) => {}
         (false, false) => {
-            let text = report(&summary, place, &printed, options.detail());
+            let text = report(&summary, place, options.detail());
             standard_output::print(&text)?;
         }
     }
@@ -225,15 +224,9 @@ struct Announced<'a> {
 }
 
 impl Announced<'_> {
-    /// Prints it on stderr, with the time that a run takes which began at `started`. Returns the warnings that a reader
-    /// of its report sees there too.
-    fn print(
-        &self,
-        case: &str,
-        place: &ResultPath,
-        started: Instant,
-        detail: Detail,
-    ) -> Vec<String> {
+    /// Prints it on stderr, with the time that a run takes which began at `started`, and the warnings unless the report
+    /// soon has them on the same screen.
+    fn print(&self, case: &str, place: &ResultPath, started: Instant, detail: Detail) {
         let Self { simulation, forecast, .. } = self;
         let large = simulation.case().scene().large_spheres();
         let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
@@ -249,12 +242,14 @@ impl Announced<'_> {
             line += &format!("; result: {}{note}", place.out.display());
         }
         let _ = writeln!(stderr(), "{}", one_line(&line));
-        let warnings = simulation.warnings_before();
-        standard_output::warn(warnings.clone());
-        // A report in a file has all warnings.
-        match stdout().is_terminal() && stderr().is_terminal() {
-            true => warnings,
-            false => Vec::new(),
+        let seconds = match simulation.setup().cost {
+            Cost::ClosedForm { .. } => Some(0.0),
+            Cost::Steps { seconds, .. } => forecast.whole(0.0).or(Some(seconds)),
+            Cost::Factors { .. } => forecast.whole(0.0),
+        };
+        let is_screen = stdout().is_terminal() && stderr().is_terminal();
+        if warns_before(is_screen, seconds) {
+            standard_output::warn(simulation.warnings_before());
         }
     }
 
@@ -297,6 +292,13 @@ impl Announced<'_> {
     }
 }
 
+/// Returns whether the warnings are printed before a run that takes this many seconds. On a screen those of a short run
+/// stand below its table alone, where they do not scroll away.
+fn warns_before(is_screen: bool, seconds: Option<f64>) -> bool {
+    const SHORT_RUN: f64 = 5.0;
+    !is_screen || seconds.is_none_or(|seconds| seconds > SHORT_RUN)
+}
+
 /// Prints on stderr that the mesh is refined.
 fn tell_finer(simulation: &Simulation, detail: Detail) {
     let Some(why) = simulation.refined_because() else { return };
@@ -317,4 +319,16 @@ pub fn stopped(stop: &Stop, summary: &Summary, kept: &str) -> Failure {
     let between: Vec<&str> = summary.bodies.iter().map(|body| body.name.as_str()).collect();
     Failure::failed(format!("the run of {} failed: {stop}", between.join(" and ")))
         .with_help(format!("likely cause: {}\nremedy: {}\n{kept}", remedy.cause, remedy.remedy))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_of_a_short_run_stand_below_its_table_alone() {
+        assert!(warns_before(false, Some(0.0)), "a report in a file is not on the screen");
+        assert!(warns_before(true, Some(60.0)) && warns_before(true, None));
+        assert!(!warns_before(true, Some(0.1)));
+    }
 }

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use comfy_table::CellAlignment::Left;
 use fem::effects::{EffectDecision, NeglectError};
-use fem::results::{BodySummary, BounceSummary, Parts, RestSummary, Summary};
+use fem::results::{BodySummary, BounceSummary, EstimateSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
-use fem_case::engineering::{Unit, number, show};
+use fem_case::engineering::{Unit, number, range, show};
 use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
@@ -37,13 +37,8 @@ pub enum Detail {
     All,
 }
 
-/// Returns the report with the warnings that are not among those `printed` before the run.
-pub fn report(
-    summary: &Summary,
-    place: Option<&Path>,
-    printed: &[String],
-    detail: Detail,
-) -> String {
+/// Returns the report, with the warnings below the numbers, the most important one first.
+pub fn report(summary: &Summary, place: Option<&Path>, detail: Detail) -> String {
     let mut text = String::new();
     let title = summary.case.title.as_deref().unwrap_or_default();
     // Writing to a String cannot fail.
@@ -51,17 +46,15 @@ pub fn report(
     if let Some(reason) = &summary.stopped_because {
         let _ = writeln!(text, "INCOMPLETE: {reason}\n");
     }
-    text += &quantities(summary, detail);
+    text += &match &summary.estimate {
+        Some(estimate) => estimated_quantities(summary, estimate, detail),
+        None => quantities(summary, detail),
+    };
     text += &match detail {
         Detail::Short => short(summary),
         Detail::All => details(summary),
     };
-    let is_new = |warning: &&String| !printed.contains(warning);
-    let new: Vec<String> = summary.warnings.iter().filter(is_new).cloned().collect();
-    text += &match new.is_empty() && !printed.is_empty() {
-        true => "No further warnings.\n".to_string(),
-        false => warnings(&new),
-    };
+    text += &warnings(&summary.warnings);
     let place = place.map_or("not written".into(), shown);
     let before = if detail == Detail::All { "\n" } else { "" };
     let _ = writeln!(text, "{before}Result: {place}");
@@ -146,8 +139,7 @@ fn details(summary: &Summary) -> String {
 /// Returns each quantity with both parts of its error bar, next to Hertz' value.
 fn quantities(summary: &Summary, detail: Detail) -> String {
     let (ours, hertz) = (&summary.collision, &summary.hertz);
-    let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
-    let own = if has_elements { "± mesh" } else { "± numerics" };
+    let own = own_error(summary);
     let is_uncertain = |it: QuantityOfInterest| {
         summary.uncertainty.parts(it).input.is_some_and(|input| input > 0.0)
     };
@@ -181,11 +173,53 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
     format!("{table}{between}{legend}\n")
 }
 
+/// Returns each quantity as closed forms estimate it with an effect that decides it, and as the run has it without. The
+/// error by that effect is as large as the quantities, and is left out.
+fn estimated_quantities(summary: &Summary, estimate: &EstimateSummary, detail: Detail) -> String {
+    let sticks = estimate.high.restitution == Some(0.0);
+    let row = |quantity: QuantityOfInterest| {
+        let (unit, is_e) = (quantity.unit(), quantity == QuantityOfInterest::Restitution);
+        // Bodies that stick in the run have no restitution without adhesion.
+        let value = summary.collision.number(quantity).filter(|value| !is_e || *value > 0.0);
+        let in_unit = (!is_e).then(|| Unit::fitting(value.unwrap_or_default(), unit));
+        let shown =
+            |value: f64| in_unit.as_ref().map_or(format!("{value:.4}"), |it| it.show(value));
+        let answer = match estimate.range(quantity) {
+            Some(_) if is_e && sticks => "0 (they stick)".to_string(),
+            Some(ends) => range(ends, unit),
+            None if sticks && quantity == QuantityOfInterest::ContactTime => "without end".into(),
+            None => UNKNOWN.to_string(),
+        };
+        let parts = summary.uncertainty.parts(quantity);
+        let error = value.map(|value| error_columns(value, &parts, in_unit.as_ref())[0].clone());
+        let error = error.unwrap_or(NONE.into());
+        [quantity.name().to_string(), answer, value.map_or(NONE.into(), shown), error]
+    };
+    let own = own_error(summary);
+    let rows = QuantityOfInterest::ALL.map(row);
+    let table = headed(&format!("|>estimate|>{}|>{own}", estimate.run_is), rows);
+    let between = if detail == Detail::All { "\n" } else { "" };
+    let what = own_error_words(own);
+    let unknown = if table.contains(UNKNOWN) { "; ?: not known" } else { "" };
+    let by = &estimate.by;
+    format!("{table}{between}estimate: by {by}\n{own}: {what} of the run{unknown}\n")
+}
+
+/// Returns the head of the column with the discretisation error.
+fn own_error(summary: &Summary) -> &'static str {
+    let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
+    if has_elements { "± mesh" } else { "± numerics" }
+}
+
+fn own_error_words(head: &str) -> &'static str {
+    if head == "± mesh" { "discretisation error" } else { "numerical error" }
+}
+
 /// Returns the line below the table that explains the error columns; `own` is the head of the first one.
 fn error_legend(own: &str, cells: &str) -> String {
     let unknown = if cells.contains(UNKNOWN) { "; ?: not known" } else { "" };
     let partly = if cells.contains("> ") { "; >: at least" } else { "" };
-    let what = if own == "± mesh" { "discretisation error" } else { "numerical error" };
+    let what = own_error_words(own);
     let input = if cells.contains("± input") { "; ± input: by uncertain inputs" } else { "" };
     format!("{own}: {what}; ± neglected: by neglected effects{input}{unknown}{partly}")
 }
@@ -209,13 +243,17 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
 
 /// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows, and what it holds: the
 /// loss by vibrations that the bodies keep, or numerical dissipation where it is below the error. There is none where
-/// neglected effects may change it by more than this or by an unknown amount.
+/// neglected effects may change it by more than this or by an unknown amount, or an estimate leads.
 fn elastic_deficit(summary: &Summary) -> Option<String> {
     let deficit = 1.0 - summary.collision.restitution?;
     let parts = summary.uncertainty.parts(QuantityOfInterest::Restitution);
     let bar = parts.discretisation;
     let known = deficit.abs().max(bar.unwrap_or(0.0));
-    if deficit.abs() >= NEARLY_ELASTIC || parts.model.is_none_or(|neglected| neglected > known) {
+    let is_led = summary.estimate.is_some();
+    if is_led
+        || deficit.abs() >= NEARLY_ELASTIC
+        || parts.model.is_none_or(|neglected| neglected > known)
+    {
         return None;
     }
     let shown = with_known_digits(deficit, bar);

@@ -24,6 +24,7 @@ use serde::Serialize;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
+pub use decision::leading_estimate::LeadingEstimate;
 pub use decision::neglect_error::{EffectStatus, NeglectError};
 pub use decision::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
 pub(crate) use decision::simplified_scene::SimplifiedScene;
@@ -59,7 +60,7 @@ pub struct EffectDecision {
 pub struct EffectDecisions {
     /// Decisions on the effects that the model supports or lacks, in the order of [`EFFECTS`].
     pub all: Vec<EffectDecision>,
-    /// Warnings, in the same order.
+    /// Warnings in the same order, after those of an effect that decides the results.
     pub warnings: Vec<String>,
     /// Warnings of the finished collision.
     pub(crate) warnings_of_result: Vec<String>,
@@ -127,7 +128,9 @@ pub fn decide(
     let is_lacking =
         |own: &Support, relevance: &Relevance| relevance.is_needed && *own == Support::Lacks;
     let lacked = relevances.iter().filter(|(_, own, _, relevance)| is_lacking(own, relevance));
-    decisions.silenced = lacked.flat_map(|(effect, ..)| effect.silences()).copied().collect();
+    let silenced = lacked.flat_map(|(effect, ..)| effect.silences(scene, estimate));
+    decisions.silenced = silenced.copied().collect();
+    let mut warnings_of = Vec::new();
     for (effect, own, switch, relevance) in relevances {
         let obeys = own.obeys();
         let (is_needed, note) = (relevance.is_needed, relevance.warning.clone());
@@ -142,13 +145,14 @@ pub fn decide(
         let matters = is_physics || is_lacking && is_needed || is_warned;
         let name = effect.name();
         decisions.all.push(EffectDecision { name, active, reason, matters, is_lacking });
-        decisions.warnings.extend(warnings.into_iter().filter(|_| is_warned));
+        warnings_of.extend(warnings.into_iter().filter(|_| is_warned).map(|text| (name, text)));
         if switch == Some(Switch::On) && obeys && !is_needed {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
             let name = effect.name();
-            decisions.warnings.push(format!(
+            let warning = format!(
                 "{name} is switched on although the scene does not need it, which changes {neglect_error}"
-            ));
+            );
+            warnings_of.push((name, warning));
         }
         if switch == Some(Switch::Off) && obeys && is_needed {
             let neglect_error = effect.neglect_error(scene, estimate).unwrap_or_default();
@@ -156,9 +160,13 @@ pub fn decide(
             if let Some(note) = note {
                 warning += &format!(": {note}");
             }
-            decisions.warnings.push(warning);
+            warnings_of.push((name, warning));
         }
     }
+    // The effect that decides the results is the one to read of first.
+    let leading = LeadingEstimate::of(scene, estimate, &decisions.all, 1.0);
+    warnings_of.sort_by_key(|(name, _)| leading.as_ref().is_none_or(|it| it.effect != *name));
+    decisions.warnings = warnings_of.into_iter().map(|(_, text)| text).collect();
     Ok(decisions)
 }
 

@@ -27,6 +27,6 @@ pub use measured::MeasuredSummary;
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summary::{
-    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Parts, Quantities,
-    RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, EstimateSummary,
+    Parts, Quantities, RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
 };

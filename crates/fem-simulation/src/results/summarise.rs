@@ -6,11 +6,11 @@ use fem_laws::ImpactQuantities;
 use super::energy::{Accounts, Energy, energy_key};
 use super::measured::MeasuredSummary;
 use super::summary::{
-    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, Quantities,
-    RestSummary, Summary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, EstimateSummary,
+    Quantities, RestSummary, Summary,
 };
 use super::uncertainty::uncertainty;
-use crate::effects::{AdhesionEffect, EffectDecision, FiniteStrain};
+use crate::effects::{AdhesionEffect, EffectDecision, FiniteStrain, LeadingEstimate};
 use crate::error::{ComputedCollision, ErrorEstimate};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
@@ -56,6 +56,7 @@ impl Summary {
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision);
         Self {
+            estimate: leading_estimate(simulation, collision, &effects),
             uncertainty: uncertainty(simulation, collision, errors, &quantities, &effects),
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
@@ -127,6 +128,26 @@ fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary>
         EffectSummary { decision, error_if_left_out: neglect_error }
     };
     simulation.decisions(collision).all.into_iter().map(summary).collect()
+}
+
+/// Returns the estimate that leads, if there is one.
+fn leading_estimate(
+    simulation: &Simulation,
+    collision: &Collision,
+    effects: &[EffectSummary],
+) -> Option<EstimateSummary> {
+    let decisions: Vec<EffectDecision> = effects.iter().map(|it| it.decision.clone()).collect();
+    let (scene, estimate) = (simulation.scene_of_model(), simulation.estimate(collision)?);
+    let leading = LeadingEstimate::of(&scene, &estimate, &decisions, collision.restitution?)?;
+    let end = |k: usize| Quantities::by(|quantity| Some(leading.range(quantity)?[k]));
+    let (low, high) = (end(0), end(1));
+    Some(EstimateSummary {
+        effect: leading.effect,
+        by: leading.by,
+        run_is: leading.run_is,
+        low,
+        high,
+    })
 }
 
 /// Returns whether radius and pressure are those of the deformed bodies.

@@ -20,6 +20,9 @@ pub struct Summary {
     /// Quantities of the collision.
     #[serde(flatten)]
     pub collision: Quantities,
+    /// Estimate that leads, because the run lacks an effect that decides the results; `None` if the quantities of the run
+    /// are the answer.
+    pub estimate: Option<EstimateSummary>,
     /// Largest contact force of a single step; `None` for closed forms.
     pub peak_force_raw_n: Option<f64>,
     /// `"true"` (of the deformed bodies) at finite strain, else `"nominal"` (of the undeformed area).
@@ -137,6 +140,28 @@ impl Quantities {
         let (radius, pressure) = (self.max_contact_radius_m, self.peak_pressure_pa);
         let all = [restitution, contact_time_s, peak_force_n, max_approach_m, radius, pressure];
         all[quantity as usize]
+    }
+}
+
+/// The results by closed forms of an effect that decides them and that the run lacks: plastic flow or adhesion.
+#[derive(Clone, Debug, Serialize)]
+pub struct EstimateSummary {
+    /// Name of the effect.
+    pub effect: &'static str,
+    /// What gives the estimate, and why the effect is there.
+    pub by: String,
+    /// What the quantities of the run are beside it: `if it stayed elastic`.
+    pub run_is: &'static str,
+    /// Smallest values of the quantities; `None` where they are unknown or have no meaning.
+    pub low: Quantities,
+    /// Largest values of the quantities.
+    pub high: Quantities,
+}
+
+impl EstimateSummary {
+    /// Returns the smallest and the largest value of a quantity, SI.
+    pub fn range(&self, quantity: QuantityOfInterest) -> Option<[f64; 2]> {
+        Some([self.low.number(quantity)?, self.high.number(quantity)?])
     }
 }
 

@@ -46,11 +46,13 @@ const UNCERTAINTIES: [(&str, &str); 3] = [
     ("uncertainty_model_", "model"),
     ("uncertainty_input_", "input"),
 ];
+/// Prefix of a column of the summary's `estimate`, and its end of the range.
+const ESTIMATES: [(&str, &str); 2] = [("estimate_low_", "low"), ("estimate_high_", "high")];
 /// Beginnings of columns that a table has only if a member has a value there.
-const OPTIONAL: [&str; 2] = ["uncertainty_input_", "adhesion_"];
+const OPTIONAL: [&str; 3] = ["uncertainty_input_", "adhesion_", "estimate_"];
 
-/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_` and `uncertainty_` are the
-/// summary's objects of that name, the last with its part before the quantity. The cost of the run (`cost`)
+/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_`, `estimate_` and `uncertainty_` are
+/// the summary's objects of that name, the last two with end or part before the quantity. The cost of the run (`cost`)
 /// differs from run to run and stays in the member's summary.
 pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
@@ -60,8 +62,13 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let parts = |quantity: QuantityOfInterest| {
         UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()))
     };
+    let ends = |quantity: QuantityOfInterest| {
+        ESTIMATES.map(|(start, _)| format!("{start}{}", quantity.key()))
+    };
+    let estimates = QuantityOfInterest::ALL.into_iter().flat_map(ends);
+    let estimates = ["estimate_effect".to_string()].into_iter().chain(estimates);
     let uncertainties = QuantityOfInterest::ALL.into_iter().flat_map(parts);
-    own(&FIRST).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
+    own(&FIRST).chain(estimates).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
 });
 
 /// The columns of a table of summaries: all except the optional ones that no summary has.
@@ -129,6 +136,9 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
     let uncertainty = UNCERTAINTIES.into_iter().find_map(|(start, part)| {
         column.strip_prefix(start).map(|quantity| &summary["uncertainty"][quantity][part])
     });
+    let estimate = ESTIMATES.into_iter().find_map(|(start, end)| {
+        column.strip_prefix(start).map(|quantity| &summary["estimate"][end][quantity])
+    });
     match column {
         "elements" => {
             let bodies = summary["bodies"].as_array().into_iter().flatten();
@@ -137,8 +147,9 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
         }
         "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
         _ => {
-            let tables = ["hertz_", "energy_", "adhesion_"].into_iter().find_map(table);
-            uncertainty.or(tables).unwrap_or(&summary[column]).clone()
+            let tables =
+                ["hertz_", "energy_", "adhesion_", "estimate_"].into_iter().find_map(table);
+            uncertainty.or(estimate).or(tables).unwrap_or(&summary[column]).clone()
         }
     }
 }

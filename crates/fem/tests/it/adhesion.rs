@@ -130,7 +130,7 @@ fn a_typical_surface_energy_warns() {
     // At 0.1 m/s typical bodies would stick, but the case does not say that they do.
     let slow = summary_of(POLYSTYRENE, &["model.hertz={}"]);
     assert!(slow.collision.restitution > Some(0.999));
-    assert!(slow.warnings.join("\n").contains("would stick below"), "{:?}", slow.warnings);
+    assert!(slow.warnings.join("\n").contains("the bodies would stick"), "{:?}", slow.warnings);
     for (text, set) in [(ELASTIC_GLASS, "title='x'"), (POLYSTYRENE, "body.1.approach_speed=2")] {
         let fast = summary_of(text, &["model.hertz={}", set, "output.snapshots=[]"]);
         assert!(!adhesion_of(&fast).reason.contains("needed"));

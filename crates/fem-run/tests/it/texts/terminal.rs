@@ -24,6 +24,74 @@ fn stdout_has_the_report_and_stderr_the_messages() {
     assert!(warnings.contains("because of the mesh"), "{warnings}");
 }
 
+/// Where a run lacks what decides its results, the estimate of closed forms is the first number, the run's is named for
+/// what it is, and the warning of it is the first one below the table.
+#[test]
+fn estimates_of_what_a_run_lacks_lead() {
+    let place = Place::new();
+    let pair = |material: &str, diameter: &str, speed: &str| {
+        format!(
+            "body = [{{ name = 'a', sphere.diameter = '{diameter}', material = '{material}', approach_speed = '{speed}' }},
+                     {{ name = 'b', sphere.diameter = '{diameter}', material = '{material}' }}]\n"
+        )
+    };
+    place.write("steel.toml", &pair("lib:steel", "10 mm", "5 m/s"));
+    place.write("dust.toml", &pair("lib:fused-silica", "1 um", "1 cm/s"));
+    place.write("fast.toml", &pair("lib:fused-silica", "1 um", "100 m/s"));
+    let given = "dust.toml --set contact.work_of_adhesion=0.1";
+    for (command, expected) in [
+        (
+            "steel.toml",
+            [
+                " estimate  if it stayed elastic ",
+                " 0.16 to 0.31 ",
+                " 1.0000 ",
+                "estimate: by elastic–plastic laws",
+                " yields from ",
+            ],
+        ),
+        (
+            "dust.toml",
+            [
+                " estimate  without adhesion ",
+                " 0 (they stick) ",
+                " 1.0000 ",
+                "estimate: by a typical work of adhesion",
+                " would stick",
+            ],
+        ),
+        (
+            given,
+            [
+                " estimate  without adhesion ",
+                " 0 (they stick) ",
+                " - ",
+                "estimate: by the work of adhesion",
+                " stay together",
+            ],
+        ),
+    ] {
+        let text = place.succeed((command, "--set model=hertz --force --out out")).stdout;
+        let found: Vec<usize> = expected.map(|part| text.find(part).expect(part)).to_vec();
+        assert!(found.is_sorted(), "{found:?}: {text}");
+        let (_, below) = text.split_once("\nestimate: ").unwrap();
+        let first = below.lines().find(|line| line.starts_with("warning:")).unwrap();
+        assert!(first.contains(expected[4].trim()), "{text}");
+        assert!(!text.contains("± neglected") && !text.contains("1 - restitution"), "{text}");
+        assert!(
+            text.lines().all(|line| line.chars().count() <= 80 || line.contains(": ")),
+            "{text}"
+        );
+        // The report's tiles say the same.
+        let page = place.text("out/report.html");
+        let answer = expected[1].trim().split(" (").next().unwrap();
+        assert!(page.contains(&format!("<b>{answer} <span></span></b>")), "{page}");
+        assert!(page.contains("The estimate is by closed forms"), "{page}");
+    }
+    // The numbers of a run that lacks nothing are the answer.
+    place.succeed("fast.toml --set model=hertz").prints("this run");
+}
+
 /// Returns the lines that a text takes on a terminal of 80 columns.
 fn lines(text: &str) -> usize {
     text.lines().map(|line| line.chars().count().max(1).div_ceil(80)).sum()

@@ -10,16 +10,21 @@ use fem_case::{ModelChoice, Scene, WorkOfAdhesion};
 use fem_collision::QuantityOfInterest;
 use fem_laws::Adhesion;
 
+use crate::effects::decision::leading_estimate::LeadingEstimate;
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
 use crate::effects::decision::simplified_scene::SimplifiedScene;
-use crate::effects::decision::{AdhesionEffect, Effect, is_needed};
+use crate::effects::decision::{
+    AdhesionEffect, Effect, FiniteStrain, MaterialLoss, PartnerWaves, Vibration, is_needed,
+};
 use crate::effects::ting_prediction::TingPrediction;
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 
 /// Factor on the separation energy, and its inverse, between which it is open whether bodies stick.
 const UNCERTAINTY_OF_ENERGY: f64 = 3.0;
+/// Smallest separation energy over the kinetic one that changes the restitution visibly.
+const LEAST_SHARE: f64 = 0.05;
 
 impl Effect for AdhesionEffect {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
@@ -42,6 +47,11 @@ impl Effect for AdhesionEffect {
             WorkOfAdhesion::Given(_) => loss.map(|_| {
                 format!("adhesion takes {lost} (sticking speed {below}), which no model computes")
             }),
+            WorkOfAdhesion::Typical(_) if sticks => Some(format!(
+                "the bodies would stick: with a typical work of adhesion of {shown} they do below {below}, and the \
+                 approach speed is {}; set material.NAME.surface_energy, or contact.work_of_adhesion for the pair",
+                show(speed, "m/s")
+            )),
             WorkOfAdhesion::Typical(_) => loss.map(|_| {
                 format!(
                     "bodies with a typical work of adhesion of {shown} would stick below {below}, and adhesion would take \
@@ -68,6 +78,57 @@ impl Effect for AdhesionEffect {
         })
     }
 
+    /// The impacts of Johnson, Kendall and Roberts, over the range of the separation energy where it is open whether the
+    /// bodies stick, or where the work of adhesion is a typical one. Of hard spheres the restitution alone is known.
+    fn leading_estimate(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        restitution: f64,
+    ) -> Option<LeadingEstimate> {
+        let adhesion = adhesion_of(scene)?;
+        let (speed, sticking) = (estimate.hertz.approach_speed(), adhesion.sticking_speed());
+        let share = (sticking / speed).powi(2);
+        let is_typical = Self::given(scene).is_none();
+        if UNCERTAINTY_OF_ENERGY * share < LEAST_SHARE {
+            return None;
+        }
+        let is_range = is_typical || is_open(share);
+        let factors = if is_range {
+            [UNCERTAINTY_OF_ENERGY, UNCERTAINTY_OF_ENERGY.recip()]
+        } else {
+            [1.0; 2]
+        };
+        // Bodies that stick in the run have lost the restitution that they would have.
+        let without =
+            if restitution > 0.0 { restitution } else { restitution_without(scene, speed) };
+        let [low, high] = factors.map(|factor| (without.powi(2) - factor * share).max(0.0).sqrt());
+        // W ∝ Γ^(5/3).
+        let of_work = |factor: f64| {
+            let work = factor.powf(0.6) * adhesion.work_of_adhesion();
+            Adhesion::new(adhesion.pair(), work).impact(speed)
+        };
+        let by = format!(
+            "{}work of adhesion of {} (slower than {} they stick)",
+            if is_typical { "a typical " } else { "the " },
+            show(adhesion.work_of_adhesion(), "J/m^2"),
+            show(sticking, "m/s")
+        );
+        let all =
+            LeadingEstimate::of_impacts(Self::NAME, by, "without adhesion", factors.map(of_work));
+        let known = if adhesion.is_jkr() { all } else { all.of_restitution_alone() };
+        known.with_restitution(low, high).if_it_leads(without)
+    }
+
+    /// Bodies that stick have no other losses.
+    fn silences(&self, scene: &Scene, estimate: &Estimate) -> &'static [&'static str] {
+        let speed = estimate.hertz.approach_speed();
+        match adhesion_of(scene).is_some_and(|adhesion| speed < adhesion.sticking_speed()) {
+            true => &[MaterialLoss::NAME, FiniteStrain::NAME, PartnerWaves::NAME, Vibration::NAME],
+            false => &[],
+        }
+    }
+
     /// Difference between the impacts of Johnson, Kendall and Roberts and of Hertz, where the case gives a surface energy.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let adhesion = Self::given(scene)?;
@@ -90,14 +151,13 @@ impl Effect for AdhesionEffect {
         };
         let speed = estimate.hertz.approach_speed();
         let errors = NeglectError::errors_of(estimate, changes(scene, &adhesion, estimate));
-        let share = (speed / adhesion.sticking_speed()).powi(2);
-        match share {
-            _ if share > UNCERTAINTY_OF_ENERGY => errors,
-            _ if share < UNCERTAINTY_OF_ENERGY.recip() => {
-                errors.with(QuantityOfInterest::Restitution, 0.0)
-            }
-            _ => errors.with(QuantityOfInterest::Restitution, restitution_without(scene, speed)),
-        }
+        let share = (adhesion.sticking_speed() / speed).powi(2);
+        let open = match is_open(share) {
+            true => restitution_without(scene, speed),
+            false if share > 1.0 => 0.0,
+            false => return errors,
+        };
+        errors.with(QuantityOfInterest::Restitution, open)
     }
 }
 
@@ -108,11 +168,22 @@ impl AdhesionEffect {
         adhesion_of(scene).filter(|_| is_given)
     }
 
+    /// Returns whether the case's adhesion holds the bodies together for certain.
+    pub(in crate::effects) fn surely_sticks(scene: &Scene, speed: f64) -> bool {
+        let share = |adhesion: Adhesion| (adhesion.sticking_speed() / speed).powi(2);
+        Self::given(scene).map(share).is_some_and(|share| share > 1.0 && !is_open(share))
+    }
+
     /// Returns whether a model lacks the effect. The loss of a contact law is the user's, unless the case gives a surface
     /// energy.
     pub(crate) fn is_lacking(scene: &Scene) -> bool {
         !matches!(scene.model(), ModelChoice::Law { .. }) || Self::given(scene).is_some()
     }
+}
+
+/// Returns whether it is open whether bodies stick, at a separation energy over the kinetic one.
+fn is_open(share: f64) -> bool {
+    (UNCERTAINTY_OF_ENERGY.recip()..=UNCERTAINTY_OF_ENERGY).contains(&share)
 }
 
 fn adhesion_of(scene: &Scene) -> Option<Adhesion> {

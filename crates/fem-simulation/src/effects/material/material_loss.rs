@@ -6,7 +6,7 @@ use fem_collision::QuantityOfInterest;
 
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::relevance::Relevance;
-use crate::effects::decision::{Effect, MaterialLoss};
+use crate::effects::decision::{AdhesionEffect, Effect, MaterialLoss};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 
@@ -21,10 +21,17 @@ impl Effect for MaterialLoss {
         })
     }
 
-    /// The restitution is unknown. The other quantities depend on the moduli.
-    fn model_form_error(&self, _: &Scene, _: &Estimate, status: &EffectStatus) -> QuantityErrors {
+    /// The restitution is unknown, unless the bodies stick. The other quantities depend on the moduli.
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        status: &EffectStatus,
+    ) -> QuantityErrors {
+        let sticks = AdhesionEffect::surely_sticks(scene, estimate.hertz.approach_speed());
         QuantityErrors::from_fn(|quantity| {
-            let is_unknown = status.is_lacking && quantity == QuantityOfInterest::Restitution;
+            let is_unknown =
+                status.is_lacking && !sticks && quantity == QuantityOfInterest::Restitution;
             (!is_unknown).then_some(0.0)
         })
     }

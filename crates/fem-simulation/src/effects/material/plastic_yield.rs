@@ -8,6 +8,7 @@ use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
+use crate::effects::decision::leading_estimate::LeadingEstimate;
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, PlasticYield};
@@ -30,8 +31,29 @@ impl Effect for PlasticYield {
     }
 
     /// A body that flows loses more than its material does, and is not strained as a hyperelastic one.
-    fn silences(&self) -> &'static [&'static str] {
+    fn silences(&self, _: &Scene, _: &Estimate) -> &'static [&'static str] {
         &[MaterialLoss::NAME, FiniteStrain::NAME]
+    }
+
+    /// The impacts of the closed forms. The other losses of the run are added, between none of them and all.
+    fn leading_estimate(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        restitution: f64,
+    ) -> Option<LeadingEstimate> {
+        let (body, first) = earliest(scene, estimate).filter(|(_, first)| first.ratio() > 1.0)?;
+        let by = format!(
+            "elastic–plastic laws ({} yields from {} on)",
+            body.name(),
+            show(first.speed, "m/s")
+        );
+        let impacts = first.impacts();
+        let [low, high] = impacts.map(|impact| impact.restitution);
+        let low = (low.powi(2) - (1.0 - restitution.powi(2)).max(0.0)).max(0.0).sqrt();
+        LeadingEstimate::of_impacts(Self::NAME, by, "if it stayed elastic", impacts)
+            .with_restitution(low, high.min(restitution))
+            .if_it_leads(restitution)
     }
 
     /// Central estimate of the closed forms for the restitution, and the farther one for contact time and force.
