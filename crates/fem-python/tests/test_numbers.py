@@ -204,6 +204,10 @@ def test_an_estimate_of_what_a_run_lacks_leads():
     result = fem_run.Case.from_dict({"body": balls, "model": {"hertz": {}}}).run()
     assert "restitution about 0.16 to 0.31 (1 if it stayed elastic), contact time about 29 to 49 µs (" in repr(result)
     assert "about 0.16 to 0.31" in result._repr_html_()
+    balls[0] |= {"material": "lib:cork", "approach_speed": 10}
+    balls[1] |= {"material": "lib:natural-rubber"}
+    rubber = fem_run.Case.from_dict({"body": balls, "model": {"hertz": {}}}).run()
+    assert "restitution not known, " in repr(rubber)
     assert result.estimate["effect"] == "plastic yield" and result.estimate["low"]["restitution"] < 0.2
 
 

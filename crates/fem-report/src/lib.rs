@@ -8,7 +8,7 @@
 //! accuracy study ─ accuracy ───────┘
 //! ```
 //!
-//! [`report`] makes the report page of one run and the comparison of several, [`sweep`] the figure of a sweep,
+//! [`report`] makes the report page of one run and the comparison of several, [`sweep`] the figure of a sweep, [`answer`] the cells of its table,
 //! [`law_figures`] those of fits, calibrations and exports, [`accuracy`] the page, table and figure of an accuracy
 //! study. [`section_view`] draws the axial stress in both
 //! bodies, for the report page, for a failed run and for the page in the browser. Nothing is computed
@@ -16,6 +16,7 @@
 
 #[cfg(feature = "files")]
 pub mod accuracy;
+pub mod answer;
 pub mod law_figures;
 pub mod number_text;
 pub mod quantity_axis;

@@ -105,16 +105,19 @@ pub(crate) fn bare(name: &str) -> &str {
 }
 
 /// Returns the library's name of a case's material: of one with a `lib:` name and any numbers, or with the name and the
-/// numbers of the library, as `fem-run new` writes them.
+/// numbers of the library, as `fem-run new` writes them, of which one may be another.
 pub(crate) fn name_of(name: &str, table: &MaterialTable) -> Option<&'static str> {
+    const MAX_CHANGED: usize = 1;
     let (known, entry) = materials().get_key_value(bare(name))?;
     let numbers = |of: &MaterialTable| {
         let stresses = [&of.youngs_modulus, &of.shear_modulus, &of.bulk_modulus]
-            .map(|modulus| modulus.as_ref().map(|modulus| modulus.si().ok()));
-        let ratio = of.poissons_ratio.as_ref().map(|ratio| ratio.si().ok());
-        (of.density.si().ok(), stresses, ratio)
+            .map(|modulus| modulus.as_ref().and_then(|modulus| modulus.si().ok()));
+        let ratio = of.poissons_ratio.as_ref().and_then(|ratio| ratio.si().ok());
+        [of.density.si().ok(), stresses[0], stresses[1], stresses[2], ratio]
     };
-    (is_of_library(name) || numbers(table) == numbers(&entry.material)).then_some(known)
+    let both = numbers(table).into_iter().zip(numbers(&entry.material));
+    let n_changed = both.filter(|(own, of_library)| own != of_library).count();
+    (is_of_library(name) || n_changed <= MAX_CHANGED).then_some(known)
 }
 
 fn find(name: &str) -> Option<&'static Material> {

@@ -27,7 +27,7 @@ const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 const MIN_SHARE: f64 = 1e-3;
 
 fn is_elastic(material: &Material) -> bool {
-    material.relaxation().is_none()
+    material.relaxation().is_none() && material.flow().is_none()
 }
 
 impl Scene {
@@ -38,16 +38,21 @@ impl Scene {
         if matches!(self.model, ModelChoice::Law { .. }) {
             return Vec::new();
         }
-        let deforms = self.bodies.iter().zip(self.compliance_shares());
-        let deforms = deforms.filter(|(_, share)| *share > MIN_SHARE).map(|(body, _)| body);
         let elastic = |body: &Body| {
-            let name =
-                body.library_material().filter(|_| body.material().is_some_and(is_elastic))?;
+            let name = body.library_material()?;
             library::materials()[name].material.relaxation.is_none().then_some(name)
         };
-        let mut names: Vec<&str> = deforms.filter_map(elastic).collect();
+        let mut names: Vec<&str> = self.elastic_bodies().filter_map(elastic).collect();
         names.dedup();
         names
+    }
+
+    /// Returns the bodies that are computed as elastic because the case gives their material neither relaxation nor flow,
+    /// except those that hardly deform.
+    pub fn elastic_bodies(&self) -> impl Iterator<Item = &Body> {
+        let deforms = self.bodies.iter().zip(self.compliance_shares());
+        let deforms = deforms.filter(|(_, share)| *share > MIN_SHARE).map(|(body, _)| body);
+        deforms.filter(|body| body.material().is_some_and(is_elastic))
     }
 
     /// Returns the measured restitutions of the library between bodies of one material, if both bodies are of it or one is

@@ -160,8 +160,18 @@ fn an_unknown_loss_causes_a_warning() {
     let glass = table_text("glass").unwrap();
     let elastic = glass.split("\n[material.glass.relaxation]").next().unwrap();
     assert_eq!(warning(&(elastic.to_string() + &BALL.replace("lib:pmma", "glass")), &[]), None);
-    // Other numbers make it the user's material.
-    assert_eq!(warning(&copy, &["material.pmma.density=1200"]), None);
+    // One other number leaves it the library's material, and more make it the user's.
+    for set in ["material.pmma.density=1200", "material.pmma.youngs_modulus='5 GPa'"] {
+        assert!(warning(&copy, &[set]).unwrap().contains("no relaxation for pmma"), "{set}");
+    }
+    let two = ["material.pmma.density=1200", "material.pmma.youngs_modulus='5 GPa'"];
+    assert_eq!(warning(&copy, &two), None);
+    let names = |set: &[&str]| -> Vec<String> {
+        let case = parse(&copy, set).unwrap();
+        case.scene().elastic_bodies().map(|body| body.name().to_string()).collect()
+    };
+    assert_eq!(names(&two), ["ball"]);
+    assert!(names(&[relaxing.replace("'lib:pmma'", "pmma").as_str()]).is_empty());
 }
 
 /// Within the measured speeds the warning has the restitution, beyond them the speeds.

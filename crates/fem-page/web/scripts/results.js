@@ -72,7 +72,10 @@ export function showNumbers(summary) {
     const row = element('tr');
     const ratio = own === null || hertz === null ? '–' : (own / hertz).toFixed(4);
     const number = element('td', show(own, unit), { 'data-key': key });
+    const known = (discretisation ?? 0) + (model ?? least ?? 0) + (input ?? 0);
+    if (known > 0 && known >= (unit === '' ? 1 : own)) number.textContent = '?';
     if (summary.estimate) {
+      number.textContent = show(own, unit);
       const stuck = key === 'restitution' && own === 0;
       if (stuck) number.textContent = '–';
       row.append(element('th', name, { scope: 'row' }), element('td', showEstimate(summary.estimate, key, unit), { 'data-estimate': key }), number, stuck ? element('td', '–') : part(discretisation));

@@ -198,7 +198,10 @@ class Result:
     def _shown(self, key: str, unit: str) -> str:
         if self.summary["estimate"]:
             return self._estimated(key, unit)
-        return quantity(self.summary[key], *self._error_bar(key), unit)
+        value, (bar, is_whole) = self.summary[key], self._error_bar(key)
+        if value is not None and bar > 0 and bar >= (abs(value) if unit else 1):
+            return "not known"
+        return quantity(value, bar, is_whole, unit)
 
     def _estimated(self, key: str, unit: str) -> str:
         """Returns the estimate that leads, before the number of the run."""

@@ -5,11 +5,11 @@ use fem_case::engineering::{Unit, range, show};
 use fem_collision::QuantityOfInterest;
 
 use super::stored_result::StoredResult;
+use crate::answer::{VISIBLE, error_scale};
 use crate::number_text::{power_of_ten, rounded, with_error};
 
-/// Relative errors below the first are rounding; below the second they get no digits of the number.
+/// Relative errors below this are rounding.
 const ROUNDING: f64 = 1e-9;
-pub const VISIBLE: f64 = 1e-6;
 
 /// One quantity of interest.
 pub struct Card {
@@ -47,10 +47,17 @@ fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
         notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
     }
     let error = parts.sum().filter(|error| *error > VISIBLE * scale);
+    let is_covered = parts.cover(scale);
     Some(Card {
         name: name(result, quantity),
-        value: with_error(scaled(value), error.map(scaled)),
-        unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
+        value: match is_covered {
+            true => "not known".to_string(),
+            false => with_error(scaled(value), error.map(scaled)),
+        },
+        unit: unit
+            .as_ref()
+            .filter(|_| !is_covered)
+            .map_or(String::new(), |unit| unit.symbol().to_string()),
         notes,
     })
 }
@@ -118,11 +125,6 @@ pub fn name(result: &StoredResult, quantity: QuantityOfInterest) -> String {
         _ => "",
     };
     format!("{}{shape}", quantity.name())
-}
-
-/// Returns the scale of relative errors: 1 for the restitution, the value itself for all others.
-pub fn error_scale(value: f64, quantity: QuantityOfInterest) -> f64 {
-    if quantity == QuantityOfInterest::Restitution { 1.0 } else { value.abs() }
 }
 
 #[cfg(test)]

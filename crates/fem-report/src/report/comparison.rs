@@ -14,6 +14,7 @@ use super::pressure_chart::pressure_chart;
 use super::shared_error::SharedErrors;
 use super::stored_result::{ReportError, StoredResult};
 use super::{FilmFrame, cards, citation, drawn, film};
+use crate::answer::{VISIBLE, error_scale};
 use crate::number_text::{rounded, with_error};
 
 /// Tables of the case that describe the scene; all others say how it is computed and what is kept.
@@ -138,7 +139,7 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
 
 /// Returns `62.46 ± 0.21 µs`, or `62.46 µs, error at least 0.21 µs` if part of the error is unknown.
 fn shown((value, parts): (f64, Parts), quantity: QuantityOfInterest) -> String {
-    let is_seen = |error: &f64| *error > cards::VISIBLE * cards::error_scale(value, quantity);
+    let is_seen = |error: &f64| *error > VISIBLE * error_scale(value, quantity);
     let error = parts.sum().filter(is_seen);
     let number = match quantity.unit() {
         "" => match error {

@@ -8,8 +8,8 @@ use fem::results::Parts;
 use fem_collision::QuantityOfInterest;
 use serde_json::{Map, Value};
 
-use super::cards::error_scale;
 use super::stored_result::StoredResult;
+use crate::answer::error_scale;
 
 /// The share of the smaller error that remains in a difference. In 144 differences of elastic and relaxing glass pairs
 /// of other weight, modulus and speed, on meshes of 40 to 75 µm against fine ones, in `condensed` and `fem`, the error

@@ -9,6 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use thiserror::Error;
 
+use crate::answer::{error_parts, estimate_of};
 use crate::number_text::one_line;
 
 /// Errors of making a page.
@@ -158,13 +159,7 @@ impl StoredResult {
 
     /// Returns the parts of a quantity's error; results of older versions lack some.
     pub fn error_parts(&self, quantity: QuantityOfInterest) -> Parts {
-        let part = |part: &str| self.number(&["uncertainty", quantity.key(), part]);
-        Parts {
-            discretisation: part("discretisation"),
-            model: part("model"),
-            model_at_least: part("model_at_least"),
-            input: part("input"),
-        }
+        error_parts(&self.summary, quantity)
     }
 
     /// Returns what the estimate that leads says the run's quantities are; `None` if the run has the answer.
@@ -174,8 +169,7 @@ impl StoredResult {
 
     /// Returns the ends of a quantity's estimate, SI.
     pub fn estimate(&self, quantity: QuantityOfInterest) -> Option<[f64; 2]> {
-        let end = |end: &str| self.number(&["estimate", end, quantity.key()]);
-        Some([end("low")?, end("high")?])
+        estimate_of(&self.summary, quantity)
     }
 
     /// Returns a text of the summary by its key, or an empty one.

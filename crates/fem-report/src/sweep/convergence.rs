@@ -183,6 +183,7 @@ mod tests {
             place: Vec::new(),
             number: None,
             points,
+            marked: Vec::new(),
             reference: Vec::new(),
         }
     }

@@ -6,8 +6,9 @@ use std::path::Path;
 use comfy_table::CellAlignment::{Left, Right};
 use fem::sweep::{Checked, Row, SWEEP_FILE};
 use fem::{WarningKind, WarningKinds};
-use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
+use fem_collision::QuantityOfInterest;
+use fem_report::answer::answer;
 
 use super::collect::SweepOutcome;
 use super::cost_estimate::{SweepCost, TotalTime};
@@ -60,8 +61,8 @@ pub fn member_file_size(n_members: usize) -> String {
 pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder: &Path) -> String {
     let keys: Vec<&str> = sweep.keys().map(|swept| swept.key.as_str()).collect();
     let keys = keys.iter().map(|key| shortest_end(key, &keys));
-    let quantities = ["restitution", "contact time T", "T/Hertz", "peak force F", "F/Hertz"];
-    let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
+    let header: Vec<String> =
+        keys.chain(SHOWN.map(QuantityOfInterest::name)).map(one_line).collect();
     let row = |row: &Row| {
         let said = sweep.displayed(row.index);
         let mut cells: Vec<String> = said.iter().map(|value| one_line(value)).collect();
@@ -69,9 +70,10 @@ pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder:
         cells
     };
     let mut alignment = vec![Left; sweep.keys().count()];
-    alignment.extend([Right; 5]);
+    alignment.extend([Right; SHOWN.len()]);
     let rows = collected.shown.iter().map(row);
     let mut text = table(&alignment, std::iter::once(header).chain(rows));
+    text += &legend(&text);
     let (n_done, n_shown) = (collected.n_done, collected.shown.len());
     if n_done > n_shown {
         text += &format!("… and {} more\n", n_done - n_shown);
@@ -94,25 +96,32 @@ fn shortest_end<'k>(key: &'k str, keys: &[&str]) -> &'k str {
     dots.chain([key]).find(is_unique).unwrap_or(key)
 }
 
-fn result_cells(row: &Row) -> [String; 5] {
+/// The quantities in the table of a terminal of 80 columns.
+const SHOWN: [QuantityOfInterest; 3] = [
+    QuantityOfInterest::Restitution,
+    QuantityOfInterest::ContactTime,
+    QuantityOfInterest::PeakForce,
+];
+
+fn result_cells(row: &Row) -> [String; SHOWN.len()] {
     const NONE: &str = "-";
-    let summary = &row.summary;
-    let number = |key: &str| summary[key].as_f64();
-    let quantity = |key: &str, unit| number(key).map_or(NONE.into(), |value| show(value, unit));
-    let ratio = |key: &str| {
-        let both = number(key).zip(summary["hertz"][key].as_f64());
-        both.map_or(NONE.into(), |(ours, hertz)| format!("{:.4}", ours / hertz))
-    };
     if !row.is_complete() {
-        return ["failed", NONE, NONE, NONE, NONE].map(String::from);
+        return ["failed", NONE, NONE].map(String::from);
     }
-    [
-        number("restitution").map_or(NONE.into(), |value| format!("{value:.5}")),
-        quantity("contact_time_s", "s"),
-        ratio("contact_time_s"),
-        quantity("peak_force_n", "N"),
-        ratio("peak_force_n"),
-    ]
+    SHOWN.map(|quantity| answer(&row.summary, quantity).unwrap_or(NONE.into()))
+}
+
+/// Returns the lines below the table that explain its signs.
+fn legend(cells: &str) -> String {
+    let signs = [
+        ("± >", "at least, a part of the error is unknown"),
+        ("± ?", "unknown error"),
+        ("≈", "estimate by closed forms of what no model computes"),
+    ];
+    let bar = ("±", "discretisation error, neglected effects and uncertain inputs");
+    let there = [bar].into_iter().chain(signs).filter(|(sign, _)| cells.contains(sign));
+    let lines: Vec<String> = there.map(|(sign, words)| format!("{sign}: {words}\n")).collect();
+    lines.concat()
 }
 
 /// Concludes a sweep: an error lists the failed members, or says how to continue an interrupted sweep.
@@ -156,7 +165,10 @@ pub fn warning_lines<'t>(
         let (text, first) = (&kind.first, sweep.describe(kind.run));
         one_line(&match kind.count {
             1 => format!("{text} (1 member: {first})"),
-            n => format!("{text} (in {n} members, first in {first})"),
+            n => {
+                let last = sweep.describe(kind.last_run);
+                format!("{} (in {n} members, first in {first}, last in {last})", kind.merged())
+            }
         })
     };
     let mut lines: Vec<String> = kinds.iter().take(MAX_KINDS).map(line).collect();

@@ -7,8 +7,9 @@ use fem::ComputedCollision;
 use fem::results::Summary;
 use fem::sweep::{Member, Observer, Runner};
 use fem::{CaseError, SharedModels};
-use fem_case::engineering::show;
+use fem_case::engineering::{range, show};
 use fem_case::{Keep, Sweep};
+use fem_collision::QuantityOfInterest;
 use fem_report::number_text::elapsed;
 use rayon::ThreadPool;
 
@@ -148,11 +149,23 @@ fn in_a_few_words(summary: &Summary) -> String {
     if let Some(reason) = &summary.stopped_because {
         return format!("FAILED: {reason}");
     }
-    let quantity = |value: Option<f64>, unit| value.map_or("-".into(), |value| show(value, unit));
+    let answer = |quantity: QuantityOfInterest| {
+        let shown = |value: f64| match quantity.unit() {
+            "" => format!("{value:.5}"),
+            unit => show(value, unit),
+        };
+        let own = || summary.collision.number(quantity).map(shown);
+        let estimated = |ends| format!("≈ {}", range(ends, quantity.unit()));
+        let text = match &summary.estimate {
+            Some(estimate) => estimate.range(quantity).map(estimated),
+            None => own(),
+        };
+        text.unwrap_or("-".to_string())
+    };
     format!(
         "restitution {}, contact time {}, {}",
-        summary.collision.restitution.map_or("-".into(), |value| format!("{value:.5}")),
-        quantity(summary.collision.contact_time_s, "s"),
+        answer(QuantityOfInterest::Restitution),
+        answer(QuantityOfInterest::ContactTime),
         elapsed(summary.cost.solve_s)
     )
 }

@@ -4,10 +4,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 use comfy_table::CellAlignment::Left;
-use fem::effects::{EffectDecision, NeglectError};
+use fem::effects::{EffectDecision, MaterialLoss, NeglectError};
 use fem::results::{BodySummary, BounceSummary, EstimateSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
+use fem_case::defaults;
 use fem_case::engineering::{Unit, number, range, show};
+use fem_case::schema::ToleranceValue;
 use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
@@ -94,15 +96,31 @@ fn short(summary: &Summary) -> String {
         row("on", if reasons.len() > MAX_REASONS { names.join(", ") } else { reasons });
     }
     let off: Vec<&EffectDecision> = decisions().filter(|it| !it.active).collect();
+    let loss = off.iter().find(|it| it.name == MaterialLoss::NAME && !it.matters);
+    if let Some(loss) = loss {
+        row("elastic", loss.reason.clone());
+    }
     let mattering: Vec<&str> = off.iter().filter(|it| it.matters).map(|it| it.name).collect();
     let above = match mattering.is_empty() {
-        true => ", none above the tolerance".to_string(),
-        false => format!("; above the tolerance: {}", mattering.join(", ")),
+        true => format!(", none above {}", tolerance_words(summary)),
+        false => format!("; above {}: {}", tolerance_words(summary), mattering.join(", ")),
     };
     let plural = if off.len() == 1 { "" } else { "s" };
     let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
     let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
     format!("\n{deficit}{rows}{off}")
+}
+
+/// Returns the tolerance of the case as text: `the tolerance of 1 %`, or that it has several.
+fn tolerance_words(summary: &Summary) -> String {
+    let given = summary.case.accuracy.as_ref().and_then(|accuracy| accuracy.tolerance.as_ref());
+    let share = match given {
+        Some(ToleranceValue::Table(_)) => return "the tolerances of the case".to_string(),
+        Some(ToleranceValue::Share(share)) => share.si().ok(),
+        None => None,
+    };
+    let share = share.unwrap_or(defaults::accuracy().restitution);
+    format!("the tolerance of {} %", number(100.0 * share, 3))
 }
 
 /// Returns everything between the table of quantities and the warnings.
@@ -158,11 +176,14 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
         let parts = summary.uncertainty.parts(quantity);
         let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
         let [mesh, neglected, input] = errors.unwrap_or([NONE; 3].map(String::from));
+        let is_covered = value.is_some_and(|value| parts.cover(quantity.scale(value)));
+        let own = if is_covered { UNKNOWN.to_string() } else { shown(value) };
+        let value = value.filter(|_| !is_covered);
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         let name = quantity.name().to_string();
         match has_input {
-            true => [name, shown(value), mesh, neglected, input, shown(theirs)],
-            false => [name, shown(value), mesh, neglected, shown(theirs), ratio],
+            true => [name, own, mesh, neglected, input, shown(theirs)],
+            false => [name, own, mesh, neglected, shown(theirs), ratio],
         }
     };
     let last = if has_input { ">± input|>Hertz" } else { ">Hertz|>ratio" };

@@ -4,6 +4,7 @@ use fem_case::CaseError;
 use fem_collision::QuantityOfInterest;
 
 use super::elastic_null::ElasticNull;
+use crate::effects::EffectDecisions;
 use crate::quantity_errors::QuantityErrors;
 
 /// The estimated errors of a collision.
@@ -15,6 +16,8 @@ pub struct ErrorEstimate {
     pub elastic_null: Option<ElasticNull>,
     /// Element updates of all reference runs so far, those of coarser meshes included.
     pub element_updates: u64,
+    /// The effects of the collision, on which error bars and warnings depend.
+    pub(crate) decisions: EffectDecisions,
     /// The reason why the mesh stays, if the tolerance is missed.
     pub(super) not_refined: Option<NotRefined>,
 }

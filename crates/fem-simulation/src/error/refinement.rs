@@ -140,7 +140,7 @@ impl ErrorEstimator {
         self.with_final_costs(simulation, collision, estimate)
     }
 
-    /// Adds the elastic null and the cost of all reference runs, which belong to the final mesh.
+    /// Adds the elastic null, the decisions and the cost of all reference runs, which belong to the final mesh.
     fn with_final_costs(
         &mut self,
         simulation: &Simulation,
@@ -148,7 +148,12 @@ impl ErrorEstimator {
         estimate: ErrorEstimate,
     ) -> ErrorEstimate {
         let elastic_null = elastic_null(simulation, collision, &mut self.runs);
-        ErrorEstimate { elastic_null, element_updates: self.runs.element_updates(), ..estimate }
+        ErrorEstimate {
+            elastic_null,
+            decisions: simulation.decisions(collision),
+            element_updates: self.runs.element_updates(),
+            ..estimate
+        }
     }
 
     /// Refines the mesh before the run as far as condensed reference runs show its error, while `goes_on` returns true.

@@ -4,6 +4,7 @@
 //! effects that it lacks ([`Method::support`], [`Effect::neglect_error`]). A model is skipped if it lacks an effect
 //! whose size cannot be estimated, or if its result would come with the advice to use another model.
 
+use fem_case::engineering::number;
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots, Switch, defaults};
 use fem_collision::QuantityOfInterest;
 use serde::Serialize;
@@ -298,7 +299,12 @@ impl Candidate {
             }
             _ => None,
         };
-        let rejection_reason = rejection_reason.or_else(|| advised.map(str::to_string));
+        let lacks_waves = lacks(support(&PartnerWaves).as_ref());
+        let advised = advised.map(str::to_string).or_else(|| {
+            let lost = PartnerWaves::advises_another(scene, estimate).filter(|_| lacks_waves)?;
+            Some(format!("lacks partner waves, which take {} of the restitution", number(lost, 2)))
+        });
+        let rejection_reason = rejection_reason.or(advised);
         let (error, excess) = match unknown {
             Some(_) => (QuantityErrors::default(), f64::INFINITY),
             None => (error, total),

@@ -54,13 +54,13 @@ impl Simulation {
     /// Returns all warnings about a collision: those before it, those of its result, and those of its model.
     pub fn warnings_with(&self, collision: &Collision, errors: &ErrorEstimate) -> Vec<String> {
         let scene = self.case().scene();
-        let decisions = self.decisions(collision);
+        let decisions = &errors.decisions;
         (scene.implausible_numbers().into_iter())
             .chain(self.choice_warning())
-            .chain(decisions.warnings)
+            .chain(decisions.warnings.iter().cloned())
             .chain(self.setup().unread_key_warnings.iter().cloned())
             .chain(diagnose(self, collision, errors))
-            .chain(decisions.warnings_of_result)
+            .chain(decisions.warnings_of_result.iter().cloned())
             .chain(collision.warnings.iter().cloned())
             .collect()
     }

@@ -11,6 +11,10 @@ pub struct WarningKind {
     pub first: String,
     /// Index of the run that gave the first warning.
     pub run: usize,
+    /// The last warning of this kind.
+    pub last: String,
+    /// Index of the run that gave the last warning.
+    pub last_run: usize,
     /// Number of warnings of this kind.
     pub count: usize,
 }
@@ -34,6 +38,19 @@ impl WarningKind {
     pub fn is_of(&self, warning: &str) -> bool {
         self.kind == without_numbers(warning)
     }
+
+    /// Returns the first warning with its numbers, each with that of the last one if they differ: "yields at 1 … 5 m/s".
+    pub fn merged(&self) -> String {
+        let [first, last] = [&self.first, &self.last].map(|text| pieces(text));
+        if first.len() != last.len() {
+            return self.first.clone();
+        }
+        let merge = |(one, other): (&Piece, &Piece)| match one.text == other.text {
+            true => one.text.clone(),
+            false => format!("{} … {}", bare(&one.text), other.text),
+        };
+        first.iter().zip(&last).map(merge).collect::<Vec<_>>().join(" ")
+    }
 }
 
 impl WarningKinds {
@@ -42,9 +59,11 @@ impl WarningKinds {
         let kind = without_numbers(warning);
         if let Some(known) = self.kinds.iter_mut().find(|known| known.kind == kind) {
             known.count += 1;
+            (known.last, known.last_run) = (warning.to_string(), run);
         } else if self.kinds.len() < MAX_KINDS {
             let first = warning.to_string();
-            self.kinds.push(WarningKind { kind, first, run, count: 1 });
+            let last = first.clone();
+            self.kinds.push(WarningKind { kind, first, run, last, last_run: run, count: 1 });
         } else {
             self.n_others += 1;
         }
@@ -61,18 +80,41 @@ impl WarningKinds {
     }
 }
 
-/// Removes the numbers of a text and the units after them.
-fn without_numbers(text: &str) -> String {
+/// A word of a warning, or a number with its unit.
+struct Piece {
+    text: String,
+    is_number: bool,
+}
+
+/// Splits a text at its blanks, but not between a number and its unit.
+fn pieces(text: &str) -> Vec<Piece> {
     const LONGEST_UNIT: usize = 4;
-    let (mut words, mut is_behind_number) = (Vec::new(), false);
+    const SHORT_WORDS: [&str; 9] = ["to", "on", "of", "in", "and", "the", "is", "at", "by"];
+    let may_be_unit =
+        |word: &str| word.chars().count() <= LONGEST_UNIT && !SHORT_WORDS.contains(&word);
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut is_behind_number = false;
     for word in text.split_whitespace() {
-        let is_unit = is_behind_number && word.chars().count() <= LONGEST_UNIT;
+        let is_unit = is_behind_number && may_be_unit(bare(word));
         is_behind_number = word.contains(|c: char| c.is_ascii_digit());
-        if !is_unit && !is_behind_number {
-            words.push(word);
+        match pieces.last_mut().filter(|_| is_unit) {
+            Some(number) => number.text += &format!(" {word}"),
+            None => pieces.push(Piece { text: word.to_string(), is_number: is_behind_number }),
         }
     }
-    words.join(" ")
+    pieces
+}
+
+/// Returns a word without the punctuation at its end.
+fn bare(word: &str) -> &str {
+    word.trim_end_matches([',', ':', ';', '.', ')'])
+}
+
+/// Removes the numbers of a text and the units after them.
+fn without_numbers(text: &str) -> String {
+    let pieces = pieces(text);
+    let words = pieces.iter().filter(|piece| !piece.is_number).map(|piece| piece.text.as_str());
+    words.collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -84,6 +126,20 @@ mod tests {
         let [a, b] = ["a step of 12.3 µm is 4 % too long", "a step of 1.1 mm is 12 % too long"];
         assert_eq!(without_numbers(a), without_numbers(b));
         assert_ne!(without_numbers(a), without_numbers("a step of 12.3 µm is 4 % too short"));
+        let mut kinds = WarningKinds::default();
+        for (run, text) in [(2, a), (3, b), (7, "a step of 2 m is 4 % too long")] {
+            kinds.add(run, text);
+        }
+        let kind = &kinds.all()[0];
+        assert_eq!((kind.count, kind.run, kind.last_run), (3, 2, 7));
+        assert_eq!(kind.merged(), "a step of 12.3 µm … 2 m is 4 % too long");
+        let mut yields = WarningKinds::default();
+        yields.add(0, "at 924.9 µm/s: e from 0.84 to 1.00");
+        yields.add(1, "at 5.000 m/s: e from 0.14 to 0.26");
+        assert_eq!(
+            yields.all()[0].merged(),
+            "at 924.9 µm/s … 5.000 m/s: e from 0.84 … 0.14 to 1.00 … 0.26"
+        );
     }
 
     #[test]

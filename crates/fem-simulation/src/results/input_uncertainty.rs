@@ -8,14 +8,16 @@
 //! ```
 //!
 //! A material of both bodies is one input. The changes are those of the case's contact law, or of Hertz' or Ting's impact
-//! between half-spaces, relative to it; that of the restitution is absolute.
+//! between half-spaces, relative to it; that of the restitution is absolute. Waves that take energy from these impacts take it
+//! by the closed forms of [`PartnerWaves`].
 
-use fem_case::{Body, Case, ModelChoice, Scene, UncertainInput};
+use fem_case::{Body, Case, ModelChoice, Scene, Switch, UncertainInput};
 use fem_collision::Collision;
 use fem_laws::{HertzImpact, Impact, ImpactQuantities};
 
 use super::summary::Quantities;
-use crate::effects::SimplifiedScene;
+use crate::effects::{PartnerWaves, SimplifiedScene};
+use crate::estimate::Estimate;
 use crate::estimate::quasi_static::{known_impact, ting_of};
 use crate::models::Reduced;
 use crate::quantity_errors::QuantityErrors;
@@ -69,12 +71,24 @@ fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
     }
     let scene = SimplifiedScene::quiet(scene)?;
     let pair = scene.pair().ok()?;
+    let kept = share_beside_waves(&scene, speed)?;
     let mut materials = scene.bodies().iter().filter_map(Body::material);
-    if materials.all(|material| material.relaxation().is_none()) {
-        return HertzImpact::new(&pair, speed).ok().as_ref().map(ImpactQuantities::from);
+    let impact = if materials.all(|material| material.relaxation().is_none()) {
+        ImpactQuantities::from(&HertzImpact::new(&pair, speed).ok()?)
+    } else {
+        let ting = ting_of(&scene, &pair, true, None).ok()?.with_coarse_waves();
+        quantities(&*known_impact(ting.with_tolerance(TOLERANCE).ok()?, speed).ok()?)
+    };
+    Some(ImpactQuantities { restitution: kept * impact.restitution, ..impact })
+}
+
+/// Returns the share of the restitution that waves leave which do not return.
+fn share_beside_waves(scene: &Scene, speed: f64) -> Option<f64> {
+    if scene.effects().partner_waves == Some(Switch::Off) {
+        return Some(1.0);
     }
-    let ting = ting_of(&scene, &pair, true, None).ok()?.with_coarse_waves();
-    Some(quantities(&*known_impact(ting.with_tolerance(TOLERANCE).ok()?, speed).ok()?))
+    let estimate = Estimate::at(scene, speed).ok()?;
+    Some((1.0 - PartnerWaves::loss(scene, &estimate)).max(0.0))
 }
 
 fn quantities(impact: &Impact) -> ImpactQuantities {

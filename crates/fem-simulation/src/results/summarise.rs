@@ -10,7 +10,9 @@ use super::summary::{
     Quantities, RestSummary, Summary,
 };
 use super::uncertainty::uncertainty;
-use crate::effects::{AdhesionEffect, EffectDecision, FiniteStrain, LeadingEstimate};
+use crate::effects::{
+    AdhesionEffect, EffectDecision, EffectDecisions, FiniteStrain, LeadingEstimate,
+};
 use crate::error::{ComputedCollision, ErrorEstimate};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
@@ -54,9 +56,9 @@ impl Summary {
         let mut numbers = Numbers { not_finite: Vec::new() };
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         let quantities = quantities(collision, &mut numbers);
-        let effects = effects(simulation, collision);
+        let effects = effects(simulation, collision, &errors.decisions);
         Self {
-            estimate: leading_estimate(simulation, collision, &effects),
+            estimate: leading_estimate(simulation, collision, &errors.decisions),
             uncertainty: uncertainty(simulation, collision, errors, &quantities, &effects),
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
@@ -120,25 +122,28 @@ fn all_element_updates(
     Some(collision.element_updates? + before.sum::<u64>() + errors.element_updates)
 }
 
-fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary> {
+fn effects(
+    simulation: &Simulation,
+    collision: &Collision,
+    decisions: &EffectDecisions,
+) -> Vec<EffectSummary> {
     let estimate = simulation.estimate(collision);
-    let summary = |decision: EffectDecision| {
+    let summary = |decision: &EffectDecision| {
         let neglect_error =
-            estimate.as_ref().and_then(|estimate| simulation.neglect_error(&decision, estimate));
-        EffectSummary { decision, error_if_left_out: neglect_error }
+            estimate.as_ref().and_then(|estimate| simulation.neglect_error(decision, estimate));
+        EffectSummary { decision: decision.clone(), error_if_left_out: neglect_error }
     };
-    simulation.decisions(collision).all.into_iter().map(summary).collect()
+    decisions.all.iter().map(summary).collect()
 }
 
 /// Returns the estimate that leads, if there is one.
 fn leading_estimate(
     simulation: &Simulation,
     collision: &Collision,
-    effects: &[EffectSummary],
+    decisions: &EffectDecisions,
 ) -> Option<EstimateSummary> {
-    let decisions: Vec<EffectDecision> = effects.iter().map(|it| it.decision.clone()).collect();
     let (scene, estimate) = (simulation.scene_of_model(), simulation.estimate(collision)?);
-    let leading = LeadingEstimate::of(&scene, &estimate, &decisions, collision.restitution?)?;
+    let leading = LeadingEstimate::of(&scene, &estimate, &decisions.all, collision.restitution?)?;
     let end = |k: usize| Quantities::by(|quantity| Some(leading.range(quantity)?[k]));
     let (low, high) = (end(0), end(1));
     Some(EstimateSummary {

@@ -214,6 +214,12 @@ impl Parts {
         let parts = [self.discretisation, self.model.or(self.model_at_least), self.input];
         parts.into_iter().flatten().reduce(|one, more| one + more)
     }
+
+    /// Returns whether the known error is as large as the scale of a number, 1 for the restitution and else the number
+    /// itself, which is not known then.
+    pub fn cover(&self, scale: f64) -> bool {
+        self.known().is_some_and(|error| error > 0.0 && error >= scale)
+    }
 }
 
 /// One contact of a bouncing ball.

@@ -51,6 +51,24 @@ acts_on = "all"
 terms = [{ weight = 0.4, relaxation_time = "0.5 ms" }]
 "#;
 
+/// The result of the chosen model does not advise another one for waves that a large partner takes.
+#[test]
+fn the_chosen_model_advises_no_other() {
+    for material in ["nylon", "soda-lime-glass", "steel", "silicone"] {
+        for speed in ["1 cm/s", "0.1 m/s", "1 m/s"] {
+            let text = format!(
+                "body = [{{ name = 'block', half_space = {{}}, material = 'lib:{material}' }},
+                         {{ name = 'ball', sphere.diameter = '10 mm', material = 'lib:{material}', approach_speed = '{speed}' }}]"
+            );
+            let simulation = simulation(&text, &["model={auto={}}", "output.snapshots=[]"]);
+            let warnings = simulation.setup().warnings().join("\n");
+            let chosen = simulation.considered().iter().find(|it| it.chosen).unwrap();
+            let of = format!("{material}, {speed}: {}", chosen.model);
+            assert!(!warnings.contains("which this model leaves out"), "{of}: {warnings}");
+        }
+    }
+}
+
 /// Asserts that restitution (absolute), contact time and peak force (relative) agree within the tolerance.
 fn within(tolerance: f64, found: &Collision, reference: &Collision, what: &str) {
     let restitution = found.restitution.unwrap() - reference.restitution.unwrap();

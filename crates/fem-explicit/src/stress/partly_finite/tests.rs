@@ -1,10 +1,11 @@
 //! A body with elements at small and at finite strain equals a body of a single kind where strains are small.
 
 use fem_collision::Account;
-use fem_material::ActsOn;
+use fem_material::{ActsOn, FlowRule};
 use fem_mesh::Side;
 
 use super::*;
+use crate::stress::{FiniteStrainChoice, stress_of_body};
 use crate::test_support::{geometries, ragged, relaxing_glass, unit_glass, unit_sphere};
 
 const LAW: HyperelasticLaw = HyperelasticLaw::NeoHooke;
@@ -74,6 +75,22 @@ fn finite_strain_radius_of_zero_or_beyond_the_body_gives_one_kind() {
         assert!(answer(near, &mesh, &u) == answer(all, &mesh, &u));
         let none = finite_strain_within(1e-3, &mesh, &geometries, &material, LAW);
         assert!(none.strain_measure().finite().is_none());
+    }
+}
+
+/// A body that flows is at finite strain everywhere, however few elements are near: those at small strain do not flow.
+#[test]
+fn a_body_that_flows_is_at_finite_strain_everywhere() {
+    let mesh = mesh();
+    let material = unit_glass().with_flow(FlowRule::perfect(1e-3).unwrap()).unwrap();
+    let stress = |within| {
+        let choice = FiniteStrainChoice { law: HyperelasticLaw::Hencky, within };
+        stress_of_body(&mesh, &geometries(&mesh), &material, Some(choice)).unwrap()
+    };
+    for within in [1e-3, 0.7] {
+        let stress = stress(Some(within));
+        assert!(stress.strain_measure().finite().is_some(), "{within}");
+        assert!(!format!("{stress:?}").starts_with("PartlyFinite"), "{stress:?}");
     }
 }
 

@@ -21,6 +21,50 @@ fn place(sweep: &str) -> Place {
     place
 }
 
+/// Rows have error bars, or say what is not known or only estimated; the figure marks such points; and a warning is of all its
+/// members.
+#[test]
+fn table_and_figure_say_what_is_not_known() {
+    let place = place(
+        "case = 'ball.toml'\n[vary]\n'body.1.material' = ['lib:pmma', 'lib:steel']\n\
+         'body.1.approach_speed' = ['1 mm/s', '1 m/s', '5 m/s']\n",
+    );
+    place.write(
+        "ball.toml",
+        "model.hertz = {}\nbody = [{ name = 'floor', wall = {} },
+         { name = 'ball', sphere.diameter = '10 mm', material = 'lib:pmma', approach_speed = '1 m/s' }]\n",
+    );
+    let ran = place.succeed("sweep sweep.toml");
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    let row = |material: &str, speed: &str| {
+        let has = |line: &&&str| line.contains(material) && line.contains(&format!(" {speed} "));
+        *lines.iter().find(has).unwrap()
+    };
+    assert!(row("lib:pmma", "1 m/s").contains("± >0."), "{}", ran.stdout);
+    assert!(row("lib:steel", "5 m/s").contains("≈ 0."), "{}", ran.stdout);
+    // A sweep over one key fits on 80 columns; the first of two keys takes eleven.
+    assert!(lines.iter().all(|line| line.chars().count() <= 80 + 11), "{}", ran.stdout);
+    ran.prints("±: discretisation error|± >: at least|≈: estimate by closed forms");
+    assert!(ran.stderr.contains("5 m/s: restitution ≈ 0.14 to 0.26"), "{}", ran.stderr);
+    // The members that yield have their numbers in one warning.
+    let yields: Vec<&str> = ran.stderr.lines().filter(|line| line.contains(" yields ")).collect();
+    assert_eq!(yields.len(), 1, "{}", ran.stderr);
+    for expected in [" … 924.9 µm/s on, ", "0.84 … 0.14 to", "in 4 members, first in", "last in"]
+    {
+        assert!(yields[0].contains(expected), "{expected}: {}", yields[0]);
+    }
+    let svg = place.text("runs/sweep/sweep.svg");
+    for expected in ["estimate by closed forms", "error unknown beyond the bar"] {
+        assert!(svg.contains(expected), "{expected}");
+    }
+    // The table has the ends of the estimates.
+    let rows = rows(&place, "runs/sweep/sweep.csv");
+    let column = |name: &str| rows[0].iter().position(|key| key == name).unwrap();
+    let low = column("estimate_low_restitution");
+    let n_estimates = rows[1..].iter().filter(|row| !row[low].is_empty()).count();
+    assert_eq!(n_estimates, 3);
+}
+
 /// Returns the rows of a table, the header first.
 fn rows(place: &Place, name: &str) -> Vec<Vec<String>> {
     let bytes = place.read(name);
@@ -109,7 +153,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     assert!(n_checked > 20);
     let elements = alone["bodies"].as_array().unwrap().iter().map(|body| &body["elements"]);
     assert_eq!(cell("elements"), elements.map(|n| n.as_u64().unwrap()).sum::<u64>().to_string());
-    ran.prints("50 cm/s|T/Hertz|approach_speed  weight  restitution|Result: runs/sweep/sweep.csv");
+    ran.prints("50 cm/s|approach_speed  weight |± |±: discretisation error|Result: runs/sweep/sweep.csv");
     ran.tells("[6/6] body.0.approach_speed = ");
     let svg = place.text("runs/sweep/sweep.svg");
     for expected in ["[m/s]", "contact time [µs]", "Hertz", "g = 0.5"] {

@@ -215,7 +215,11 @@ fn warnings_of_sweep_members_are_printed_once() {
             "{}",
             ran.stderr
         );
-        assert!(told[0].contains("3 members") && told[0].contains("= 0.5)"), "{}", ran.stderr);
+        assert!(
+            told[0].contains("3 members") && told[0].contains("= 0.5, last in "),
+            "{}",
+            ran.stderr
+        );
         assert_eq!(ran.stdout, "");
     }
 }

@@ -88,6 +88,14 @@ fn estimates_of_what_a_run_lacks_lead() {
         assert!(page.contains(&format!("<b>{answer} <span></span></b>")), "{page}");
         assert!(page.contains("The estimate is by closed forms"), "{page}");
     }
+    // A number whose error is as large as itself is no result.
+    place.write("rubber.toml", &pair("lib:cork", "10 mm", "10 m/s"));
+    let rubber =
+        "rubber.toml --set model=hertz --set body.1.material=lib:natural-rubber --out rubber";
+    let text = place.succeed(rubber).stdout;
+    let row = text.lines().find(|line| line.starts_with("restitution")).unwrap();
+    assert_eq!(row.split_whitespace().nth(1), Some("?"), "{text}");
+    assert!(place.text("rubber/report.html").contains("<b>not known <span></span></b>"));
     // The numbers of a run that lacks nothing are the answer.
     place.succeed("fast.toml --set model=hertz").prints("this run");
 }
@@ -115,14 +123,17 @@ fn report_of_a_run_fits_on_a_screen() {
     for (command, said) in [
         (
             "glass_0.5ms.toml",
-            "on:  viscoelasticity (striker and target relax: |9 effects off, none above the tolerance; -v lists them\n|No warnings.\nResult: ",
+            "on:  viscoelasticity (striker and target relax: |9 effects off, none above the tolerance of 1 %; -v lists them\n|No warnings.\nResult: ",
         ),
         (
             "ball_on_block.toml --set model=hertz",
-            "effects off; above the tolerance: partner waves; -v lists them",
+            "effects off; above the tolerance of 1 %: partner waves; -v lists them",
         ),
         ("dust_grain.toml", "restitution                1.0000           0"),
-        ("glass_0.5ms_elastic.toml --set model.condensed={}", "1 - restitution: less than "),
+        (
+            "glass_0.5ms_elastic.toml --set model.condensed={}",
+            "1 - restitution: less than |elastic:  the case gives no relaxation for striker and target;",
+        ),
         ("three_bounces.toml --set model=ting", "bounces:  3, with restitution 0.|gravity"),
         (
             "three_bounces.toml --set model=condensed --set stop.bounces=500",
@@ -130,7 +141,7 @@ fn report_of_a_run_fits_on_a_screen() {
         ),
         (
             "steel.toml --set model=auto",
-            "model:  hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance: material loss, plastic yield",
+            "model:  hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance of 1 %: material loss, plastic yield",
         ),
     ] {
         let ran = place.succeed((command, "--force --out out"));

@@ -79,7 +79,8 @@ impl Effect for AdhesionEffect {
     }
 
     /// The impacts of Johnson, Kendall and Roberts, over the range of the separation energy where it is open whether the
-    /// bodies stick, or where the work of adhesion is a typical one. Of hard spheres the restitution alone is known.
+    /// bodies stick, or where the work of adhesion is a typical one. Of hard spheres the restitution alone is known. A typical
+    /// work of adhesion leads only where the bodies would stick.
     fn leading_estimate(
         &self,
         scene: &Scene,
@@ -90,7 +91,7 @@ impl Effect for AdhesionEffect {
         let (speed, sticking) = (estimate.hertz.approach_speed(), adhesion.sticking_speed());
         let share = (sticking / speed).powi(2);
         let is_typical = Self::given(scene).is_none();
-        if UNCERTAINTY_OF_ENERGY * share < LEAST_SHARE {
+        if UNCERTAINTY_OF_ENERGY * share < LEAST_SHARE || is_typical && share < 1.0 {
             return None;
         }
         let is_range = is_typical || is_open(share);

@@ -93,6 +93,13 @@ impl PartnerWaves {
         lost(radiated(&crossed(scene, estimate), estimate))
     }
 
+    /// Returns the loss of restitution for which the result of a model without the effect advises another model.
+    pub(crate) fn advises_another(scene: &Scene, estimate: &Estimate) -> Option<f64> {
+        let switch = scene.effects().partner_waves;
+        Some(Self::loss(scene, estimate))
+            .filter(|lost| *lost > SMALL_LOSS && switch != Some(Switch::Off))
+    }
+
     /// Returns the loss of restitution by waves that return within the contact and stay in vibrations of elastic bodies.
     pub(in crate::effects) fn left_ringing(scene: &Scene, estimate: &Estimate) -> f64 {
         lost(taken(&crossed(scene, estimate), estimate, |passage| passage >= RETURN_LIMIT))
@@ -153,9 +160,15 @@ impl Effect for PartnerWaves {
         let lost = lost(share);
         let term = Self::of_term(scene, estimate, Self::radiating) != Support::Lacks;
         let warning = (lost > SMALL_LOSS).then(|| {
+            let why = match least > 0.0 {
+                true => {
+                    let crossed = passages(name, least, "only ");
+                    format!("{crossed}, less than {RETURN_LIMIT}: they do not return")
+                }
+                false => passages(name, least, ""),
+            };
             format!(
-                "shear waves cross {name} only {least:.2} times during the contact, less than {RETURN_LIMIT}: \
-                 they do not return and take {} of the energy, {} of the restitution, which {}; \
+                "{why} and take {} of the energy, {} of the restitution, which {}; \
                  {} them",
                 percent(share),
                 number(lost, 2),
@@ -171,7 +184,7 @@ impl Effect for PartnerWaves {
         });
         Some(Relevance {
             is_needed: least < RETURN_LIMIT,
-            number: format!("shear waves cross {name} {least:.2} times during the contact"),
+            number: passages(name, least, ""),
             if_not_needed: "no energy is radiated".to_string(),
             open_error: format!("radiated waves take {} of the restitution", number(lost, 2)),
             warning,
@@ -229,6 +242,18 @@ impl Effect for PartnerWaves {
             ..neglect_error
         };
         complete.of_all_quantities(estimate).times(part)
+    }
+}
+
+/// Returns how often shear waves cross a body within the contact, as text.
+fn passages(name: &str, passages: f64, only: &str) -> String {
+    match passages {
+        0.0 => format!("waves do not return from {name}, which has no far side"),
+        0.01.. => format!("shear waves cross {name} {only}{passages:.2} times during the contact"),
+        _ => format!(
+            "shear waves cross {name} {only}{} times during the contact",
+            number(passages, 1)
+        ),
     }
 }
 

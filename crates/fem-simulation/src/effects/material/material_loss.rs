@@ -1,7 +1,8 @@
-//! Loss of the material itself, for materials of the library without a relaxation: a collision without it has too large a
-//! restitution, by an unknown amount.
+//! Loss of the material itself, for materials without a relaxation. A case that gives its own elastic material asks for a
+//! collision without it. A material of the library has a loss that is not known: the restitution is too large, by an unknown
+//! amount.
 
-use fem_case::Scene;
+use fem_case::{Body, ModelChoice, Scene};
 use fem_collision::QuantityOfInterest;
 
 use crate::effects::decision::neglect_error::EffectStatus;
@@ -13,11 +14,13 @@ use crate::quantity_errors::QuantityErrors;
 impl Effect for MaterialLoss {
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let warning = scene.unknown_loss();
+        let bodies: Vec<&str> = scene.elastic_bodies().map(Body::name).collect();
         Some(Relevance {
             is_needed: warning.is_some(),
-            number: format!("no loss of {} is given", scene.materials_without_loss().join(" and ")),
+            number: format!("the case gives no relaxation for {}", bodies.join(" and ")),
+            if_not_needed: "computed as elastic, without a loss of the material".to_string(),
+            open_error: "unknown".to_string(),
             warning,
-            ..Relevance::default()
         })
     }
 
@@ -30,8 +33,10 @@ impl Effect for MaterialLoss {
     ) -> QuantityErrors {
         let sticks = AdhesionEffect::surely_sticks(scene, estimate.hertz.approach_speed());
         QuantityErrors::from_fn(|quantity| {
-            let is_unknown =
-                status.is_lacking && !sticks && quantity == QuantityOfInterest::Restitution;
+            let is_unknown = Self::is_unknown(scene)
+                && status.is_lacking
+                && !sticks
+                && quantity == QuantityOfInterest::Restitution;
             (!is_unknown).then_some(0.0)
         })
     }
@@ -39,7 +44,13 @@ impl Effect for MaterialLoss {
 
 impl MaterialLoss {
     /// Returns whether a scene has such a material.
-    pub(crate) fn is_unknown(scene: &Scene) -> bool {
+    fn is_unknown(scene: &Scene) -> bool {
         !scene.materials_without_loss().is_empty()
+    }
+
+    /// Returns whether a model has no loss of a material. The loss of a contact law is the user's.
+    pub(crate) fn is_lacking(scene: &Scene) -> bool {
+        let is_law = matches!(scene.model(), ModelChoice::Law { .. });
+        !is_law && scene.elastic_bodies().next().is_some()
     }
 }

@@ -4,7 +4,7 @@
 //! von Mises stress is reported, with a warning if few materials withstand the peak pressure.
 
 use fem_case::engineering::show;
-use fem_case::{Body, Scene};
+use fem_case::{Body, ModelChoice, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
@@ -35,7 +35,8 @@ impl Effect for PlasticYield {
         &[MaterialLoss::NAME, FiniteStrain::NAME]
     }
 
-    /// The impacts of the closed forms. The other losses of the run are added, between none of them and all.
+    /// The impacts of the closed forms. The other losses of the run are added, between none of them and all. The loss of a
+    /// contact law is the user's, and may be that of plastic flow.
     fn leading_estimate(
         &self,
         scene: &Scene,
@@ -43,6 +44,9 @@ impl Effect for PlasticYield {
         restitution: f64,
     ) -> Option<LeadingEstimate> {
         let (body, first) = earliest(scene, estimate).filter(|(_, first)| first.ratio() > 1.0)?;
+        if matches!(scene.model(), ModelChoice::Law { .. }) {
+            return None;
+        }
         let by = format!(
             "elastic–plastic laws ({} yields from {} on)",
             body.name(),

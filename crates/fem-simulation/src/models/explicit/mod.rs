@@ -429,7 +429,7 @@ fn support(
         // Contact between deformed surfaces has it.
         SurfaceSlip::NAME if FiniteStrain::is_on(scene, estimate) => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
-        MaterialLoss::NAME if !MaterialLoss::is_unknown(scene) => return None,
+        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
         MaterialLoss::NAME
         | AdhesionEffect::NAME
         | PlasticYield::NAME

@@ -34,7 +34,7 @@ pub(super) fn support(
         Gravity::NAME => Support::Inherent { idle: "" },
         AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene) => return None,
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-        MaterialLoss::NAME if !MaterialLoss::is_unknown(scene) => return None,
+        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
         MaterialLoss::NAME
         | FiniteStrain::NAME
         | SurfaceSlip::NAME
