@@ -116,7 +116,7 @@ fn legend(cells: &str) -> String {
     let signs = [
         ("± >", "at least, a part of the error is unknown"),
         ("± ?", "unknown error"),
-        ("≈", "estimate by closed forms of what no model computes"),
+        ("≈", "estimate by closed forms of what the run lacks"),
     ];
     let bar = ("±", "discretisation error, neglected effects and uncertain inputs");
     let there = [bar].into_iter().chain(signs).filter(|(sign, _)| cells.contains(sign));

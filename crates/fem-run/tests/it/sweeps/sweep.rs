@@ -153,7 +153,9 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     assert!(n_checked > 20);
     let elements = alone["bodies"].as_array().unwrap().iter().map(|body| &body["elements"]);
     assert_eq!(cell("elements"), elements.map(|n| n.as_u64().unwrap()).sum::<u64>().to_string());
-    ran.prints("50 cm/s|approach_speed  weight |± |±: discretisation error|Result: runs/sweep/sweep.csv");
+    ran.prints(
+        "50 cm/s|approach_speed  weight |± |±: discretisation error|Result: runs/sweep/sweep.csv",
+    );
     ran.tells("[6/6] body.0.approach_speed = ");
     let svg = place.text("runs/sweep/sweep.svg");
     for expected in ["[m/s]", "contact time [µs]", "Hertz", "g = 0.5"] {
