@@ -76,7 +76,7 @@ pub use scene::{
     Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, UncertainInput,
     WorkOfAdhesion, impact_speed,
 };
-pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
+pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Spot, Switch};
 pub use source::changes::readable_name;
 pub use source::similar_words::nearest;
 pub use sweep::Sweep;

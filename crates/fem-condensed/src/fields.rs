@@ -140,7 +140,7 @@ impl CondensedPair {
                     displacement: next(),
                     velocity: next(),
                     effective: next(),
-                    stress: Vec::new(),
+                    ..BodyFields::default()
                 };
             }
         }

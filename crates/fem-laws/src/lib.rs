@@ -41,6 +41,7 @@
 
 mod adhesion;
 mod difference;
+mod elastic_plastic_impact;
 mod error;
 mod family;
 mod fast_slow_limits;
@@ -59,6 +60,7 @@ mod ting;
 
 pub use adhesion::{Adhesion, RANGE_OF_ATTRACTION};
 pub use difference::{ImpactDifference, RelativeError, rigid_partner};
+pub use elastic_plastic_impact::elastic_plastic_impact;
 pub use error::LawError;
 pub use family::{
     KeyKind, KeyNeed, KeyRange, KeySet, LawContext, LawFamily, LawInput, LawInputError,

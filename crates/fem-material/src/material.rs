@@ -64,6 +64,12 @@ impl Material {
         Self { relaxation: None, ..self.clone() }
     }
 
+    /// Returns the material without plastic flow; the law of a material that flowed stays Hencky's.
+    pub fn without_flow(&self) -> Self {
+        let law = if self.flow.is_some() { Some(self.law()) } else { self.law };
+        Self { flow: None, law, ..self.clone() }
+    }
+
     /// Returns the elastic material with the same density and the equilibrium moduli;
     /// `None` for a fluid.
     pub fn at_equilibrium(&self) -> Option<Self> {

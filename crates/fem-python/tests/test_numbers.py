@@ -208,7 +208,7 @@ def test_an_estimate_of_what_a_run_lacks_leads():
     balls[1] |= {"material": "lib:natural-rubber"}
     rubber = fem_run.Case.from_dict({"body": balls, "model": {"hertz": {}}}).run()
     assert "restitution not known, " in repr(rubber)
-    assert result.estimate["effect"] == "plastic yield" and result.estimate["low"]["restitution"] < 0.2
+    assert result.estimate["effect"] == "plastic flow" and result.estimate["low"]["restitution"] < 0.2
 
 
 def test_plots_of_results_and_tables(glass, monkeypatch):

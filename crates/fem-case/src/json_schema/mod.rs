@@ -18,7 +18,9 @@ use serde_json::{Value, json};
 use crate::json_schema::quantity_pattern::pattern;
 use crate::quantity::{Number, Quantity, QuantityInfo, QuantityKind, Time};
 use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
-use crate::schema::{CaseFile, LawTable, ModelTable, SnapshotLabel, SnapshotsValue};
+use crate::schema::{
+    CaseFile, HardeningTable, LawTable, ModelTable, SnapshotLabel, SnapshotsValue,
+};
 use crate::sweep::file::SweepFile;
 
 /// Returns the schema of a case file.
@@ -27,6 +29,7 @@ pub fn of_cases() -> Value {
     rules::add_to(&mut schema, LawTable::NAMES);
     or_name(&mut schema, "/properties/model", ModelTable::NAMES);
     or_name(&mut schema, "/definitions/ModelTable/properties/law", LawTable::NAMES);
+    or_name(&mut schema, "/definitions/FlowTable/properties/hardening", HardeningTable::NAMES);
     schema
 }
 

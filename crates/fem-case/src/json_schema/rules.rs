@@ -26,6 +26,12 @@ const RANGES: &[(&str, &[&str], Range)] = &[
     ("MaterialTable", &["poissons_ratio"], Range::POISSONS_RATIO),
     ("TermTable", &["decay_rate", "relaxation_time"], Range::POSITIVE),
     ("TermTable", &["weight"], Range::RELAXATION_WEIGHT),
+    ("FlowTable", &["yield_strength"], Range::POSITIVE),
+    ("HardeningTable", &["modulus"], Range::NOT_NEGATIVE),
+    ("SwiftTable", &["strain"], Range::POSITIVE),
+    ("SwiftTable", &["exponent"], Range::HARDENING_EXPONENT),
+    ("JohnsonCookTable", &["c"], Range::NOT_NEGATIVE),
+    ("JohnsonCookTable", &["reference_rate"], Range::POSITIVE),
     ("SphereTable", &["diameter"], Range::POSITIVE),
     ("GravityTable", &["acceleration"], Range::POSITIVE),
     ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"], Range::POSITIVE),
@@ -70,7 +76,10 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
     });
     add(schema, "/definitions/BodyTable/properties/material", [of_library]);
     add(schema, "/definitions/TermTable", [one_of(&["decay_rate", "relaxation_time"])]);
-    add(schema, "/definitions/ModelTable", [json!({ "minProperties": 1, "maxProperties": 1 })]);
+    for choice in ["ModelTable", "HardeningTable"] {
+        let rule = json!({ "minProperties": 1, "maxProperties": 1 });
+        add(schema, &format!("/definitions/{choice}"), [rule]);
+    }
     add(schema, "/definitions/LawTable", [one_of(laws)]);
     add_laws(schema);
 }

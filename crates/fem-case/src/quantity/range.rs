@@ -34,6 +34,8 @@ impl Range {
     pub const POISSONS_RATIO: Self = Self::between(-1.0, 0.5);
     /// A coefficient of a contact law with the meaning of Poisson's ratio.
     pub const LIKE_POISSONS_RATIO: Self = Self::between(-1.0, 1.0);
+    /// Exponents of Swift's power law of hardening.
+    pub const HARDENING_EXPONENT: Self = Self::above(0.0, 1.0);
     #[cfg(feature = "schema")]
     pub const RELAXATION_WEIGHT: Self = Self::from(0.0, 1.0);
 

@@ -12,7 +12,7 @@ use fem_laws::{FiniteSize, LawError, Pair, SlipSurface, SurfaceSlip, compliance_
 
 use crate::scene::body::{Body, Shape};
 use crate::scene::model::ModelChoice;
-use crate::schema::{ContactMethod, EffectsTable, Field, SnapshotLabel};
+use crate::schema::{ContactMethod, EffectsTable, Field, SnapshotLabel, Spot};
 
 /// A validated case. Only this crate creates one, so every value is within the limits stated here.
 #[derive(Clone, Debug, PartialEq)]
@@ -337,6 +337,8 @@ pub struct Gravity {
     pub acceleration: f64,
     /// Number of contacts after which the run ends, ≥ 1; rest ends it earlier.
     pub bounces: usize,
+    /// Where a ball that dents falls next.
+    pub spot: Option<Spot>,
 }
 
 /// Returns the impact speed √(v² + 2 g h), m/s, of a body with the velocity v (m/s) at the height h (m).

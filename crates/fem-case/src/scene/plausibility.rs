@@ -31,7 +31,7 @@ fn is_elastic(material: &Material) -> bool {
 }
 
 impl Scene {
-    /// Returns the library's materials, without `lib:`, that have a relaxation neither there nor in the case, so that the
+    /// Returns the library's materials, without `lib:`, that neither relax nor flow there or in the case, so that the
     /// restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves out bodies
     /// that hardly deform.
     pub fn materials_without_loss(&self) -> Vec<&'static str> {

@@ -3,9 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{Density, Number, Quantity, Rate, Stress, SurfaceEnergy, Time};
+use crate::schema::flow_table::FlowTable;
 use crate::schema::macros::keywords;
 
-/// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation.
+/// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation or plastic flow.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [material.glass]")]
@@ -24,7 +25,7 @@ pub struct MaterialTable {
     /// Poisson's ratio ν, between −1 and 1/2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<Quantity<Number>>,
-    /// Yield strength in uniaxial tension, > 0. It only serves a warning: no model includes plasticity.
+    /// Yield strength in uniaxial tension, > 0. It serves the estimate of plastic flow, which the table `flow` computes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_strength: Option<Quantity<Stress>>,
     /// Surface energy of one surface, > 0. It serves the estimate of adhesion and the decision whether bodies stick.
@@ -36,6 +37,9 @@ pub struct MaterialTable {
     /// A Prony series; the material is elastic without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation: Option<RelaxationTable>,
+    /// Plastic flow; the material does not flow without it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flow: Option<FlowTable>,
 }
 
 impl MaterialTable {
@@ -82,6 +86,7 @@ impl MaterialTable {
             surface_energy: None,
             hyperelastic: None,
             relaxation: None,
+            flow: None,
         }
     }
 }

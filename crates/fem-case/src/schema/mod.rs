@@ -5,6 +5,8 @@
 
 pub(crate) mod accuracy_table;
 pub(crate) mod body_tables;
+pub(crate) mod choices;
+pub(crate) mod flow_table;
 pub(crate) mod macros;
 pub(crate) mod material_tables;
 pub(crate) mod model_tables;
@@ -20,6 +22,7 @@ use crate::schema::macros::{keywords, optional_keys};
 
 pub use crate::schema::accuracy_table::*;
 pub use crate::schema::body_tables::*;
+pub use crate::schema::flow_table::*;
 pub use crate::schema::material_tables::*;
 pub use crate::schema::model_tables::*;
 
@@ -123,12 +126,25 @@ optional_keys! {
 pub struct GravityTable {
     /// Acceleration along -y, > 0.
     pub acceleration: Quantity<Acceleration>,
+    /// Where a ball that dents falls next; needed if a body flows plastically and bounces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spot: Option<Spot>,
+}
+
+keywords! {
+    /// The place of a bounce on bodies that are dented.
+    Spot {
+        /// Every contact is between undented surfaces.
+        Fresh = "fresh",
+        /// Every contact is at the dents of those before.
+        Same = "same",
+    }
 }
 
 impl GravityTable {
     /// Creates gravity with this acceleration.
     pub fn new(acceleration: impl Into<Quantity<Acceleration>>) -> Self {
-        Self { acceleration: acceleration.into() }
+        Self { acceleration: acceleration.into(), spot: None }
     }
 }
 
@@ -265,6 +281,10 @@ keywords! {
         VonMises = "von_mises",
         /// Contact pressure on the surfaces.
         ContactPressure = "contact_pressure",
+        /// Equivalent plastic strain of bodies that flow.
+        PlasticStrain = "plastic_strain",
+        /// Plastic work per undeformed volume of bodies that flow.
+        PlasticWork = "plastic_work",
     }
 }
 
@@ -279,6 +299,8 @@ keywords! {
         MidSeparation = "mid-separation",
         /// The last step with a contact force.
         LastContact = "last-contact",
+        /// Bodies that flowed plastically, unloaded and without their vibration.
+        AfterSeparation = "after-separation",
     }
 }
 
@@ -353,6 +375,8 @@ optional_keys! {
         viscoelasticity: Switch,
         /// Large rotations and strains.
         finite_strain: Switch,
+        /// Plastic flow of the materials that have the table `flow`.
+        plastic_flow: Switch,
         /// Slip between surfaces of different materials.
         surface_slip: Switch,
         /// Energy of waves that do not return within the contact.
@@ -375,6 +399,7 @@ impl EffectsTable {
         Self {
             viscoelasticity: auto(self.viscoelasticity),
             finite_strain: auto(self.finite_strain),
+            plastic_flow: auto(self.plastic_flow),
             surface_slip: auto(self.surface_slip),
             partner_waves: auto(self.partner_waves),
             mirror_symmetry: auto(self.mirror_symmetry),
@@ -412,6 +437,7 @@ optional_keys! {
 /// Returns whether the value at `path` may be an array. serde alone does not check this: a derived struct reads
 /// `sphere = ["22.2 mm"]` as its fields in order.
 pub(crate) fn is_list(path: &str) -> bool {
-    let is_terms = path.starts_with("material.") && path.ends_with(".relaxation.terms");
-    is_terms || matches!(path, "body" | "output.snapshots" | "output.fields" | "output.probe")
+    let is_of_material = path.starts_with("material.")
+        && (path.ends_with(".relaxation.terms") || path.contains(".flow.hardening.table"));
+    is_of_material || matches!(path, "body" | "output.snapshots" | "output.fields" | "output.probe")
 }

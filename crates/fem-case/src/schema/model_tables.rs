@@ -269,25 +269,6 @@ pub(crate) struct LawKey {
     pub range: KeyRange,
 }
 
-/// Returns whether a table may have only one of these two keys, so that an override with one replaces the other.
-pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool {
-    let is_law = |key| LawTable::NAMES.contains(&key);
-    match table {
-        ["model"] => key != other,
-        ["model", "law"] => key != other && is_law(key) && is_law(other),
-        _ => false,
-    }
-}
-
-/// Returns whether a name at this path stands for the table of this name with its defaults.
-pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
-    match path {
-        ["model"] => ModelTable::NAMES.contains(&name),
-        ["model", "law"] => LawTable::NAMES.contains(&name),
-        _ => false,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 use toml::de::Error;
 
 use crate::error::CaseError;
-use crate::schema::model_tables::{LawTable, ModelTable};
+use crate::schema::choices::choice_at;
 use crate::source::document::Document;
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::first_line;
@@ -89,15 +89,6 @@ fn hint(table: &str, key: &str, value: &str) -> Option<String> {
     }
 }
 
-/// Returns the names that stand for tables at a path.
-fn names_at(path: &str) -> Option<&'static [&'static str]> {
-    match path {
-        "model" => Some(ModelTable::NAMES),
-        "model.law" => Some(LawTable::NAMES),
-        _ => None,
-    }
-}
-
 /// Translates an error of deserializing the tree of `document`.
 pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     let message = error.message();
@@ -152,7 +143,9 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         // serde treats a date as a table.
         let is_date =
             found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
-        if let (Some(names), Some(word)) = (names_at(path), found.strip_prefix("string ")) {
+        let choice = choice_at(&path.split('.').collect::<Vec<_>>());
+        let names = choice.map(|choice| choice.names);
+        if let (Some(names), Some(word)) = (names, found.strip_prefix("string ")) {
             let word = word.trim_matches('"');
             let key = path.rsplit('.').next().unwrap_or(path);
             return at(format!("unknown {key} \"{word}\"")).with_help(format!(

@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 use toml::map::{Entry, VacantEntry};
 
-use crate::schema::model_tables::{exclude_each_other, is_choice};
+use crate::schema::choices::choice_at;
 use crate::source::toml_syntax::{first_line, is_bare, shift};
 
 /// The largest number of parts of a key, more than any key of a case has: it limits recursion over the tree.
@@ -227,20 +227,26 @@ pub(crate) fn repair<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<
     }
 }
 
-/// Replaces the names of a model and of a law in a file by their tables.
+/// Replaces the names of choices in a file, such as a model, by their tables.
 pub(crate) fn expand_choices(root: &mut DeTable<'_>) {
-    let Some(model) = root.get_mut("model") else { return };
-    expand_choice(&["model"], model);
-    if let DeValue::Table(model) = model.get_mut()
-        && let Some(law) = model.get_mut("law")
-    {
-        expand_choice(&["model", "law"], law);
+    fn inside<'t>(path: &mut Vec<String>, table: &mut DeTable<'t>) {
+        for (key, value) in table.iter_mut() {
+            path.push(key.get_ref().to_string());
+            expand_choice(&path.iter().map(String::as_str).collect::<Vec<_>>(), value);
+            if let DeValue::Table(table) = value.get_mut() {
+                inside(path, table);
+            }
+            path.pop();
+        }
     }
+    inside(&mut Vec::new(), root);
 }
 
-/// Replaces the name of a model or of a law by its table: `ting` means `{ ting = {} }`.
+/// Replaces the name of a choice by its table: `ting` means `{ ting = {} }`.
 fn expand_choice(path: &[&str], value: &mut Spanned<DeValue<'_>>) {
-    let Some(name) = value.get_ref().as_str().filter(|name| is_choice(path, name)) else { return };
+    let Some(choice) = choice_at(path) else { return };
+    let is_choice = |name: &&str| choice.names.contains(name);
+    let Some(name) = value.get_ref().as_str().filter(is_choice) else { return };
     let (span, name) = (value.span(), name.to_string());
     let mut table = DeTable::new();
     let inner = Spanned::new(span.clone(), DeValue::Table(DeTable::new()));
@@ -255,7 +261,10 @@ fn drop_alternatives(root: &mut DeTable<'_>, path: &[Spanned<String>]) {
     for part in path {
         let key = part.get_ref().as_str();
         let present: Vec<String> = table.iter().map(|(key, _)| key.get_ref().to_string()).collect();
-        for other in present.iter().filter(|other| exclude_each_other(&names, key, other)) {
+        let choice = choice_at(&names);
+        let is_excluded =
+            |other: &&String| choice.as_ref().is_some_and(|c| c.is_between(key, other));
+        for other in present.iter().filter(is_excluded) {
             table.remove(other.as_str());
         }
         names.push(key);

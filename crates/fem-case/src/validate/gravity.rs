@@ -34,7 +34,7 @@ impl Check<'_> {
             Some(table) => {
                 let acceleration = self.weight(table, bodies, gap)?;
                 let bounces = bounces.map_or(defaults::BOUNCES, |bounces| bounces as usize);
-                Ok(Some(Gravity { acceleration, bounces }))
+                Ok(Some(Gravity { acceleration, bounces, spot: table.spot }))
             }
         }
     }

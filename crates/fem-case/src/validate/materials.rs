@@ -1,6 +1,8 @@
 //! `[material.NAME]`: fem-material decides whether a material is possible; here its errors are given a position.
 
-use fem_material::{ElasticModuli, Material, MaterialError, ModuliInput, PronySeries, PronyTerm};
+use fem_material::{
+    ElasticModuli, FlowRule, Material, MaterialError, ModuliInput, PronySeries, PronyTerm,
+};
 
 use super::Check;
 use crate::error::CaseError;
@@ -62,9 +64,18 @@ impl Check<'_> {
             None => material,
         };
         let (strength, energy) = (table.yield_strength.as_ref(), table.surface_energy.as_ref());
+        let reported = self.optional(&at("yield_strength"), strength, Range::POSITIVE)?;
+        let material = match &table.flow {
+            Some(flow) => {
+                let rule = self.flow(&at("flow"), flow, reported, place)?;
+                material.with_flow(rule).map_err(place)?
+            }
+            None => material,
+        };
+        let yield_strength = material.flow().map(FlowRule::yield_strength).or(reported);
         Ok(CheckedMaterial {
             material,
-            yield_strength: self.optional(&at("yield_strength"), strength, Range::POSITIVE)?,
+            yield_strength,
             surface_energy: self.optional(&at("surface_energy"), energy, Range::POSITIVE)?,
         })
     }
@@ -140,8 +151,14 @@ impl Check<'_> {
                 let keys = ["relaxation_time", "decay_rate"].map(|key| at_term(*index, key));
                 (keys.into_iter().filter(is_given).collect(), None)
             }
-            MaterialError::FlowWithRelaxation => (vec![at("flow"), at("relaxation")], None),
-            MaterialError::FlowWithLaw { .. } => (vec![at("hyperelastic"), at("flow")], None),
+            MaterialError::FlowWithRelaxation => (
+                vec![at("flow"), at("relaxation")],
+                Some("a material flows or relaxes: remove one of the two tables"),
+            ),
+            MaterialError::FlowWithLaw { .. } => (
+                vec![at("hyperelastic"), at("flow")],
+                Some("leave hyperelastic out, or remove the table flow"),
+            ),
             MaterialError::HardeningExponent { .. }
             | MaterialError::FlowRows { .. }
             | MaterialError::FlowStrain { .. }

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod bodies;
+pub(crate) mod flow;
 pub(crate) mod gravity;
 mod materials;
 mod models;

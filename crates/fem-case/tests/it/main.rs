@@ -1,6 +1,7 @@
 //! Cases from outside, in one program: linked once, its tests run side by side.
 
 mod faults;
+mod flow;
 mod in_code;
 mod library;
 mod overrides;

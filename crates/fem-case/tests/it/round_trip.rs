@@ -19,6 +19,14 @@ terms = [{ weight = "10 %", decay_rate = "2.7081 1/ms" }, { weight = 0.1, relaxa
 density = 1
 shear_modulus = "1 psi"
 bulk_modulus = 1e-300
+[material.metal]
+density = 8000
+youngs_modulus = 2e11
+poissons_ratio = 0.3
+[material.metal.flow]
+yield_strength = "1 ± 0.1 GPa"
+hardening = { table = [["1 %", "1.2 GPa"], [0.2, 2e9]] }
+rate = { johnson_cook = { c = 0.014, reference_rate = "1 1/s" } }
 [[body]]
 name = "a"
 sphere = { diameter = "0.874 in", mesh = "../meshes/ball.vtu" }
@@ -227,7 +235,7 @@ fn snapshots_are_labels_times_or_a_count() {
     assert_eq!(snapshots("7"), Snapshots::Count(7));
     assert_eq!(snapshots("[]"), Snapshots::Labels(vec![]));
     assert_eq!(snapshots("[\"3 us\", 1e-6, 0, 1e-6]"), Snapshots::Times(vec![0.0, 1e-6, 3e-6]));
-    let all = "[\"mid-compression\", \"maximum\", \"mid-separation\", \"last-contact\"]";
+    let all = "[\"mid-compression\", \"maximum\", \"mid-separation\", \"last-contact\", \"after-separation\"]";
     let labels = SnapshotLabel::WORDS.iter().map(|word| SnapshotLabel::from_word(word).unwrap());
     assert_eq!(snapshots(all), Snapshots::Labels(labels.collect()));
 }

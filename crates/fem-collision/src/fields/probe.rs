@@ -155,6 +155,7 @@ impl Probes {
                 velocity: vec![[0.0; 2]; n],
                 effective: Vec::new(),
                 stress: vec![[0.0; 4]; n],
+                ..BodyFields::default()
             }),
         };
         for (k, (side, probe)) in

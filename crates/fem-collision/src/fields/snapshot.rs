@@ -13,6 +13,8 @@ pub enum SnapshotInstant {
     MidSeparation,
     /// The last step with a contact force.
     LastContact,
+    /// Bodies that flowed plastically, unloaded: the mean over the time after the contact, in which vibrations cancel.
+    AfterSeparation,
     /// The last valid state of a run that failed, with a small energy residual.
     #[serde(rename = "LastSound")]
     LastValid,
@@ -20,7 +22,16 @@ pub enum SnapshotInstant {
 
 impl SnapshotInstant {
     /// The instants that can be requested, in the order of time.
-    pub const ALL: [Self; 4] =
+    pub const ALL: [Self; 5] = [
+        Self::MidCompression,
+        Self::Maximum,
+        Self::MidSeparation,
+        Self::LastContact,
+        Self::AfterSeparation,
+    ];
+
+    /// The instants of every contact, in the order of time.
+    pub const OF_CONTACT: [Self; 4] =
         [Self::MidCompression, Self::Maximum, Self::MidSeparation, Self::LastContact];
 
     /// Returns the name in cases and file names.
@@ -30,6 +41,7 @@ impl SnapshotInstant {
             Self::Maximum => "maximum",
             Self::MidSeparation => "mid-separation",
             Self::LastContact => "last-contact",
+            Self::AfterSeparation => "after-separation",
             Self::LastValid => "last-sound",
         }
     }
@@ -79,6 +91,9 @@ pub struct BodyFields {
     /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of each element of a body at finite strain, tension
     /// positive, Pa; empty if it follows from the fields above.
     pub stress: Vec<[f64; 4]>,
+    /// Equivalent plastic strain and plastic work per undeformed volume (J/m³) of each element of a body that flows; empty
+    /// for other bodies.
+    pub plastic: Vec<[f64; 2]>,
 }
 
 /// The contact at one distance from the axis.

@@ -91,6 +91,8 @@ pub struct Collision {
     pub history: Vec<HistoryRow>,
     /// Fields of finite elements, in the order of time.
     pub snapshots: Vec<Snapshot>,
+    /// Bodies that flowed plastically, after the separation ([`SnapshotInstant::AfterSeparation`]).
+    pub unloaded: Option<Snapshot>,
     /// Fields at the requested probes in the order of time, one entry per probe
     /// ([`Probes::reduce`](crate::Probes::reduce)).
     pub probes: Vec<Snapshot>,
@@ -150,6 +152,8 @@ pub struct BodyResult {
     pub velocity_after: Option<f64>,
     /// Energy of the vibrations that are left, J; for a half-space that of the outgoing waves.
     pub vibration_energy: Option<f64>,
+    /// Elastic energy of the residual stress that plastic flow leaves, J.
+    pub locked_in: Option<f64>,
 }
 
 impl Collision {
@@ -203,6 +207,7 @@ impl Collision {
             rest: None,
             history: Vec::new(),
             snapshots: Vec::new(),
+            unloaded: None,
             probes: Vec::new(),
             warnings: Vec::new(),
         }
@@ -242,6 +247,7 @@ impl Collision {
             history: self.history.into_iter().map(row).collect(),
             snapshots: self.snapshots.into_iter().map(&fields).collect(),
             probes: self.probes.into_iter().map(&fields).collect(),
+            unloaded: self.unloaded.map(&fields),
             ..self
         }
     }

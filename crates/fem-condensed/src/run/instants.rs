@@ -63,7 +63,7 @@ pub(crate) fn choose(
                 .max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach))
                 .unwrap_or(0);
             let half = 0.5 * trace.get(top).map_or(0.0, |step| step.approach);
-            let wanted = SnapshotInstant::ALL.iter().filter(|label| labels.contains(label));
+            let wanted = SnapshotInstant::OF_CONTACT.iter().filter(|label| labels.contains(label));
             let mut chosen = Vec::new();
             for label in wanted {
                 let found = match label {
@@ -73,7 +73,7 @@ pub(crate) fn choose(
                     SnapshotInstant::LastContact => {
                         (*ending != Ending::Together).then_some(TraceInstant::at(last))
                     }
-                    SnapshotInstant::LastValid => None,
+                    SnapshotInstant::AfterSeparation | SnapshotInstant::LastValid => None,
                 };
                 match found {
                     Some(instant) => chosen.push((instant, Some(*label))),

@@ -24,7 +24,7 @@ fn pair(scene: &Scene, vibration_modes: usize, has_springs: bool) -> CondensedPa
 
 /// With so many rows, and fields at every named instant.
 fn collide(pair: &CondensedPair, frame: &Frame, history_rows: usize) -> Collision {
-    let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    let snapshots = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
     let request = OutputRequest { history_rows, snapshots, ..OutputRequest::quantities() };
     let n_steps = CondensedPair::N_STEPS;
     pair.collide(frame, pair.relaxations(), n_steps, &request, &mut ()).unwrap()
@@ -59,7 +59,7 @@ fn quantities_are_those_of_a_run_with_a_history() {
             assert!(none.force_scatter.is_some_and(|scatter| scatter.is_finite()), "{name}");
             // Bodies that stay together have neither mid-separation nor last contact.
             let labels: Vec<_> = none.snapshots.iter().filter_map(|one| one.label).collect();
-            assert_eq!(labels, SnapshotInstant::ALL[..if k == 3 { 2 } else { 4 }], "{name}");
+            assert_eq!(labels, SnapshotInstant::OF_CONTACT[..if k == 3 { 2 } else { 4 }], "{name}");
             let missing = did_not_occur(SnapshotInstant::LastContact);
             assert_eq!(none.warnings.contains(&missing), k == 3, "{name}");
         }

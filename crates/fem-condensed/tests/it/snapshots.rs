@@ -39,7 +39,8 @@ fn snapshots_agree_with_the_rigid_body_motion() {
         let pair = CondensedPair::new(scene.inputs(8.0), settings).unwrap();
         let approach = Approach::new([0.7, 0.2], 1e-6).unwrap();
         let frame = Frame { approach, ..pair.frame(0.5).unwrap() };
-        let run = drawn(&pair, frame, SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec()), 200);
+        let run =
+            drawn(&pair, frame, SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec()), 200);
         let (snapshots, missing) = (&run.snapshots, &run.warnings);
         assert!(missing.is_empty() && snapshots.len() == 4, "{missing:?}");
         assert!(snapshots.windows(2).all(|two| two[0].time < two[1].time));

@@ -236,6 +236,11 @@ impl Body {
         self.stress.as_ref()?.part.strain_measure().finite()
     }
 
+    /// Returns whether it flows plastically.
+    pub fn flows(&self) -> bool {
+        self.material().is_some_and(|material| material.flow().is_some())
+    }
+
     /// Returns the number of its elements at finite strain.
     pub fn n_finite_elements(&self) -> usize {
         self.finite_strain().map_or(0, |stress| stress.n_elements())
@@ -343,8 +348,12 @@ impl Body {
             (Some(placed), Some(stress)) => {
                 let history = placed.of(&state.history);
                 stress.update_cauchy_stress(&state.displacement, history, &mut fields.stress);
+                stress.update_plastic(history, &mut fields.plastic);
             }
-            _ => fields.stress.clear(),
+            _ => {
+                fields.stress.clear();
+                fields.plastic.clear();
+            }
         }
     }
 

@@ -13,9 +13,19 @@ use crate::model::ExplicitBodies;
 /// Returns the collision of a run with its ending.
 pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> Collision {
     let velocity_after = velocities_after(model, &run, &ending);
-    let bodies = body_results(model, &run, &ending, velocity_after);
+    let mut bodies = body_results(model, &run, &ending, velocity_after);
     let warnings_of_run = run_warnings(model, &run, &ending);
-    let RunState { state, log, ledger, sampled, history, recorder, probes, last_valid, .. } = run;
+    let RunState { mut state, log, ledger, sampled, history, recorder, probes, .. } = run;
+    let (last_valid, unloaded) = (run.last_valid, run.unloaded);
+    let unloaded = unloaded.filter(|_| ending == Ending::Parted).and_then(|unloaded| {
+        let (snapshot, locked_in) = unloaded.finish(model, &mut state, velocity_after?)?;
+        for (side, body) in
+            bodies.iter_mut().enumerate().filter(|(side, _)| model.bodies()[*side].flows())
+        {
+            body.locked_in = Some(locked_in[side]);
+        }
+        Some(snapshot)
+    });
     let (mut snapshots, mut warnings) = recorder.finish();
     if matches!(&ending, Ending::Stopped(stop) if !matches!(stop, Stop::Interrupted { .. })) {
         last_valid.put_among(&mut snapshots);
@@ -59,6 +69,7 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> 
         element_updates: Some(state.step.saturating_mul(model.n_elements() as u64)),
         history: history.map_or_else(Vec::new, History::into_rows),
         snapshots,
+        unloaded,
         probes,
         warnings,
         ..Collision::empty(*model.approach(), ending)
@@ -99,6 +110,7 @@ fn body_results(
             moved_mass: is_moved.then(|| body.moved_mass()),
             velocity_after: velocity_after.map(|both| both[side]),
             vibration_energy: vibration_energy.filter(|_| is_moved).map(|both| both[side]),
+            locked_in: None,
         }
     })
 }
@@ -126,11 +138,13 @@ fn run_warnings(model: &ExplicitBodies, run: &RunState, ending: &Ending) -> Vec<
 const MACH_OF_STEEP_FRONTS: f64 = 0.02;
 
 /// Returns the element size (m) from which the pressure counts as a peak, as soon as the contact spans two of them;
-/// infinite where first touch makes a steep front.
+/// infinite where first touch makes a steep front. A body that flows carries its largest pressure throughout, and an early
+/// peak of it is noise.
 fn resolving_size(model: &ExplicitBodies) -> f64 {
     let mut materials = model.bodies().iter().filter_map(Body::material);
     let is_slow = |material: &Material| {
-        model.approach().speed() < MACH_OF_STEEP_FRONTS * material.shear_wave_speed()
+        let is_slow = model.approach().speed() < MACH_OF_STEEP_FRONTS * material.shear_wave_speed();
+        is_slow && material.flow().is_none()
     };
     match materials.all(is_slow) {
         true => longest_at_pole(model.bodies().each_ref().map(Body::mesh)),

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::contact_log::ContactLog;
 use super::material_stability::MaterialStability;
 use super::sampled_history::SampledHistory;
+use super::unloaded::UnloadedState;
+use crate::body::Body;
 use crate::energy::Ledger;
 use crate::model::{ExplicitBodies, fingerprint};
 use crate::snapshots::{LastValidState, Recorder, probes_fit};
@@ -26,6 +28,8 @@ pub struct RunState {
     /// Empty once the run has come to its end.
     pub(crate) last_valid: LastValidState,
     pub(crate) stability: MaterialStability,
+    /// Present if a body flows plastically.
+    pub(crate) unloaded: Option<UnloadedState>,
     /// Present once the run has ended.
     pub(crate) ending: Option<Ending>,
     /// Estimates by closed forms.
@@ -60,6 +64,7 @@ impl RunState {
             probes: Vec::new(),
             last_valid: LastValidState::new(request),
             stability: MaterialStability::default(),
+            unloaded: model.bodies().iter().any(Body::flows).then(UnloadedState::default),
             ending: None,
             expected,
             request: request.clone(),
@@ -132,5 +137,7 @@ impl RunState {
             && probes_fit(&self.probes, &self.request, state.time)
             && self.last_valid.fits(model, state, &self.request)
             && self.stability.fits(model, state)
+            && self.unloaded.is_some() == model.bodies().iter().any(Body::flows)
+            && self.unloaded.as_ref().is_none_or(|unloaded| unloaded.fits(model))
     }
 }

@@ -86,6 +86,7 @@ fn in_free_flight(model: &ExplicitBodies, time: f64) -> Snapshot {
             velocity: vec![[0.0, body.velocity]; n],
             effective: vec![displacement; n_effective],
             stress: vec![[0.0; 4]; n_stresses],
+            plastic: vec![[0.0; 2]; if body.flows() { body.n_elements() } else { 0 }],
         }
     });
     let approach = model.approach().speed() * time - model.approach().gap();
@@ -102,6 +103,7 @@ fn fits(snapshot: &Snapshot, model: &ExplicitBodies) -> bool {
             && fields.velocity.len() == n
             && fields.effective.len() == n_effective
             && fields.stress.len() == n_stresses
+            && fields.plastic.len() == if body.flows() { body.n_elements() } else { 0 }
     })
 }
 

@@ -220,7 +220,7 @@ impl Recorder {
                 });
                 let mut found = Vec::new();
                 let all = [mid_compression, self.maximum, self.mid_separation, self.last_contact];
-                for (label, snapshot) in SnapshotInstant::ALL.into_iter().zip(all) {
+                for (label, snapshot) in SnapshotInstant::OF_CONTACT.into_iter().zip(all) {
                     if !labels.contains(&label) {
                         continue;
                     }

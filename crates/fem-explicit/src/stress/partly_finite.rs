@@ -226,6 +226,22 @@ impl FiniteStrainStress for PartlyFinite {
             stress[*number] = small_strain.stress(geometry, quad);
         }
     }
+
+    /// Elements at small strain do not flow.
+    fn update_plastic(&self, history: &[NodalField], plastic: &mut Vec<[f64; 2]>) {
+        self.near.update_plastic(self.split(history).0, plastic);
+        if plastic.is_empty() {
+            return;
+        }
+        plastic.resize(self.near_elements.len() + self.far_elements.len(), [0.0; 2]);
+        // In descending order no entry is overwritten before it has been moved.
+        for (k, &number) in self.near_elements.iter().enumerate().rev() {
+            plastic[number] = plastic[k];
+        }
+        for element in &self.far_elements {
+            plastic[element.number] = [0.0; 2];
+        }
+    }
 }
 
 #[cfg(test)]

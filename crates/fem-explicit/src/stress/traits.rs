@@ -145,4 +145,8 @@ pub(crate) trait FiniteStrainStress: Stress {
         history: &[NodalField],
         stress: &mut Vec<[f64; 4]>,
     );
+
+    /// Overwrites `plastic` with the equivalent plastic strain and the plastic work per undeformed volume (J/m³) of each
+    /// element; it is empty for a stress without flow.
+    fn update_plastic(&self, history: &[NodalField], plastic: &mut Vec<[f64; 2]>);
 }

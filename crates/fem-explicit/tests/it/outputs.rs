@@ -43,14 +43,14 @@ fn assert_history(run: &Collision) {
 #[test]
 fn labelled_snapshots_are_the_named_instants() {
     for relaxation in [None, Some(ActsOn::All)] {
-        let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+        let snapshots = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
         let pair = Pair { snapshots, relaxation, ..Pair::default() };
         let model = pair.model();
         let run = pair.run_model(&model);
         let found = quantities(&run);
         assert_history(&run);
         let labels: Vec<_> = run.snapshots.iter().map(|s| s.label.unwrap()).collect();
-        assert_eq!(labels, SnapshotInstant::ALL);
+        assert_eq!(labels, SnapshotInstant::OF_CONTACT);
         let [compression, maximum, separation, last] = &run.snapshots[..] else { panic!() };
         for half in [compression, separation] {
             // The promise; 1.5 % is the ladder's, a step's 0.03 %.
@@ -103,7 +103,7 @@ fn output_does_not_disturb_the_run() {
         assert_eq!(run.history, plain.history);
         run
     };
-    run(SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec()));
+    run(SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec()));
     let counted = run(SnapshotRequest::Count(6));
     assert!(counted.snapshots.len() == 6 && counted.warnings.is_empty());
     for (k, snapshot) in counted.snapshots.iter().enumerate() {

@@ -55,6 +55,7 @@ class Result:
     momentum_residual_relative: float | None
     bounces: list[dict[str, Any]] | None
     adhesion: dict[str, Any] | None
+    dent: list[dict[str, Any]] | None
     rest: dict[str, Any] | None
     bodies: list[dict[str, Any]]
     time_step_s: float | None
@@ -96,7 +97,8 @@ class Result:
         return [Snapshot(*parts) for parts in self._outcome.snapshots()]
 
     def snapshot(self, label: str) -> Snapshot:
-        """Returns the snapshot with a label: ``mid-compression``, ``maximum``, ``mid-separation`` or ``last-contact``.
+        """Returns the snapshot with a label: ``mid-compression``, ``maximum``, ``mid-separation``, ``last-contact``
+        or, of bodies that flowed, ``after-separation``.
 
         Raises:
             KeyError: there is no snapshot with this label.

@@ -8,6 +8,7 @@ mod cards;
 mod case_keys;
 mod comparison;
 mod contours;
+mod dent_chart;
 mod effects;
 mod hertz_curves;
 mod history_charts;
@@ -68,6 +69,8 @@ struct Page<'a> {
     off: Vec<EffectEntry>,
     change_heads: [&'static str; 3],
     profile: String,
+    dents: Vec<String>,
+    dent_sizes: Vec<String>,
     case: Vec<(String, String)>,
     cite: Vec<String>,
 }
@@ -90,6 +93,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
     ];
     let charts = charts.into_iter().chain(bounce_charts(result).into_iter().map(Some));
     let [on, numerical, lacking, off] = effects::effects(result);
+    let (dents, dent_sizes): (Vec<_>, Vec<_>) = dent_chart::dent_charts(result).into_iter().unzip();
     let (measured, measurements) = measured_chart::measured_chart(result).unzip();
     let page = Page {
         title: result.title(),
@@ -115,6 +119,8 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         off,
         change_heads: effects::CHANGE_HEADS,
         profile: drawn([pressure_chart(of_one)]).pop().unwrap_or_default(),
+        dents: drawn(dents),
+        dent_sizes,
         case: result.summary.get("case").map(case_keys::keys).unwrap_or_default(),
         cite: vec![citation(result)],
     };

@@ -78,6 +78,7 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
 pub fn instant_name(label: &str) -> &str {
     match label {
         "last-contact" => "last contact",
+        "after-separation" => "after separation",
         "last-sound" => "last valid state",
         "even" | "time" => "snapshot",
         other => other,

@@ -48,6 +48,8 @@ impl ReportError {
 pub struct StoredResult {
     /// The name of its folder.
     pub name: String,
+    /// The folder of the result, as it was given.
+    pub folder: PathBuf,
     /// The content of `summary.json`.
     pub summary: Value,
     /// The columns of `history.csv`; empty without that file.
@@ -145,6 +147,7 @@ impl StoredResult {
         let name = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy();
         Ok(Self {
             name: name.into_owned(),
+            folder: folder.to_path_buf(),
             history,
             contacts: contacts_of(&contacts),
             frames: frames_of(folder, &summary),
@@ -309,7 +312,7 @@ impl Columns {
         while file.read_record(&mut row).ok()? {
             for (k, field) in row.iter().enumerate() {
                 numbers[k].push(field.parse().unwrap_or(f64::NAN));
-                if names[k] == "label" {
+                if matches!(names[k].as_str(), "label" | "body") {
                     texts[k].push(field.to_string());
                 }
             }
@@ -331,7 +334,7 @@ impl Columns {
         self.numbers.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the texts of the column `label`.
+    /// Returns the texts of the column `label` or `body`.
     pub fn texts(&self, name: &str) -> &[String] {
         self.texts.get(name).map_or(&[], Vec::as_slice)
     }

@@ -185,7 +185,7 @@ impl Side {
             Kept::Quantities => OutputRequest::quantities(),
             Kept::History => OutputRequest::history(),
             Kept::Snapshots | Kept::Stress => {
-                let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+                let snapshots = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
                 OutputRequest { snapshots, ..OutputRequest::quantities() }
             }
         }

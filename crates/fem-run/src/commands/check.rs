@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::Left;
 use fem::effects::percent;
-use fem::{Cost, ErrorEstimator, RefinedBeforeRun, Simulation};
+use fem::{Cost, ErrorEstimator, RefinedBeforeRun, Simulation, divided_radius};
 use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::{number, show};
@@ -170,8 +170,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     let open = |key: &str| !simulation.case().gives(key);
     let mut rows = Vec::new();
     if plan.makes_meshes && open("mesh.contact_element_size") {
-        let across =
-            simulation.setup().estimate.hertz.max_contact_radius() / plan.contact_element_size;
+        let across = divided_radius(&simulation.setup().estimate) / plan.contact_element_size;
         let staggered =
             if plan.finer_body.is_some() { ", meshes offset by half an element" } else { "" };
         let size = show(plan.contact_element_size, "m");

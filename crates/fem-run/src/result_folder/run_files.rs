@@ -8,8 +8,8 @@ use std::io::BufWriter;
 use std::path::Path;
 
 use fem::results::{
-    CONTACT_FILE, HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, contact_csv, has_contact,
-    history_csv, probes_csv, write_snapshots,
+    CONTACT_FILE, DENT_FILE, HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, contact_csv,
+    dent_csv, has_contact, history_csv, probes_csv, write_snapshots,
 };
 use fem::{ComputedCollision, Identity, Simulation};
 use fem_case::Keep;
@@ -163,6 +163,9 @@ fn write_tables(
         write_table(folder, PROBES_FILE, summary, |file| {
             Ok(probes_csv(file, probes, &collision.probes)?)
         })?;
+    }
+    if collision.unloaded.is_some() {
+        write_table(folder, DENT_FILE, summary, |file| Ok(dent_csv(file, simulation, collision)?))?;
     }
     if has_contact(collision) {
         write_table(folder, CONTACT_FILE, summary, |file| {

@@ -47,11 +47,14 @@ fn energies_are_those_of_the_accounts(page: &Page, place: &Place) {
     let named = named_in_row(page, "energy");
     let accounts = Account::all().map(energy_key);
     let of_table = ["initial_j".to_string()].into_iter().chain(accounts);
-    let of_table: Vec<_> =
-        of_table.chain(["residual_j", "residual_relative"].map(String::from)).collect();
+    let of_table: Vec<_> = of_table
+        .chain(["locked_in_j", "residual_j", "residual_relative"].map(String::from))
+        .collect();
     assert_eq!(named, of_table);
     let is_optional = |key: &String| {
-        Account::all().any(|one| energy_key(one) == *key && one.shown() == ShownIn::WhereFilled)
+        key == "locked_in_j"
+            || Account::all()
+                .any(|one| energy_key(one) == *key && one.shown() == ShownIn::WhereFilled)
     };
     let summary = place.json("runs/case/summary.json");
     let written: Vec<&String> = summary["energy"].as_object().unwrap().keys().collect();

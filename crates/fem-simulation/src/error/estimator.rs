@@ -3,7 +3,8 @@
 use fem_collision::{Collision, QuantityOfInterest};
 
 use super::calibration::{
-    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, MOVED_MASS, SAMPLED_PER_TOLERANCE,
+    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, FLOW, MOVED_MASS,
+    SAMPLED_PER_TOLERANCE,
 };
 use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, moved_share};
@@ -96,6 +97,10 @@ impl ErrorEstimator {
             (true, false, true) => None,
             (true, false, false) => Some((self.runs.mesh_file(subject, None, across)?, EXPLICIT)),
             (true, true, false) => Some((self.runs.condensed(subject)?.0, EXPLICIT)),
+            // Elastic condensed bodies show nothing of the error of flow.
+            (true, true, true) if plan.estimate.flow.is_some() => {
+                Some((self.runs.coarser(subject, values)?, FLOW))
+            }
             (true, true, true) => {
                 let own = self.runs.coarser(subject, values)?;
                 let condensed = self.runs.condensed(subject).map(|(errors, _)| errors);

@@ -2,17 +2,19 @@
 
 pub(crate) mod approach;
 pub(crate) mod effective_modulus;
+mod plastic_flow;
 pub(crate) mod quasi_static;
 pub(crate) mod semi_infinite_partner;
 pub(crate) mod viscous_flow;
 
 use fem_case::{Body, Scene, Shape};
 use fem_collision::Expectation;
-use fem_laws::{HertzImpact, LawError, Pair, Partner};
+use fem_laws::{HertzImpact, ImpactQuantities, LawError, Pair, Partner};
 use fem_material::engineering::number;
 use fem_material::{ElasticModuli, Material};
 
 use crate::estimate::effective_modulus::EffectiveModuli;
+use crate::estimate::plastic_flow::flowing_impact;
 use crate::rejection::Rejection;
 
 /// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
@@ -25,11 +27,13 @@ const LARGE_LOSS_OF_MODULI: f64 = 0.5;
 pub struct Estimate {
     /// Hertz' impact with instantaneous moduli.
     pub hertz: HertzImpact,
-    /// Contact time with the moduli relaxed to the middle of the contact, s.
+    /// The impact of a body that flows plastically, by closed forms; `None` if none does.
+    pub flow: Option<ImpactQuantities>,
+    /// Contact time with plastic flow, or with the moduli relaxed to the middle of the contact, s.
     pub contact_time: f64,
-    /// Largest approach with the moduli relaxed to the middle of the contact, m.
+    /// Largest approach with plastic flow, or with the moduli relaxed to the middle of the contact, m.
     pub approach: f64,
-    /// Largest contact radius with the moduli relaxed to the middle of the contact, m.
+    /// Largest contact radius with plastic flow, or with the moduli relaxed to the middle of the contact, m.
     pub contact_radius: f64,
     /// Smallest radius of a sphere of the scene, m.
     pub smallest_radius: f64,
@@ -119,7 +123,9 @@ impl Estimate {
         }
         let spheres = || scene.bodies().iter().filter_map(Body::diameter);
         let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
-        let contact_radius = relaxed_impact.max_contact_radius();
+        let flow = flowing_impact(scene, &hertz);
+        let sizes = flow.unwrap_or_else(|| ImpactQuantities::from(&relaxed_impact));
+        let contact_radius = sizes.max_contact_radius;
         let materials = || scene.bodies().iter().filter_map(Body::material);
         let contact_time = relaxed_impact.contact_time();
         let relaxed = materials()
@@ -136,8 +142,9 @@ impl Estimate {
         let twin = effective.elastic_equivalent(scene);
         Ok(Self {
             hertz,
-            contact_time,
-            approach: relaxed_impact.max_approach(),
+            flow,
+            contact_time: sizes.contact_time,
+            approach: sizes.max_approach,
             contact_radius,
             smallest_radius,
             strain: contact_radius / hertz.pair().effective_radius(),

@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, PartnerWaves, Support,
-    Vibration, Viscoelasticity, is_needed,
+    EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, PartnerWaves, PlasticFlow,
+    Support, Vibration, Viscoelasticity, is_needed,
 };
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
@@ -170,8 +170,8 @@ const JUDGED_QUANTITIES: [QuantityOfInterest; 4] = [
 ];
 
 /// The effects by which models differ. Effects that no model has decide nothing; the plan warns of them.
-const DECIDING_EFFECTS: [&dyn Effect; 5] =
-    [&Viscoelasticity, &FiniteSizeEffect, &FiniteStrain, &PartnerWaves, &Vibration];
+const DECIDING_EFFECTS: [&dyn Effect; 6] =
+    [&Viscoelasticity, &FiniteSizeEffect, &FiniteStrain, &PlasticFlow, &PartnerWaves, &Vibration];
 
 /// The candidates, from the cheapest to the most expensive.
 const CANDIDATES: [Candidate; 6] = [
@@ -254,7 +254,9 @@ impl Candidate {
             // Small strain is no difference between models where elements use it, too.
             let is_small =
                 effect.name() == FiniteStrain::NAME && !FiniteStrain::is_on(scene, estimate);
-            if is_small || !(lacks || is_term) {
+            let is_in_no_model = effect.name() == PlasticFlow::NAME
+                && PlasticFlow::of_elements(scene, estimate) == Support::Lacks;
+            if is_small || is_in_no_model || !(lacks || is_term) {
                 continue;
             }
             let Some(change) = error_without(effect, scene, estimate) else {

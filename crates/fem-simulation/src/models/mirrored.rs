@@ -192,6 +192,7 @@ impl MirroredFrame {
             velocity: moved(&lower.velocity, sign, self.velocity),
             effective: moved(&lower.effective, sign, 0.0),
             stress: lower.stress.iter().map(|&[rr, yy, tt, ry]| [rr, yy, tt, sign * ry]).collect(),
+            plastic: lower.plastic.clone(),
         };
         let carried = [half.carried[0] + shift, shift - half.carried[0]];
         // The plane does not move along r, and both bodies move alike.

@@ -22,6 +22,8 @@ use fem_collision::{
     far_radius_of_waves,
 };
 
+use fem_laws::ImpactQuantities;
+
 use crate::effects::percent;
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
@@ -37,6 +39,8 @@ const CANDIDATES_OVER_CONTACT: f64 = 1.5;
 /// Default penalty stiffness per area times element size, over E*. In the glass pair with eight elements across the
 /// contact, 10 changes the contact time by 0.14 %, 20 by 0.02 %, and 40 adds noise to the force.
 const PENALTY_OVER_MODULUS: f64 = 20.0;
+/// Expected restitution above which the approach returns to half of its maximum.
+const RESTITUTION_OF_SHALLOW_DENTS: f64 = 0.8;
 /// Element sizes of condensed bodies per octave; sizes are rounded down by at most a ninth.
 const SIZES_PER_OCTAVE: f64 = 8.0;
 /// Relative rounding of a length that was written and read.
@@ -172,7 +176,7 @@ impl Plan {
             contact_stiffness,
             step_factor: scene.step_factor().unwrap_or(defaults::STEP_FACTOR),
             mass_scaling: scene.mass_scaling().unwrap_or(rule.mass_scaling),
-            snapshots: request(scene.snapshots()),
+            snapshots: request(scene.snapshots(), estimate.flow),
             max_elements: limits.elements.unwrap_or(defaults::MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(defaults::MAX_ELEMENT_UPDATES),
             max_contact_times: viscous_flow::max_contact_times(scene, &estimate),
@@ -246,10 +250,12 @@ impl Plan {
             step_factor: Some(self.step_factor.into()),
             mass_scaling: Some(self.mass_scaling.into()),
         });
-        file.output.get_or_insert_default().snapshots.get_or_insert_with(|| {
-            let text = |label: SnapshotInstant| Quantity::from_text(label.name());
-            SnapshotsValue::List(SnapshotInstant::ALL.into_iter().map(text).collect())
-        });
+        if let SnapshotRequest::Labels(labels) = &self.snapshots {
+            file.output.get_or_insert_default().snapshots.get_or_insert_with(|| {
+                let text = |label: &SnapshotInstant| Quantity::from_text(label.name());
+                SnapshotsValue::List(labels.iter().map(text).collect())
+            });
+        }
         file.effects = Some(file.effects.unwrap_or_default().filled());
         file.model = Some(ModelTable { fem: Some(EmptyTable {}), ..ModelTable::default() });
         file.limits = Some(LimitsTable {
@@ -287,10 +293,14 @@ pub fn divided_radius(estimate: &Estimate) -> f64 {
     radius_of_elements(estimate).min(0.5 * estimate.smallest_radius)
 }
 
-/// Returns the contact radius (m) that sizes the elements, without the limit by the body. It is the elastic radius if
+/// Returns the contact radius (m) that sizes the elements, without the limit by the body: that of flow in a body that flows
+/// plastically. Otherwise it is the elastic radius if
 /// relaxation widens the contact at most twofold, the radius with fully relaxed moduli (an upper bound) if it widens the
 /// contact fourfold or more, and a quadratic blend in between.
 fn radius_of_elements(estimate: &Estimate) -> f64 {
+    if estimate.flow.is_some() {
+        return estimate.contact_radius;
+    }
     let elastic = estimate.hertz.max_contact_radius();
     let wider = 0.5 * estimate.contact_radius / elastic;
     if wider <= 1.0 { elastic } else { (elastic * wider * wider).min(estimate.contact_radius) }
@@ -318,9 +328,21 @@ fn far_radius(
     }))
 }
 
-fn request(snapshots: Option<&Snapshots>) -> SnapshotRequest {
+/// Returns the requested snapshots. By default they are those of the contact and, of bodies that flow, the unloaded bodies. A
+/// dent that is deeper than half of the approach has no middle of the separation.
+fn request(snapshots: Option<&Snapshots>, flow: Option<ImpactQuantities>) -> SnapshotRequest {
     match snapshots {
-        None => SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec()),
+        None => {
+            let is_default = |label: &SnapshotInstant| match label {
+                SnapshotInstant::AfterSeparation => flow.is_some(),
+                SnapshotInstant::MidSeparation => {
+                    flow.is_none_or(|flow| flow.restitution > RESTITUTION_OF_SHALLOW_DENTS)
+                }
+                _ => true,
+            };
+            let labels = SnapshotInstant::ALL.into_iter().filter(is_default);
+            SnapshotRequest::Labels(labels.collect())
+        }
         Some(Snapshots::Labels(labels)) => SnapshotRequest::Labels(
             labels
                 .iter()

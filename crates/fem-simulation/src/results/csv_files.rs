@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use fem_case::Scene;
 use fem_collision::{Account, Collision, ContactProfile, HistoryRow, ProbeRequest, Snapshot};
 
+use super::dent::dents;
 use super::energy::{energy_key, in_history};
 use super::snapshots::shown;
 use crate::simulation::Simulation;
@@ -129,6 +130,25 @@ fn n_shown(contact: &ContactProfile) -> usize {
         .filter(|(_, place)| place.is_node && place.radius > contact.radius);
     let last = beyond.take(NODES_BEYOND).last();
     near.max(last.map_or(0, |(k, _)| k + 1))
+}
+
+/// The file name of the profiles of dents.
+pub const DENT_FILE: &str = "dent.csv";
+
+/// Writes the profile of each dent from the axis outward, one row per node: distance from the axis after the collision, and y
+/// of the surface there before and after it, measured from the mass centre; the pole was at 0.
+///
+/// # Errors
+/// `to` cannot be written to.
+pub fn dent_csv(to: impl Write, simulation: &Simulation, collision: &Collision) -> csv::Result<()> {
+    let mut file = csv::Writer::from_writer(to);
+    file.write_record(["body", "r_m", "y_before_m", "y_after_m"])?;
+    for (_, dent, profile) in dents(simulation, collision) {
+        for row in profile {
+            file.serialize((&dent.body, row))?;
+        }
+    }
+    Ok(file.flush()?)
 }
 
 /// The file name of the probes.

@@ -11,6 +11,9 @@ pub struct Energy {
     /// Energy of each account, under [`energy_key`].
     #[serde(flatten)]
     pub accounts: Accounts,
+    /// Elastic energy of the residual stress of bodies that flowed, a part of the strain energy; without it none flowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub locked_in_j: Option<f64>,
     /// Energy residual: stored + dissipated − initial − external work.
     pub residual_j: Option<f64>,
     /// Largest residual of the run over the initial kinetic energy in the centre-of-mass frame.

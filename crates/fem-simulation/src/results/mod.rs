@@ -10,6 +10,7 @@ mod uncertainty;
 
 #[cfg(feature = "files")]
 mod csv_files;
+mod dent;
 mod energy;
 #[cfg(feature = "files")]
 mod snapshots;
@@ -20,8 +21,10 @@ pub use crate::error::ElasticNull;
 pub use crate::simulation::identity::PROGRAM;
 #[cfg(feature = "files")]
 pub use csv_files::{
-    CONTACT_FILE, HISTORY_FILE, PROBES_FILE, contact_csv, has_contact, history_csv, probes_csv,
+    CONTACT_FILE, DENT_FILE, HISTORY_FILE, PROBES_FILE, contact_csv, dent_csv, has_contact,
+    history_csv, probes_csv,
 };
+pub use dent::{DentProfile, DentSummary, dents};
 pub use energy::{Accounts, Energy, energy_key};
 pub use measured::MeasuredSummary;
 #[cfg(feature = "files")]

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use fem_case::Field;
 use fem_collision::{
-    Collision, Snapshot, SnapshotInstant, SnapshotRequest, StressRecovery, invariants,
+    Collision, Snapshot, SnapshotInstant, SnapshotRequest, StressRecovery, did_not_occur,
+    invariants,
 };
 use fem_material::Material;
 use fem_mesh::SphereMesh;
@@ -135,6 +136,8 @@ fn write_snapshot(
 ) -> Result<(), fem_vtk::Error> {
     let (mut displacement, mut velocity, mut pressure) = (Vec::new(), Vec::new(), Vec::new());
     let (mut cells, mut points) = (GridStress::default(), GridStress::default());
+    let (mut plastic_strain, mut plastic_work) = (Vec::new(), Vec::new());
+    let flows = snapshot.bodies.iter().any(|fields| !fields.plastic.is_empty());
     for ((side, mesh, material), recovery) in drawing.meshed().zip(&scene.recoveries) {
         let fields = &snapshot.bodies[side];
         displacement.extend(pad_vectors(snapshot.displacement(side).as_flattened()));
@@ -144,6 +147,12 @@ fn write_snapshot(
         let stress = recovery.stress(material, fields);
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
+        let none = [0.0; 2];
+        for element in 0..mesh.quads().len() {
+            let [strain, work] = *fields.plastic.get(element).unwrap_or(&none);
+            plastic_strain.push(strain as f32);
+            plastic_work.push(work as f32);
+        }
     }
     let mut writer = VtuWriter::on(&scene.grid).time(snapshot.time);
     let wants = |field: Field| scene.case.wants_field(field);
@@ -159,6 +168,13 @@ fn write_snapshot(
     }
     if wants(Field::ContactPressure) {
         writer = writer.point_data(Field::ContactPressure.word(), 1, &pressure);
+    }
+    for (field, values) in
+        [(Field::PlasticStrain, &plastic_strain), (Field::PlasticWork, &plastic_work)]
+    {
+        if flows && wants(field) {
+            writer = writer.cell_data(field.word(), 1, values);
+        }
     }
     writer
         .point_data("body", 1, &scene.arrays.body_of_points)
@@ -229,7 +245,13 @@ pub(super) struct Shown<'a> {
 pub(super) fn shown<'a>(simulation: &Simulation, collision: &'a Collision) -> Shown<'a> {
     let request = &simulation.request().snapshots;
     let mut shown = Shown { snapshots: Vec::new(), warnings: Vec::new() };
-    for snapshot in &collision.snapshots {
+    let asks_for_unloaded = matches!(request, SnapshotRequest::Labels(labels)
+        if labels.contains(&SnapshotInstant::AfterSeparation));
+    let unloaded = collision.unloaded.iter().filter(|_| asks_for_unloaded);
+    if asks_for_unloaded && collision.unloaded.is_none() {
+        shown.warnings.push(did_not_occur(SnapshotInstant::AfterSeparation));
+    }
+    for snapshot in collision.snapshots.iter().chain(unloaded) {
         let label = label(snapshot, request);
         if snapshot.label == Some(SnapshotInstant::LastContact) && !collision.is_complete() {
             let warning = format!("the run ended before the instant \"{label}\"; it is left out");

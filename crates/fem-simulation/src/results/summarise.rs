@@ -3,6 +3,7 @@
 use fem_collision::{Collision, EnergyLedger, RestState};
 use fem_laws::ImpactQuantities;
 
+use super::dent::{DentSummary, dents};
 use super::energy::{Accounts, Energy, energy_key};
 use super::measured::MeasuredSummary;
 use super::summary::{
@@ -72,6 +73,7 @@ impl Summary {
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
             bounces: bounces(simulation, collision, &mut numbers),
             adhesion: adhesion(simulation, collision, &mut numbers),
+            dent: dent(simulation, collision),
             rest: collision.rest.as_ref().map(|rest| at_rest(rest, &mut numbers)),
             bodies: [0, 1].map(|side| body(simulation, collision, side, &mut numbers)).to_vec(),
             time_step_s: numbers.finite_if_any("time_step_s", collision.time_step),
@@ -205,6 +207,7 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
     let mut at_end =
         |key: &str, value: Option<f64>| numbers.finite_if_any(&format!("energy.{key}"), value);
     let initial_j = at_end("initial_j", collision.initial_energy);
+    let locked_in = collision.bodies.iter().filter_map(|body| body.locked_in).reduce(|a, b| a + b);
     let accounts =
         collision.energies.entries().fold(EnergyLedger::EMPTY, |ledger, (account, energy)| {
             let finite = at_end(&energy_key(account), Some(energy));
@@ -213,6 +216,7 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
     Energy {
         initial_j,
         accounts: Accounts(accounts),
+        locked_in_j: at_end("locked_in_j", locked_in),
         residual_j: at_end("residual_j", collision.residual),
         residual_relative: at_end("residual_relative", collision.residual_relative),
     }
@@ -238,6 +242,13 @@ fn bounces(
         }
     });
     Some(contacts.collect())
+}
+
+/// Returns the dents of bodies that flowed.
+fn dent(simulation: &Simulation, collision: &Collision) -> Option<Vec<DentSummary>> {
+    let dents = dents(simulation, collision);
+    let summaries: Vec<DentSummary> = dents.into_iter().map(|(_, dent, _)| dent).collect();
+    Some(summaries).filter(|dents| !dents.is_empty())
 }
 
 /// Returns the adhesion that the case gives.

@@ -4,6 +4,7 @@ use fem_case::CaseFile;
 use fem_collision::QuantityOfInterest;
 use serde::{Serialize, Serializer};
 
+use super::dent::DentSummary;
 use super::energy::Energy;
 use super::measured::MeasuredSummary;
 use crate::effects::{EffectDecision, NeglectError};
@@ -43,6 +44,8 @@ pub struct Summary {
     pub bounces: Option<Vec<BounceSummary>>,
     /// Adhesion of the bodies; `None` if the case gives neither surface energies nor a work of adhesion.
     pub adhesion: Option<AdhesionSummary>,
+    /// Dents of the bodies that flowed plastically; `None` if none did.
+    pub dent: Option<Vec<DentSummary>>,
     /// Static equilibrium of a ball at rest, fully relaxed.
     pub rest: Option<RestSummary>,
     /// The lower and the upper body.

@@ -25,8 +25,11 @@ const FIRST: [&str; 14] = [
     "hertz_peak_pressure_pa",
 ];
 /// Columns after the accounts of energy.
-const LAST: [&str; 12] = [
+const LAST: [&str; 15] = [
     "energy_residual_relative",
+    "dent_depth_m",
+    "dent_radius_m",
+    "dent_max_plastic_strain",
     "adhesion_sticking_speed_m_s",
     "adhesion_sticks",
     "momentum_residual_relative",
@@ -49,16 +52,18 @@ const UNCERTAINTIES: [(&str, &str); 3] = [
 /// Prefix of a column of the summary's `estimate`, and its end of the range.
 const ESTIMATES: [(&str, &str); 2] = [("estimate_low_", "low"), ("estimate_high_", "high")];
 /// Beginnings of columns that a table has only if a member has a value there.
-const OPTIONAL: [&str; 3] = ["uncertainty_input_", "adhesion_", "estimate_"];
+const OPTIONAL: [&str; 5] =
+    ["uncertainty_input_", "adhesion_", "estimate_", "energy_locked_in_j", "dent_"];
 
 /// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_`, `estimate_` and `uncertainty_` are
-/// the summary's objects of that name, the last two with end or part before the quantity. The cost of the run (`cost`)
+/// the summary's objects of that name, the last two with end or part before the quantity, and `dent_` is the first of its
+/// dents. The cost of the run (`cost`)
 /// differs from run to run and stays in the member's summary.
 pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
     let accounts = Account::all().map(|account| column_of(&energy_key(account)));
     let energies = [column_of("initial_j")].into_iter().chain(accounts);
-    let energies = energies.chain([column_of("residual_j")]);
+    let energies = energies.chain(["locked_in_j", "residual_j"].map(column_of));
     let parts = |quantity: QuantityOfInterest| {
         UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()))
     };
@@ -149,7 +154,9 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
         _ => {
             let tables =
                 ["hertz_", "energy_", "adhesion_", "estimate_"].into_iter().find_map(table);
-            uncertainty.or(estimate).or(tables).unwrap_or(&summary[column]).clone()
+            let dent = column.strip_prefix("dent_").map(|key| &summary["dent"][0][key]);
+            let own = uncertainty.or(estimate).or(tables).or(dent);
+            own.unwrap_or(&summary[column]).clone()
         }
     }
 }

@@ -55,6 +55,7 @@ fn every_effects_key_is_the_switch_of_one_effect() {
     let on = EffectsTable {
         viscoelasticity: Some(Switch::On),
         finite_strain: Some(Switch::On),
+        plastic_flow: Some(Switch::On),
         surface_slip: Some(Switch::On),
         partner_waves: Some(Switch::On),
         mirror_symmetry: Some(Switch::On),
@@ -78,7 +79,7 @@ fn every_effects_key_is_the_switch_of_one_effect() {
 /// model.
 #[test]
 fn every_model_supports_or_excludes_every_effect() {
-    let reduced = "viscoelasticity, dashpot, finite size, finite strain, surface slip, plastic yield, adhesion, partner waves, \
+    let reduced = "viscoelasticity, dashpot, finite size, finite strain, surface slip, plastic flow, adhesion, partner waves, \
                    rigid partner, vibration, gravity";
     let law = reduced.replace("adhesion, ", "");
     let no_elements = "material loss, mirror symmetry, hourglass control, bulk viscosity, penalty springs, contact search, mass scaling";
@@ -86,13 +87,13 @@ fn every_model_supports_or_excludes_every_effect() {
     for (model, answered, foreign) in [
         (
             "fem={}",
-            "viscoelasticity, finite strain, surface slip, plastic yield, adhesion, partner waves, mirror symmetry, rigid partner, \
+            "viscoelasticity, finite strain, surface slip, plastic flow, adhesion, partner waves, mirror symmetry, rigid partner, \
              hourglass control, bulk viscosity, gravity, contact search, mass scaling",
             "material loss, dashpot, finite size, vibration, penalty springs",
         ),
         (
             "condensed={}",
-            "viscoelasticity, finite strain, surface slip, plastic yield, adhesion, partner waves, mirror symmetry, rigid partner, \
+            "viscoelasticity, finite strain, surface slip, plastic flow, adhesion, partner waves, mirror symmetry, rigid partner, \
              vibration, penalty springs, gravity, contact search",
             "material loss, dashpot, finite size, hourglass control, bulk viscosity, mass scaling",
         ),

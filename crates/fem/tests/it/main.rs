@@ -33,6 +33,7 @@ mod paper;
 mod partly_finite;
 mod partner_waves;
 mod plan;
+mod plastic_flow;
 mod plastic_yield;
 mod probes;
 mod restart_state;

@@ -1,4 +1,4 @@
-//! Warnings about plastic yield, in every model.
+//! Warnings about plastic flow, in every model.
 
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ const MODELS: [&str; 5] = [
 
 fn decision_on(text: &str, overrides: &[&str]) -> (EffectDecision, String) {
     let simulation = simulation_of(text, overrides);
-    let decision = crate::scene::decision_on(&simulation, "plastic yield").clone();
+    let decision = crate::scene::decision_on(&simulation, "plastic flow").clone();
     (decision, simulation.setup().warnings().join("\n"))
 }
 

@@ -108,12 +108,12 @@ fn models_agree_within_their_bars() {
     }
 }
 
-/// The stress for plastic yield follows from the effective moduli: a pressure of 17 kPa, where elastic bodies have 480 kPa.
+/// The stress for plastic flow follows from the effective moduli: a pressure of 17 kPa, where elastic bodies have 480 kPa.
 #[test]
 fn yield_is_judged_with_effective_moduli() {
     let reason = |set: &[&str]| {
         let effects = run(&[set, &["model.ting={}"]].concat()).effects;
-        let plastic = effects.into_iter().find(|it| it.decision.name == "plastic yield").unwrap();
+        let plastic = effects.into_iter().find(|it| it.decision.name == "plastic flow").unwrap();
         plastic.decision.reason
     };
     assert!(reason(&[]).contains("contact modulus = 0.003"), "{}", reason(&[]));

@@ -13,8 +13,8 @@ const MAX_LENGTH: usize = 230;
 
 /// Words of warnings, and the effects of which one must matter where a warning has the word.
 const OF_WORDS: [(&str, &[&str]); 9] = [
-    ("yields from", &["plastic yield"]),
-    ("plastic flow", &["plastic yield"]),
+    ("yields from", &["plastic flow"]),
+    ("plastic flow", &["plastic flow"]),
     ("waves", &["partner waves", "vibration"]),
     ("vibrations", &["vibration"]),
     ("contact radius", &["finite strain"]),
@@ -48,7 +48,7 @@ fn summary(
 fn check_numbers(of: &str, summary: &fem::Summary) {
     let is_decided = summary.effects.iter().any(|it| {
         let change = it.error_if_left_out.and_then(|change| change.restitution);
-        ["plastic yield", "adhesion"].contains(&it.decision.name) && change > Some(0.1)
+        ["plastic flow", "adhesion"].contains(&it.decision.name) && change > Some(0.1)
     });
     let sticks = summary.warnings.iter().any(|warning| warning.contains("the bodies would stick"));
     assert!(summary.estimate.is_some() || !is_decided && !sticks, "{of}: {:?}", summary.warnings);
@@ -86,10 +86,10 @@ fn check(of: &str, summary: &fem::Summary) {
         }
     }
     // What changes the result most is warned of, unless yield makes the warning pointless.
-    let is_decided = summary.estimate.is_some() || matters("plastic yield");
-    for (name, word) in [("plastic yield", "plastic flow"), ("material loss", "no relaxation for")]
+    let is_decided = summary.estimate.is_some() || matters("plastic flow");
+    for (name, word) in [("plastic flow", "plastic flow"), ("material loss", "no relaxation for")]
     {
-        let is_silent = name != "plastic yield" && is_decided;
+        let is_silent = name != "plastic flow" && is_decided;
         let is_told = summary.warnings.iter().any(|warning| warning.contains(word));
         assert!(!matters(name) || is_silent || is_told, "{of}: {name}: {:?}", summary.warnings);
     }

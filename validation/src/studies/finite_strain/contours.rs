@@ -32,9 +32,9 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     for (name, run) in names.into_iter().zip(&runs) {
         let instants: Vec<&Snapshot> = run.collision.snapshots.iter().collect();
         let labels: Vec<_> = instants.iter().map(|snapshot| snapshot.label).collect();
-        if labels == SnapshotInstant::ALL.map(Some) {
+        if labels == SnapshotInstant::OF_CONTACT.map(Some) {
             measure(name, run, &instants, &mut findings);
-        } else if labels == [None; SnapshotInstant::ALL.len()] {
+        } else if labels == [None; SnapshotInstant::OF_CONTACT.len()] {
             findings.measure(format!("{name}.front_speed"), front_speed(run, &instants));
         } else {
             return Err(StudyError::parameters(
@@ -48,7 +48,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 
 fn measure(name: &str, run: &ExplicitRun, instants: &[&Snapshot], findings: &mut Findings) {
     let mut smallest = Vec::new();
-    for (snapshot, label) in instants.iter().zip(SnapshotInstant::ALL) {
+    for (snapshot, label) in instants.iter().zip(SnapshotInstant::OF_CONTACT) {
         let halves = sections::halves(run, snapshot, 1.0);
         let instant = label.name().replace('-', "_");
         smallest.push(sections::range(&halves).0);

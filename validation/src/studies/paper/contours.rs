@@ -23,7 +23,7 @@ struct Parameters {
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let run = laboratory.run_all(vec![laboratory.case("elastic")?])?.remove(0);
-    let instants = SnapshotInstant::ALL.map(|label| {
+    let instants = SnapshotInstant::OF_CONTACT.map(|label| {
         let found = run.collision.snapshots.iter().find(|snapshot| snapshot.label == Some(label));
         found.map(|snapshot| Instant::of(&run, label, snapshot))
     });

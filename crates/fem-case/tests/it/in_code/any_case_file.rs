@@ -79,6 +79,28 @@ impl Random {
             let words = HyperelasticLaw::WORDS;
             HyperelasticLaw::from_word(words[random.below(words.len())]).unwrap()
         });
+        material.flow = self.maybe(|random| FlowTable {
+            yield_strength: random.maybe(|random| random.quantity(&[1e9])),
+            hardening: random.maybe(|random| {
+                let none = HardeningTable::default();
+                match random.below(4) {
+                    0 => HardeningTable { perfect: Some(EmptyTable {}), ..none },
+                    1 => HardeningTable { modulus: Some(random.quantity(&[1e9])), ..none },
+                    2 => HardeningTable {
+                        swift: Some(SwiftTable {
+                            strain: random.quantity(&[0.002]),
+                            exponent: random.quantity(&[0.2]),
+                        }),
+                        ..none
+                    },
+                    _ => {
+                        let row = (random.quantity(&[0.0]), random.quantity(&[1e9]));
+                        HardeningTable { table: Some(FlowPoints::Rows(vec![row])), ..none }
+                    }
+                }
+            }),
+            rate: None,
+        });
         let n = self.below(3);
         let mut term = || TermTable {
             weight: self.quantity(&[0.3, 0.6]),

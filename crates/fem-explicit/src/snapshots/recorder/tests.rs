@@ -54,7 +54,7 @@ fn record(
 #[test]
 fn recorder_finds_half_the_maximum_approach_for_any_estimate() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
     for estimate in [0.1, 0.9, 1.0, 1.3, 10.0] {
         let peak = 0.37;
         let (recorder, most) = record(&request, &model, peak, peak * estimate, 5000);
@@ -63,7 +63,7 @@ fn recorder_finds_half_the_maximum_approach_for_any_estimate() {
         let (snapshots, missing) = recorder.finish();
         assert!(missing.is_empty(), "{missing:?}");
         let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
-        assert_eq!(labels, SnapshotInstant::ALL);
+        assert_eq!(labels, SnapshotInstant::OF_CONTACT);
         assert!(snapshots.windows(2).all(|pair| pair[0].time < pair[1].time));
         let approach = |k: usize| snapshots[k].approach / peak;
         // A rung is half a ratio away at most, and a step of π/5000 late.
@@ -91,7 +91,7 @@ fn approaching(approach: f64, approach_rate: f64) -> Instant {
 #[test]
 fn recorder_takes_no_early_states_of_unslowed_bodies() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
     let state = State::at_first_touch(&model);
     let mut scratch = Scratch::new(&model);
     let speed = model.approach().speed();
@@ -115,12 +115,12 @@ fn recorder_takes_no_early_states_of_unslowed_bodies() {
 #[test]
 fn missing_snapshot_labels_are_reported() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
     let expected = expectation(1.0, CONTACT_TIME);
     let (snapshots, missing) = Recorder::new(&request, &model, expected).finish();
     assert!(snapshots.is_empty());
     assert_eq!(missing.len(), 4);
-    for (message, label) in missing.iter().zip(SnapshotInstant::ALL) {
+    for (message, label) in missing.iter().zip(SnapshotInstant::OF_CONTACT) {
         assert!(message.contains(label.name()), "{message}");
     }
     // Only what was asked for.
@@ -137,7 +137,7 @@ fn missing_snapshot_labels_are_reported() {
 #[test]
 fn bodies_that_stay_together_have_no_last_contact() {
     let model = model();
-    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::OF_CONTACT.to_vec());
     let mut recorder = Recorder::new(&request, &model, expectation(1.0, CONTACT_TIME));
     let state = State::at_first_touch(&model);
     // It would open in the next step.

@@ -202,6 +202,13 @@ impl ElementResponse for FlowingResponse {
         self.law.solid.cauchy(h, &state)
     }
 
+    /// The work of the hourglass shape has no place in an element, and is left out.
+    fn plastic(&self, (slots, lane): (Slots, usize), history: &[NodalField]) -> Option<[f64; 2]> {
+        let [_, strain] = slots.pair(lane, &history[1]);
+        let [work, _] = slots.pair(lane, &history[3]);
+        Some([strain, work])
+    }
+
     fn add_energies(
         &self,
         blocks: &Blocks,

@@ -107,6 +107,12 @@ trait ElementResponse: fmt::Debug + Send + Sync + 'static {
         history: &[NodalField],
     ) -> Result<SymmetricTensor, Inverted>;
 
+    /// Returns the equivalent plastic strain and the plastic work per undeformed volume (J/m³) of an element; `None` if
+    /// elements do not flow.
+    fn plastic(&self, _: (Slots, usize), _: &[NodalField]) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Adds the energy that the elements store, and what they dissipate.
     fn add_energies(
         &self,
@@ -293,6 +299,12 @@ impl<R: ElementResponse> FiniteStrainStress for FiniteStrain<R> {
             let stress = self.response.cauchy(&h, self.blocks.slot(element), history).ok();
             stress.map_or([f64::NAN; 4], |stress| [stress.rr, stress.yy, stress.tt, stress.ry])
         }));
+    }
+
+    fn update_plastic(&self, history: &[NodalField], plastic: &mut Vec<[f64; 2]>) {
+        plastic.clear();
+        let elements = (0..self.blocks.n_elements()).map(|element| self.blocks.slot(element));
+        plastic.extend(elements.map_while(|element| self.response.plastic(element, history)));
     }
 }
 

@@ -23,7 +23,7 @@ fn effects_that_matter_and_are_not_computed_are_shown() {
     place.succeed("steel.toml --set model=hertz --set body.1.approach_speed=5 --out steel --quiet");
     let page = place.text("steel/report.html");
     assert!(page.contains("These effects matter here and are not computed"));
-    assert!(page.contains("<dt>plastic yield</dt>") && !page.contains("No effects beyond"));
+    assert!(page.contains("<dt>plastic flow</dt>") && !page.contains("No effects beyond"));
 }
 
 /// A report of ice on ice draws the measured restitutions beside the result; the summary has the one at its speed.

@@ -141,7 +141,7 @@ fn report_of_a_run_fits_on_a_screen() {
         ),
         (
             "steel.toml --set model=auto",
-            "model:  hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance of 1 %: material loss, plastic yield",
+            "model:  hertz = { finite_size = true }, the cheapest within the tolerance|above the tolerance of 1 %: material loss, plastic flow",
         ),
     ] {
         let ran = place.succeed((command, "--force --out out"));

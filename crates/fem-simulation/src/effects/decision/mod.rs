@@ -107,9 +107,9 @@ effects! {
     /// Tangential slip between the surfaces of unlike materials.
     Physical SurfaceSlip = "surface slip" surface_slip:
         "Surfaces of unlike materials slide on each other as they are pressed together.";
-    /// Plastic yield of the bodies.
-    Physical PlasticYield = "plastic yield":
-        "Above its yield strength a material deforms permanently, which no model computes.";
+    /// Plastic flow of the bodies.
+    Physical PlasticFlow = "plastic flow" plastic_flow:
+        "Above its yield strength a material deforms permanently and keeps a dent.";
     /// Attraction of the surfaces.
     Physical AdhesionEffect = "adhesion":
         "Surfaces attract each other: slow bodies stick, and faster ones lose energy.";

@@ -1,6 +1,6 @@
-//! Effects of the materials: relaxation, unknown losses, finite strain and first yield.
+//! Effects of the materials: relaxation, unknown losses, finite strain and plastic flow.
 
 mod finite_strain;
 mod material_loss;
-mod plastic_yield;
+mod plastic_flow;
 mod viscoelasticity;

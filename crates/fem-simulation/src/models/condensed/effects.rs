@@ -6,7 +6,7 @@ use fem_condensed::CondensedPair;
 use super::options;
 use crate::effects::{
     AdhesionEffect, ContactSearch, Effect, FiniteStrain, Gravity, MaterialLoss, MirrorSymmetry,
-    PartnerWaves, PenaltySprings, PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration,
+    PartnerWaves, PenaltySprings, PlasticFlow, RigidPartner, Support, SurfaceSlip, Vibration,
     Viscoelasticity,
 };
 use crate::estimate::Estimate;
@@ -38,7 +38,7 @@ pub(super) fn support(
         MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
         MaterialLoss::NAME
         | FiniteStrain::NAME
-        | PlasticYield::NAME
+        | PlasticFlow::NAME
         | AdhesionEffect::NAME
         | MirrorSymmetry::NAME
         | RigidPartner::NAME => Support::Lacks,

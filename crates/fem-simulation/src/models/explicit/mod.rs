@@ -21,7 +21,7 @@ use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::effects::{
     AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, Support,
+    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticFlow, RigidPartner, Support,
     SurfaceSlip, Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
@@ -116,6 +116,7 @@ impl Explicit {
             return Err(Rejection::chose_another(scene, "fem"));
         }
         FiniteStrain::check(scene, &plan.estimate)?;
+        PlasticFlow::check(scene)?;
         let approach = approach_of(scene)?;
         let made = RebuildData {
             scene: scene.clone(),
@@ -430,11 +431,10 @@ fn support(
         SurfaceSlip::NAME if FiniteStrain::is_on(scene, estimate) => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
         MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
-        MaterialLoss::NAME
-        | AdhesionEffect::NAME
-        | PlasticYield::NAME
-        | MirrorSymmetry::NAME
-        | RigidPartner::NAME => Support::Lacks,
+        MaterialLoss::NAME | AdhesionEffect::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
+            Support::Lacks
+        }
+        PlasticFlow::NAME => PlasticFlow::of_elements(scene, estimate),
         _ => return None,
     })
 }

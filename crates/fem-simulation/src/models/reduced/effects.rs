@@ -6,7 +6,7 @@ use fem_material::engineering::number;
 
 use crate::effects::{
     AdhesionEffect, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, MaterialLoss,
-    PartnerWaves, PlasticYield, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
+    PartnerWaves, PlasticFlow, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -38,7 +38,7 @@ pub(super) fn support(
         MaterialLoss::NAME
         | FiniteStrain::NAME
         | SurfaceSlip::NAME
-        | PlasticYield::NAME
+        | PlasticFlow::NAME
         | AdhesionEffect::NAME
         | PartnerWaves::NAME
         | RigidPartner::NAME => Support::Lacks,

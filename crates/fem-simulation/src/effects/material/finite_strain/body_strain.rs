@@ -45,7 +45,8 @@ impl<'a> BodyStrain<'a> {
 
     /// Returns the hyperelastic laws that the case leaves open.
     pub fn possible_laws(&self) -> Vec<HyperelasticLaw> {
-        self.material.named_law().map_or(HyperelasticLaw::ALL.to_vec(), |law| vec![law])
+        let is_given = self.material.named_law().is_some() || self.material.flow().is_some();
+        if is_given { vec![self.material.law()] } else { HyperelasticLaw::ALL.to_vec() }
     }
 
     /// Returns whether the body is flatter than all reference spheres, so that there is no estimate.
@@ -74,7 +75,8 @@ impl<'a> BodyStrain<'a> {
     /// Returns whether the law loses ellipticity at the linear strain under the middle of Hertz' contact, σ_yy = −p and
     /// σ_rr = σ_θθ = −(½ + ν) p (Johnson 1985, section 3.4).
     pub fn is_unstable(&self, pressure: f64) -> bool {
-        if self.material.law().is_always_elliptic() {
+        // Flow bounds the stress of a body.
+        if self.material.law().is_always_elliptic() || self.material.flow().is_some() {
             return false;
         }
         let moduli = self.material.instantaneous();

@@ -1,19 +1,23 @@
-//! Plastic yield, which no model computes: its onset, and an estimate of the loss.
+//! Plastic flow: its onset, and an estimate of the loss where no model computes it.
 //!
-//! Decided by the peak pressure of Hertz over that of first yield ([`FirstYield`]). Without a yield strength the largest
-//! von Mises stress is reported, with a warning if few materials withstand the peak pressure.
+//! Decided by the peak pressure of Hertz over that of first yield ([`FirstYield`]). Explicit elements compute a material that
+//! has a flow rule; below first yield it is computed as elastic. Without a yield strength the largest von Mises stress is
+//! reported, with a warning if few materials withstand the peak pressure.
 
 use fem_case::engineering::show;
-use fem_case::{Body, ModelChoice, Scene};
+use fem_case::{Body, ModelChoice, Scene, Spot, Switch};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
 use crate::effects::decision::leading_estimate::LeadingEstimate;
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, PlasticYield};
+use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, NamedEffect, PlasticFlow};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
+use crate::rejection::Rejection;
 
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do not yield: 1/32 for
 /// glass at 0.5 m/s, 1/13 for steel at 5 m/s.
@@ -22,12 +26,49 @@ const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
 /// modulus and strength).
 const MAX_MODULUS_OF_ELASTOMERS: f64 = 0.1e9;
 
-impl Effect for PlasticYield {
+impl Effect for PlasticFlow {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         Some(match earliest(scene, estimate) {
             Some((body, first)) => of_strength(body, &first, estimate),
             None => without_strength(scene, estimate),
         })
+    }
+
+    /// Makes materials elastic that do not flow in this impact, or are not to.
+    fn transform(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+    ) -> Result<Option<TransformedScene>, Rejection> {
+        let is_possible = flows(scene);
+        let switch = scene.effects().plastic_flow;
+        if !is_possible && switch == Some(Switch::On) {
+            let message = "plastic_flow is \"on\", and no material has a table flow";
+            let help = "write [material.NAME.flow], or \"auto\" or \"off\"";
+            return Err(Rejection::new("effects.plastic_flow", message).with_help(help));
+        }
+        let Relevance { is_needed, number, if_not_needed, .. } =
+            self.relevance(scene, estimate).unwrap_or_default();
+        let why = match switch {
+            Some(Switch::Off) => "switched off".to_string(),
+            None | Some(Switch::Auto) if !is_needed => {
+                format!("{if_not_needed}, and is computed as elastic")
+            }
+            _ => return Ok(None),
+        };
+        let elastic = scene.bodies().each_ref().map(|body| match body.material() {
+            Some(material) => body.shape_of(material.without_flow()),
+            None => body.shape().clone(),
+        });
+        let support = Support::decided(false, format!("{number}; {why}"));
+        let scene = self.switched(scene, None).with_shapes(elastic);
+        Ok(is_possible.then_some(TransformedScene { scene, support }))
+    }
+
+    fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
+        let is_off = scene.effects().plastic_flow == Some(Switch::Off) && flows(scene);
+        let ignored = earliest(scene, estimate).filter(|(_, first)| is_off && first.ratio() > 1.0);
+        ignored.map(|_| self.neglect_error(scene, estimate).unwrap_or_default().warning(Self::NAME))
     }
 
     /// A body that flows loses more than its material does, and is not strained as a hyperelastic one.
@@ -81,6 +122,45 @@ impl Effect for PlasticYield {
     }
 }
 
+impl PlasticFlow {
+    /// Checks that the case says where a ball that dents falls next.
+    pub(crate) fn check(scene: &Scene) -> Result<(), Rejection> {
+        let bounces = scene.gravity().filter(|gravity| flows(scene) && gravity.bounces > 1);
+        match bounces.map(|gravity| gravity.spot) {
+            None | Some(Some(Spot::Fresh)) => Ok(()),
+            Some(None) => {
+                let message =
+                    "the ball dents and bounces, and the case does not say where it falls next";
+                let help = "write gravity.spot = \"fresh\" (undented surfaces: it loses energy as in the first contact), or \
+                            stop.bounces = 1; \"same\", a fall onto its own dent, is not computed";
+                Err(Rejection::new("gravity", message).with_help(help))
+            }
+            Some(Some(Spot::Same)) => {
+                let message = "a fall onto the dent of an earlier contact is not computed";
+                let help = "write \"fresh\", or stop.bounces = 1";
+                Err(Rejection::new("gravity.spot", message).with_help(help))
+            }
+        }
+    }
+
+    /// Returns the support of explicit elements: they compute flow if every body that yields has a flow rule.
+    pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Support {
+        let lacks = |body: &Body| {
+            let yields = first_yield(body, estimate).is_some_and(|(_, first)| first.ratio() > 1.0);
+            yields && body.material().is_none_or(|material| material.flow().is_none())
+        };
+        match flows(scene) && !scene.bodies().iter().any(lacks) {
+            true => Support::Computes { idle: "" },
+            false => Support::Lacks,
+        }
+    }
+}
+
+/// Returns whether a material of the scene has a flow rule.
+fn flows(scene: &Scene) -> bool {
+    scene.bodies().iter().filter_map(Body::material).any(|material| material.flow().is_some())
+}
+
 /// Returns the body that yields first, of those with a yield strength.
 fn earliest<'a>(scene: &'a Scene, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
     let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
@@ -98,10 +178,14 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevanc
     let [low, high] = first.impacts().map(|impact| impact.restitution);
     let warning = is_needed.then(|| {
         format!(
-            "{name} yields from {} on, and the impact is at {}: no model computes plastic flow; closed forms give a \
-             restitution from {low:.2} to {high:.2}",
+            "{name} yields from {} on, and the impact is at {}: closed forms give a restitution from {low:.2} to {high:.2}; \
+             {}",
             show(first.speed, "m/s"),
             show(estimate.hertz.approach_speed(), "m/s"),
+            match body.material().and_then(Material::flow) {
+                Some(_) => "model fem computes plastic flow",
+                None => "[material.NAME.flow] with model fem computes plastic flow",
+            }
         )
     });
     Relevance {

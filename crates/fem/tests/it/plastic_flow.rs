@@ -1,0 +1,195 @@
+//! Plastic flow of a body: when it is computed, what forces it, and what its plan expects.
+
+use fem::{Account, QuantityOfInterest};
+
+use crate::scene::{case_of, collision_of, decision_on, refused_of, resolved, simulation_of};
+
+/// A ball on a wall that yields from 35 mm/s on, on a coarse mesh.
+const BALL: &str = r#"
+[material.steel]
+density = "7850 kg/m^3"
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+[material.steel.flow]
+yield_strength = "1 GPa"
+[[body]]
+name = "ball"
+sphere = { diameter = "10 mm" }
+material = "steel"
+approach_speed = "1 m/s"
+[[body]]
+name = "wall"
+wall = {}
+[accuracy]
+tolerance = "5 %"
+[model]
+fem = {}
+"#;
+const SLOW: &str = "body.0.approach_speed='30 mm/s'";
+
+/// The digits of all quantities.
+fn bits(overrides: &[&str], text: &str) -> [u64; 6] {
+    let collision = collision_of(text, overrides);
+    QuantityOfInterest::ALL.map(|quantity| quantity.of(&collision).unwrap().to_bits())
+}
+
+/// Below first yield the run is the elastic one to the last bit, and so is one that is told not to flow.
+#[test]
+fn flow_is_computed_above_first_yield_only() {
+    let elastic = BALL.replace("[material.steel.flow]\n", "").replace("'1 GPa'", "'0.1 GPa'");
+    assert_eq!(bits(&[SLOW], BALL), bits(&[SLOW], &elastic));
+    let off = "effects.plastic_flow='off'";
+    assert_eq!(bits(&[off], BALL), bits(&[], &elastic));
+    for (set, active, reason) in [
+        (&[SLOW][..], false, "is computed as elastic"),
+        (&[], true, "peak pressure / pressure of first yield of ball = 3.84"),
+        (&[off], false, "switched off"),
+        (&[SLOW, "effects.plastic_flow='on'"], true, "forced on"),
+    ] {
+        let simulation = simulation_of(BALL, set);
+        let decision = decision_on(&simulation, "plastic flow");
+        assert_eq!(decision.active, active, "{set:?}");
+        assert!(decision.reason.contains(reason), "{set:?}: {}", decision.reason);
+        assert_eq!(decision_on(&simulation, "finite strain").active, active, "{set:?}");
+        // The choice is that of the resolved case.
+        let again = resolved(&simulation);
+        assert_eq!(decision_on(&again, "plastic flow").active, active, "{set:?}");
+    }
+    let warnings = simulation_of(BALL, &[off]).setup().warnings().join("\n");
+    assert!(warnings.contains("plastic flow is needed, but switched off"), "{warnings}");
+}
+
+/// The lost energy is plastic work and residual strain; the books close.
+#[test]
+fn the_energy_of_a_dent_is_plastic_work() {
+    let collision = collision_of::<&str>(BALL, &[]);
+    let of = |account| collision.energies.get(account).unwrap();
+    let initial = collision.initial_energy.unwrap();
+    let restitution = collision.restitution.unwrap();
+    let plastic = of(Account::PlasticWork) / initial;
+    assert!((0.65..0.8).contains(&restitution), "{restitution}");
+    let lost = 1.0 - restitution * restitution;
+    assert!(plastic < lost && plastic > 0.8 * lost, "{plastic} of {lost}");
+    assert!(collision.residual_relative.unwrap() < 1e-4);
+}
+
+/// Without the vibration all energy has an account of its own, and the dent is as deep as the approach at separation.
+#[test]
+fn the_unloaded_body_keeps_its_dent() {
+    let simulation = simulation_of::<&str>(BALL, &[]);
+    let collision = simulation.run(&mut ());
+    let summary = simulation.summary(&collision);
+    let energy = |account| summary.energy.get(account).unwrap();
+    let initial = summary.energy.initial_j.unwrap();
+    let ball = &summary.bodies[0];
+    let moving = 0.5 * ball.mass_kg.unwrap() * ball.velocity_after_m_s.unwrap().powi(2);
+    let locked_in = summary.energy.locked_in_j.unwrap();
+    let plastic = energy(Account::PlasticWork) + energy(Account::ContactDamping);
+    let all = moving + plastic + locked_in + ball.vibration_energy_j.unwrap();
+    assert!((all / initial - 1.0).abs() < 2e-3, "{}", all / initial);
+    assert!((0.03..0.07).contains(&(locked_in / initial)), "{}", locked_in / initial);
+
+    let [dent] = summary.dent.as_deref().unwrap() else { panic!("one body flows") };
+    let last = collision.history.iter().rfind(|row| row.contact_force > 0.0).unwrap();
+    let depth = dent.depth_m.unwrap();
+    assert!((depth / last.approach - 1.0).abs() < 0.05, "{depth} {}", last.approach);
+    let radius = collision.max_contact_radius.unwrap();
+    assert!((0.6..1.3).contains(&(dent.radius_m.unwrap() / radius)), "{dent:?}");
+    // A flattened crown is flatter than the ball, and the strain is largest inside or at the edge of the contact.
+    assert!(dent.crown_radius_m.unwrap().abs() > 2.0 * 5e-3, "{dent:?}");
+    assert!(dent.max_plastic_strain.unwrap() > 0.01, "{dent:?}");
+    assert!(dent.max_plastic_strain_r_m.unwrap() < 1.2 * radius, "{dent:?}");
+    assert!((1.5..2.5).contains(&(dent.plastic_zone_depth_m.unwrap() / radius)), "{dent:?}");
+    assert!((0.9..2.3).contains(&(dent.plastic_zone_radius_m.unwrap() / radius)), "{dent:?}");
+    // Elastic bodies have none.
+    let elastic = simulation_of(BALL, &[SLOW]);
+    let summary = elastic.summary(&elastic.run(&mut ()));
+    assert!(summary.dent.is_none() && summary.energy.locked_in_j.is_none());
+}
+
+/// A plan that expected an elastic impact would need a second run with a wider search and finer elements.
+#[test]
+fn the_plan_expects_the_sizes_of_flow() {
+    for speed in ["0.1", "1", "10", "50"] {
+        let set = [format!("body.0.approach_speed={speed}")];
+        let simulation = simulation_of(BALL, &set);
+        let collision = simulation.run(&mut ());
+        let expected = simulation.setup().estimate.flow.unwrap();
+        for (found, expected, within) in [
+            (collision.max_contact_radius, expected.max_contact_radius, 0.12),
+            (collision.max_approach, expected.max_approach, 0.1),
+            (collision.contact_time, expected.contact_time, 0.2),
+            (collision.peak_force, expected.peak_force, 0.15),
+        ] {
+            let ratio = found.unwrap() / expected;
+            assert!((1.0 - within..1.0 + within).contains(&ratio), "{speed} m/s: {ratio}");
+        }
+    }
+}
+
+/// What cannot be done is said with the key to change.
+#[test]
+fn impossible_switches_are_refused() {
+    for (set, key, message) in [
+        (
+            &["effects.finite_strain='off'"][..],
+            "effects.finite_strain",
+            "plastic flow is computed at finite strain alone",
+        ),
+        (
+            &["model.hertz={}", "effects.plastic_flow='on'"],
+            "effects.plastic_flow",
+            "not available in model hertz",
+        ),
+        (
+            &[
+                "material.plain={density=1e3,youngs_modulus=1e9,poissons_ratio=0.3}",
+                "body.0.material='plain'",
+                "effects.plastic_flow='on'",
+            ],
+            "effects.plastic_flow",
+            "no material has a table flow",
+        ),
+        (
+            &[
+                "gravity.acceleration=9.81",
+                "stop.bounces=2",
+                "body.0={name='floor',wall={}}",
+                "body.1={name='ball',sphere.diameter=0.01,material='steel',approach_speed=1}",
+            ],
+            "gravity",
+            "the case does not say where it falls next",
+        ),
+    ] {
+        let error = refused_of(BALL, set).to_string();
+        assert!(error.contains(key) && error.contains(message), "{error}");
+    }
+}
+
+/// Models that lack flow say which model has it, and the automatic choice takes that one.
+#[test]
+fn other_models_point_at_elements() {
+    for model in ["model.hertz={}", "model.ting={}", "model.condensed={}"] {
+        let simulation = simulation_of(BALL, &[model]);
+        let decision = decision_on(&simulation, "plastic flow");
+        assert!(!decision.active && decision.matters, "{model}");
+        let warnings = simulation.setup().warnings().join("\n");
+        assert!(warnings.contains("model fem computes plastic flow"), "{warnings}");
+    }
+    let chosen = |set: &[&str]| {
+        let set: Vec<&str> = set.iter().copied().chain(["model.auto={}"]).collect();
+        let simulation = simulation_of(BALL, &set);
+        let considered = simulation.considered();
+        considered.iter().find(|candidate| candidate.chosen).unwrap().model
+    };
+    assert_eq!(chosen(&[]), "fem = {}");
+    assert_ne!(chosen(&[SLOW]), "fem = {}");
+    // Without a flow rule no model has it.
+    let case = case_of(BALL, &["material.steel.flow.yield_strength='1 GPa'"]);
+    let plain = case.edited(|file| {
+        let steel = file.material.get_mut("steel").unwrap();
+        steel.yield_strength = steel.flow.take().unwrap().yield_strength;
+    });
+    let warnings = fem::Simulation::new(plain.unwrap()).unwrap().setup().warnings().join("\n");
+    assert!(warnings.contains("[material.NAME.flow] with model fem"), "{warnings}");
+}
