@@ -46,6 +46,8 @@ pub enum ParameterRole {
     Damping,
     /// A factor of the elastic force: varied by its logarithm.
     Stiffness,
+    /// A yield strength, pressure or hardness: varied by its logarithm.
+    Strength,
     /// A rate: varied by its logarithm.
     Rate,
     /// A speed: varied by its logarithm.
@@ -71,6 +73,8 @@ pub enum KeyKind {
     Viscosity,
     /// A rate, 1/s.
     Rate,
+    /// A stress or pressure, Pa.
+    Stress,
 }
 
 impl KeyKind {
@@ -84,6 +88,7 @@ impl KeyKind {
             Self::Damping => ("N s/m", [0, 1, -1]),
             Self::Viscosity => ("Pa s", [-1, 1, -1]),
             Self::Rate => ("1/s", [0, 0, -1]),
+            Self::Stress => ("Pa", [-1, 1, -2]),
         }
     }
 }
@@ -130,6 +135,7 @@ struct Role {
 impl Role {
     const DAMPING: Self = Self::factor(ParameterRole::Damping);
     const STIFFNESS: Self = Self::factor(ParameterRole::Stiffness);
+    const STRENGTH: Self = Self::factor(ParameterRole::Strength);
     const SPEED: Self = Self::factor(ParameterRole::Speed);
     const RATE: Self = Self::factor(ParameterRole::Rate);
     /// n of a dashpot C ξⁿ ξ̇.
@@ -280,6 +286,12 @@ impl LawFamily {
         Self::ALL.into_iter().find(|family| family.name() == name)
     }
 
+    /// Returns whether a contact under this law leaves a dent.
+    pub fn is_elastic_plastic(self) -> bool {
+        use LawFamily::{JacksonGreen, Johnson, Luding, Thornton, WaltonBraun};
+        matches!(self, Thornton | Johnson | JacksonGreen | WaltonBraun | Luding)
+    }
+
     /// Returns the index of the parameter that a fit varies to match the loss: the first one that damps, or else the
     /// first; `None` for a law without parameters.
     pub fn loss_parameter(self) -> Option<usize> {
@@ -329,6 +341,8 @@ pub struct LawContext<'a> {
     pub approach_speed: f64,
     /// Material of each body; `None` is rigid.
     pub materials: [Option<&'a Material>; 2],
+    /// Yield strength of each body, Pa, where it is known.
+    pub yield_strengths: [Option<f64>; 2],
     /// Relaxation of the contact modulus.
     pub relaxation: &'a PairRelaxation,
     /// When the contact is over.

@@ -1,4 +1,4 @@
-//! A collision with a contact law, integrated in time.
+//! A collision with a contact law, integrated in time; [`crate::dent_impact`] does it for laws that dent.
 //!
 //! ```math
 //! m^*\ddot\xi = -F(\xi,\dot\xi), \qquad \xi(0) = 0, \quad \dot\xi(0) = v
@@ -32,6 +32,7 @@ use differential_equations::ode::{ODE, solve_ode};
 use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 
+use crate::dent_impact;
 use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
 use crate::impact::{Impact, ImpactInstant, restitution};
 use crate::laws::{ContactLaw, EndRule};
@@ -98,6 +99,9 @@ impl LawImpact {
     /// of f64; a creep too long to follow.
     pub fn impact(&self, approach_speed: f64) -> Result<Impact, LawError> {
         let speed = positive("approach_speed", approach_speed)?;
+        if let Some(dent) = self.law.elastic_plastic() {
+            return dent_impact::collide(&self.pair, (&self.law, dent), self.gravity, speed);
+        }
         let (mass, law) = (self.pair.effective_mass(), &self.law);
         let (gamma, n) = (law.elastic_exponent(), law.damping_exponent());
         // The powers are taken apart so that v² cannot leave the range of f64.

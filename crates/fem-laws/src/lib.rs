@@ -40,6 +40,7 @@
 //! ```
 
 mod adhesion;
+mod dent_impact;
 mod difference;
 mod elastic_plastic_impact;
 mod error;

@@ -39,7 +39,7 @@ use crate::impact::ImpactQuantities;
 use crate::numerics::midpoint_sum;
 
 /// Dynamic hardness over yield strength.
-const HARDNESS: f64 = 3.0;
+pub(crate) const HARDNESS: f64 = 3.0;
 /// Depths over the contact radius between which the largest stress lies, for any ν.
 const DEPTHS: (f64, f64) = (0.0, 1.5);
 

@@ -78,6 +78,7 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
         let words = match (parameter.role, parameter.key) {
             (ParameterRole::Damping, _) => "damping",
             (ParameterRole::Stiffness, _) => "stiffness",
+            (ParameterRole::Strength, _) => "strength",
             (ParameterRole::Rate, _) => "rate",
             (ParameterRole::Speed, _) => "speed",
             (ParameterRole::Number, "n") => "exponent",

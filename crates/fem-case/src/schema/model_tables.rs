@@ -4,7 +4,8 @@ use fem_laws::{EndRule, KeyRange, LawFamily};
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{
-    Count, Damping, Number, Quantity, QuantityInfo, QuantityKind, Speed, Stiffness, Time, Viscosity,
+    Count, Damping, Number, Quantity, QuantityInfo, QuantityKind, Speed, Stiffness, Stress, Time,
+    Viscosity,
 };
 use crate::schema::body_tables::EmptyTable;
 use crate::schema::macros::{keywords, optional_keys};

@@ -167,7 +167,10 @@ impl Check<'_> {
             let place = if end.is_some() { join(&path, "end") } else { join("model.law", "end") };
             let message = format!("{name} ends at zero force by its definition");
             let error = self.error(&place, message);
-            return Err(error.with_help("remove end; the same law with another end is tsuji"));
+            return Err(error.with_help(match family {
+                LawFamily::ZhangWhiten => "remove end; the same law with another end is tsuji",
+                _ => "remove end",
+            }));
         }
         let tolerance = inner.or(outer).unwrap_or(defaults::LAW_TOLERANCE);
         Ok(ModelChoice::Law { law, end_rule, tolerance })

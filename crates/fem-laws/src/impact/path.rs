@@ -27,7 +27,7 @@ impl<'a> ImpactPath<'a> {
             history: &impact.history,
             effective_mass: pair.effective_mass(),
             effective_radius: pair.effective_radius(),
-            law,
+            law: law.filter(|law| law.elastic_plastic().is_none()),
             gravity: 0.0,
         }
     }

@@ -1,5 +1,6 @@
-//! Contact laws F(ξ, ξ̇): each a function that returns its [`ContactLaw`], and the table of all of them.
+//! Contact laws F(ξ, ξ̇), and laws of contacts that dent: each a function that returns its [`ContactLaw`], and the table of all of them.
 
+mod elastic_plastic;
 mod hunt_crossley;
 mod kuwabara_kono;
 mod linear;
@@ -8,6 +9,11 @@ mod published;
 mod schwager_poeschel;
 mod tsuji;
 
+pub(crate) use elastic_plastic::Rebound;
+pub use elastic_plastic::{
+    ElasticPlastic, jackson_green, jackson_green_values, johnson, johnson_values, luding, thornton,
+    thornton_values, walton_braun,
+};
 pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
 pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
 pub use linear::{linear, linear_from_restitution, linear_values};
@@ -174,6 +180,72 @@ macro_rules! contact_laws {
                 a: Time, NotNegative, Role::DAMPING;
                 /// Exponent of the dashpot, ≥ 0.
                 n: Number, NotNegative, Role::DAMPING_EXPONENT;
+            }
+
+            /// Hertz' spring up to first yield, then a constant pressure; unloading of a flattened sphere.
+            Thornton, thornton, ThorntonTable, "a table such as { yield_strength = \"1 GPa\" }";
+            formula(pair, [yield_pressure]) = laws::thornton(pair, yield_pressure);
+            given by [yield_strength: KeyNeed::Optional] [yield_pressure], values laws::thornton_values;
+            ends at ZeroForce;
+            keys {
+                /// Yield strength, > 0; absent: that of the material that yields first.
+                yield_strength: Stress, Positive;
+                /// Contact pressure of first yield, > 0, in place of `yield_strength`.
+                yield_pressure: Stress, Positive, Role::STRENGTH;
+            }
+
+            /// A constant pressure from the start; unloading of a flattened sphere.
+            Johnson, johnson, JohnsonTable, "a table such as { hardness = \"3 GPa\" }";
+            formula(pair, [hardness]) = laws::johnson(pair, hardness);
+            given by [yield_strength: KeyNeed::Optional] [hardness], values laws::johnson_values;
+            ends at ZeroForce;
+            keys {
+                /// Yield strength, > 0, a third of the hardness; absent: that of the material that yields first.
+                yield_strength: Stress, Positive;
+                /// Dynamic hardness, > 0, in place of `yield_strength`.
+                hardness: Stress, Positive, Role::STRENGTH;
+            }
+
+            /// A fit to finite elements of an elastic–perfectly plastic sphere on a flat.
+            JacksonGreen, jackson_green, JacksonGreenTable,
+                "a table such as { yield_strength = \"1 GPa\" }";
+            formula(pair, [yield_strength, nu]) = laws::jackson_green(pair, yield_strength, nu);
+            given by [yield_strength: KeyNeed::Optional, nu: KeyNeed::Optional],
+                values laws::jackson_green_values;
+            ends at ZeroForce;
+            keys {
+                /// Yield strength, > 0; absent: that of the material that yields first.
+                yield_strength: Stress, Positive, Role::STRENGTH;
+                /// Poisson's ratio of the body that flows; absent: the material's.
+                nu: Number, LikePoissonsRatio, Role::number(Some(0.3), (0.0, 0.5));
+            }
+
+            /// A spring that springs back stiffer, with a restitution independent of speed.
+            WaltonBraun, walton_braun, WaltonBraunTable,
+                "a table such as { e = 0.8, k1 = \"1e6 N/m\" }";
+            formula(pair, [e, k1]) = laws::walton_braun(pair, e, k1);
+            given by [e, k1];
+            ends at ZeroForce;
+            keys {
+                /// Restitution, > 0 and ≤ 1.
+                e: Number, Restitution, Role::number(None, (1e-6, 1.0)).starting_at(0.8);
+                /// Stiffness of the loading, > 0.
+                k1: Stiffness, Positive, Role::STIFFNESS;
+            }
+
+            /// A spring that springs back the stiffer the deeper it went; without adhesion.
+            Luding, luding, LudingTable,
+                "a table such as { kp_over_k1 = 5, k1 = \"1e6 N/m\", phi_f = 0.05 }";
+            formula(pair, [kp_over_k1, k1, phi_f]) = laws::luding(pair, kp_over_k1, k1, phi_f);
+            given by [kp_over_k1, k1, phi_f];
+            ends at ZeroForce;
+            keys {
+                /// Largest stiffness of the rebound over that of the loading, at least 1.
+                kp_over_k1: Number, Positive, Role::number(None, (1.0, 1e6)).starting_at(5.0);
+                /// Stiffness of the loading, > 0.
+                k1: Stiffness, Positive, Role::STIFFNESS;
+                /// Plasticity depth over the reduced radius, > 0.
+                phi_f: Number, Positive, Role::number(None, (1e-6, 1.0)).starting_at(0.05);
             }
         }
     };

@@ -1,6 +1,7 @@
 //! The laws from outside, in one program: linked once, its tests run side by side.
 
 mod common;
+mod dents;
 mod direct;
 mod fast_slow_limits;
 mod gravity;

@@ -39,6 +39,11 @@ Law = Literal[
     "schwager_poeschel",
     "morgado_oppenheim",
     "bordbar_hyppanen",
+    "thornton",
+    "johnson",
+    "jackson_green",
+    "walton_braun",
+    "luding",
     "ting",
 ]
 #: When a contact ends: at zero force, or at zero overlap.

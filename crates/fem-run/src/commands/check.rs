@@ -259,7 +259,7 @@ fn costs(
 
 /// Returns model and cost of a model with one degree of freedom.
 fn one_degree_of_freedom(description: &str, law: Option<&ContactLaw>) -> String {
-    let force = law.map(|law| {
+    let force = law.filter(|law| law.elastic_plastic().is_none()).map(|law| {
         format!(
             "F = K x^{} + C x^{} dx/dt, K = {:.5e} and C = {:.5e} SI",
             law.elastic_exponent(),

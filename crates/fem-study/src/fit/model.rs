@@ -173,6 +173,7 @@ impl Model {
         let law = || self.family.law(&self.pair, &unit);
         let size = match parameter.role {
             ParameterRole::Rate => hertz.contact_time().recip(),
+            ParameterRole::Strength => hertz.peak_pressure(),
             ParameterRole::Damping => match law() {
                 Some(law) => {
                     let law = law?;

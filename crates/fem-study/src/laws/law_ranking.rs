@@ -126,11 +126,14 @@ impl LawRanking {
     }
 }
 
-/// Returns the laws that lose energy with their damping free, and again with an exponent free that has a default.
+/// Returns the laws that lose energy with their damping free, and again with an exponent free that has a default. Laws that
+/// dent are fitted by name only.
 fn candidates() -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
     // The general law comes last, because its defaults are those of a named law.
     let named = LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Power);
-    let lossy = named.chain([LawFamily::Power]).filter(|family| loss_parameter(*family).is_ok());
+    let lossy = named
+        .chain([LawFamily::Power])
+        .filter(|family| loss_parameter(*family).is_ok() && !family.is_elastic_plastic());
     lossy.flat_map(|family| {
         let has_default = |key: &&'static str| {
             let mut parameters = family.parameters().iter();

@@ -89,6 +89,18 @@ fn every_model_and_law_is_read() {
             "MorgadoOppenheim eta_1=1e4 eta_2=2e-1",
         ),
         ("bordbar_hyppanen = { a = '1 us', n = 0.65 }", "BordbarHyppanen a=1e-6 n=6.5e-1"),
+        ("thornton = { yield_pressure = '1.6 GPa' }", "Thornton yield_pressure=1.6e9"),
+        ("johnson = { yield_strength = '1 GPa' }", "Johnson yield_strength=1e9"),
+        ("johnson = {}", "Johnson"),
+        (
+            "jackson_green = { yield_strength = 1e9, nu = 0.3 }",
+            "JacksonGreen yield_strength=1e9 nu=3e-1",
+        ),
+        ("walton_braun = { e = 0.8, k1 = '1 N/um' }", "WaltonBraun e=8e-1 k1=1e6"),
+        (
+            "luding = { kp_over_k1 = 5, k1 = 1e6, phi_f = 0.05 }",
+            "Luding kp_over_k1=5e0 k1=1e6 phi_f=5e-2",
+        ),
     ] {
         let LawInput { family, values } = law(value);
         read.push(family.name());
@@ -133,6 +145,14 @@ fn faults_point_at_their_key() {
     fault("condensed = { vibration_modes = «101» }", "vibration_modes is 101", "whole number");
     fault("condensed = { steps = «49.0» }", "steps is 49", "whole number");
     fault("condensed = { steps = «\"many\"» }", "not a whole number", "such as 12");
+    fault("law = { thornton = { yield_strength = «\"1 N\"» } }", "must be a pressure", "63 GPa");
+    fault("law = { johnson = { end = «\"zero_overlap\"» } }", "zero force", "remove end");
+    fault("law = { johnson = «{}» }", "needs a yield strength", "material.NAME.yield_strength");
+    fault(
+        "law = { luding = «{ kp_over_k1 = 0.5, k1 = 1, phi_f = 1 }» }",
+        "kp_over_k1 must be in",
+        "",
+    );
     // The slow limit needs an equilibrium modulus, and this glass flows.
     fault("law = { kuwabara_kono = «{}» }", "flows", "give a");
 }

@@ -9,8 +9,6 @@ use fem_laws::{Impact, ImpactInstant, ImpactPath, Pair};
 
 /// Rows of the history within the contact per row after it.
 const ROWS_PER_ROW_AFTER: usize = 5;
-/// Exponent of Hertz' force law; a law with it has Hertz' contact radius.
-pub(super) const HERTZ_EXPONENT: f64 = 1.5;
 
 /// Returns the collision of both bodies of a frame.
 pub(super) fn of_impact(
@@ -20,8 +18,9 @@ pub(super) fn of_impact(
     law: Option<&ContactLaw>,
     request: &OutputRequest,
 ) -> Collision {
-    let has_radius = law.is_none_or(|law| law.elastic_exponent() == HERTZ_EXPONENT);
-    let rows = Rows { frame, has_radius };
+    let has_radius = law.is_none_or(ContactLaw::has_contact_radius);
+    let dents = law.is_some_and(|law| law.elastic_plastic().is_some());
+    let rows = Rows { frame, has_radius, dents };
     let after = frame.velocities(-impact.restitution * frame.speed());
     let instants = || impact.history.iter();
     let residual = |instant| rows.row(instant).residual.unwrap_or(0.0);
@@ -61,6 +60,8 @@ pub(super) fn of_impact(
 struct Rows<'a> {
     frame: &'a Frame,
     has_radius: bool,
+    /// Whether the contact loses its energy by plastic flow.
+    dents: bool,
 }
 
 impl Rows<'_> {
@@ -92,9 +93,10 @@ impl Rows<'_> {
             _ => instant.work,
         };
         let potential = frame.potential(instant.approach);
+        let lost = if self.dents { Account::PlasticWork } else { Account::ViscousDissipation };
         let known = [
             (Account::Strain, instant.strain_energy),
-            (Account::ViscousDissipation, instant.dissipated),
+            (lost, instant.dissipated),
             (Account::Radiated, instant.radiated),
             (Account::Potential, potential),
         ];

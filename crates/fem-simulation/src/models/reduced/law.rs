@@ -1,4 +1,4 @@
-//! Contact laws: a spring and a dashpot of the overlap, integrated.
+//! Contact laws: a spring and a dashpot of the overlap, or a contact that dents, integrated.
 
 use fem_case::schema::LawTable;
 use fem_case::{Quantity, Scene};
@@ -79,6 +79,7 @@ fn law_numbers(
         pair: *estimate.hertz.pair(),
         approach_speed: estimate.hertz.approach_speed(),
         materials,
+        yield_strengths: scene.bodies().each_ref().map(|body| body.yield_strength()),
         relaxation: &relaxation,
         end_rule,
     };

@@ -20,7 +20,6 @@ use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
 use crate::rejection::Rejection;
-use collision::HERTZ_EXPONENT;
 
 /// The reduced methods.
 #[derive(Clone, Copy, Debug)]
@@ -242,14 +241,13 @@ fn relaxed_hertz(
     }))
 }
 
-/// Returns the static contact of a law's spring alone, F = K δ^γ.
+/// Returns the static contact of a law's first loading without its dashpot.
 fn under_spring(law: &ContactLaw, pair: &Pair, force: f64) -> Result<StaticContact, LawError> {
-    let approach = (force / law.stiffness()).powf(law.elastic_exponent().recip());
+    let approach = law.approach_under(force);
     if !(approach > 0.0 && approach.is_finite()) {
         return Err(LawError::NotPositive { quantity: "static approach", value: approach });
     }
-    let has_radius = law.elastic_exponent() == HERTZ_EXPONENT;
-    let contact_radius = has_radius.then(|| (pair.effective_radius() * approach).sqrt());
+    let contact_radius = law.contact_radius(pair, approach);
     Ok(StaticContact { force, approach, contact_radius, centre_pressure: None })
 }
 

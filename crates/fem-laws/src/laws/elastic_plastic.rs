@@ -1,0 +1,354 @@
+//! Laws of contacts that dent: loading, and an elastic rebound from any approach δ_m.
+//!
+//! Every law gives the force F(δ) and the contact radius a(δ) of the loading. A dented sphere springs back as Hertz' of
+//! the curvature that has the same contact radius, R_p = 4E*a³/3F, so that
+//!
+//! ```math
+//! F = F_m\left(\frac{\delta-\delta_r}{\delta_m-\delta_r}\right)^{3/2}, \qquad
+//! \delta_m-\delta_r = \frac{3F_m}{4E^*a_m}, \qquad e^2 = \frac{\tfrac25F_m(\delta_m-\delta_r)}{\int F\,\mathrm d\delta}
+//! ```
+//!
+//! (Etsion, Kligerman & Kadin 2005, as read in `SPHERE_PLASTIC_PRE2.m` of a public model of rough contacts; it is Thornton's
+//! and Johnson's unloading too). A linear spring springs back with another stiffness. δ_r is the dent.
+//! A rebound never returns more than the loading took, nor more of the approach: where a law says so, e is 1 or δ_r is 0.
+//!
+//! | law | loading | read in |
+//! |---|---|---|
+//! | [`thornton`] | Hertz up to the pressure p_y, then F = F_y + πp_yR*(δ − δ_y), a² = R*δ | the public description of `chiton-helmet-sim`, which cites Thornton (1997); [`crate::FirstYield`] |
+//! | [`johnson`] | F = 2πR*p_dδ, a² = 2R*δ | Johnson (1985), section 11.5, as in [`crate::FirstYield`] |
+//! | [`jackson_green`] | Hertz up to 1.9 ω_c, then a fit to finite elements | `SPHERE_PLASTIC_PRE2.m`, for a sphere of radius R* on a rigid flat |
+//! | [`walton_braun`] | F = k₁δ | `walton::normal_force` of a public code for granular flow, which cites Walton & Braun (1986) |
+//! | [`luding`] | F = k₁δ, rebound stiffer with δ_m | YADE's LudingPM, which cites Luding (2008), eqs. 6 to 8 |
+//!
+//! Jackson and Green's fit, with ω = δ, C = 1.295 exp(0.736 ν) and the yield strength S of the weaker body:
+//!
+//! ```math
+//! \omega_c = R^*\Bigl(\frac{\pi CS}{2E^*}\Bigr)^2, \quad
+//! F_c = \frac43\Bigl(\frac{R^*}{E^*}\Bigr)^2\Bigl(\frac{\pi CS}2\Bigr)^3, \quad x = \frac\omega{\omega_c}, \qquad
+//! \frac F{F_c} = e^{-x^{5/12}/4}x^{3/2} + \frac{4H}{CS}\bigl(1-e^{-x^{5/9}/25}\bigr)x
+//! ```
+//!
+//! ```math
+//! \frac HS = 2.84 - 0.92\bigl(1-\cos\tfrac{\pi a}{R^*}\bigr), \qquad
+//! a^2 = R^*\omega\Bigl(\frac x{1.9}\Bigr)^B, \quad B = 0.14\,e^{23S/E^*}
+//! ```
+//!
+//! It jumps by half a percent where it begins, and beyond about 2000 ω_c its mean pressure falls, because its area grows too
+//! fast. Limits: perfect plasticity, one body that flows; no rates, no waves.
+
+use std::f64::consts::PI;
+
+use super::power::{ContactLaw, power};
+use super::published::hertz_stiffness;
+use crate::error::{LawError, positive, restitution as checked_restitution};
+use crate::family::{LawContext, LawInput, LawInputError, LawValues};
+use crate::numerics::gauss;
+use crate::pair::Pair;
+use crate::plastic_yield::{HARDNESS, largest_von_mises};
+
+/// Interference over the critical one at which Jackson and Green's fit begins.
+const FIT_BEGINS: f64 = 1.9;
+/// Ratio of the ends of a panel of a quadrature.
+const PANEL: f64 = 1.25;
+
+/// The plastic part of a [`ContactLaw`], whose spring is the law until it first flows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElasticPlastic {
+    radius: f64,
+    modulus: f64,
+    formula: Formula,
+}
+
+/// The loading of a law, with its parameters in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Formula {
+    Thornton {
+        pressure: f64,
+    },
+    Johnson {
+        hardness: f64,
+    },
+    JacksonGreen {
+        strength: f64,
+        constraint: f64,
+    },
+    /// Stiffness of the rebound at most, N/m, reached at this approach, m.
+    Springs {
+        stiffness: f64,
+        rebound: f64,
+        until: f64,
+    },
+}
+
+/// The elastic rebound from an approach: F = F_m ((δ − δ_r)/`length`)^`exponent`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rebound {
+    /// Force at the beginning, N.
+    pub force: f64,
+    /// Approach that springs back, m.
+    pub length: f64,
+    pub exponent: f64,
+}
+
+impl Rebound {
+    /// Returns the force, N, at a height above the dent, m.
+    pub fn force_at(&self, height: f64) -> f64 {
+        self.force * (height / self.length).max(0.0).powf(self.exponent)
+    }
+
+    /// Returns the energy that is left, J, at a height above the dent, m.
+    pub fn energy_at(&self, height: f64) -> f64 {
+        self.force_at(height) * height / (self.exponent + 1.0)
+    }
+}
+
+impl ElasticPlastic {
+    /// Returns the approach at which the loading is first plastic, m; infinite for a law that has one formula.
+    pub(crate) fn yield_approach(&self) -> f64 {
+        match self.formula {
+            Formula::Thornton { pressure } => {
+                self.radius * (0.5 * PI * pressure / self.modulus).powi(2)
+            }
+            Formula::JacksonGreen { .. } => FIT_BEGINS * self.critical_interference(),
+            Formula::Johnson { .. } | Formula::Springs { .. } => f64::INFINITY,
+        }
+    }
+
+    /// Returns whether the law has a contact radius.
+    pub(crate) fn has_contact_radius(&self) -> bool {
+        !matches!(self.formula, Formula::Springs { .. })
+    }
+
+    /// Returns the contact radius of the loading at an approach, m.
+    pub(crate) fn contact_radius(&self, approach: f64) -> f64 {
+        let hertz = (self.radius * approach).sqrt();
+        match self.formula {
+            Formula::Johnson { .. } => (2.0 * self.radius * approach).sqrt(),
+            Formula::JacksonGreen { strength, .. } => {
+                let fit = approach / (FIT_BEGINS * self.critical_interference());
+                let exponent = 0.14 * (23.0 * strength / self.modulus).exp();
+                hertz * fit.max(1.0).powf(0.5 * exponent)
+            }
+            Formula::Thornton { .. } | Formula::Springs { .. } => hertz,
+        }
+    }
+
+    /// ω_c of Jackson and Green, m.
+    fn critical_interference(&self) -> f64 {
+        match self.formula {
+            Formula::JacksonGreen { strength, constraint } => {
+                self.radius * (0.5 * PI * constraint * strength / self.modulus).powi(2)
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Returns the force of the loading beyond first yield, N, where the elastic spring has this force at the approach.
+    fn plastic_force(&self, approach: f64, elastic: f64) -> f64 {
+        match self.formula {
+            // The spring at first yield has F_y = ⅔πp_yR*δ_y.
+            Formula::Thornton { pressure } => {
+                PI * pressure * self.radius * (approach - self.yield_approach() / 3.0)
+            }
+            Formula::JacksonGreen { strength, constraint } => {
+                let x = approach / self.critical_interference();
+                let slope = PI * self.contact_radius(approach) / self.radius;
+                let hardness = 2.84 - 0.92 * (1.0 - slope.cos());
+                let critical = 4.0 / 3.0
+                    * (self.radius / self.modulus).powi(2)
+                    * (0.5 * PI * constraint * strength).powi(3);
+                let fading = (-0.25 * x.powf(5.0 / 12.0)).exp() * x.powf(1.5);
+                let growing = -(-x.powf(5.0 / 9.0) / 25.0).exp_m1() * x;
+                critical * (fading + 4.0 * hardness / constraint * growing)
+            }
+            Formula::Johnson { .. } | Formula::Springs { .. } => elastic,
+        }
+    }
+
+    /// Stiffness of a linear rebound from an approach, N/m, of a law of springs.
+    fn rebound_stiffness(&self, approach: f64) -> Option<f64> {
+        match self.formula {
+            Formula::Springs { stiffness, rebound, until } => {
+                let share = if until > 0.0 { (approach / until).min(1.0) } else { 1.0 };
+                Some(stiffness + (rebound - stiffness) * share)
+            }
+            _ => None,
+        }
+    }
+}
+
+impl ContactLaw {
+    /// Returns the force of a first loading, N, at an approach ≥ 0, m, without a dashpot.
+    pub(crate) fn loading_force(&self, approach: f64) -> f64 {
+        let elastic = self.stiffness() * approach.powf(self.elastic_exponent());
+        match self.elastic_plastic() {
+            Some(law) if approach > law.yield_approach() => law.plastic_force(approach, elastic),
+            _ => elastic,
+        }
+    }
+
+    /// Returns the work of a first loading, J, up to an approach ≥ 0, m, without a dashpot.
+    pub(crate) fn loading_work(&self, approach: f64) -> f64 {
+        let yields = self.elastic_plastic().map_or(f64::INFINITY, ElasticPlastic::yield_approach);
+        let exponent = self.elastic_exponent() + 1.0;
+        let mut work = self.stiffness() * approach.min(yields).powf(exponent) / exponent;
+        let mut from = yields;
+        while from < approach {
+            let to = (PANEL * from).min(approach);
+            work += gauss(from, to, |approach| self.loading_force(approach));
+            from = to;
+        }
+        work
+    }
+
+    /// Returns the rebound from an approach > 0, m, of a law that dents, after this work of the loading, J.
+    pub(crate) fn rebound(&self, law: &ElasticPlastic, approach: f64, work: f64) -> Rebound {
+        let force = self.loading_force(approach);
+        let (length, exponent) = match law.rebound_stiffness(approach) {
+            Some(stiffness) => (force / stiffness, 1.0),
+            None => (0.75 * force / (law.modulus * law.contact_radius(approach)), 1.5),
+        };
+        let returned = work.min(force * length / (exponent + 1.0));
+        let length = length.min(approach);
+        // F ℓ/(n + 1) is what returns.
+        Rebound { force, length, exponent: force * length / returned - 1.0 }
+    }
+}
+
+/// Returns Thornton's law of a pair and the contact pressure p_y at which it first yields, Pa, which is held from then on.
+///
+/// Thornton (1997), *J. Appl. Mech.* 64, 383.
+///
+/// # Errors
+/// A pressure that is not positive and finite.
+pub fn thornton(pair: &Pair, yield_pressure: f64) -> Result<ContactLaw, LawError> {
+    let pressure = positive("yield_pressure", yield_pressure)?;
+    dented(pair, (hertz_stiffness(pair), 1.5), Formula::Thornton { pressure })
+}
+
+/// Returns Johnson's fully plastic law of a pair and the dynamic hardness p_d, Pa, about three yield strengths.
+///
+/// Johnson (1985), *Contact Mechanics*, section 11.5.
+///
+/// # Errors
+/// A hardness that is not positive and finite.
+pub fn johnson(pair: &Pair, hardness: f64) -> Result<ContactLaw, LawError> {
+    let hardness = positive("hardness", hardness)?;
+    let stiffness = 2.0 * PI * pair.effective_radius() * hardness;
+    dented(pair, (stiffness, 1.0), Formula::Johnson { hardness })
+}
+
+/// Returns Jackson and Green's law of a pair, and yield strength (Pa) and Poisson's ratio of the body that flows.
+///
+/// Jackson & Green (2005), *J. Tribol.* 127, 343, with the rebound of Etsion et al. (2005).
+///
+/// # Errors
+/// A strength that is not positive and finite, a ratio outside (−1, 0.5].
+pub fn jackson_green(
+    pair: &Pair,
+    yield_strength: f64,
+    poissons_ratio: f64,
+) -> Result<ContactLaw, LawError> {
+    let strength = positive("yield_strength", yield_strength)?;
+    if !(poissons_ratio > -1.0 && poissons_ratio <= 0.5) {
+        let (quantity, range) = ("nu", "(-1, 0.5]");
+        return Err(LawError::OutOfRange { quantity, value: poissons_ratio, range });
+    }
+    let constraint = 1.295 * (0.736 * poissons_ratio).exp();
+    dented(pair, (hertz_stiffness(pair), 1.5), Formula::JacksonGreen { strength, constraint })
+}
+
+/// Returns the spring of a stiffness k₁, N/m, that springs back with k₁/e², which gives a restitution in (0, 1] at any speed.
+///
+/// Walton & Braun (1986), *J. Rheol.* 30, 949.
+///
+/// # Errors
+/// A restitution outside (0, 1], a stiffness that is not positive and finite.
+pub fn walton_braun(pair: &Pair, restitution: f64, stiffness: f64) -> Result<ContactLaw, LawError> {
+    let e = checked_restitution(restitution)?;
+    let stiffness = positive("k1", stiffness)?;
+    let rebound = positive("stiffness of the rebound", stiffness / (e * e))?;
+    dented(pair, (stiffness, 1.0), Formula::Springs { stiffness, rebound, until: 0.0 })
+}
+
+/// Returns Luding's law without adhesion: the spring of a stiffness k₁ springs back with a stiffness that grows with the
+/// largest approach from k₁, N/m, to k_p, `ratio` times as much, at δ* = 2R*φ_f k_p/(k_p − k₁), where φ_f is the plasticity
+/// depth. Beyond δ* the loading goes on with k₁, as in YADE.
+///
+/// Luding (2008), *Granular Matter* 10, 235.
+///
+/// # Errors
+/// A ratio below 1; a stiffness or a depth that is not positive and finite.
+pub fn luding(pair: &Pair, ratio: f64, stiffness: f64, depth: f64) -> Result<ContactLaw, LawError> {
+    if ratio.is_nan() || ratio < 1.0 {
+        let (quantity, range) = ("kp_over_k1", "[1, infinity)");
+        return Err(LawError::OutOfRange { quantity, value: ratio, range });
+    }
+    let (stiffness, depth) = (positive("k1", stiffness)?, positive("phi_f", depth)?);
+    let rebound = positive("stiffness of the rebound", ratio * stiffness)?;
+    let until = 2.0 * pair.effective_radius() * depth * (ratio / (ratio - 1.0));
+    dented(pair, (stiffness, 1.0), Formula::Springs { stiffness, rebound, until })
+}
+
+/// Returns the law whose spring, K and γ, is followed until first yield.
+fn dented(
+    pair: &Pair,
+    (stiffness, exponent): (f64, f64),
+    formula: Formula,
+) -> Result<ContactLaw, LawError> {
+    let (radius, modulus) = (pair.effective_radius(), pair.contact_modulus());
+    let law = ElasticPlastic { radius, modulus, formula };
+    Ok(power(stiffness, exponent, 0.0, 0.0)?.with_elastic_plastic(law))
+}
+
+/// Returns p_y as given, or that of the body that yields first.
+///
+/// # Errors
+/// Neither a strength nor a material with one is given.
+pub fn thornton_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let pressure = match law.get("yield_pressure") {
+        Some(pressure) => pressure,
+        None => {
+            let (strength, ratio) = weakest(law, context)?;
+            strength / largest_von_mises(ratio)
+        }
+    };
+    Ok((vec![pressure], context.pair))
+}
+
+/// Returns the hardness as given, or three times the yield strength.
+///
+/// # Errors
+/// Those of [`thornton_values`].
+pub fn johnson_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let hardness = match law.get("hardness") {
+        Some(hardness) => hardness,
+        None => HARDNESS * weakest(law, context)?.0,
+    };
+    Ok((vec![hardness], context.pair))
+}
+
+/// Returns yield strength and Poisson's ratio as given, or those of the body that yields first.
+///
+/// # Errors
+/// Those of [`thornton_values`].
+pub fn jackson_green_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let (strength, ratio) = weakest(law, context)?;
+    Ok((vec![strength, law.get("nu").unwrap_or(ratio)], context.pair))
+}
+
+/// Returns yield strength (Pa) and Poisson's ratio of the body that yields at the lower pressure. A strength that the law
+/// gives is that of both bodies.
+fn weakest(law: &LawInput, context: &LawContext<'_>) -> Result<(f64, f64), LawInputError> {
+    let given = law.get("yield_strength");
+    let bodies = context.materials.iter().zip(context.yield_strengths);
+    let known = bodies.filter_map(|(material, strength)| {
+        let ratio = (*material)?.instantaneous().poissons_ratio();
+        Some((given.or(strength)?, ratio))
+    });
+    let pressure = |(strength, ratio): &(f64, f64)| strength / largest_von_mises(*ratio);
+    known.min_by(|a, b| pressure(a).total_cmp(&pressure(b))).ok_or(LawInputError::Materials {
+        message: "a law that dents needs a yield strength",
+        help: "set material.NAME.yield_strength, or yield_strength in the law",
+    })
+}

@@ -1,0 +1,235 @@
+//! Laws of contacts that dent: closed restitutions and times, published limits, energy.
+
+use std::f64::consts::PI;
+
+use fem_laws::laws::{ContactLaw, jackson_green, johnson, luding, thornton, walton_braun};
+use fem_laws::{
+    FirstYield, HertzImpact, Impact, LawImpact, Pair, Partner, contact_time_coefficient,
+    largest_von_mises,
+};
+
+const STRENGTH: f64 = 235e6;
+const NU: f64 = 0.3;
+
+/// Balls of 10 mm of steel.
+fn pair() -> Pair {
+    let mass = fem_laws::sphere_mass(10e-3, 7850.0);
+    let ball = || Partner::Sphere { radius: 5e-3, mass, plane_strain_modulus: 210e9 / 0.91 };
+    Pair::new(ball(), ball()).unwrap()
+}
+
+fn impact(law: ContactLaw, speed: f64) -> Impact {
+    LawImpact::new(&pair(), law).impact(speed).unwrap()
+}
+
+/// First yield of the pair by von Mises, and Thornton's law for it.
+fn yielding(speed: f64) -> (FirstYield, ContactLaw) {
+    let first = FirstYield::new(&HertzImpact::new(&pair(), speed).unwrap(), STRENGTH, NU);
+    (first, thornton(&pair(), STRENGTH / largest_von_mises(NU)).unwrap())
+}
+
+/// The approach at the end: the dent.
+fn dent(impact: &Impact) -> f64 {
+    impact.history.last().unwrap().approach
+}
+
+#[track_caller]
+fn assert_close(found: f64, expected: f64, tolerance: f64) {
+    assert!((found / expected - 1.0).abs() < tolerance, "{found:e} {expected:e}");
+}
+
+/// Thornton (1997), eq. 39, and 1.185 (v_Y/v)^(1/4) far beyond first yield; time, force and approach are those of
+/// [`FirstYield`], whose time is a midpoint sum good to 1e-5.
+#[test]
+fn thornton_has_the_published_restitution() {
+    let first = yielding(1.0).0.speed;
+    for x in [0.999, 0.5, 0.1, 1e-2, 1e-4] {
+        let (closed, law) = yielding(first / x);
+        let found = impact(law, first / x);
+        let unloading = x / (x + 2.0 * (1.2 - 0.2 * x * x).sqrt());
+        let e = (1.2 * 3f64.sqrt() * (1.0 - x * x / 6.0)).sqrt() * unloading.powf(0.25);
+        assert_close(found.restitution, e, 1e-9);
+        let [expected, _] = closed.impacts();
+        assert_close(found.contact_time.unwrap(), expected.contact_time, 1e-5);
+        assert_close(found.peak_force, expected.peak_force, 1e-9);
+        assert_close(found.max_approach, expected.max_approach, 1e-9);
+        assert_close(found.max_contact_radius, expected.max_contact_radius, 1e-9);
+    }
+    assert_close(
+        impact(yielding(1.0).1, 1e6 * first).restitution,
+        1.185 * 1e-6f64.powf(0.25),
+        2e-3,
+    );
+}
+
+/// Johnson (1985), eq. 11.47: e = 3.8 (Y/E*)^(1/2) (½mv²/YR³)^(-1/8), rounded; the loading is a quarter of a period.
+#[test]
+fn johnson_has_the_published_restitution() {
+    let law = johnson(&pair(), 3.0 * STRENGTH).unwrap();
+    for speed in [1.0, 5.0, 50.0] {
+        let found = impact(law, speed);
+        let energy = 0.5 * pair().effective_mass() * speed * speed;
+        let share = energy / (STRENGTH * pair().effective_radius().powi(3));
+        let e = 3.8 * (STRENGTH / pair().contact_modulus()).sqrt() * share.powf(-0.125);
+        assert_close(found.restitution, e, 0.02);
+        let stiffness = 2.0 * PI * pair().effective_radius() * 3.0 * STRENGTH;
+        let loading = 0.5 * PI * (pair().effective_mass() / stiffness).sqrt();
+        let height = found.max_approach - dent(&found);
+        let rebound = 0.5 * contact_time_coefficient() * height / (found.restitution * speed);
+        assert_close(found.contact_time.unwrap(), loading + rebound, 1e-9);
+    }
+    // A slow impact would gain energy by that formula.
+    assert_close(impact(law, 1e-4).restitution, 1.0, 1e-12);
+}
+
+/// Up to 1.9 ω_c the law is Hertz'. Far beyond, the mean pressure nears 2.84 S while the contact is small. The dent is that
+/// of a fit to finite elements by Jackson, Chusoipin & Green (2005), δ_r/δ_m = 1.02 (1 − ((ω + 5.9)/6.9)^(-0.54)) with ω in
+/// units of ω_c, as read in the code that also has the rebound of this law, within 0.15: so much both differ at 30 ω_c.
+#[test]
+fn jackson_green_has_the_published_limits_and_dent() {
+    // S/E* = 1e-4: a small contact is fully plastic.
+    let strength = 1e-4 * pair().contact_modulus();
+    let law = jackson_green(&pair(), strength, NU).unwrap();
+    let constraint = 1.295 * f64::exp(0.736 * NU);
+    let critical = pair().effective_radius()
+        * (0.5 * PI * constraint * strength / pair().contact_modulus()).powi(2);
+    let at = |omega: f64| {
+        // Half of the largest approach is passed with most of the speed: bisect for the speed.
+        let (mut low, mut high) = (0.0, 1e3);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let is_below = impact(law, middle).max_approach < omega * critical;
+            if is_below { low = middle } else { high = middle }
+        }
+        impact(law, high)
+    };
+    let elastic = at(1.89);
+    assert_close(elastic.restitution, 1.0, 1e-9);
+    let hertz = HertzImpact::new(&pair(), elastic.history[0].approach_rate).unwrap();
+    assert_close(elastic.contact_time.unwrap(), hertz.contact_time(), 1e-9);
+    for omega in [3.0, 10.0, 30.0, 100.0] {
+        let found = at(omega);
+        let fit = 1.02 * (1.0 - ((omega + 5.9) / 6.9_f64).powf(-0.54));
+        let ours = dent(&found) / found.max_approach;
+        assert!((ours - fit).abs() < 0.15, "{omega}: {ours} {fit}");
+    }
+    let deep = at(2e3);
+    let pressure = deep.peak_force / (PI * deep.max_contact_radius.powi(2));
+    assert!((2.4..2.84).contains(&(pressure / strength)), "{}", pressure / strength);
+}
+
+/// e is the given one, and T = (π/2)(m*/k₁)^(1/2)(1 + e).
+#[test]
+fn walton_braun_has_its_restitution_and_time() {
+    for e in [0.1, 0.8, 1.0] {
+        let found = impact(walton_braun(&pair(), e, 1e7).unwrap(), 0.3);
+        let quarter = 0.5 * PI * (pair().effective_mass() / 1e7).sqrt();
+        assert_close(found.restitution, e, 1e-9);
+        assert_close(found.contact_time.unwrap(), quarter * (1.0 + e), 1e-9);
+        assert_close(1.0 - dent(&found) / found.max_approach, e * e, 1e-9);
+    }
+}
+
+/// e² = k₁/k₂ with k₂ = k₁ + (k_p − k₁) δ_m/δ*, and (k₁/k_p)^(1/2) from δ* on.
+#[test]
+fn luding_rebounds_the_stiffer_the_deeper() {
+    let (k1, kp, phi) = (1e6, 5e6, 0.05);
+    let law = luding(&pair(), kp / k1, k1, phi).unwrap();
+    let until = kp / (kp - k1) * phi * 2.0 * pair().effective_radius();
+    let speed_at = |approach: f64| approach * (k1 / pair().effective_mass()).sqrt();
+    for share in [1e-3, 0.3, 0.9, 1.0, 3.0] {
+        let e = (k1 / (k1 + (kp - k1) * f64::min(share, 1.0))).sqrt();
+        assert_close(impact(law, speed_at(share * until)).restitution, e, 1e-9);
+    }
+}
+
+fn all_laws() -> [ContactLaw; 5] {
+    let pair = pair();
+    [
+        thornton(&pair, 1.6 * STRENGTH),
+        johnson(&pair, 3.0 * STRENGTH),
+        jackson_green(&pair, STRENGTH, NU),
+        walton_braun(&pair, 0.7, 1e7),
+        luding(&pair, 5.0, 1e6, 0.05),
+    ]
+    .map(Result::unwrap)
+}
+
+/// At every instant kinetic energy and work are those of the start, nothing is dissipated that comes back, and the force
+/// changes the momentum.
+#[test]
+fn energy_and_momentum_are_kept_at_every_instant() {
+    let mass = pair().effective_mass();
+    for law in all_laws() {
+        for speed in [1e-3, 0.1, 5.0, 100.0] {
+            let found = impact(law, speed);
+            let energy = 0.5 * mass * speed * speed;
+            let mut lost = 0.0;
+            let mut impulse = 0.0;
+            for (now, next) in found.history.iter().zip(&found.history[1..]) {
+                let kinetic = 0.5 * mass * now.approach_rate.powi(2);
+                assert!(
+                    (kinetic + now.work - energy).abs() < 1e-9 * energy,
+                    "{law:?} {speed} {now:?}"
+                );
+                let dissipated = now.dissipated.unwrap();
+                assert!(dissipated > lost - 1e-9 * energy, "{law:?} {speed}: {dissipated} {lost}");
+                lost = dissipated;
+                impulse += 0.5 * (now.force + next.force) * (next.time - now.time);
+            }
+            let change = mass * speed * (1.0 + found.restitution);
+            // The trapezoidal sum over a hundred instants.
+            assert_close(impulse, change, 2e-3);
+        }
+    }
+}
+
+/// Every law loses nothing in the limit of hardness, and all do with speed.
+#[test]
+fn restitution_falls_with_speed_from_one() {
+    let pair = pair();
+    let hard = [
+        thornton(&pair, 1e12),
+        johnson(&pair, 1e15),
+        jackson_green(&pair, 1e11, NU),
+        walton_braun(&pair, 1.0, 1e7),
+        luding(&pair, 1.0, 1e6, 0.05),
+    ];
+    for law in hard {
+        assert_close(impact(law.unwrap(), 0.1).restitution, 1.0, 1e-8);
+    }
+    for law in [0, 1, 2, 4].map(|k| all_laws()[k]) {
+        let mut last = 2.0;
+        for speed in [1e-5, 1e-2, 0.1, 1.0, 10.0] {
+            let e = impact(law, speed).restitution;
+            assert!(e < last + 1e-9 && e <= 1.0 + 1e-12, "{law:?} {speed} {e} {last}");
+            last = e;
+        }
+    }
+}
+
+/// A ball that its rebound does not lift out of its dent stays there: with F = 2mg at the turn Hertz' rebound returns 0.8 mg
+/// of its length. Without gravity it leaves.
+#[test]
+fn a_heavy_ball_stays_in_its_dent() {
+    let heavy =
+        |law| LawImpact::new(&pair(), law).with_gravity(9.81).unwrap().impact(1e-4).unwrap();
+    let law = johnson(&pair(), 1e4).unwrap();
+    assert!(impact(law, 1e-4).contact_time.is_some());
+    let found = heavy(law);
+    assert_eq!((found.contact_time, found.restitution), (None, 0.0));
+    // The weight takes from a spring's rebound the share that it gave to the loading.
+    assert_close(heavy(walton_braun(&pair(), 0.05, 1e5).unwrap()).restitution, 0.05, 1e-9);
+}
+
+#[test]
+fn values_out_of_range_are_rejected() {
+    let pair = pair();
+    assert!(thornton(&pair, 0.0).is_err() && johnson(&pair, f64::NAN).is_err());
+    assert!(jackson_green(&pair, 1e9, 0.6).is_err() && walton_braun(&pair, 1.1, 1e6).is_err());
+    assert!(luding(&pair, 0.9, 1e6, 0.05).is_err() && luding(&pair, 2.0, 1e6, 0.0).is_err());
+    for law in all_laws() {
+        assert!(LawImpact::new(&pair, law).impact(f64::MAX).is_err());
+        assert!(LawImpact::new(&pair, law).impact(0.0).is_err());
+    }
+}
