@@ -1,10 +1,12 @@
 """Numbers are the command's, to the bit."""
 
+import copy
 import csv
 import html
 import json
 import os
 import pathlib
+import pickle
 import sys
 
 import numpy as np
@@ -224,6 +226,18 @@ def test_plots_of_results_and_tables(glass, monkeypatch):
     assert table.plot("peak_force_n", axes=axes) is axes and axes.get_ylabel() == "peak force [N]"
     with pytest.raises(KeyError, match="no column of numbers"):
         table.plot("restitutoin")
+    fitted = fem_run.fit(case, table, law="kuwabara_kono", compare="tsuji")
+    axes = fitted.plot()
+    assert axes.get_xlabel() == "speed [m/s]"
+    assert [line.get_label() for line in axes.get_lines()][-2:] == ["kuwabara_kono", "tsuji"]
+    assert fitted.plot(axes) is axes
+    found = fem_run.calibrate(case, table, model="ting", terms=2)
+    axes = found.plot()
+    assert axes.get_xlabel() == "approach speed [m/s]"
+    assert axes.get_lines()[-2].get_label() == "best series"
+    assert "Calibration of glass: weights" in repr(found) and "% range" in found._repr_html_()
+    for one in (fitted, found):
+        assert pickle.loads(pickle.dumps(one)) == one and type(copy.copy(one)) is type(one)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(ImportError, match=r"pip install 'fem-run\[plot\]'"):
         table.plot()

@@ -12,8 +12,6 @@ use fem_laws::{Impact, LawError, LawFamily, LawImpact, ParameterRole};
 
 use crate::quantity_axis::{QuantityAxis, chart_axes};
 
-/// Points of a curve.
-const N_POINTS: usize = 80;
 /// Speeds of the overlap curves over the given speed.
 const SPEED_RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
@@ -37,16 +35,13 @@ fn title(family: LawFamily) -> String {
 /// evidence.
 pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     let data = fitted.problem.points;
-    let (low, high) = fitted.data.speeds();
-    let (low, high) = if low < high { (low, high) } else { (low / 2.0, high * 2.0) };
+    let speeds = fitted.curve_speeds();
+    let high = speeds.last().copied().unwrap_or(1.0);
     let x = QuantityAxis::linear("approach speed", "m/s", high).logarithmic();
     let curve = |model: &Model, fit: &Fit| -> Vec<(f64, f64)> {
-        let speed = |k: usize| low * (high / low).powf(k as f64 / (N_POINTS - 1) as f64);
-        let point = |k| {
-            let outcome = model.outcome(&fit.values, speed(k)).ok()?;
-            Some((x.scaled(speed(k)), outcome.restitution))
-        };
-        (0..N_POINTS).filter_map(point).collect()
+        let restitutions = LawFit::curve((model, fit), &speeds);
+        let points = speeds.iter().zip(restitutions);
+        points.filter_map(|(&speed, e)| Some((x.scaled(speed), e?))).collect()
     };
     let model = fitted.problem.model;
     let share = |rank: usize| -> String {

@@ -14,16 +14,19 @@ import json
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from . import _native
 from ._case import Case
 from ._errors import bad_input, shown
-from ._shown import quantity
+from ._shown import quantity, restitutions
 from ._sweep import Table, _array
 from ._words import in_python
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 #: A contact law.
 Law = Literal[
@@ -77,6 +80,55 @@ class Fit(dict[str, Any]):
         warnings_text = f"Warnings:<ul>{warnings}</ul>" if warnings else ""
         return f"<table><caption>{html.escape(self['law'])}</caption>{rows}</table>{warnings_text}"
 
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the data and the restitution of each law over the speed with matplotlib, ``pip install fem-run[plot]``.
+
+        Args:
+            axes: the axes to draw on; new ones if ``None``.
+
+        Raises:
+            ImportError: matplotlib is not installed.
+        """
+        curves, measured = self["curves"], self["measured"]
+        lines = [(law["law"], curves["speed_m_s"], law["restitution"]) for law in curves["laws"]]
+        errors = measured["restitution_uncertainty"]
+        return restitutions(axes, "speed_m_s", (measured["speed_m_s"], measured["restitution"], errors), lines)
+
+
+class Calibration(dict[str, Any]):
+    """The keys of ``calibrate.json``, SI, and ``relaxation_toml``; shown as the terms with their ranges."""
+
+    def __repr__(self) -> str:
+        terms = ", ".join(f"{one['weight']:.3g} at {quantity(one['relaxation_time_s'], 0, True, 's')}" for one in self["terms"])
+        return f"<fem_run.Calibration of {self['material']}: weights {terms}; rms error {self['rms']:.3g} of {self['points']} points>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{quantity(one['relaxation_time_s'], 0, True, 's')}</td><td>{one['weight']:.3g}</td>"
+            f"<td>{one['range'][0]:.3g} to {one['range'][1]:.3g}</td></tr>"
+            for one in self["terms"]
+        )
+        head = f"<tr><th>relaxation time</th><th>weight</th><th>{100 * self['confidence']:.3g} % range</th></tr>"
+        return f"<table><caption>{html.escape(self['material'])}</caption>{head}{rows}</table>"
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the data, the best series and a single Maxwell term with matplotlib, ``pip install fem-run[plot]``.
+
+        Args:
+            axes: the axes to draw on; new ones if ``None``.
+
+        Raises:
+            ImportError: matplotlib is not installed.
+            InputError: the collisions of the curves cannot be computed.
+        """
+        curves = self["curves"]
+        if curves is None:
+            raise bad_input("this calibration has no curves to plot", "see its warnings")
+        x = curves["over"]
+        names = (("best", "best series"), ("maxwell", "single Maxwell term"))
+        lines = [(name, curves[key][x], curves[key]["restitution"]) for key, name in names]
+        return restitutions(axes, x, (curves["data"][x], curves["data"]["restitution"], None), lines)
+
 
 def fit(
     case: Case,
@@ -110,7 +162,7 @@ def fit(
         columns: names of the columns by their meaning.
 
     Returns:
-        The keys of ``fit.json``, SI.
+        The keys of ``fit.json``, SI; ``plot()`` draws them.
 
     Raises:
         InputError: the options or the data are invalid.
@@ -201,7 +253,7 @@ def calibrate(
     model: Literal["condensed", "ting"] | None = None,
     confidence: float | None = None,
     columns: Columns | None = None,
-) -> dict[str, Any]:
+) -> Calibration:
     """Finds a Prony series from measured restitutions, and what they leave undetermined.
 
     Args:
@@ -218,9 +270,9 @@ def calibrate(
         columns: names of the columns by their meaning.
 
     Returns:
-        The keys of ``calibrate.json``, and ``relaxation_toml`` to paste into a case.
+        The keys of ``calibrate.json``, and ``relaxation_toml`` to paste into a case; ``plot()`` draws them.
     """
-    return _found(_native.calibrate(_native_of(case), _data(data), _words(locals())))
+    return Calibration(_found(_native.calibrate(_native_of(case), _data(data), _words(locals()))))
 
 
 def cradle(

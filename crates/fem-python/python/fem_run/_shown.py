@@ -74,6 +74,28 @@ def _words(column: str) -> str:
     return column.rsplit(".", 1)[-1].replace("_", " ")
 
 
+def restitutions(
+    axes: Axes | None, x: str, data: tuple[Any, Any, Any], lines: list[tuple[str, Any, Any]]
+) -> Axes:
+    """Draws restitutions over a column: points with uncertainties, of which some or all may be ``None``, and named curves.
+
+    Raises:
+        ImportError: matplotlib is not installed.
+    """
+    import numpy as np
+
+    axes = axes_or_new(axes)
+    places, values, errors = data
+    bars = None if errors is None else np.nan_to_num(np.array(errors, dtype=float))
+    axes.errorbar(places, values, yerr=bars, fmt=".", capsize=3, label="data")
+    for name, at, curve in lines:
+        axes.plot(at, np.array(curve, dtype=float), label=name)
+    axes.set_xscale("log")
+    axes.set(xlabel=label(x), ylabel="restitution")
+    axes.legend(fontsize="small")
+    return axes
+
+
 def errors_of(table: Any, column: str) -> Any:
     """Returns the error bars of a column of a table, with the parts that are known; ``None`` if it has none."""
     import numpy as np

@@ -5,6 +5,7 @@ use fem_simulation::results::PROGRAM;
 use serde_json::{Value, json};
 
 use super::calibration::Calibration;
+use super::curves::Abscissa;
 use super::experiment::Experiment;
 use super::maxwell::Beyond;
 use crate::fit::spectrum::{Combination, Range};
@@ -48,8 +49,25 @@ impl Calibration {
             "loss_exponent_of_speed": exponent.map(|exponent| {
                 json!({ "value": exponent.value, "standard_error": exponent.standard_error })
             }),
+            "curves": self.curve_numbers(),
             "warnings": warnings,
         })
+    }
+
+    /// Returns restitutions over speed or contact time: the data, the best series, and the single Maxwell term.
+    fn curve_numbers(&self) -> Option<Value> {
+        let curves = self.curves().ok()?;
+        let x = match curves.over {
+            Abscissa::Speed => "approach_speed_m_s",
+            Abscissa::ContactTime => "elastic_contact_time_s",
+        };
+        let columns = |points: &[(f64, f64)]| {
+            let (xs, restitutions): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
+            json!({ x: xs, "restitution": restitutions })
+        };
+        let [data, best, maxwell] =
+            [&curves.data, &curves.best, &curves.maxwell].map(|points| columns(points));
+        Some(json!({ "over": x, "data": data, "best": best, "maxwell": maxwell }))
     }
 
     fn term(&self, k: usize) -> Value {

@@ -16,6 +16,8 @@ const GRID: usize = 25;
 const GRID_REACH: f64 = 2.5;
 /// The grid of a plain number spans at least the damping exponents of all laws.
 const EXPONENTS: (f64, f64) = (0.4, 1.1);
+/// Number of speeds of a curve.
+const CURVE_SPEEDS: usize = 80;
 /// Larger misfits, in multiples of the variances, are not scatter.
 const LARGE_CHI_SQUARE: f64 = 2.0;
 
@@ -96,6 +98,26 @@ impl<'a> LawFit<'a> {
         let others = ranking.laws.iter().skip(1);
         self.compared.extend(others.map(|law| (law.model.clone(), law.fit.clone())));
         self
+    }
+
+    /// Returns the fitted law, and then those that are compared with it.
+    pub fn laws(&self) -> impl Iterator<Item = (&Model, &Fit)> {
+        let compared = self.compared.iter().map(|(model, fit)| (model, fit));
+        std::iter::once((self.problem.model, &self.fit)).chain(compared)
+    }
+
+    /// Returns the speeds at which the laws are drawn, m/s: over the range of the data, or around a single speed.
+    pub fn curve_speeds(&self) -> Vec<f64> {
+        let (low, high) = self.data.speeds();
+        let (low, high) = if low < high { (low, high) } else { (low / 2.0, high * 2.0) };
+        let share = |k: usize| k as f64 / (CURVE_SPEEDS - 1) as f64;
+        (0..CURVE_SPEEDS).map(|k| low * (high / low).powf(share(k))).collect()
+    }
+
+    /// Returns the restitutions of one of the laws at some speeds, m/s; `None` where it cannot be computed.
+    pub fn curve((model, fit): (&Model, &Fit), speeds: &[f64]) -> Vec<Option<f64>> {
+        let restitution = |speed: &f64| Some(model.outcome(&fit.values, *speed).ok()?.restitution);
+        speeds.iter().map(restitution).collect()
     }
 
     /// Returns data, fitted values and their differences, one row per point; SI.

@@ -36,6 +36,8 @@ impl LawFit<'_> {
             "degrees_of_freedom": fit.degrees_of_freedom,
             "condition_number": fit.condition,
             "profile": self.profile.as_ref().map(|profile| self.profile_numbers(profile)),
+            "curves": self.curve_numbers(),
+            "measured": self.measured_numbers(),
             "compared": self.compared.iter().map(compared).collect::<Value>(),
             "warnings": self.warnings(),
         })
@@ -53,6 +55,24 @@ impl LawFit<'_> {
             "interval": estimate.and_then(|estimate| estimate.interval),
             "at_bound": estimate.is_some_and(|estimate| estimate.is_at_bound),
             "profile_interval": profile.and_then(|profile| profile.interval),
+        })
+    }
+
+    /// Returns the restitutions of all laws over the speed.
+    fn curve_numbers(&self) -> Value {
+        let speeds = self.curve_speeds();
+        let law = |(model, fit): (&Model, &Fit)| json!({ "law": model.family().name(), "restitution": Self::curve((model, fit), &speeds) });
+        json!({ "laws": self.laws().map(law).collect::<Value>(), "speed_m_s": speeds })
+    }
+
+    /// Returns the columns of the data.
+    fn measured_numbers(&self) -> Value {
+        let points = self.problem.points;
+        let column = |value: fn(&Point) -> Option<f64>| points.iter().map(value).collect::<Value>();
+        json!({
+            "speed_m_s": column(|point| Some(point.speed)),
+            "restitution": column(|point| Some(point.restitution)),
+            "restitution_uncertainty": column(|point| point.restitution_uncertainty),
         })
     }
 
