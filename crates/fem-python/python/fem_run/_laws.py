@@ -21,7 +21,7 @@ import numpy as np
 from . import _native
 from ._case import Case
 from ._errors import bad_input, shown
-from ._shown import quantity, restitutions
+from ._shown import quantity, restitutions, scale_of
 from ._sweep import Table, _array
 from ._words import in_python
 
@@ -60,6 +60,12 @@ Columns = Mapping[str, str]
 _LISTED = {"free", "diameters", "masses"}
 
 
+def _listed(warnings: Sequence[str]) -> str:
+    """Returns warnings as a list of HTML."""
+    items = "".join(f"<li>{html.escape(text)}</li>" for text in warnings)
+    return f"Warnings:<ul>{items}</ul>" if items else ""
+
+
 class Fit(dict[str, Any]):
     """The keys of ``fit.json``, SI; shown as the values of the parameters with their standard errors."""
 
@@ -76,9 +82,7 @@ class Fit(dict[str, Any]):
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><td>{html.escape(key)}</td><td>{value}</td></tr>" for key, value in self._values().items())
         rows += f"<tr><td>rms error</td><td>{self['rms']:.3g}, {self['points']} points</td></tr>"
-        warnings = "".join(f"<li>{html.escape(text)}</li>" for text in self["warnings"])
-        warnings_text = f"Warnings:<ul>{warnings}</ul>" if warnings else ""
-        return f"<table><caption>{html.escape(self['law'])}</caption>{rows}</table>{warnings_text}"
+        return f"<table><caption>{html.escape(self['law'])}</caption>{rows}</table>{_listed(self['warnings'])}"
 
     def plot(self, axes: Axes | None = None) -> Axes:
         """Draws the data and the restitution of each law over the speed with matplotlib, ``pip install fem-run[plot]``.
@@ -98,18 +102,23 @@ class Fit(dict[str, Any]):
 class Calibration(dict[str, Any]):
     """The keys of ``calibrate.json``, SI, and ``relaxation_toml``; shown as the terms with their ranges."""
 
+    def _times(self) -> list[str]:
+        scales = [(one["relaxation_time_s"], *scale_of(one["relaxation_time_s"], "s")) for one in self["terms"]]
+        return [f"{factor * time:.3g} {unit}" for time, factor, unit in scales]
+
     def __repr__(self) -> str:
-        terms = ", ".join(f"{one['weight']:.3g} at {quantity(one['relaxation_time_s'], 0, True, 's')}" for one in self["terms"])
+        terms = ", ".join(f"{one['weight']:.3g} at {time}" for one, time in zip(self["terms"], self._times()))
         return f"<fem_run.Calibration of {self['material']}: weights {terms}; rms error {self['rms']:.3g} of {self['points']} points>"
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            f"<tr><td>{quantity(one['relaxation_time_s'], 0, True, 's')}</td><td>{one['weight']:.3g}</td>"
+            f"<tr><td>{time}</td><td>{one['weight']:.3g}</td>"
             f"<td>{one['range'][0]:.3g} to {one['range'][1]:.3g}</td></tr>"
-            for one in self["terms"]
+            for one, time in zip(self["terms"], self._times())
         )
         head = f"<tr><th>relaxation time</th><th>weight</th><th>{100 * self['confidence']:.3g} % range</th></tr>"
-        return f"<table><caption>{html.escape(self['material'])}</caption>{head}{rows}</table>"
+        rows += f"<tr><td>rms error</td><td>{self['rms']:.3g}</td><td>{self['points']} points</td></tr>"
+        return f"<table><caption>{html.escape(self['material'])}</caption>{head}{rows}</table>{_listed(self['warnings'])}"
 
     def plot(self, axes: Axes | None = None) -> Axes:
         """Draws the data, the best series and a single Maxwell term with matplotlib, ``pip install fem-run[plot]``.
