@@ -87,8 +87,7 @@ fn check(of: &str, summary: &fem::Summary) {
     }
     // What changes the result most is warned of, unless yield makes the warning pointless.
     let is_decided = summary.estimate.is_some() || matters("plastic flow");
-    for (name, word) in [("plastic flow", "plastic flow"), ("material loss", "no relaxation for")]
-    {
+    for (name, word) in [("plastic flow", "plastic flow"), ("material loss", "no relaxation for")] {
         let is_silent = name != "plastic flow" && is_decided;
         let is_told = summary.warnings.iter().any(|warning| warning.contains(word));
         assert!(!matters(name) || is_silent || is_told, "{of}: {name}: {:?}", summary.warnings);

@@ -33,7 +33,7 @@ pub(super) fn support(
         SurfaceSlip::NAME if is_ting => Support::Computes { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
         AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene) => return None,
-        PlasticYield::NAME if law.is_some_and(|law| law.elastic_plastic().is_some()) => {
+        PlasticFlow::NAME if law.is_some_and(|law| law.elastic_plastic().is_some()) => {
             Support::Inherent { idle: "" }
         }
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
