@@ -41,8 +41,7 @@ pub(crate) use traits::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FiniteStrainChoice {
     pub law: HyperelasticLaw,
-    /// Distance from first touch (m) within which elements are at finite strain; `None` for all elements. A material that
-    /// flows is at finite strain everywhere.
+    /// Distance from first touch (m) within which elements are at finite strain; `None` for all elements.
     pub within: Option<f64>,
 }
 
@@ -67,8 +66,7 @@ pub(crate) fn stress_of_body(
     if n_terms > MAX_FINITE_STRAIN_TERMS {
         return Err(ModelError::TooManyTerms { n_terms, most: MAX_FINITE_STRAIN_TERMS });
     }
-    // Elements at small strain do not flow.
-    let radius = within.filter(|_| material.flow().is_none()).unwrap_or(f64::INFINITY);
+    let radius = within.unwrap_or(f64::INFINITY);
     Ok(finite_strain_within(radius, mesh, geometries, material, law))
 }
 

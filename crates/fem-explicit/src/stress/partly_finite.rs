@@ -44,7 +44,8 @@ struct FarElement {
 }
 
 /// Makes the stress of a material that follows a law at finite strain in elements whose centres are within a radius (m)
-/// of first touch, and is at small strain in the others.
+/// of first touch, and is at small strain in the others. Elements at small strain do not flow: a body that flows and has
+/// no element within the radius is at finite strain everywhere.
 pub(super) fn finite_strain_within(
     radius: f64,
     mesh: &SphereMesh,
@@ -57,9 +58,13 @@ pub(super) fn finite_strain_within(
         let [r, y] = [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0);
         r.hypot(y) <= radius
     };
-    let (near_elements, others): (Vec<_>, Vec<_>) = (0..geometries.len()).partition(is_near);
+    let (mut near_elements, mut others): (Vec<_>, Vec<_>) =
+        (0..geometries.len()).partition(is_near);
     if near_elements.is_empty() {
-        return small_strain(mesh.nodes().len(), mesh.quads(), geometries, material);
+        if material.flow().is_none() {
+            return small_strain(mesh.nodes().len(), mesh.quads(), geometries, material);
+        }
+        std::mem::swap(&mut near_elements, &mut others);
     }
     let near = finite_strain(mesh, geometries, &near_elements, material, law);
     if others.is_empty() {

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! A material of both bodies is one input. The changes are those of the case's contact law, or of Hertz' or Ting's impact
-//! between half-spaces, relative to it; that of the restitution is absolute. Waves that take energy from these impacts take it
+//! between half-spaces, or of the elastic–plastic impact of a body that flows, relative to it; that of the restitution is
+//! absolute. Waves that take energy from these impacts take it
 //! by the closed forms of [`PartnerWaves`].
 
 use fem_case::{Body, Case, ModelChoice, Scene, Switch, UncertainInput};
@@ -73,7 +74,9 @@ fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
     let pair = scene.pair().ok()?;
     let kept = share_beside_waves(&scene, speed)?;
     let mut materials = scene.bodies().iter().filter_map(Body::material);
-    let impact = if materials.all(|material| material.relaxation().is_none()) {
+    let impact = if let Some(flow) = Estimate::at(&scene, speed).ok()?.flow {
+        flow
+    } else if materials.all(|material| material.relaxation().is_none()) {
         ImpactQuantities::from(&HertzImpact::new(&pair, speed).ok()?)
     } else {
         let ting = ting_of(&scene, &pair, true, None).ok()?.with_coarse_waves();

@@ -33,7 +33,7 @@ fn bits(overrides: &[&str], text: &str) -> [u64; 6] {
     QuantityOfInterest::ALL.map(|quantity| quantity.of(&collision).unwrap().to_bits())
 }
 
-/// Below first yield the run is the elastic one to the last bit, and so is one that is told not to flow.
+/// Below first yield the run is the elastic one to the last bit, and so is one with the effect switched off.
 #[test]
 fn flow_is_computed_above_first_yield_only() {
     let elastic = BALL.replace("[material.steel.flow]\n", "").replace("'1 GPa'", "'0.1 GPa'");
@@ -127,7 +127,27 @@ fn the_plan_expects_the_sizes_of_flow() {
     }
 }
 
-/// What cannot be done is said with the key to change.
+/// The bar of an uncertain yield strength is half of the difference of runs at both ends.
+#[test]
+fn an_uncertain_yield_strength_has_a_bar() {
+    let strength = |value: &str| format!("material.steel.flow.yield_strength='{value}'");
+    let uncertain = simulation_of(BALL, &[strength("1 ± 0.2 GPa")]);
+    let summary = uncertain.summary(&uncertain.run(&mut ()));
+    let ends = ["1.2 GPa", "0.8 GPa"].map(|value| collision_of(BALL, &[strength(value)]));
+    // Closed forms give the change; on so coarse a mesh the runs themselves have errors of a tenth of it.
+    for (quantity, within) in [
+        (QuantityOfInterest::Restitution, 0.4),
+        (QuantityOfInterest::PeakForce, 0.3),
+        (QuantityOfInterest::PeakPressure, 0.3),
+    ] {
+        let [high, low] = ends.each_ref().map(|collision| quantity.of(collision).unwrap());
+        let bar = summary.uncertainty.parts(quantity).input.unwrap();
+        let ratio = bar / (0.5 * (high - low).abs());
+        assert!((1.0 - within..1.0 + within).contains(&ratio), "{quantity:?}: {ratio}");
+    }
+}
+
+/// Impossible switches and scenes are refused with the key to change.
 #[test]
 fn impossible_switches_are_refused() {
     for (set, key, message) in [
