@@ -39,25 +39,28 @@ fn summary_separates_trial_time_from_solve_time() {
     }
 }
 
-/// A run and its check announce one time, with one digit, which holds within a factor of three, also if the mesh is
-/// refined. A short report says no other time.
+/// A run and its check each announce one time, with one digit. A short report states no other time. The time depends on the
+/// machine and its load; the element updates of the first mesh, from which it follows, are those of the run.
 #[test]
-fn announced_time_is_that_of_the_run_within_a_factor_of_three() {
+fn run_and_check_announce_one_time() {
     let place = Place::new();
     place.write("rubber.toml", RUBBER);
     let time = |text: &str| {
         let (_, after) = text.split_once("about ").unwrap_or_else(|| panic!("no time: {text}"));
         let (time, _) = after.split_once(" s").unwrap_or_else(|| panic!("not in seconds: {text}"));
         assert_eq!(time.trim_start_matches(['0', '.']).trim_end_matches('0').len(), 1, "{time}");
-        time.parse::<f64>().unwrap()
+        assert!(time.parse::<f64>().unwrap() > 0.0, "{time}");
     };
     let ran = place.succeed("rubber.toml --out out");
-    let spent = place.json("out/summary.json")["cost"]["wall_s"].as_f64().unwrap();
     let checked = place.succeed("check rubber.toml").stdout;
-    let row = checked.lines().find(|line| line.starts_with("time  ")).unwrap();
-    for told in [time(&ran.stderr), time(row)] {
-        assert!((1.0 / 3.0..3.0).contains(&(told / spent)), "{told} s, {spent} s");
-    }
+    let row = |name: &str| checked.lines().find(|line| line.starts_with(name)).unwrap();
+    time(&ran.stderr);
+    time(row("time  "));
+    let told = row("element updates  ").split_once("about ").unwrap().1;
+    let told = told.split(',').next().unwrap().trim().parse::<f64>().unwrap();
+    let first = &place.json("out/summary.json")["coarser_meshes"][0]["element_updates"];
+    let ratio = told / first.as_f64().unwrap();
+    assert!((0.8..1.25).contains(&ratio), "{told} {first}");
     assert_eq!(ran.stderr.matches(" s,").count(), 1, "{}", ran.stderr);
     assert!(!ran.stdout.contains("cost"), "{}", ran.stdout);
 }
