@@ -241,12 +241,13 @@ def export(
     if fit is None:
         return _found(_native.export(_native_of(case), _data(data), words))
     with tempfile.TemporaryDirectory() as folder:
-        path = fit
         if isinstance(fit, Mapping):
             path = os.path.join(folder, "fit.json")
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(fit, file)
-        return _found(_native.export(_native_of(case), _data(data), [*words, f"--fit={os.fspath(path)}"]))
+        else:
+            path = os.fspath(fit)
+        return _found(_native.export(_native_of(case), _data(data), [*words, f"--fit={path}"]))
 
 
 def calibrate(
