@@ -31,8 +31,6 @@ const LOADING: [[f64; 3]; 8] = [
 ];
 /// Relative fall of the mean pressure with a/R\*.
 const PRESSURE_OF_WIDE_CONTACTS: f64 = 0.5;
-/// Pressure on the axis over the mean pressure of a contact that flows.
-const PEAK_OVER_MEAN: f64 = 1.0;
 /// Number of steps of the loading.
 const N_STEPS: usize = 400;
 
@@ -89,7 +87,8 @@ pub fn elastic_plastic_impact(hertz: &HertzImpact, flow_stress: f64) -> ImpactQu
         peak_force,
         max_approach: approach(a),
         max_contact_radius: a,
-        peak_pressure: PEAK_OVER_MEAN * pressure(a),
+        // The pressure of a contact that flows is flat.
+        peak_pressure: pressure(a),
     }
 }
 

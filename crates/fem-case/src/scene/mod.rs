@@ -9,6 +9,7 @@ pub(crate) mod plausibility;
 use serde::{Deserialize, Serialize};
 
 use fem_laws::{FiniteSize, LawError, Pair, SlipSurface, SurfaceSlip, compliance_shares};
+use fem_material::Material;
 
 use crate::scene::body::{Body, Shape};
 use crate::scene::model::ModelChoice;
@@ -219,6 +220,23 @@ impl Scene {
             body.shape = Shape::HalfSpace { material };
         }
         scene
+    }
+
+    /// Returns this scene with other materials of its bodies; a body without one here is unchanged.
+    #[must_use]
+    pub fn with_materials(self, materials: [Option<Material>; 2]) -> Self {
+        let mut shapes = self.bodies.each_ref().map(|body| body.shape.clone());
+        for ((shape, body), material) in shapes.iter_mut().zip(&self.bodies).zip(materials) {
+            if let Some(material) = material {
+                *shape = body.shape_of(material);
+            }
+        }
+        self.with_shapes(shapes)
+    }
+
+    /// Returns whether the material of a body has a flow rule.
+    pub fn flows(&self) -> bool {
+        self.bodies.iter().filter_map(Body::material).any(|material| material.flow().is_some())
     }
 
     /// Returns this scene, computed by another model.

@@ -101,6 +101,18 @@ impl PartlyFinite {
         history.split_at_mut(self.n_near())
     }
 
+    /// Moves the values of the near elements to the numbers of these in the body; far elements get another value.
+    fn spread<T: Copy>(&self, values: &mut Vec<T>, of_far: T) {
+        values.resize(self.near_elements.len() + self.far_elements.len(), of_far);
+        // In descending order no entry is overwritten before it has been moved.
+        for (k, &number) in self.near_elements.iter().enumerate().rev() {
+            values[number] = values[k];
+        }
+        for element in &self.far_elements {
+            values[element.number] = of_far;
+        }
+    }
+
     /// Returns a collapse with the number of its element in the body.
     fn collapse(&self, collapse: Collapse) -> Collapse {
         Collapse { element: self.near_elements[collapse.element], ..collapse }
@@ -220,11 +232,7 @@ impl FiniteStrainStress for PartlyFinite {
     ) {
         let (near, far) = self.split(history);
         self.near.update_cauchy_stress(displacement, near, stress);
-        stress.resize(self.near_elements.len() + self.far_elements.len(), [0.0; 4]);
-        // In descending order no entry is overwritten before it has been moved.
-        for (k, &number) in self.near_elements.iter().enumerate().rev() {
-            stress[number] = stress[k];
-        }
+        self.spread(stress, [0.0; 4]);
         let effective = self.far.effective().map_or(&[][..], |field| &far[field]);
         let small_strain = SmallStrain::of(&self.material, displacement, effective);
         for FarElement { number, quad, geometry } in &self.far_elements {
@@ -235,16 +243,8 @@ impl FiniteStrainStress for PartlyFinite {
     /// Elements at small strain do not flow.
     fn update_plastic(&self, history: &[NodalField], plastic: &mut Vec<[f64; 2]>) {
         self.near.update_plastic(self.split(history).0, plastic);
-        if plastic.is_empty() {
-            return;
-        }
-        plastic.resize(self.near_elements.len() + self.far_elements.len(), [0.0; 2]);
-        // In descending order no entry is overwritten before it has been moved.
-        for (k, &number) in self.near_elements.iter().enumerate().rev() {
-            plastic[number] = plastic[k];
-        }
-        for element in &self.far_elements {
-            plastic[element.number] = [0.0; 2];
+        if !plastic.is_empty() {
+            self.spread(plastic, [0.0; 2]);
         }
     }
 }

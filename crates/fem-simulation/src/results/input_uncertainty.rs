@@ -72,9 +72,10 @@ fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
     }
     let scene = SimplifiedScene::quiet(scene)?;
     let pair = scene.pair().ok()?;
-    let kept = share_beside_waves(&scene, speed)?;
+    let estimate = Estimate::at(&scene, speed).ok()?;
+    let kept = share_beside_waves(&scene, &estimate);
     let mut materials = scene.bodies().iter().filter_map(Body::material);
-    let impact = if let Some(flow) = Estimate::at(&scene, speed).ok()?.flow {
+    let impact = if let Some(flow) = estimate.flow {
         flow
     } else if materials.all(|material| material.relaxation().is_none()) {
         ImpactQuantities::from(&HertzImpact::new(&pair, speed).ok()?)
@@ -86,12 +87,11 @@ fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
 }
 
 /// Returns the share of the restitution that waves leave which do not return.
-fn share_beside_waves(scene: &Scene, speed: f64) -> Option<f64> {
-    if scene.effects().partner_waves == Some(Switch::Off) {
-        return Some(1.0);
+fn share_beside_waves(scene: &Scene, estimate: &Estimate) -> f64 {
+    match scene.effects().partner_waves {
+        Some(Switch::Off) => 1.0,
+        _ => (1.0 - PartnerWaves::loss(scene, estimate)).max(0.0),
     }
-    let estimate = Estimate::at(scene, speed).ok()?;
-    Some((1.0 - PartnerWaves::loss(scene, &estimate)).max(0.0))
 }
 
 fn quantities(impact: &Impact) -> ImpactQuantities {

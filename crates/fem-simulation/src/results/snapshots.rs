@@ -148,7 +148,8 @@ fn write_snapshot(
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
         let none = [0.0; 2];
-        for element in 0..mesh.quads().len() {
+        let n_cells = if flows { mesh.quads().len() } else { 0 };
+        for element in 0..n_cells {
             let [strain, work] = *fields.plastic.get(element).unwrap_or(&none);
             plastic_strain.push(strain as f32);
             plastic_work.push(work as f32);

@@ -40,7 +40,7 @@ impl Effect for PlasticFlow {
         scene: &Scene,
         estimate: &Estimate,
     ) -> Result<Option<TransformedScene>, Rejection> {
-        let is_possible = flows(scene);
+        let is_possible = scene.flows();
         let switch = scene.effects().plastic_flow;
         if !is_possible && switch == Some(Switch::On) {
             let message = "plastic_flow is \"on\", and no material has a table flow";
@@ -56,17 +56,14 @@ impl Effect for PlasticFlow {
             }
             _ => return Ok(None),
         };
-        let elastic = scene.bodies().each_ref().map(|body| match body.material() {
-            Some(material) => body.shape_of(material.without_flow()),
-            None => body.shape().clone(),
-        });
+        let elastic = scene.bodies().each_ref().map(|body| Some(body.material()?.without_flow()));
         let support = Support::decided(false, format!("{number}; {why}"));
-        let scene = self.switched(scene, None).with_shapes(elastic);
+        let scene = self.switched(scene, None).with_materials(elastic);
         Ok(is_possible.then_some(TransformedScene { scene, support }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
-        let is_off = scene.effects().plastic_flow == Some(Switch::Off) && flows(scene);
+        let is_off = scene.effects().plastic_flow == Some(Switch::Off) && scene.flows();
         let ignored = earliest(scene, estimate).filter(|(_, first)| is_off && first.ratio() > 1.0);
         ignored.map(|_| self.neglect_error(scene, estimate).unwrap_or_default().warning(Self::NAME))
     }
@@ -125,7 +122,7 @@ impl Effect for PlasticFlow {
 impl PlasticFlow {
     /// Checks that the case says where a ball that dents falls next.
     pub(crate) fn check(scene: &Scene) -> Result<(), Rejection> {
-        let bounces = scene.gravity().filter(|gravity| flows(scene) && gravity.bounces > 1);
+        let bounces = scene.gravity().filter(|gravity| scene.flows() && gravity.bounces > 1);
         match bounces.map(|gravity| gravity.spot) {
             None | Some(Some(Spot::Fresh)) => Ok(()),
             Some(None) => {
@@ -149,16 +146,11 @@ impl PlasticFlow {
             let yields = first_yield(body, estimate).is_some_and(|(_, first)| first.ratio() > 1.0);
             yields && body.material().is_none_or(|material| material.flow().is_none())
         };
-        match flows(scene) && !scene.bodies().iter().any(lacks) {
+        match scene.flows() && !scene.bodies().iter().any(lacks) {
             true => Support::Computes { idle: "" },
             false => Support::Lacks,
         }
     }
-}
-
-/// Returns whether a material of the scene has a flow rule.
-fn flows(scene: &Scene) -> bool {
-    scene.bodies().iter().filter_map(Body::material).any(|material| material.flow().is_some())
 }
 
 /// Returns the body that yields first, of those with a yield strength.

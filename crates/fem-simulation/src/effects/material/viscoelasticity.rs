@@ -63,13 +63,13 @@ impl Effect for Viscoelasticity {
                     materials(scene).map(|material| material.map(Material::without_relaxation));
                 let support =
                     Support::decided(false, format!("{}; switched off", relevance.number));
-                Some(TransformedScene { scene: made_of(scene, elastic), support })
+                Some(TransformedScene { scene: scene.clone().with_materials(elastic), support })
             }
             Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
                 let n_kept: usize = folded.materials.iter().map(n_terms).sum();
                 let support =
                     Support::decided(n_kept > 0, in_words(&relevance, &folded, estimate, n_kept));
-                TransformedScene { scene: made_of(scene, folded.materials), support }
+                TransformedScene { scene: scene.clone().with_materials(folded.materials), support }
             }),
         })
     }
@@ -157,17 +157,6 @@ fn n_terms(material: &Option<Material>) -> usize {
 
 fn materials(scene: &Scene) -> [Option<&Material>; 2] {
     scene.bodies().each_ref().map(Body::material)
-}
-
-/// Returns the scene with other materials.
-fn made_of(scene: &Scene, materials: [Option<Material>; 2]) -> Scene {
-    let [first, second] = scene.bodies();
-    let [lower, upper] = materials;
-    let shape = |body: &Body, material: Option<Material>| match material {
-        Some(material) => body.shape_of(material),
-        None => body.shape().clone(),
-    };
-    scene.clone().with_shapes([shape(first, lower), shape(second, upper)])
 }
 
 /// Returns the names of the relaxing bodies.

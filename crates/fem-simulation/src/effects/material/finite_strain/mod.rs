@@ -95,7 +95,7 @@ impl FiniteStrain {
         if is_forced_on(scene) {
             return None;
         }
-        if flows(scene) {
+        if scene.flows() {
             return Some(RADIUS_OF_FLOW_OVER_CONTACT * estimate.contact_radius);
         }
         let is_near =
@@ -107,7 +107,7 @@ impl FiniteStrain {
 
     /// Checks that elements can compute a scene at forced large strain.
     pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Rejection> {
-        let flows = flows(scene);
+        let flows = scene.flows();
         if flows && scene.effects().finite_strain == Some(Switch::Off) {
             let message =
                 "finite strain is forced off, and plastic flow is computed at finite strain alone";
@@ -214,11 +214,6 @@ fn with_relaxation(scene: &Scene, estimate: &Estimate, change: Departure) -> Dep
 /// Returns the spread of the contact time over the laws that the case leaves open, as a share.
 fn spread(scene: &Scene, estimate: &Estimate) -> f64 {
     BodyStrain::of_both(scene, estimate).iter().flatten().map(BodyStrain::spread).sum()
-}
-
-/// Returns whether a body flows plastically.
-fn flows(scene: &Scene) -> bool {
-    scene.bodies().iter().filter_map(Body::material).any(|material| material.flow().is_some())
 }
 
 fn is_forced_on(scene: &Scene) -> bool {
