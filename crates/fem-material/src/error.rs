@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::engineering::show;
+
 /// A material that cannot exist. Quantities carry the names that case files give them.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MaterialError {
@@ -117,7 +119,8 @@ pub enum MaterialError {
 
     /// Plastic strains of a table of flow stress that do not start at 0 or do not increase.
     #[error(
-        "row {row} of the flow stress: plastic strains start at 0 and increase, found {value:?}"
+        "point {} of the flow stress: plastic strains start at 0 and increase, found {value:?}",
+        row + 1
     )]
     FlowStrain {
         /// Index of the row, from 0.
@@ -128,8 +131,9 @@ pub enum MaterialError {
 
     /// Flow stresses of a table that are not positive or decrease.
     #[error(
-        "row {row} of the flow stress: stresses must be positive, finite and not below the row \
-         before, found {value:?}"
+        "point {} of the flow stress: {}; stresses are positive and do not fall from one point to the next",
+        row + 1,
+        show(*value, "Pa")
     )]
     FlowStress {
         /// Index of the row, from 0.

@@ -56,6 +56,13 @@ pub struct RateFactor {
     pub reference_rate: f64,
 }
 
+impl RateFactor {
+    /// Returns the factor of the flow stress at a plastic strain rate, 1/s.
+    pub fn at(&self, rate: f64) -> f64 {
+        1.0 + self.coefficient * (rate / self.reference_rate).max(1.0).ln()
+    }
+}
+
 /// A checked flow rule: isotropic hardening and, for a rate-dependent material, the factor of the rate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlowRule {
@@ -108,10 +115,7 @@ impl FlowRule {
 
     /// Returns the flow stress (Pa) at an equivalent plastic strain and a rate of it, 1/s.
     pub fn flow_stress(&self, plastic_strain: f64, rate: f64) -> f64 {
-        let factor = self.rate.map_or(1.0, |RateFactor { coefficient, reference_rate }| {
-            1.0 + coefficient * (rate / reference_rate).max(1.0).ln()
-        });
-        self.curve.flow_stress(plastic_strain) * factor
+        self.curve.flow_stress(plastic_strain) * self.rate.map_or(1.0, |factor| factor.at(rate))
     }
 
     /// Returns the flow stress at first yield and at most the reference rate, Pa.

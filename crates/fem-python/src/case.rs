@@ -43,13 +43,15 @@ impl Case {
 
 #[pymethods]
 impl Case {
-    /// Reads a file.
+    /// Reads a file, whose unlikely numbers need a unit.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
         let name = path.display().to_string();
         let text = fem_case::text_at(&path, &name).or_raise(py)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-        Self::made(py, name, text, folder, overrides)
+        let case = Self::made(py, name, text, folder, overrides)?;
+        case.case.check_units().or_raise(py)?;
+        Ok(case)
     }
 
     /// Reads a text.
@@ -96,7 +98,7 @@ impl Case {
     /// Returns the case as written, with its overrides, as TOML in SI.
     fn to_toml(&self) -> String {
         // A valid case contains only what TOML can hold.
-        self.case.file().to_toml().unwrap_or_default()
+        self.case.toml_of(self.case.file()).unwrap_or_default()
     }
 
     /// Returns the tables of the case as JSON in SI.

@@ -23,6 +23,9 @@ const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
 /// Plausible Young's moduli, Pa: the softest gels have about 100 Pa, diamond has 1.2 TPa.
 const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 
+/// Plausible yield strengths, Pa: soft waxes and greases have 10 kPa, diamond about 100 GPa.
+pub(crate) const YIELD_STRENGTHS: std::ops::RangeInclusive<f64> = 1e4..=2e11;
+
 /// Share of the contact compliance above which the losses of a body matter.
 const MIN_SHARE: f64 = 1e-3;
 
@@ -156,6 +159,15 @@ impl Scene {
                 ),
             });
         }
+        if let Some(strength) = body.yield_strength().filter(|it| !YIELD_STRENGTHS.contains(it)) {
+            found.push(Implausible {
+                number: Number::YieldStrength,
+                message: format!(
+                    "the yield strength of {name} is {}; solids have 10 kPa to 200 GPa, and a bare number is in Pa",
+                    show(strength, "Pa")
+                ),
+            });
+        }
         found
     }
 }
@@ -171,6 +183,7 @@ enum Number {
     Diameter,
     Density,
     Modulus,
+    YieldStrength,
 }
 
 impl Case {
@@ -180,19 +193,24 @@ impl Case {
     /// All such numbers, each with its place. With a unit the same number is only warned of.
     pub fn check_units(&self) -> Result<(), CaseError> {
         let mut faults = Vec::new();
-        for (side, message, key, unit) in self.unusual_keys() {
+        for Unusual { side, message, path, unit } in self.unusual_numbers() {
+            let key = path.iter().fold(String::new(), |key, part| join(&key, &quote_key(part)));
             let text = self.document.value_text(&key);
             let Ok(bare) = text.trim_matches(['"', '\'']).trim().parse::<f64>() else { continue };
-            let intended = match unit {
-                "m" => "mm",
-                "Pa" => "GPa",
-                _ => "g/cm^3",
-            };
-            let last = key.rsplit('.').next().unwrap_or(&key).to_string();
             let is_known = faults.iter().any(|(_, known)| *known == key);
             if !is_known {
+                let last = path.iter().rfind(|part| part.parse::<usize>().is_err());
+                let last = last.map_or("", |last| last);
+                let intended = match (unit, last) {
+                    ("m", _) => "mm",
+                    ("Pa", "yield_strength" | "table") => "MPa",
+                    ("Pa", _) => "GPa",
+                    _ => "g/cm^3",
+                };
+                // The point of a table has no key.
+                let equals = if last == "table" { String::new() } else { format!("{last} = ") };
                 let fault = self.error_at(&key, message).with_help(format!(
-                    "write the unit: {last} = \"{bare} {intended}\", or {last} = \"{bare} {unit}\" if {} is so",
+                    "write the unit: {equals}\"{bare} {intended}\", or {equals}\"{bare} {unit}\" if {} is so",
                     self.scene.bodies[side].name()
                 ));
                 faults.push((fault, key));
@@ -209,11 +227,10 @@ impl Case {
     /// Those of [`CaseFile::to_toml`].
     pub fn toml_of(&self, file: &CaseFile) -> Result<String, toml::ser::Error> {
         let mut tree = toml::Value::try_from(file)?;
-        for (side, _, key, unit) in self.unusual_keys() {
-            let parts = self.key_parts(side, &key);
-            let number = parts.iter().try_fold(&mut tree, |value, part| match value {
+        for Unusual { path, unit, .. } in self.unusual_numbers() {
+            let number = path.iter().try_fold(&mut tree, |value, part| match value {
                 toml::Value::Table(table) => table.get_mut(part),
-                toml::Value::Array(array) => array.get_mut(side),
+                toml::Value::Array(array) => array.get_mut(part.parse::<usize>().ok()?),
                 _ => None,
             });
             if let Some(number) = number.filter(|number| number.is_float()) {
@@ -223,24 +240,11 @@ impl Case {
         toml::to_string(&tree)
     }
 
-    fn key_parts(&self, side: usize, key: &str) -> Vec<String> {
-        let last = key.rsplit('.').next().unwrap_or(key);
-        match last {
-            "diameter" => ["body", &side.to_string(), "sphere", last].map(String::from).to_vec(),
-            last => {
-                let name = self.file.body[side].material.clone().unwrap_or_default();
-                vec!["material".to_string(), name, last.to_string()]
-            }
-        }
-    }
-
-    /// Returns body, message, key and SI unit of numbers that need a unit to be accepted.
-    fn unusual_keys(&self) -> Vec<(usize, String, String, &'static str)> {
-        let mut keys = Vec::new();
+    /// Returns the numbers that need a unit to be accepted, each with the keys that may have given it.
+    fn unusual_numbers(&self) -> Vec<Unusual> {
+        let mut all = Vec::new();
         for (side, body) in self.scene.bodies.iter().enumerate() {
             let material = self.file.body[side].material.as_deref().unwrap_or_default();
-            let of_material = |key: &str| join(&join("material", &quote_key(material)), key);
-            let diameter = format!("body.{side}.sphere.diameter");
             let mut found = self.scene.implausible(side);
             let is_told = found.iter().any(|one| one.number == Number::Diameter);
             if let Some(large) = body.diameter().filter(|diameter| *diameter >= LARGE && !is_told) {
@@ -248,17 +252,39 @@ impl Case {
                 found.push(Implausible { number: Number::Diameter, message });
             }
             for Implausible { number, message } in found {
+                let mut push = |path: &[&str], unit| {
+                    let path = path.iter().map(ToString::to_string).collect();
+                    all.push(Unusual { side, message: message.clone(), path, unit });
+                };
                 match number {
-                    Number::Diameter => keys.push((side, message, diameter.clone(), "m")),
-                    Number::Density => keys.push((side, message, of_material("density"), "kg/m^3")),
+                    Number::Diameter => {
+                        push(&["body", &side.to_string(), "sphere", "diameter"], "m");
+                    }
+                    Number::Density => push(&["material", material, "density"], "kg/m^3"),
                     Number::Modulus => {
                         for key in ["youngs_modulus", "shear_modulus", "bulk_modulus"] {
-                            keys.push((side, message.clone(), of_material(key), "Pa"));
+                            push(&["material", material, key], "Pa");
                         }
+                    }
+                    Number::YieldStrength => {
+                        push(&["material", material, "yield_strength"], "Pa");
+                        push(&["material", material, "flow", "yield_strength"], "Pa");
+                        let first = ["material", material, "flow", "hardening", "table", "0", "1"];
+                        push(&first, "Pa");
                     }
                 }
             }
         }
-        keys
+        all
     }
+}
+
+/// A number that needs a unit to be accepted.
+struct Unusual {
+    /// Side of the body that has it.
+    side: usize,
+    message: String,
+    /// The keys and indices that lead to it in the case.
+    path: Vec<String>,
+    unit: &'static str,
 }

@@ -20,7 +20,7 @@ optional_keys! {
 
 optional_keys! {
     /// `hardening = { … }`: exactly one key, or its name for `"perfect"`.
-    HardeningTable, "\"perfect\" or a table such as { modulus = \"2 GPa\" }" {
+    HardeningTable, "\"perfect\", { modulus = \"2 GPa\" }, { swift = { strain = 0.002, exponent = 0.2 } } or { table = \"flow.csv\" }" {
         /// The flow stress does not depend on plastic strain.
         perfect: EmptyTable,
         /// Slope of the flow stress over plastic strain, >= 0.

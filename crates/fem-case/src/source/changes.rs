@@ -20,7 +20,7 @@ const MAX_NAME_LENGTH: usize = 100;
 /// A key that an override gave another value, by a name that readers of the case understand.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// The last part of the key, after the name of the body or the material if several have it.
+    /// The last part of the key, or that from `flow` on, after the name of the body or the material if several have it.
     pub key: String,
     /// The value with its unit: `1 m/s`.
     pub value: String,
@@ -60,7 +60,11 @@ pub(crate) fn changes(file: &CaseFile, overrides: &[String]) -> Vec<Change> {
 
 /// Returns the last part of a key, with the name of its body or material if another one has the same key.
 fn key_of(file: &CaseFile, path: &[&str]) -> String {
-    let last = path.last().copied().unwrap_or_default();
+    // A material may have a yield strength beside its density, too.
+    let last = match path {
+        ["material", _, "flow", rest @ ..] if !rest.is_empty() => path[2..].join("."),
+        _ => path.last().copied().unwrap_or_default().to_string(),
+    };
     let tree = Table::try_from(file).unwrap_or_default();
     let owner = match path {
         ["body", index, .., _] => {
@@ -72,7 +76,7 @@ fn key_of(file: &CaseFile, path: &[&str]) -> String {
         ["material", name, .., _] => Some(*name).filter(|_| file.material.len() > 1),
         _ => None,
     };
-    owner.map_or(last.to_string(), |owner| format!("{owner} {last}"))
+    owner.map_or(last.clone(), |owner| format!("{owner} {last}"))
 }
 
 /// Returns whether a tree has a value at a path.

@@ -14,7 +14,7 @@ use crate::library;
 use crate::source::error_recovery::KeyRepair;
 use crate::source::key_origins::{KeyOrigin, KeyOrigins};
 use crate::source::overrides::{self, Assignment, OverrideError};
-use crate::source::toml_syntax::{first_line, syntax_help};
+use crate::source::toml_syntax::{first_line, other_format, syntax_help};
 
 /// One text and its position in the common offsets.
 #[derive(Clone, Debug)]
@@ -57,7 +57,10 @@ impl Document {
         document.add(name.to_string(), text, 0);
         let mut tree = DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            let (line, help) = syntax_help(text, span.start);
+            let (line, help) = match other_format(name, text) {
+                Some(help) => (span.clone(), help.to_string()),
+                None => syntax_help(text, span.start),
+            };
             // An open quote or bracket is reported where the next line begins.
             let span = if (line.start..=line.end).contains(&span.start) { span } else { line };
             document.error_in(0, span, first_line(error.message())).with_help(help)

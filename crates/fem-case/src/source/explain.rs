@@ -3,6 +3,7 @@
 use toml::de::Error;
 
 use crate::error::CaseError;
+use crate::schema::HardeningTable;
 use crate::schema::choices::choice_at;
 use crate::source::document::Document;
 use crate::source::similar_words::nearest;
@@ -15,6 +16,12 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("diameter", "diameter = \"22.2 mm\""),
     ("density", "density = \"2390 kg/m^3\""),
     ("weight", "weight = 1.0"),
+    ("acceleration", "acceleration = \"9.81 m/s^2\""),
+    ("strain", "strain = 0.002"),
+    ("exponent", "exponent = 0.2"),
+    ("johnson_cook", "johnson_cook = { c = 0.014, reference_rate = \"1 1/s\" }"),
+    ("c", "c = 0.014"),
+    ("reference_rate", "reference_rate = \"1 1/s\""),
     ("terms", "terms = [{ weight = 1.0, decay_rate = \"2708 1/s\" }]"),
     (
         "acts_on",
@@ -103,8 +110,12 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     };
 
     if let Some(rest) = message.strip_prefix("unknown field ") {
-        let (found, allowed) = split_backticked(rest);
+        let (found, mut allowed) = split_backticked(rest);
         let table = path.rfind('.').map_or("", |dot| &path[..dot]);
+        // A name of hardening stands for a table without keys, which nobody writes.
+        if table.ends_with(".flow.hardening") {
+            allowed.retain(|key| !HardeningTable::NAMES.contains(key));
+        }
         let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
         let help = match (table, found) {
             _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
@@ -123,9 +134,12 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         let error =
             at(format!("the key `{missing}` is missing{}", in_table(path))).lacking(missing);
         let example = EXAMPLES.iter().find(|(key, _)| *key == missing);
-        return match example {
-            Some((_, line)) => error.with_help(format!("write {line}")),
-            None => error,
+        let material = path.strip_prefix("material.").filter(|_| missing == "density");
+        let own = material.and_then(|name| unused_material(document, name));
+        return match (own, example) {
+            (Some(help), _) => error.with_help(help),
+            (None, Some((_, line))) => error.with_help(format!("write {line}")),
+            (None, None) => error,
         };
     }
     if let Some(rest) = message.strip_prefix("unknown variant ") {
@@ -148,11 +162,12 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         if let (Some(names), Some(word)) = (names, found.strip_prefix("string ")) {
             let word = word.trim_matches('"');
             let key = path.rsplit('.').next().unwrap_or(path);
-            return at(format!("unknown {key} \"{word}\"")).with_help(format!(
-                "{}write one of {}, or a table",
-                near(word, names),
-                names.join(", ")
-            ));
+            let near = near(word, names);
+            let help = match wanted.starts_with('"') {
+                true => format!("{near}write {wanted}"),
+                false => format!("{near}write one of {}, or {wanted}", names.join(", ")),
+            };
+            return at(format!("unknown {key} \"{word}\"")).with_help(help);
         }
         let found = if is_date { "a date or time".to_string() } else { with_article(found) };
         let wanted = match path {
@@ -168,6 +183,16 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         return at(format!("{} is an array", name(path))).with_help(format!("write {wanted}"));
     }
     at(first_line(message))
+}
+
+/// Returns that no body is of a material, and of which they are; `None` if one is.
+fn unused_material(document: &Document, name: &str) -> Option<String> {
+    let bodies = ["body.0.material", "body.1.material"].map(|key| document.value_text(key));
+    let mut names: Vec<&str> = bodies.iter().map(|text| text.trim_matches(['"', '\''])).collect();
+    names.retain(|text| !text.is_empty());
+    names.dedup();
+    let is_used = names.is_empty() || names.contains(&name.trim_matches(['"', '\'']));
+    (!is_used).then(|| format!("no body is of this material: they are of {}", names.join(" and ")))
 }
 
 /// Returns `did you mean …? ` if one of the allowed words is similar.
@@ -187,7 +212,7 @@ fn with_article(what: &str) -> String {
         "sequence" | "a sequence" => return "an array".to_string(),
         _ => {}
     }
-    let has_article = ["a ", "an ", "one "].iter().any(|article| what.starts_with(article));
+    let has_article = ["a ", "an ", "one ", "\""].iter().any(|article| what.starts_with(article));
     if has_article {
         return what.to_string();
     }

@@ -63,6 +63,19 @@ pub(crate) fn syntax_help(text: &str, offset: usize) -> (Range<usize>, String) {
     }
 }
 
+/// Returns what a file is for that is of another format than TOML.
+pub(crate) fn other_format(name: &str, text: &str) -> Option<&'static str> {
+    let ends_in = |ending: &str| name.to_lowercase().ends_with(ending);
+    if text.trim_start().starts_with('{') {
+        return Some(
+            "this is JSON, such as the summary of a result: name the TOML file of the case; fem-run report FOLDER draws a result",
+        );
+    }
+    [".csv", ".tsv", ".dat"].into_iter().any(ends_in).then_some(
+        "this is a table: name the TOML file of a case; fem-run fit, calibrate and export read tables, with --data",
+    )
+}
+
 /// Returns the number with a decimal comma that a line gives to a key, with a point: `0.2` of `gap = 0,2`.
 fn decimal_comma(line: &str) -> Option<String> {
     line.split('=').skip(1).find_map(|after| {

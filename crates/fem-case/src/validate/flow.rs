@@ -10,6 +10,7 @@ use crate::case::text_at;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Number, Quantity, Stress};
+use crate::scene::plausibility::YIELD_STRENGTHS;
 use crate::schema::{CaseFile, FlowPoints, FlowTable, HardeningTable};
 use crate::source::document::Document;
 use crate::source::toml_syntax::{join, quote_key};
@@ -51,10 +52,16 @@ fn rows_of(path: &Path, name: &str) -> Result<Vec<Row>, (String, String)> {
     let Some((n_header, header)) = lines.next() else {
         return Err(fault(" is empty".to_string()));
     };
-    let separator = [',', ';', '\t', ' '].into_iter().find(|c| header.contains(*c));
+    let separator = [';', '\t', ',', ' '].into_iter().find(|c| header.contains(*c));
+    let has_decimal_commas = separator != Some(',');
     let cells = |line: &str| -> Vec<String> {
         let parts = line.split(|c| separator.is_some_and(|separator| c == separator));
-        parts.map(|cell| cell.trim().to_string()).filter(|cell| !cell.is_empty()).collect()
+        let cells = parts.map(str::trim).filter(|cell| !cell.is_empty());
+        let with_point = |cell: &str| match has_decimal_commas && !cell.contains('.') {
+            true => cell.replacen(',', ".", 1),
+            false => cell.to_string(),
+        };
+        cells.map(with_point).collect()
     };
     let header = cells(header);
     let [strain, stress] = header.as_slice() else {
@@ -76,6 +83,13 @@ fn rows_of(path: &Path, name: &str) -> Result<Vec<Row>, (String, String)> {
             _ => return Err(fault(format!(":{n}: \"{strain}\" is no plastic strain"))),
         };
         let stress: Quantity<Stress> = match (stress_unit.as_str(), stress.parse::<f64>()) {
+            ("", Ok(value)) if !YIELD_STRENGTHS.contains(&value) => {
+                let message = format!("{name}:{n}: the flow stress is {}", show(value, "Pa"));
+                return Err((
+                    message,
+                    "name the unit in the header, such as flow_stress_mpa".into(),
+                ));
+            }
             ("", Ok(value)) => Quantity::from_si(value),
             (unit, _) => Quantity::from_text(&text(stress, unit)),
         };

@@ -159,10 +159,15 @@ impl Check<'_> {
                 vec![at("hyperelastic"), at("flow")],
                 Some("leave hyperelastic out, or remove the table flow"),
             ),
+            MaterialError::FlowStress { .. } => (
+                vec![at("flow.hardening")],
+                Some(
+                    "softening is not computed: end the table at the largest stress, which holds beyond it",
+                ),
+            ),
             MaterialError::HardeningExponent { .. }
             | MaterialError::FlowRows { .. }
-            | MaterialError::FlowStrain { .. }
-            | MaterialError::FlowStress { .. } => (vec![at("flow.hardening")], None),
+            | MaterialError::FlowStrain { .. } => (vec![at("flow.hardening")], None),
         };
         let keys: Vec<_> = keys.iter().map(String::as_str).collect();
         let default = keys.first().copied().unwrap_or(path);

@@ -75,6 +75,7 @@ fn flow_stress_is_read_from_csv() {
     for text in [
         "plastic_strain,flow_stress_pa\n0,2e8\n0.2,4e8\n",
         "# tension\nplastic_strain;flow_stress_MPa\n0;200\n0.2;400\n",
+        "plastic strain; flow stress [MPa]\n0; 200,0\n0,2; 400,0\n",
         "strain [%]\tstress [MPa]\n0\t200\n20\t400\n",
         "strain stress\n0 0.2e9\n0.2 0.4e9\n\n",
         "strain,stress\n0,0.2 GPa\n0.2,400 MPa\n",
@@ -94,6 +95,7 @@ fn flow_stress_is_read_from_csv() {
         ("0,2e8\n0.2,4e8\n", "flow.csv:1 is of numbers: there is no header"),
         ("a,b,c\n1,2,3\n", "flow.csv:1 has 3 columns, not two"),
         ("strain,stress_mpa\n0,200\n1\n", "flow.csv:3 has 1 cells, not two"),
+        ("strain,stress\n0,200\n", "flow.csv:2: the flow stress is 200.0 Pa"),
         ("strain,stress_mpa\n0,much\n", "flow.csv:2: \"much MPa\" is no flow stress"),
         ("strain,stress_mpa\n0 mm,200\n", "flow.csv:2: \"0 mm\" is no plastic strain"),
         ("strain [mm],stress_mpa\n0,200\n", "flow.csv:2: \"0\" is no plastic strain"),

@@ -1,4 +1,4 @@
-//! The dents of bodies that flowed: the surface before and after the collision, and their sizes.
+//! The dents of bodies that flowed: the displacement of the surface, the sizes, and the energy that they took.
 
 use fem::results::DENT_FILE;
 use fem_case::engineering::{number, show};
@@ -25,19 +25,33 @@ fn chart(dent: &Value, profiles: &Columns) -> Option<Chart> {
     let column = |key: &str| rows.iter().map(|row| profiles.get(key)[*row]).collect::<Vec<f64>>();
     let [radii, before, after] = ["r_m", "y_before_m", "y_after_m"].map(column);
     let last = *radii.last()?;
-    let heights = || before.iter().chain(&after).copied().filter(|y| y.is_finite());
-    let (low, high) = heights().fold((0.0f64, 0.0f64), |(a, b), y| (a.min(y), b.max(y)));
+    let changes: Vec<f64> =
+        after.iter().zip(&before).map(|(after, before)| after - before).collect();
+    let known = || changes.iter().copied().filter(|y| y.is_finite());
+    let (low, high) = known().fold((0.0f64, 0.0f64), |(a, b), y| (a.min(y), b.max(y)));
     let x = QuantityAxis::linear("distance from the axis r", "m", last);
-    let size = high.max(-low);
     let margin = 0.05 * (high - low);
-    let y = QuantityAxis::linear(format!("Surface of {}", name(dent)), "m", size)
-        .from_to(low - margin, high + margin);
-    let curve = |heights: &[f64]| {
-        let points: Vec<(f64, f64)> = radii.iter().copied().zip(heights.iter().copied()).collect();
-        x.points(&y, &points)
+    let y = QuantityAxis::linear(
+        format!("Displacement of the surface of {}", name(dent)),
+        "m",
+        high.max(-low),
+    )
+    .from_to(low - margin, high + margin);
+    let points: Vec<(f64, f64)> = radii.iter().copied().zip(changes).collect();
+    let curve = Curve::line("left by the collision", x.points(&y, &points));
+    Some(chart_axes(&x, &y).with(curve.like_curve(0)))
+}
+
+/// "Of the initial energy, 44 % …": where the energy went that the dents took.
+pub fn energy_of_dents(result: &StoredResult) -> Option<String> {
+    let share = |key: &str| {
+        let part = result.number(&["energy", key])?;
+        Some(number(100.0 * part / result.number(&["energy", "initial_j"])?, 2))
     };
-    let chart = chart_axes(&x, &y).with(Curve::line("after", curve(&after)).like_curve(0));
-    Some(chart.with(Curve::dashed("before", curve(&before)).like_curve(1)))
+    let (plastic, locked_in) = (share("plastic_work_j")?, share("locked_in_j")?);
+    Some(format!(
+        "Of the initial energy, {plastic} % became plastic work, and {locked_in} % is locked in by residual stress."
+    ))
 }
 
 /// "ball: 8.1 µm deep, …".
@@ -63,5 +77,5 @@ fn sizes(dent: &Value) -> String {
         Some(crown) => format!("; its bottom has a radius of {}", show(crown, "m")),
         None => String::new(),
     };
-    text + ". Heights are measured from the mass centre."
+    text + ". Displacements are relative to the mass centre."
 }

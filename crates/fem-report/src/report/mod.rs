@@ -93,7 +93,9 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
     ];
     let charts = charts.into_iter().chain(bounce_charts(result).into_iter().map(Some));
     let [on, numerical, lacking, off] = effects::effects(result);
-    let (dents, dent_sizes): (Vec<_>, Vec<_>) = dent_chart::dent_charts(result).into_iter().unzip();
+    let (dents, mut dent_sizes): (Vec<_>, Vec<_>) =
+        dent_chart::dent_charts(result).into_iter().unzip();
+    dent_sizes.extend(dent_chart::energy_of_dents(result));
     let (measured, measurements) = measured_chart::measured_chart(result).unzip();
     let page = Page {
         title: result.title(),

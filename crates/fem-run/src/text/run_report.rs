@@ -5,12 +5,14 @@ use std::path::Path;
 
 use comfy_table::CellAlignment::Left;
 use fem::effects::{EffectDecision, MaterialLoss, NeglectError};
-use fem::results::{BodySummary, BounceSummary, EstimateSummary, Parts, RestSummary, Summary};
+use fem::results::{
+    BodySummary, BounceSummary, DentSummary, EstimateSummary, Parts, RestSummary, Summary,
+};
 use fem::{ExpectedError, ModelCandidate};
 use fem_case::defaults;
 use fem_case::engineering::{Unit, number, range, show};
 use fem_case::schema::ToleranceValue;
-use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
+use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -81,6 +83,8 @@ fn short(summary: &Summary) -> String {
     if let Some(rest) = &summary.rest {
         row("at rest", format!("from {} on", rest.time_s.map_or(NONE.into(), |t| show(t, "s"))));
     }
+    rows.extend(flow(summary));
+    let mut row = |name: &str, text: String| rows.push([format!("{name}:"), text]);
     let chosen = summary.models_considered.iter().flatten().find(|candidate| candidate.chosen);
     if let Some(ModelCandidate { model, reason, .. }) = chosen {
         row("model", format!("{model}, {reason}"));
@@ -109,6 +113,36 @@ fn short(summary: &Summary) -> String {
     let off = format!("{} effect{plural} off{above}; -v lists them\n", off.len());
     let rows = if rows.is_empty() { String::new() } else { table(&[Left, Left], rows) };
     format!("\n{deficit}{rows}{off}")
+}
+
+/// Returns the dent of each body that flowed, and where the energy went.
+fn flow(summary: &Summary) -> Vec<[String; 2]> {
+    let unknown = || UNKNOWN.to_string();
+    let length = |value: Option<f64>| value.map_or_else(unknown, |value| show(value, "m"));
+    let dent = |dent: &DentSummary| {
+        let strain =
+            dent.max_plastic_strain.map_or_else(unknown, |strain| number(100.0 * strain, 2));
+        let text = format!(
+            "{} is {} deep, {} in radius; plastic strain up to {strain} %",
+            dent.body,
+            length(dent.depth_m),
+            length(dent.radius_m)
+        );
+        ["dent:".to_string(), text]
+    };
+    let mut rows: Vec<[String; 2]> = summary.dent.iter().flatten().map(dent).collect();
+    let energy = &summary.energy;
+    let shares = [energy.get(Account::PlasticWork), energy.locked_in_j].map(|part| {
+        let share = part.zip(energy.initial_j).map(|(part, initial)| 100.0 * part / initial);
+        share.map_or_else(unknown, |share| number(share, 2))
+    });
+    if let ([plastic, locked_in], false) = (&shares, rows.is_empty()) {
+        let text = format!(
+            "{plastic} % became plastic work, {locked_in} % is locked in by residual stress"
+        );
+        rows.push(["energy:".to_string(), text]);
+    }
+    rows
 }
 
 /// Returns the tolerance of the case as text: `the tolerance of 1 %`, or that it has several.
@@ -405,7 +439,9 @@ fn balances(summary: &Summary) -> String {
         momentum.map(|drift| ["momentum".into(), format!("residual {}", residual(drift))]);
     // Closed forms take less than is worth printing.
     let cost = summary.steps.is_some().then(|| ["cost".into(), cost_text(summary)]);
-    let rows = peaks.into_iter().chain(null).chain([energy]).chain(momentum).chain(cost);
+    let of_flow = flow(summary).into_iter().map(|[name, text]| [name.replace(':', ""), text]);
+    let rows =
+        peaks.into_iter().chain(null).chain(of_flow).chain([energy]).chain(momentum).chain(cost);
     table(&[Left, Left], rows)
 }
 

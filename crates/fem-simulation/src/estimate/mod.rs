@@ -2,7 +2,7 @@
 
 pub(crate) mod approach;
 pub(crate) mod effective_modulus;
-mod plastic_flow;
+pub(crate) mod plastic_flow;
 pub(crate) mod quasi_static;
 pub(crate) mod semi_infinite_partner;
 pub(crate) mod viscous_flow;
@@ -123,7 +123,7 @@ impl Estimate {
         }
         let spheres = || scene.bodies().iter().filter_map(Body::diameter);
         let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
-        let flow = flowing_impact(scene, &hertz);
+        let flow = flowing_impact(scene, &hertz, None).map(|impact| impact.quantities);
         let sizes = flow.unwrap_or_else(|| ImpactQuantities::from(&relaxed_impact));
         let contact_radius = sizes.max_contact_radius;
         let materials = || scene.bodies().iter().filter_map(Body::material);

@@ -34,6 +34,8 @@ use crate::simulation::Simulation;
 const ROOM_OF_ADVICE: f64 = 1.2;
 /// Power of the overlap with which elements are shortened: the overlap falls with the power 0.85 of the element size.
 const ELEMENT_SIZE_PER_OVERLAP: f64 = 1.2;
+/// Distance of neighbouring atoms in solids (m), rounded down.
+const SIZE_OF_ATOMS: f64 = 0.15e-9;
 /// Seconds of a run from which a cheaper model is suggested.
 const SECONDS_OF_LONG_RUN: f64 = 3.0;
 
@@ -174,10 +176,8 @@ fn of_numbers(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let incomplete = collision
         .stop()
         .map(|stop| format!("the run stopped early: {stop}; peak values are those up to then"));
-    [incomplete, energy_residual(collision, &remedy), restitution(collision)]
-        .into_iter()
-        .flatten()
-        .collect()
+    let balance = energy_residual(collision, &remedy);
+    [incomplete, balance, restitution(collision), atomic(collision)].into_iter().flatten().collect()
 }
 
 /// Returns a warning about the energy residual, unless it has stopped the run: the stop has its own remedy.
@@ -200,6 +200,15 @@ fn restitution(collision: &Collision) -> Option<String> {
     excess_of_restitution(collision)?;
     let restitution = collision.restitution?;
     Some(format!("the restitution {restitution:.6} is above 1: the numerical error is visible"))
+}
+
+/// Returns a warning that bodies approach by less than an atom.
+fn atomic(collision: &Collision) -> Option<String> {
+    let approach = collision.max_approach.filter(|approach| *approach < SIZE_OF_ATOMS)?;
+    Some(format!(
+        "the largest approach is {}, less than the size of atoms: surfaces are no smooth continua at this scale",
+        show(approach, "m")
+    ))
 }
 
 /// Returns a warning that the surfaces overlap too much.

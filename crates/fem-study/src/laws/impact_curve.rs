@@ -9,7 +9,7 @@ use super::chosen_law::model_of;
 use super::law_fault::LawFault;
 use super::stored_fit::StoredFit;
 use crate::measured::{DataError, Restitutions};
-use fem_simulation::Reduced;
+use fem_simulation::{Reduced, Rejection};
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
@@ -72,6 +72,11 @@ impl ImpactCurve {
     /// # Errors
     /// The case has no such model, or a collision cannot be computed.
     pub fn computed(case: &Case, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
+        if case.scene().flows() {
+            let message = "plastic flow is computed by finite elements, and not at the many speeds of an export";
+            let help = "compute the restitutions by fem-run sweep over body.N.approach_speed, and give its sweep.csv as --data";
+            return Err(Rejection::new("material", message).with_help(help).in_case(case).into());
+        }
         let reduced = reduced(case)?;
         let (middle, decade) = (case.scene().approach_speed(), 10f64.sqrt());
         let (low, high) = speeds.unwrap_or((middle / decade, middle * decade));

@@ -73,6 +73,34 @@ fn the_energy_of_a_dent_is_plastic_work() {
     assert!(collision.residual_relative.unwrap() < 1e-4);
 }
 
+/// The estimated change by a steel's dependence on the strain rate is that of two runs within its promised factor of three.
+#[test]
+fn a_missing_rate_is_in_the_error_bar() {
+    let of_steel = "material.steel.flow.rate.johnson_cook={ c=0.014, reference_rate='1 1/s' }";
+    let without = simulation_of::<&str>(BALL, &[]);
+    let with = simulation_of(BALL, &[of_steel]);
+    let tight = simulation_of(BALL, &["accuracy.tolerance='1 %'"]);
+    let [decision, own] = [&tight, &with].map(|it| decision_on(it, "rate dependence"));
+    assert!(!decision.active && decision.reason.contains("not computed"), "{}", decision.reason);
+    assert!(own.active && own.reason.contains("% higher"), "{}", own.reason);
+    let warnings = tight.setup().warnings().join("\n");
+    assert!(warnings.contains("set material.NAME.flow.rate"), "{warnings}");
+    let [without, with] = [without, with].map(|simulation| {
+        let collision = simulation.run(&mut ());
+        let uncertainty = simulation.summary(&collision).uncertainty;
+        let parts = uncertainty.parts(QuantityOfInterest::Restitution);
+        (collision.restitution.unwrap(), parts.model.unwrap())
+    });
+    let change = with.0 - without.0;
+    assert!(change > 0.005, "{change}");
+    let ratio = without.1 / change;
+    assert!((1.0 / 3.0..3.0).contains(&ratio), "{ratio}");
+    assert!(with.1 < 0.2 * change, "{}", with.1);
+    // A rate of zero says that the material does not depend on it.
+    let zero = simulation_of(BALL, &[of_steel.replace("0.014", "0")]);
+    assert!(!decision_on(&zero, "rate dependence").matters);
+}
+
 /// Without the vibration all energy has an account of its own, and the dent is as deep as the approach at separation.
 #[test]
 fn the_unloaded_body_keeps_its_dent() {

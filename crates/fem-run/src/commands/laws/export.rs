@@ -55,8 +55,8 @@ pub struct Arguments {
     #[arg(long, value_name = "LENGTHS", value_delimiter = ',', value_parser = parse_length,
         conflicts_with = "data")]
     diameters: Vec<f64>,
-    /// Largest error of the restitution at which a snippet counts as valid [default: 0.01 or, if that is larger,
-    /// the scatter of the data: three standard deviations of measured points, one of a fit]
+    /// Largest error of the restitution at which a snippet counts as valid [default: 0.01 or, if it is larger,
+    /// three standard deviations of the data from a smooth curve, or the rms error of the fit]
     #[arg(long, value_name = "E", value_parser = parse_share)]
     tolerance: Option<f64>,
     #[command(flatten)]

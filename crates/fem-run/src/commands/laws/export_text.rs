@@ -26,8 +26,11 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet]) -> String {
         ]
     };
     let header = "file|valid|>worst|input";
-    let of_scatter =
-        if export.tolerance == curve.scatter { ", the scatter of the data" } else { "" };
+    let of_scatter = match curve.law {
+        _ if export.tolerance != curve.scatter => "",
+        Some(_) => ", the rms error of the fit",
+        None => ", three standard deviations of the data from a smooth curve",
+    };
     let heading = format!(
         "{}, {} to {}",
         standard_output::one_line(&export.title),

@@ -101,7 +101,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
             })
             .collect();
         let name = model.family().name();
-        text += &format!("{name}: rms error {:.4} with {}\n", fit.rms, values.join(", "));
+        text += &format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", "));
     }
     text
 }

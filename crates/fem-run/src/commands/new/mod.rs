@@ -17,6 +17,9 @@ const TEMPLATE: &str = include_str!("template.toml");
 /// A made-up relaxation for an elastic material, commented out.
 const RELAXATION: &str = include_str!("relaxation.toml");
 
+/// A flow rule for a material with a yield strength, commented out.
+const FLOW: &str = include_str!("flow.toml");
+
 /// Gravity for a sphere above a resting body, commented out.
 const GRAVITY: &str = include_str!("gravity.toml");
 
@@ -101,6 +104,8 @@ impl WithToml for PathBuf {
 fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Failure> {
     let material = material.strip_prefix("lib:").unwrap_or(material);
     let table = materials::one(material)?;
+    let flow =
+        if table.contains("yield_strength") { "\n".to_string() + FLOW } else { String::new() };
     let relaxation = match table.contains("relaxation") {
         true => String::new(),
         false => "\n".to_string() + RELAXATION,
@@ -118,6 +123,7 @@ fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Fail
     let words = [
         ("{below}", below),
         ("{table}", table.trim_end()),
+        ("{flow}", &flow),
         ("{relaxation}", &relaxation),
         ("{gravity}", gravity),
         ("{material}", material),

@@ -335,7 +335,7 @@ fn a_fit_is_exported_and_is_a_model() {
     let a = fit["parameters"][0]["value"].as_f64().unwrap();
 
     let ran = place.succeed("export case.toml --fit runs/e_fit");
-    ran.prints("lammps_viscoelastic.in has the fitted law, kuwabara_kono|scatter of the data");
+    ran.prints("lammps_viscoelastic.in has the fitted law, kuwabara_kono|the rms");
     let export = place.json("runs/case_export/export.json");
     assert!((export["dissipation_time_s"].as_f64().unwrap() / a - 1.0).abs() < 1e-6);
     assert_eq!(export["fitted_law"], "kuwabara_kono");

@@ -45,7 +45,9 @@ fn new_case_is_valid_with_all_commented_keys_enabled() {
         ran.prints(&file);
         let text = place.text(&file);
         assert!(text.starts_with("#:schema ./fem-run.schema.json\n"), "{text}");
-        for place in ["{below}", "{table}", "{relaxation}", "{gravity}", "{material}", "{file}"] {
+        for place in
+            ["{below}", "{table}", "{flow}", "{relaxation}", "{gravity}", "{material}", "{file}"]
+        {
             assert!(!text.contains(place), "{text}");
         }
         place.succeed([&file, "--set", "model.hertz={}"]);
@@ -59,7 +61,13 @@ fn new_case_is_valid_with_all_commented_keys_enabled() {
                 block.lines().next().is_some_and(is_offer) && !block.contains(":schema")
             })
             .collect();
-        let expected = if partner == "sphere" { 4 } else { 5 } - usize::from(material == "lib:pvb");
+        let expected = match material {
+            "soda-lime-glass" => 4,
+            // Gravity on a wall, and a flow rule beside its yield strength.
+            "pmma" => 6,
+            // Gravity; it has a relaxation.
+            _ => 4,
+        };
         assert_eq!(offers.len(), expected, "{offers:?}");
         for offer in offers {
             assert!(offer.lines().all(is_offer), "{offer}");

@@ -110,6 +110,9 @@ effects! {
     /// Plastic flow of the bodies.
     Physical PlasticFlow = "plastic flow" plastic_flow:
         "Above its yield strength a material deforms permanently and keeps a dent.";
+    /// Dependence of the flow stress on the strain rate.
+    Physical RateDependence = "rate dependence":
+        "Metals are stronger at the strain rates of an impact than in a tensile test.";
     /// Attraction of the surfaces.
     Physical AdhesionEffect = "adhesion":
         "Surfaces attract each other: slow bodies stick, and faster ones lose energy.";

@@ -71,7 +71,7 @@ impl Support {
                 (false, joined([&number, &if_not_needed, idle]), none())
             }
             Self::Lacks if is_needed => {
-                let lacking = "needed, but this model lacks it";
+                let lacking = "needed, but not computed";
                 let warnings = warning.into_iter().collect();
                 (false, joined([&number, lacking, &open_error]), warnings)
             }
@@ -116,7 +116,7 @@ mod tests {
             (false, "x = 1; small".into(), warned)
         );
         let (active, reason, warnings) = Support::Lacks.of(relevance(true), auto);
-        assert!(!active && reason.contains("lacks it") && reason.contains("all of it"));
+        assert!(!active && reason.contains("not computed") && reason.contains("all of it"));
         assert_eq!(warnings, ["x is large"]);
         let own = Support::decided(true, "always").warning(["beware".to_string()]);
         assert_eq!(own.of(relevance(true), None), (true, "always".into(), vec!["beware".into()]));

@@ -15,6 +15,11 @@ impl Effect for MaterialLoss {
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
         let warning = scene.unknown_loss();
         let bodies: Vec<&str> = scene.elastic_bodies().map(Body::name).collect();
+        if bodies.is_empty() {
+            let number = "a material flows, but not in this collision".to_string();
+            let if_not_needed = "computed as elastic".to_string();
+            return Some(Relevance { number, if_not_needed, ..Relevance::default() });
+        }
         Some(Relevance {
             is_needed: warning.is_some(),
             number: format!("the case gives no relaxation for {}", bodies.join(" and ")),

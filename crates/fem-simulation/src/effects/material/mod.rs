@@ -1,6 +1,7 @@
-//! Effects of the materials: relaxation, unknown losses, finite strain and plastic flow.
+//! Effects of the materials: relaxation, unknown losses, finite strain plastic flow and its rate.
 
 mod finite_strain;
 mod material_loss;
 mod plastic_flow;
+mod rate_dependence;
 mod viscoelasticity;

@@ -21,8 +21,8 @@ use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::effects::{
     AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticFlow, RigidPartner, Support,
-    SurfaceSlip, Viscoelasticity, decide,
+    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticFlow, RateDependence,
+    RigidPartner, Support, SurfaceSlip, Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
@@ -435,6 +435,7 @@ fn support(
             Support::Lacks
         }
         PlasticFlow::NAME => PlasticFlow::of_elements(scene, estimate),
+        RateDependence::NAME => return RateDependence::of_elements(scene, estimate),
         _ => return None,
     })
 }
