@@ -17,8 +17,8 @@
 //! energy.
 
 use fem_collision::{
-    Account, BalanceSide, DissipatedEnergies, HistoryRow, MAX_RESIDUAL, StepInstant, nan_aware_max,
-    nan_aware_max_abs,
+    Account, BalanceSide, DissipatedEnergies, EnergyLedger, HistoryRow, MAX_RESIDUAL, StepInstant,
+    nan_aware_max, nan_aware_max_abs,
 };
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
@@ -56,6 +56,8 @@ pub(crate) struct Ledger {
     /// ∫ F dt up to t_n − Δt/2, N s.
     impulse: f64,
     losses: DissipatedEnergies,
+    /// Energies that an earlier contact has left in the bodies, which are not counted.
+    inherited: EnergyLedger,
     /// Time of the last balance, s.
     last_time: f64,
     /// Result of the last balance.
@@ -125,10 +127,16 @@ impl Ledger {
             momentum_scale: if momentum > 0.0 { momentum } else { momentum_of_approach },
             impulse: 0.0,
             losses: DissipatedEnergies::default(),
+            inherited: EnergyLedger::EMPTY,
             last_time: model.approach().first_touch(),
             last_balance: LastBalance::default(),
             since: ContactWork::default(),
         }
+    }
+
+    /// Leaves out the energies that the bodies have in a state, from now on.
+    pub fn inherit(&mut self, model: &ExplicitBodies, state: &State) {
+        self.inherited = energies_of_parts(model, state).energies;
     }
 
     /// Follows the share of the contact in every state, whose forces are in `scratch`, whether or not the state is
@@ -201,9 +209,9 @@ impl Ledger {
             balance_body(&bodies[side], time_step, &state.bodies[side], &scratch.forces[side])
         });
         let motions = state.motions(model);
-        let mut accounts = Accounts::default();
-        for (side, body) in bodies.iter().enumerate() {
-            body.add_energies(&motions[side], &state.bodies[side].history, &mut accounts);
+        let mut accounts = energies_of_parts(model, state);
+        for (account, energy) in self.inherited.entries() {
+            accounts.energies.add(account, -energy);
         }
         model.contact().add_energies(state.contact_history(model), &mut accounts);
         self.losses.advance(state.time - self.last_time, accounts.powers);
@@ -313,6 +321,15 @@ impl Ledger {
         };
         momentum - (self.given_momentum + from_wall)
     }
+}
+
+/// Returns what the parts of the bodies store, are given and dissipate.
+fn energies_of_parts(model: &ExplicitBodies, state: &State) -> Accounts {
+    let mut accounts = Accounts::default();
+    for (side, (body, motion)) in model.bodies().iter().zip(state.motions(model)).enumerate() {
+        body.add_energies(&motion, &state.bodies[side].history, &mut accounts);
+    }
+    accounts
 }
 
 /// Returns the kinetic energy at the start, J; for a body that is not free, relative to its own velocity.

@@ -156,6 +156,17 @@ impl ExplicitBodies {
         })
     }
 
+    /// Returns the same bodies with another approach of the same gap. Unlike [`ExplicitBodies::new`] it leaves everything
+    /// else as it was chosen for the speed of this model.
+    #[must_use]
+    pub fn approaching(&self, approach: Approach) -> Self {
+        let mut other = Self { approach, ..self.clone() };
+        for (body, velocity) in other.bodies.iter_mut().zip(approach.velocities()) {
+            body.velocity = velocity;
+        }
+        other
+    }
+
     /// Returns the lower and the upper body.
     pub fn bodies(&self) -> &[Body; 2] {
         &self.bodies

@@ -117,6 +117,25 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
         Self { model, restart_state, scratch, probing }
     }
 
+    /// Starts a run of bodies that meet again in the same place, as an ended run of the same bodies has left them
+    /// ([`ExplicitBodies::approaching`]): with dents, residual stresses and internal variables, without vibration.
+    ///
+    /// # Errors
+    /// The ended run is one of other bodies.
+    pub fn again(
+        model: M,
+        expected: Expectation,
+        request: &OutputRequest,
+        before: &RunState,
+    ) -> Result<Self, ModelError> {
+        if !before.state.fits(&model) {
+            return Err(ModelError::ForeignRestartState);
+        }
+        let restart_state = RunState::again(&model, expected, request, before);
+        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, request));
+        Ok(Self { model, restart_state, scratch, probing })
+    }
+
     /// Resumes a run of the same model from its restart state; a run that had ended has ended.
     ///
     /// # Errors

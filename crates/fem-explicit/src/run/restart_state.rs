@@ -38,6 +38,8 @@ pub struct RunState {
     request: OutputRequest,
     /// Approach of the model.
     approach: Approach,
+    /// Approach for which the parts of the model were chosen: that of the first contact of bodies that meet again.
+    made_for: Approach,
     /// Fingerprint of the model, see [`fingerprint`].
     fingerprint: u64,
     /// Radius of the candidate region of the model, m.
@@ -69,9 +71,49 @@ impl RunState {
             expected,
             request: request.clone(),
             approach: *model.approach(),
+            made_for: *model.approach(),
             fingerprint: fingerprint(model),
             candidate_radius: model.candidate_radius(),
         }
+    }
+
+    /// Returns the state at the first touch of bodies that meet again in the same place, with the dents, residual stresses
+    /// and internal variables that an ended run has left, without its vibration. They are where undented bodies
+    /// would touch, a depth of the dents apart.
+    pub(crate) fn again(
+        model: &ExplicitBodies,
+        expected: Expectation,
+        request: &OutputRequest,
+        before: &Self,
+    ) -> Self {
+        let mut run = Self::new(model, expected, request);
+        let clock = run.state.clock(model);
+        for (side, body) in model.bodies().iter().enumerate().filter(|(_, body)| body.flows()) {
+            let left = before.unloaded.as_ref().and_then(|unloaded| unloaded.displacement(side));
+            let (Some(left), state) = (left, &mut run.state.bodies[side]) else { continue };
+            let centre = body.centre(&left);
+            for (u, [radial, axial]) in state.displacement.iter_mut().zip(left) {
+                *u = [radial, u[1] + (axial - centre)];
+            }
+            let n_fields = body.n_fields();
+            state.history[..n_fields]
+                .clone_from_slice(&before.state.bodies[side].history[..n_fields]);
+            // Its forces are those of the last step.
+            state.advance_stress(body, clock);
+        }
+        run.ledger.inherit(model, &run.state);
+        Self { made_for: before.made_for, ..run }
+    }
+
+    /// Returns whether the run has ended and left a body dented.
+    pub fn is_dented(&self) -> bool {
+        self.unloaded.as_ref().is_some_and(|unloaded| unloaded.displacement(0).is_some())
+    }
+
+    /// Returns the approach for which the parts of the model were chosen; [`ExplicitBodies::approaching`] turns such a model
+    /// into that of this run.
+    pub fn made_for(&self) -> &Approach {
+        &self.made_for
     }
 
     /// Returns the number of steps taken.
@@ -124,6 +166,7 @@ impl RunState {
                 && history.rows().last().is_none_or(|row| row.time <= state.time)
         };
         self.approach == *model.approach()
+            && self.made_for.gap() == self.approach.gap()
             && self.fingerprint == fingerprint(model)
             && self.candidate_radius.to_bits() == model.candidate_radius().to_bits()
             && !self.max_time().is_nan()

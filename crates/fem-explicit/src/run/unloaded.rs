@@ -54,6 +54,12 @@ impl UnloadedState {
         self.weight >= 0.0 && (is_empty || has_sizes())
     }
 
+    /// Returns the mean displacement of the nodes of a body; `None` if there was no instant after the contact.
+    pub fn displacement(&self, side: usize) -> Option<NodalField> {
+        let mean = |sum: &[f64; 2]| sum.map(|sum| sum / self.weight);
+        (self.weight > 0.0).then(|| self.sums[side].iter().map(mean).collect())
+    }
+
     /// Returns the snapshot of the bodies without vibration and the elastic energies (J) that they hold; `None` if there
     /// was no instant after the contact. `velocity` is that of the mass centres, m/s.
     pub fn finish(
@@ -62,9 +68,7 @@ impl UnloadedState {
         state: &mut State,
         velocity: [f64; 2],
     ) -> Option<(Snapshot, [f64; 2])> {
-        if self.weight <= 0.0 {
-            return None;
-        }
+        let displacements = [self.displacement(0)?, self.displacement(1)?];
         let mut snapshot = Snapshot {
             label: Some(SnapshotInstant::AfterSeparation),
             time: state.time,
@@ -72,11 +76,9 @@ impl UnloadedState {
         };
         let clock = state.clock(model);
         let mut locked_in = [0.0; 2];
-        for (side, body) in model.bodies().iter().enumerate() {
+        for (side, (body, mean)) in model.bodies().iter().zip(displacements).enumerate() {
             let own = &mut state.bodies[side];
-            for (u, sum) in own.displacement.iter_mut().zip(&self.sums[side]) {
-                *u = sum.map(|sum| sum / self.weight);
-            }
+            own.displacement = mean;
             if body.mesh().is_none() {
                 continue;
             }

@@ -115,6 +115,19 @@ pub trait Model: fmt::Debug + Send + Sync {
         Err(Rejection::new("model", message).with_help("compute the collision from its start"))
     }
 
+    /// Begins a collision of bodies that meet again in the same place, as an ended collision of this model has left them.
+    ///
+    /// # Errors
+    /// A model whose bodies keep no dents, or a collision that cannot be computed.
+    fn again(
+        &self,
+        _: &RestartState,
+        _: &Approach,
+        _: &OutputRequest,
+    ) -> Result<Box<dyn Stepper>, Stop> {
+        Err(Stop::NotMade(format!("{} keeps no dents", self.setup().description)))
+    }
+
     /// Returns the contact of the relaxed bodies under a constant force (N); `None` if the bodies flow without limit.
     ///
     /// # Errors

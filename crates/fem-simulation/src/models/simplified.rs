@@ -2,7 +2,7 @@
 //! warnings belong to the given scene.
 
 use fem_case::Scene;
-use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_mesh::SphereMesh;
 
 use crate::effects::{Effect, Support, decide};
@@ -73,6 +73,15 @@ impl Model for Simplified {
 
     fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         self.model.resume(state)
+    }
+
+    fn again(
+        &self,
+        before: &RestartState,
+        approach: &Approach,
+        request: &OutputRequest,
+    ) -> Result<Box<dyn Stepper>, Stop> {
+        self.model.again(before, approach, request)
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

@@ -7,7 +7,7 @@
 
 use fem_case::{Body, Scene};
 use fem_collision::{
-    Account, Approach, BodyResult, Collision, Ending, Monitor, OutputRequest, StaticContact,
+    Account, Approach, BodyResult, Collision, Ending, Monitor, OutputRequest, StaticContact, Stop,
 };
 use fem_laws::Adhesion;
 use fem_mesh::SphereMesh;
@@ -134,6 +134,15 @@ impl Model for Sticking {
 
     fn resume(&self, state: RestartState) -> Result<Box<dyn Stepper>, Rejection> {
         Ok(self.stepper(state.approach, self.model.resume(state)?))
+    }
+
+    fn again(
+        &self,
+        before: &RestartState,
+        approach: &Approach,
+        request: &OutputRequest,
+    ) -> Result<Box<dyn Stepper>, Stop> {
+        Ok(self.stepper(*approach, self.model.again(before, approach, request)?))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Rejection> {

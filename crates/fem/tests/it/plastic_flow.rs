@@ -2,7 +2,9 @@
 
 use fem::{Account, QuantityOfInterest};
 
-use crate::scene::{case_of, collision_of, decision_on, refused_of, resolved, simulation_of};
+use crate::scene::{
+    DENTED_BALL, case_of, collision_of, decision_on, refused_of, resolved, simulation_of,
+};
 
 /// A ball on a wall that yields from 35 mm/s on, on a coarse mesh.
 const BALL: &str = r#"
@@ -173,6 +175,39 @@ fn an_uncertain_yield_strength_has_a_bar() {
         let ratio = bar / (0.5 * (high - low).abs());
         assert!((1.0 - within..1.0 + within).contains(&ratio), "{quantity:?}: {ratio}");
     }
+}
+
+/// On its own dent a ball is pressed by the force of before without further flow (shakedown: Johnson, *Contact Mechanics*,
+/// section 6.1), so that the second bounce is nearly elastic; on a fresh spot it loses as in a first contact of that speed.
+#[test]
+fn a_ball_falls_onto_its_dent_or_beside_it() {
+    let bounced = |spot: &str| {
+        let simulation = simulation_of(DENTED_BALL, &[format!("gravity.spot='{spot}'")]);
+        let collision = simulation.run(&mut ());
+        assert!(collision.residual_relative.unwrap() < 1e-3, "{spot}");
+        let [dent] = simulation.summary(&collision).dent.unwrap().try_into().unwrap();
+        (collision, dent)
+    };
+    let ((same, dent_of_same), (fresh, dent_of_first)) = (bounced("same"), bounced("fresh"));
+    assert_eq!(same.bounces[0], fresh.bounces[0]);
+    let [first, second] = same.bounces[..] else { panic!("two bounces") };
+    assert!((0.99..1.0).contains(&second.restitution), "{second:?}");
+    let ratio = second.peak_force.unwrap() / first.peak_force.unwrap();
+    assert!((0.97..1.02).contains(&ratio), "{ratio}");
+    let deeper = dent_of_same.depth_m.unwrap() / dent_of_first.depth_m.unwrap();
+    assert!((0.99..1.03).contains(&deeper), "{deeper}");
+    let beside = fresh.bounces[1].restitution;
+    assert!((0.7..0.8).contains(&beside), "{beside}");
+}
+
+/// An elastic ball has no dent, wherever it falls.
+#[test]
+fn an_elastic_ball_falls_alike_on_any_spot() {
+    let slow = "body.1.approach_speed='30 mm/s'";
+    let [same, fresh] = ["same", "fresh"].map(|spot| {
+        collision_of(DENTED_BALL, &[slow.to_string(), format!("gravity.spot='{spot}'")])
+    });
+    assert_eq!(same.bounces, fresh.bounces);
 }
 
 /// Impossible switches and scenes are refused with the key to change.

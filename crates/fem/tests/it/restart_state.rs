@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fmt::Debug;
 
-use crate::scene::{GLASS, RUBBER_BALL as BALL, simulation_of as simulation};
+use crate::scene::{DENTED_BALL, GLASS, RUBBER_BALL as BALL, simulation_of as simulation};
 
 const COARSE: &str = "mesh={contact_element_size='0.4 mm', refined_radius='0.4 mm'}";
 
@@ -27,6 +27,7 @@ fn simulations() -> Vec<(&'static str, Simulation)> {
         ("finite strain", simulation(GLASS, &[COARSE, shear, "effects.finite_strain='on'"])),
         ("probe", simulation(GLASS, &[COARSE, "output.probe=[{body='striker', r=0, y=0}]"])),
         ("ball", simulation(BALL, &ball)),
+        ("dent", simulation(DENTED_BALL, &["gravity.spot='same'"])),
     ]
 }
 
@@ -172,6 +173,20 @@ fn a_resumed_pair_with_one_body_at_finite_strain_writes_the_same_files() {
         files
     };
     assert_eq!(files(&resumed), files(&whole));
+}
+
+/// A ball that falls onto its own dent has the bodies of its first contact, whose parts depend on the speed.
+#[test]
+fn a_fall_onto_a_dent_is_resumed() {
+    let simulation = simulation(DENTED_BALL, &["gravity.spot='same'"]);
+    let run = Identity::of(simulation.case()).unwrap();
+    let whole = simulation.run(&mut ());
+    for state in states(&simulation, &[0.2, 0.6, 0.8]) {
+        let state = restart_state_of(&checkpoint(&run, &state), &run).unwrap();
+        let mut resumed = simulation.resume(state).unwrap();
+        while resumed.advance(&mut ()) {}
+        assert_eq!(resumed.finish(), whole);
+    }
 }
 
 /// Calls with the place of every value, of lists with those of the first and the last.

@@ -11,6 +11,16 @@ pub const ELASTIC_GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elas
 pub const SOFT_SPHERE: &str = include_str!("../../../../cases/soft_sphere.toml");
 pub const RUBBER_BALL: &str = include_str!("rubber_ball.toml");
 
+/// A steel ball that yields from 35 mm/s on and falls twice, on a coarse mesh. It needs a spot.
+pub const DENTED_BALL: &str = r#"
+    material.steel = { density = 7850, youngs_modulus = "210 GPa", poissons_ratio = 0.3, flow.yield_strength = "1 GPa" }
+    body = [{ name = "floor", wall = {} },
+            { name = "ball", sphere.diameter = "10 mm", material = "steel", approach_speed = "1 m/s" }]
+    gravity.acceleration = 9.81
+    stop.bounces = 2
+    accuracy.tolerance = "5 %"
+    model.fem = {}"#;
+
 pub fn parse<S: ToString>(text: &str, overrides: &[S]) -> Result<Case, CaseError> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     Case::parse("case.toml", text, Path::new("."), &overrides)

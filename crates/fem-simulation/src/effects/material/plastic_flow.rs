@@ -5,7 +5,7 @@
 //! reported, with a warning if few materials withstand the peak pressure.
 
 use fem_case::engineering::show;
-use fem_case::{Body, ModelChoice, Scene, Spot, Switch};
+use fem_case::{Body, ModelChoice, Scene, Switch};
 use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
@@ -124,18 +124,13 @@ impl PlasticFlow {
     pub(crate) fn check(scene: &Scene) -> Result<(), Rejection> {
         let bounces = scene.gravity().filter(|gravity| scene.flows() && gravity.bounces > 1);
         match bounces.map(|gravity| gravity.spot) {
-            None | Some(Some(Spot::Fresh)) => Ok(()),
+            None | Some(Some(_)) => Ok(()),
             Some(None) => {
                 let message =
                     "the ball dents and bounces, and the case does not say where it falls next";
-                let help = "write gravity.spot = \"fresh\" (undented surfaces: it loses energy as in the first contact), or \
-                            stop.bounces = 1; \"same\", a fall onto its own dent, is not computed";
+                let help = "write gravity.spot = \"fresh\" (undented surfaces: it loses energy as in the first contact), \
+                            \"same\" (its own dent, on which it loses less), or stop.bounces = 1";
                 Err(Rejection::new("gravity", message).with_help(help))
-            }
-            Some(Some(Spot::Same)) => {
-                let message = "a fall onto the dent of an earlier contact is not computed";
-                let help = "write \"fresh\", or stop.bounces = 1";
-                Err(Rejection::new("gravity.spot", message).with_help(help))
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Collects the results of all contacts into one result.
 
-use fem_case::Gravity;
+use fem_case::{Gravity, Spot};
 use fem_collision::{
     Approach, Bounce, Collision, Ending, OutputRequest, RestState, STAY_TOGETHER, Snapshot, Stop,
 };
@@ -169,7 +169,17 @@ impl Bounced {
             bounce.restitution = after / bounce.speed_before;
         }
         self.chain.keep(&rows, landing.map_or(f64::INFINITY, |landing| landing.time));
-        self.first.get_or_insert(collision);
+        let unloaded =
+            collision.unloaded.take().map(|dent| Snapshot { time: time + dent.time, ..dent });
+        let locked_in = collision.bodies.each_ref().map(|body| body.locked_in);
+        let first = self.first.get_or_insert(collision);
+        // A dent is that of the last contact in the same place.
+        if is_first || self.gravity.spot == Some(Spot::Same) && unloaded.is_some() {
+            first.unloaded = unloaded;
+            for (body, energy) in first.bodies.iter_mut().zip(locked_in) {
+                body.locked_in = energy;
+            }
+        }
         let Some(landing) = landing else {
             self.chain.stay(rows.last());
             self.ending = Ending::AtRest;

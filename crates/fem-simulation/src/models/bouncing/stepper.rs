@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use fem_case::Spot;
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, Phase, Progress, Snapshot, Stop};
 use fem_explicit::ModelError;
 use fem_mesh::SphereMesh;
@@ -21,6 +22,8 @@ pub(super) struct BouncingStepper {
     present: Arc<dyn Model>,
     /// The contact under way; `None` after the last one.
     contact: Option<Box<dyn Stepper>>,
+    /// End of the contact before, if the ball falls onto its dent.
+    dented: Option<RestartState>,
 }
 
 impl Bounces {
@@ -65,7 +68,7 @@ impl BouncingStepper {
         let known =
             Bounces { approach: *approach, request: request.clone(), so_far, made_at: None };
         let present = ball.first.clone();
-        let mut stepper = Self { ball: ball.clone(), known, present, contact: None };
+        let mut stepper = Self { ball: ball.clone(), known, present, contact: None, dented: None };
         stepper.touch(speed);
         stepper
     }
@@ -85,7 +88,7 @@ impl BouncingStepper {
             None => ball.first.clone(),
         };
         let contact = Some(present.resume(RestartState { bounces: None, ..state })?);
-        Ok(Self { ball: ball.clone(), known: *known, present, contact })
+        Ok(Self { ball: ball.clone(), known: *known, present, contact, dented: None })
     }
 
     /// Begins the contact at a landing speed, m/s.
@@ -98,14 +101,17 @@ impl BouncingStepper {
 
     /// Returns the stepper of the contact at a speed, m/s.
     fn begin(&mut self, speed: f64) -> Result<Box<dyn Stepper>, Stop> {
+        let contact =
+            Approach::new([0.0, -speed], 0.0).map_err(|error| Stop::NotMade(error.to_string()))?;
+        if let Some(dented) = self.dented.take() {
+            return self.present.again(&dented, &contact, &self.known.request(&self.ball));
+        }
         if self.known.so_far.n_contacts() > 0
             && let Some(model) = self.ball.refined_model(self.present.as_ref(), speed)?
         {
             self.present = Arc::from(model);
             self.known.made_at = Some(speed);
         }
-        let contact =
-            Approach::new([0.0, -speed], 0.0).map_err(|error| Stop::NotMade(error.to_string()))?;
         Ok(start_stepper(&self.present, &contact, &self.known.request(&self.ball)))
     }
 
@@ -130,6 +136,9 @@ impl Stepper for BouncingStepper {
             return true;
         }
         let Some(contact) = self.contact.take() else { return false };
+        if self.ball.gravity.spot == Some(Spot::Same) {
+            self.dented = contact.restart_state().filter(|state| state.contact.is_dented());
+        }
         let landing = self.take(contact.finish());
         if let Some(speed) = landing
             && self.known.so_far.n_contacts() < self.ball.gravity.bounces

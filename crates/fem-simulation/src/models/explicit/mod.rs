@@ -180,6 +180,20 @@ impl Explicit {
         self.made.bodies(approach, radius).map(Arc::new)
     }
 
+    /// Returns the bodies of a run with an approach in their own frame. Bodies that meet again have the parts that were
+    /// chosen for their first contact.
+    fn bodies_of_run(
+        &self,
+        run: &fem_explicit::RunState,
+        approach: Approach,
+    ) -> Result<Arc<ExplicitBodies>, ModelError> {
+        let bodies = self.bodies_at(run.made_for(), run.candidate_radius())?;
+        Ok(match approach == *run.made_for() {
+            true => bodies,
+            false => Arc::new(bodies.approaching(approach)),
+        })
+    }
+
     /// Begins a collision.
     fn stepper(&self, approach: &Approach, request: &OutputRequest) -> Box<dyn Stepper> {
         match request.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
@@ -276,12 +290,30 @@ impl Model for Explicit {
             return Err(rejected(ModelError::ForeignRestartState));
         }
         let request = run.request().clone();
-        let bodies = self.bodies_at(&approach, run.candidate_radius()).map_err(rejected)?;
+        let bodies = self.bodies_of_run(&run, approach).map_err(rejected)?;
         let run = Run::resume(bodies, run).map_err(rejected)?;
         let scene = &self.made.scene;
         let estimate = Estimate::at(scene, approach.speed())
             .map_err(|error| Rejection::new("body", error.to_string()))?;
         let duration = expected_duration(scene, &estimate, &approach);
+        let made = self.made.clone();
+        Ok(Box::new(ExplicitStepper { made, frame, expected, duration, request, run }))
+    }
+
+    fn again(
+        &self,
+        before: &RestartState,
+        approach: &Approach,
+        request: &OutputRequest,
+    ) -> Result<Box<dyn Stepper>, Stop> {
+        let not_made = |error: ModelError| Stop::NotMade(error.to_string());
+        let (run, scene) = (&before.contact, &self.made.scene);
+        let frame = self.made.own_frame(approach).map_err(not_made)?;
+        let estimate = estimate_at(scene, approach.speed())?;
+        let bodies = self.bodies_of_run(run, *frame.own()).map_err(not_made)?;
+        let (expected, request) = (estimate.expectation(), frame.request(request));
+        let run = Run::again(bodies, expected, &request, run).map_err(not_made)?;
+        let duration = expected_duration(scene, &estimate, approach);
         let made = self.made.clone();
         Ok(Box::new(ExplicitStepper { made, frame, expected, duration, request, run }))
     }
@@ -312,6 +344,9 @@ impl Stepper for ExplicitStepper {
             None => return true,
             Some(Ending::Stopped(Stop::ContactBeyondCandidates { .. })) => {}
             Some(_) => return false,
+        }
+        if self.run.restart_state().made_for() != self.run.model().approach() {
+            return false;
         }
         let Some(larger) = self.made.larger(self.run.model()) else { return false };
         monitor.enter(Phase::Collision);
