@@ -3,7 +3,7 @@
 use fem::{Collision, Simulation, Snapshot};
 use fem_case::engineering::show;
 use fem_figure::contour::Section;
-use fem_report::section_view::{SectionWindow, contour, sections};
+use fem_report::section_view::{DrawnField, SectionWindow, contour, sections};
 use serde::Serialize;
 
 /// Tension at the edge of a contact of two spheres over the peak pressure, about: the least tension that
@@ -40,7 +40,7 @@ pub fn picture(
     let window = SectionWindow::square((half_width * radius).min(extent(simulation)));
     let title = title(simulation, snapshot);
     let scale = (-peak, TENSION_OVER_PRESSURE * peak);
-    let contour = contour(vec![both], vec![title], &window, scale);
+    let contour = contour(DrawnField::AXIAL_STRESS, vec![both], vec![title], &window, scale);
     let (svg, bar, dark_rules) = (contour.frames().pop()?, contour.bar(), contour.dark_rules());
     Some(StressPicture { svg, bar, dark_rules, range_pa })
 }

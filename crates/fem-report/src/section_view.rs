@@ -1,6 +1,6 @@
-//! Sections of both deformed bodies with their axial stress σ_yy. All such pictures of runs are drawn here.
+//! Sections of both deformed bodies with a field, such as their axial stress σ_yy. All such pictures of runs are drawn here.
 //!
-//! Sections are half sections (r ≥ 0) in metres and pascals. Heights are measured from the middle of the
+//! Sections are half sections (r ≥ 0) in metres, pascals and per cent. Heights are measured from the middle of the
 //! contact.
 
 use fem::{Simulation, Snapshot};
@@ -27,6 +27,30 @@ const MARGIN_FACTOR: f64 = 1.06;
 const TALLEST: f64 = 1.25;
 /// Largest distance of an outline from the curve that it stands for, over the width of the window.
 const STRAIGHT: f64 = 5e-4;
+
+/// A field that is drawn in bands of colour.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnField {
+    /// Name of its array in the files of a result.
+    pub(crate) array: &'static str,
+    /// Its name beside the scale.
+    name: &'static str,
+    /// Its SI unit; `None` for a share in per cent.
+    unit: Option<&'static str>,
+}
+
+impl DrawnField {
+    /// The axial stress.
+    pub const AXIAL_STRESS: Self = Self { array: "sigma_yy", name: "σ_yy", unit: Some("Pa") };
+    /// The equivalent plastic strain.
+    pub const PLASTIC_STRAIN: Self =
+        Self { array: "plastic_strain", name: "equivalent plastic strain", unit: None };
+
+    /// Returns the factor of the values in files, which are SI and shares.
+    pub(crate) fn factor(&self) -> f64 {
+        if self.unit.is_some() { 1.0 } else { 100.0 }
+    }
+}
 
 /// Returns the half width of the window (m) for a contact with this largest radius and approach (m);
 /// `None` without a contact.
@@ -124,10 +148,11 @@ pub(crate) fn centre(both: &mut [Section; 2]) {
     both.iter_mut().flat_map(|section| &mut section.points).for_each(|point| point[1] -= middle);
 }
 
-/// Returns the picture of one panel per frame, in a window and on a stress scale that fit all frames.
+/// Returns the picture of one panel per frame, in a window and on a scale of the field that fit all frames.
 ///
 /// `near` comes from [`half_width`]; `rigid` returns the section of a rigid body by frame and side.
 pub fn contour_of_frames(
+    field: DrawnField,
     mut sections: Vec<[Section; 2]>,
     titles: Vec<String>,
     near: f64,
@@ -143,7 +168,7 @@ pub fn contour_of_frames(
             *section = rigid(k, side, &window).unwrap_or_default();
         }
     }
-    contour(sections, titles, &window, range)
+    contour(field, sections, titles, &window, range)
 }
 
 /// Most quads of a refined section, which limits the time to draw it.
@@ -159,18 +184,20 @@ fn smooth(section: &Section, window: &SectionWindow) -> Section {
 }
 
 /// Returns the picture of one panel per frame in this window; `range` is the smallest and the largest
-/// stress of the scale, Pa.
+/// value of the scale, Pa or per cent.
 pub fn contour(
+    field: DrawnField,
     sections: Vec<[Section; 2]>,
     titles: Vec<String>,
     window: &SectionWindow,
     range: (f64, f64),
 ) -> Contour {
     let length = Unit::fitting(window.half_width, "m");
-    let stress = Unit::fitting(range.1.max(-range.0), "Pa");
+    let unit = field.unit.map(|unit| Unit::fitting(range.1.max(-range.0), unit));
+    let of_field = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
     let scaled = |mut section: Section| {
         section.points.iter_mut().flatten().for_each(|x| *x = length.scaled(*x));
-        section.values.iter_mut().for_each(|value| *value = stress.scaled(*value));
+        section.values.iter_mut().for_each(|value| *value = of_field(*value));
         section
     };
     let panel = |(title, both): (String, [Section; 2])| {
@@ -183,11 +210,11 @@ pub fn contour(
         Panel { title, sections: both.map(drawn).into(), lines }
     };
     Contour {
-        quantity: format!("σ_yy [{}]", stress.symbol()),
+        quantity: format!("{} [{}]", field.name, unit.as_ref().map_or("%", Unit::symbol)),
         x_label: format!("r [{}]", length.symbol()),
         y_label: format!("y [{}]", length.symbol()),
         window: window.scaled(&length),
-        levels: Levels::about_zero(stress.scaled(range.0), stress.scaled(range.1), N_BANDS),
+        levels: Levels::about_zero(of_field(range.0), of_field(range.1), N_BANDS),
         panels: titles.into_iter().zip(sections).map(panel).collect(),
     }
 }

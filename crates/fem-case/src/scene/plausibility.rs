@@ -35,10 +35,10 @@ fn is_elastic(material: &Material) -> bool {
 
 impl Scene {
     /// Returns the library's materials, without `lib:`, that neither relax nor flow there or in the case, so that the
-    /// restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and leaves out bodies
-    /// that hardly deform.
+    /// restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and beside a body that
+    /// flows, which loses far more; it leaves out bodies that hardly deform.
     pub fn materials_without_loss(&self) -> Vec<&'static str> {
-        if matches!(self.model, ModelChoice::Law { .. }) {
+        if matches!(self.model, ModelChoice::Law { .. }) || self.flows() {
             return Vec::new();
         }
         let elastic = |body: &Body| {

@@ -1,4 +1,4 @@
-//! The axial stress around the contact at the snapshots, from their files.
+//! The axial stress around the contact at the snapshots, and the plastic strain of the unloaded bodies, from their files.
 
 use std::collections::{HashMap, HashSet};
 
@@ -6,10 +6,12 @@ use fem_case::engineering::Unit;
 use fem_figure::contour::{Contour, Section};
 use fem_vtk::{Numbers, VtuFile};
 
+use fem_collision::SnapshotInstant;
+
 use super::pressure_chart::instant_name;
 use super::stored_result::{FieldFile, StoredResult};
 use crate::section_view::{
-    HALF_WIDTHS_OF_WHOLE_BODY, SectionWindow, centre, contour_of_frames, half_width,
+    DrawnField, HALF_WIDTHS_OF_WHOLE_BODY, SectionWindow, centre, contour_of_frames, half_width,
 };
 
 /// Distance from the axis and from the pole up to which elements are kept, over the window's half width.
@@ -23,17 +25,47 @@ struct BodyPart {
     places: Vec<[f64; 2]>,
     /// Elements by indices into `points`.
     quads: Vec<[u32; 4]>,
+    /// Indices of the elements in the file.
+    cells: Vec<usize>,
     /// The surface from the pole outward.
     outline: Vec<u32>,
+}
+
+impl BodyPart {
+    /// Returns the means at the points of values of the cells of a file.
+    fn means_of_cells(&self, values: &[f64]) -> Option<Vec<f64>> {
+        let mut sums = vec![(0.0, 0.0); self.points.len()];
+        for (quad, &cell) in self.quads.iter().zip(&self.cells) {
+            let value = values.get(cell)?;
+            for point in quad {
+                let (sum, n) = &mut sums[*point as usize];
+                (*sum, *n) = (*sum + value, *n + 1.0);
+            }
+        }
+        Some(sums.into_iter().map(|(sum, n)| if n > 0.0 { sum / n } else { 0.0 }).collect())
+    }
 }
 
 /// Returns the picture of one panel per frame, at most `most_frames` evenly spaced snapshots, in half
 /// sections; `None` for a result without fields.
 pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Contour> {
-    let chosen: Vec<&FieldFile> = chosen_frames(result, most_frames)
-        .into_iter()
-        .filter_map(|k| result.frames.get(k))
-        .collect();
+    let chosen = chosen_frames(result, most_frames).into_iter();
+    let chosen = chosen.filter_map(|k| result.frames.get(k)).collect();
+    contour_of(result, DrawnField::AXIAL_STRESS, chosen)
+}
+
+/// Returns the picture of the equivalent plastic strain of the unloaded bodies; `None` for a result without.
+pub fn contour_of_dent(result: &StoredResult) -> Option<Contour> {
+    let label = SnapshotInstant::AfterSeparation.name();
+    let frame = result.frames.iter().find(|frame| frame.label == label)?;
+    contour_of(result, DrawnField::PLASTIC_STRAIN, vec![frame])
+}
+
+fn contour_of(
+    result: &StoredResult,
+    field: DrawnField,
+    chosen: Vec<&FieldFile>,
+) -> Option<Contour> {
     let radius = result.number(&["max_contact_radius_m"]).unwrap_or(0.0);
     let near = half_width(radius, result.number(&["max_approach_m"]).unwrap_or(0.0))?;
     let first = VtuFile::open(&chosen.first()?.path).ok()?;
@@ -41,8 +73,10 @@ pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Co
     // Files are read in parallel, because those of fine meshes take most of the time of a page.
     let sections: Option<Vec<[Section; 2]>> = std::thread::scope(|scope| {
         let bodies = &bodies;
-        let readers: Vec<_> =
-            chosen.iter().map(|frame| scope.spawn(move || sections(bodies, frame))).collect();
+        let readers: Vec<_> = chosen
+            .iter()
+            .map(|frame| scope.spawn(move || sections(bodies, frame, field)))
+            .collect();
         readers.into_iter().map(|reader| reader.join().ok().flatten()).collect()
     });
     let start = result.first_touch();
@@ -54,7 +88,7 @@ pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Co
     let rigid = |k: usize, side: usize, window: &SectionWindow| {
         rigid_section(result, side, chosen[k], window)
     };
-    let mut contour = contour_of_frames(sections?, titles, near, rigid);
+    let mut contour = contour_of_frames(field, sections?, titles, near, rigid);
     if let [lower, upper] = short_names(result).as_slice() {
         contour.y_label = format!("{lower} \u{2190} {} \u{2192} {upper}", contour.y_label);
     }
@@ -75,7 +109,8 @@ pub fn contours_at_peak(results: &[StoredResult]) -> Option<Contour> {
         let near = half_width(radius, result.number(&["max_approach_m"]).unwrap_or(0.0));
         let Some((frame, near)) = frame.zip(near) else { continue };
         let bodies = VtuFile::open(&frame.path).ok().and_then(|file| bodies(&file, near));
-        let Some(both) = bodies.and_then(|bodies| sections(&bodies, frame)) else { continue };
+        let of = |bodies: [BodyPart; 2]| sections(&bodies, frame, DrawnField::AXIAL_STRESS);
+        let Some(both) = bodies.and_then(of) else { continue };
         shown.push((result, frame));
         stresses.push(both);
         widest = widest.max(near);
@@ -88,7 +123,7 @@ pub fn contours_at_peak(results: &[StoredResult]) -> Option<Contour> {
         let (result, frame) = shown[k];
         rigid_section(result, side, frame, window)
     };
-    Some(contour_of_frames(stresses, titles, widest, rigid))
+    Some(contour_of_frames(DrawnField::AXIAL_STRESS, stresses, titles, widest, rigid))
 }
 
 /// Returns the names of the bodies, shortened to the room beside an axis.
@@ -154,19 +189,23 @@ fn bodies(file: &VtuFile, near: f64) -> Option<[BodyPart; 2]> {
             let [r, y, _] = mesh.points[point as usize];
             [r, y]
         };
-        let of_side = mesh.quads.iter().zip(sides).filter(|(_, of)| **of == side);
-        let quads: Vec<&[u32; 4]> = of_side.map(|(quad, _)| quad).collect();
-        let heights = quads.iter().flat_map(|quad| quad.iter()).map(|p| sign * place(*p)[1]);
+        let of_side = mesh.quads.iter().zip(sides).enumerate();
+        let of_side = of_side.filter(|(_, (_, of))| **of == side);
+        let quads: Vec<(usize, &[u32; 4])> =
+            of_side.map(|(cell, (quad, _))| (cell, quad)).collect();
+        let corners = || quads.iter().flat_map(|(_, quad)| quad.iter());
+        let heights = corners().map(|p| sign * place(*p)[1]);
         let pole = heights.fold(f64::NEG_INFINITY, f64::max);
-        let width = quads.iter().flat_map(|quad| quad.iter()).map(|p| place(*p)[0]);
+        let width = corners().map(|p| place(*p)[0]);
         let is_whole = width.fold(0.0, f64::max) < HALF_WIDTHS_OF_WHOLE_BODY * near;
-        let is_near = |quad: &&[u32; 4]| {
+        let is_near = |(_, quad): &(usize, &[u32; 4])| {
             quad.iter().any(|point| {
                 let [r, y] = place(*point);
                 is_whole || r < KEPT * near && pole - sign * y < KEPT * near
             })
         };
-        let quads: Vec<[u32; 4]> = quads.into_iter().filter(is_near).copied().collect();
+        let (cells, quads): (Vec<usize>, Vec<[u32; 4]>) =
+            quads.into_iter().filter(is_near).map(|(cell, quad)| (cell, *quad)).unzip();
         let mut number = vec![None; mesh.points.len()];
         quads.iter().flatten().for_each(|point| number[*point as usize] = Some(0));
         let mut points: Vec<u32> = Vec::new();
@@ -178,19 +217,25 @@ fn bodies(file: &VtuFile, near: f64) -> Option<[BodyPart; 2]> {
         let quads: Vec<[u32; 4]> = quads.iter().map(renumbered).collect();
         let places: Vec<[f64; 2]> = points.iter().map(|point| place(*point)).collect();
         let outline = outline(&quads, &places, sign);
-        BodyPart { points: points.iter().map(|k| *k as usize).collect(), places, quads, outline }
+        let points = points.iter().map(|k| *k as usize).collect();
+        BodyPart { points, places, quads, cells, outline }
     };
     Some([body(0), body(1)])
 }
 
 /// Returns the deformed bodies at a frame; `None` if its file cannot be read or has another mesh.
-fn sections(bodies: &[BodyPart; 2], frame: &FieldFile) -> Option<[Section; 2]> {
+fn sections(bodies: &[BodyPart; 2], frame: &FieldFile, field: DrawnField) -> Option<[Section; 2]> {
     let file = VtuFile::open(&frame.path).ok()?;
-    let values = |name: &str| match file.point_data(name).ok()?.values {
+    let floats = |numbers: Numbers| match numbers {
         Numbers::Float(values) => Some(values),
         Numbers::Integer(_) => None,
     };
-    let (moved, stress) = (values("displacement")?, values("sigma_yy")?);
+    let moved = floats(file.point_data("displacement").ok()?.values)?;
+    let of_points = file.point_data(field.array).ok().and_then(|data| floats(data.values));
+    let of_cells = match of_points {
+        Some(_) => None,
+        None => Some(floats(file.cell_data(field.array).ok()?.values)?),
+    };
     let mut both = Vec::with_capacity(2);
     for body in bodies {
         let mut section = Section {
@@ -201,8 +246,16 @@ fn sections(bodies: &[BodyPart; 2], frame: &FieldFile) -> Option<[Section; 2]> {
         for (&point, [r, y]) in body.points.iter().zip(&body.places) {
             let u = moved.get(3 * point..3 * point + 2)?;
             section.points.push([r + u[0], y + u[1]]);
-            section.values.push(*stress.get(point)?);
         }
+        section.values = match (&of_points, &of_cells) {
+            (Some(values), _) => body
+                .points
+                .iter()
+                .map(|&point| values.get(point).copied())
+                .collect::<Option<_>>()?,
+            (None, values) => body.means_of_cells(values.as_ref()?)?,
+        };
+        section.values.iter_mut().for_each(|value| *value *= field.factor());
         both.push(section);
     }
     let mut both: [Section; 2] = both.try_into().ok()?;

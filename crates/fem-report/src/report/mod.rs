@@ -29,7 +29,7 @@ use cards::Card;
 use effects::EffectEntry;
 
 pub use comparison::comparison_page;
-pub use contours::{contour_of_result, contours_at_peak};
+pub use contours::{contour_of_dent, contour_of_result, contours_at_peak};
 pub use effects::is_numerical;
 pub use history_charts::{
     Quantity, bounce_charts, energy_chart, history_chart, loop_chart, normalised_chart,
@@ -70,6 +70,7 @@ struct Page<'a> {
     change_heads: [&'static str; 3],
     profile: String,
     dents: Vec<String>,
+    zone: String,
     dent_sizes: Vec<String>,
     case: Vec<(String, String)>,
     cite: Vec<String>,
@@ -96,6 +97,13 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
     let (dents, mut dent_sizes): (Vec<_>, Vec<_>) =
         dent_chart::dent_charts(result).into_iter().unzip();
     dent_sizes.extend(dent_chart::energy_of_dents(result));
+    let strain = contour_of_dent(result);
+    let zone = strain.as_ref().map(|contour| contour.frames().join("") + &contour.bar());
+    // Bands of the plastic strain have colours of their own scale.
+    let dark_rules = [(&contour, "."), (&strain, ".zone .")].map(|(contour, scope)| {
+        let rules = contour.as_ref().map(Contour::dark_rules).unwrap_or_default();
+        rules.replace('.', scope)
+    });
     let (measured, measurements) = measured_chart::measured_chart(result).unzip();
     let page = Page {
         title: result.title(),
@@ -111,7 +119,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         frames: contour.as_ref().map(film).unwrap_or_default(),
         opening: opening(result),
         bar: contour.as_ref().map(Contour::bar).unwrap_or_default(),
-        dark_rules: contour.as_ref().map(Contour::dark_rules).unwrap_or_default(),
+        dark_rules: dark_rules.concat(),
         bounces: result.list("bounces").iter().map(bounce).collect(),
         measured: drawn([measured]).pop().unwrap_or_default(),
         measurements: measurements.unwrap_or_default(),
@@ -122,6 +130,7 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         change_heads: effects::CHANGE_HEADS,
         profile: drawn([pressure_chart(of_one)]).pop().unwrap_or_default(),
         dents: drawn(dents),
+        zone: zone.unwrap_or_default(),
         dent_sizes,
         case: result.summary.get("case").map(case_keys::keys).unwrap_or_default(),
         cite: vec![citation(result)],

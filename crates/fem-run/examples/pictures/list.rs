@@ -52,7 +52,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 22] = [
+pub const PICTURES: [Picture; 23] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -92,7 +92,7 @@ pub const PICTURES: [Picture; 22] = [
         "runs/synthetic_pairings_calibrate/calibrate.svg",
     ),
     Picture { name: "page.png", commands: &[], source: Source::BrowserPage([1280, 900]) },
-    // Ten collisions.
+    // The gallery.
     figure(
         "gallery-1-glass.svg",
         &[GLASS, "plot runs/glass_0.5ms --what contours --out 1.svg"],
@@ -150,7 +150,15 @@ pub const PICTURES: [Picture; 22] = [
         "runs/bridges_ice_fit/fit.svg",
     ),
     figure(
-        "gallery-10-acrylic.svg",
+        "gallery-10-dent.svg",
+        &[
+            "cases/steel_on_aluminium.toml",
+            "plot runs/steel_on_aluminium --what dent --out dent.svg",
+        ],
+        "dent.svg",
+    ),
+    figure(
+        "gallery-11-acrylic.svg",
         &[
             "new acrylic --material pmma --partner half-space",
             "acrylic.toml --set model=auto --out runs/acrylic",

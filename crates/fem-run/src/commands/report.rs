@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use fem_case::readable_name;
 use fem_report::report::{
-    Quantity, REPORT_FILE, StoredResult, bounce_charts, comparison_page, contour_of_result,
-    energy_chart, history_chart, loop_chart, pressure_chart, report_page,
+    Quantity, REPORT_FILE, StoredResult, bounce_charts, comparison_page, contour_of_dent,
+    contour_of_result, energy_chart, history_chart, loop_chart, pressure_chart, report_page,
 };
 use fem_report::section_view::mirrored;
 
@@ -96,6 +96,8 @@ pub struct PlotArguments {
 pub enum Figure {
     /// Axial stress around the contact at the snapshots
     Contours,
+    /// Equivalent plastic strain of the unloaded bodies
+    Dent,
     /// Contact force over time
     Force,
     /// Approach over time
@@ -122,7 +124,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
             .with_help("name one folder")),
     };
     let chart = match figure {
-        Figure::Contours | Figure::Bounces => None,
+        Figure::Contours | Figure::Dent | Figure::Bounces => None,
         Figure::Force => history_chart(&records, Quantity::Force),
         Figure::Approach => history_chart(&records, Quantity::Approach),
         Figure::Radius => history_chart(&records, Quantity::Radius),
@@ -135,13 +137,14 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         Figure::Contours => {
             contour_of_result(of_one("contours")?, MAX_PANELS).map(|c| mirrored(c).svg())
         }
+        Figure::Dent => contour_of_dent(of_one("dent")?).map(|c| mirrored(c).svg()),
         Figure::Bounces => fem_figure::stacked(&bounce_charts(of_one("bounces")?)),
         _ => chart.and_then(|chart| fem_figure::panel(&chart)),
     };
     let Some(svg) = svg else {
         return Err(Failure::bad_input("there is nothing to draw: the result lacks these data")
             .with_help("fields and profiles need [output] snapshots and a model with elements, bounces need \
-                        gravity"));
+                        gravity, and a dent a body that flows"));
     };
     let name = clap::ValueEnum::to_possible_value(&figure);
     let name = name.map_or(String::new(), |value| format!("{}.svg", value.get_name()));

@@ -16,7 +16,7 @@ use fem_case::Keep;
 use fem_case::engineering::Unit;
 use fem_collision::{Collision, SnapshotInstant};
 use fem_report::report::{REPORT_FILE, StoredResult, report_page};
-use fem_report::section_view::{contour_of_frames, half_width, mirrored, sections};
+use fem_report::section_view::{DrawnField, contour_of_frames, half_width, mirrored, sections};
 
 use super::{Origin, ResultFolder, whole_file::write_whole};
 use crate::{progress::stopwatch::Stopwatch, text::Failure};
@@ -243,5 +243,6 @@ fn failure_figure(simulation: &Simulation, collision: &Collision) -> Option<Stri
     let both = sections(simulation, snapshot)?;
     let time = Unit::fitting(snapshot.time, "s").with_digits(4);
     let title = format!("last valid state, {}", time.show(snapshot.time));
-    Some(mirrored(contour_of_frames(vec![both], vec![title], near, |_, _, _| None)).svg())
+    let field = DrawnField::AXIAL_STRESS;
+    Some(mirrored(contour_of_frames(field, vec![both], vec![title], near, |_, _, _| None)).svg())
 }
