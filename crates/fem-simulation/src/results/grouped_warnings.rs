@@ -1,5 +1,7 @@
 //! Collects the warnings of many runs, each kind once.
 
+use fem_case::parse_quantity;
+
 /// Most kinds that are kept.
 const MAX_KINDS: usize = 100;
 
@@ -11,8 +13,8 @@ pub struct WarningKind {
     pub first: String,
     /// Index of the run that gave the first warning.
     pub run: usize,
-    /// The last warning of this kind.
-    pub last: String,
+    /// Least and greatest of each number, with its unit, or the first and the last text where it is no number; one word twice.
+    ends: Vec<[String; 2]>,
     /// Index of the run that gave the last warning.
     pub last_run: usize,
     /// Number of warnings of this kind.
@@ -39,17 +41,32 @@ impl WarningKind {
         self.kind == without_numbers(warning)
     }
 
-    /// Returns the first warning with its numbers, each with that of the last one if they differ: "yields at 1 … 5 m/s".
+    /// Returns the warning with the least and the greatest of each number that varies: "yields at 1 mm/s … 5 m/s".
     pub fn merged(&self) -> String {
-        let [first, last] = [&self.first, &self.last].map(|text| pieces(text));
-        if first.len() != last.len() {
-            return self.first.clone();
-        }
-        let merge = |(one, other): (&Piece, &Piece)| match one.text == other.text {
-            true => one.text.clone(),
-            false => format!("{} … {}", bare(&one.text), other.text),
+        let merge = |[low, high]: &[String; 2]| match low == high {
+            true => low.clone(),
+            false => format!("{} … {high}", bare(low)),
         };
-        first.iter().zip(&last).map(merge).collect::<Vec<_>>().join(" ")
+        self.ends.iter().map(merge).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Takes another warning of this kind.
+    fn take(&mut self, run: usize, warning: &str) {
+        self.count += 1;
+        self.last_run = run;
+        let more = pieces(warning);
+        if more.len() != self.ends.len() {
+            return;
+        }
+        let value = |text: &str| parse_quantity(bare(text)).ok().map(|(value, _)| value);
+        for ([low, high], Piece { text, .. }) in self.ends.iter_mut().zip(more) {
+            match (value(low), value(high), value(&text)) {
+                (Some(_), Some(greatest), Some(value)) if value > greatest => *high = text,
+                (Some(least), Some(_), Some(value)) if value < least => *low = text,
+                (Some(_), Some(_), Some(_)) => {}
+                _ => *high = text,
+            }
+        }
     }
 }
 
@@ -58,12 +75,11 @@ impl WarningKinds {
     pub fn add(&mut self, run: usize, warning: &str) {
         let kind = without_numbers(warning);
         if let Some(known) = self.kinds.iter_mut().find(|known| known.kind == kind) {
-            known.count += 1;
-            (known.last, known.last_run) = (warning.to_string(), run);
+            known.take(run, warning);
         } else if self.kinds.len() < MAX_KINDS {
             let first = warning.to_string();
-            let last = first.clone();
-            self.kinds.push(WarningKind { kind, first, run, last, last_run: run, count: 1 });
+            let ends = pieces(warning).into_iter().map(|it| [it.text.clone(), it.text]).collect();
+            self.kinds.push(WarningKind { kind, first, run, ends, last_run: run, count: 1 });
         } else {
             self.n_others += 1;
         }
@@ -132,13 +148,14 @@ mod tests {
         }
         let kind = &kinds.all()[0];
         assert_eq!((kind.count, kind.run, kind.last_run), (3, 2, 7));
-        assert_eq!(kind.merged(), "a step of 12.3 µm … 2 m is 4 % too long");
+        assert_eq!(kind.merged(), "a step of 12.3 µm … 2 m is 4 % … 12 % too long");
         let mut yields = WarningKinds::default();
         yields.add(0, "at 924.9 µm/s: e from 0.84 to 1.00");
         yields.add(1, "at 5.000 m/s: e from 0.14 to 0.26");
+        yields.add(2, "at 20.00 mm/s: e from 0.5 to 0.7");
         assert_eq!(
             yields.all()[0].merged(),
-            "at 924.9 µm/s … 5.000 m/s: e from 0.84 … 0.14 to 1.00 … 0.26"
+            "at 924.9 µm/s … 5.000 m/s: e from 0.14 … 0.84 to 0.26 … 1.00"
         );
     }
 
