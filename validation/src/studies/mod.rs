@@ -3,6 +3,7 @@
 mod condensed_explicit;
 mod convergence;
 mod finite_strain;
+mod flow;
 mod hard;
 mod hertz_field;
 mod mechanics;
@@ -30,6 +31,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("critical_step", mechanics::critical_step::study),
     ("error_bars", random_scenes::error_bars_study),
     ("finite_strain", finite_strain::laws::study),
+    ("flow", flow::study),
     ("hard", hard::study),
     ("hard_random", random_scenes::model_differences_study),
     ("hertz_field", hertz_field::study),
