@@ -4,8 +4,8 @@
 SCENE is one of SCENES, which are those of felupe_flow; CELLS is the number of elements across the contact radius at
 full flow, a_p = (4 R W0/(3 π Y))^(1/4); STEPS limits the increments to that share of the duration; OVERLAP is that of
 the springs. C3D8 elements of a wedge about the axis, multiplicative plasticity with neo-Hookean elasticity, implicit
-dynamics; units are mm, ms, g (so MPa and N). `ccx -i NAME` leaves NAME.dat, of which read.py makes the numbers that
-the claim felupe_flow quotes. Of the contacts that CalculiX has, surface to surface leaves a singular matrix as soon as
+dynamics; units are mm, ms, g (so MPa and N). `ccx -i NAME` leaves NAME.dat, of which read.py makes the numbers of
+the claim. Of the contacts that CalculiX has, surface to surface leaves a singular matrix as soon as
 a dynamic step has a plastic material, and node to surface diverges. So the wall is one-sided springs from the nodes of
 the rind to the ground.
 """
