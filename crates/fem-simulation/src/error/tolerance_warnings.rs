@@ -71,8 +71,10 @@ pub(crate) fn tolerance_warning(
         return None;
     }
     let finer = advised_ratio(&missed, collision, plan.contact_element_size);
+    // A given size is kept in both bodies, unless the case asks for staggered meshes too.
+    let staggered = if plan.finer_body.is_some() { " and mesh.staggered = true" } else { "" };
     let write = format!(
-        "write mesh.contact_element_size = \"{}\"",
+        "write mesh.contact_element_size = \"{}\"{staggered}",
         length(plan.contact_element_size / finer)
     );
     let mut cause = "the mesh";
