@@ -88,7 +88,12 @@ const ROWS: [Row; 31] = [
     ),
     (
         GLASS,
-        &[FALLING, HELD, "body.1.approach_speed='0.5 m/s'", "accuracy.tolerance.peak_force='0.05 %'"],
+        &[
+            FALLING,
+            HELD,
+            "body.1.approach_speed='0.5 m/s'",
+            "accuracy.tolerance.peak_force='0.05 %'",
+        ],
         "mesh.staggered = true",
         2,
     ),
