@@ -136,6 +136,7 @@ impl Role {
     const DAMPING: Self = Self::factor(ParameterRole::Damping);
     const STIFFNESS: Self = Self::factor(ParameterRole::Stiffness);
     const STRENGTH: Self = Self::factor(ParameterRole::Strength);
+    const HARDENING: Self = Self::number(Some(0.0), (0.0, 1e12));
     const SPEED: Self = Self::factor(ParameterRole::Speed);
     const RATE: Self = Self::factor(ParameterRole::Rate);
     /// n of a dashpot C ξⁿ ξ̇.
@@ -288,8 +289,8 @@ impl LawFamily {
 
     /// Returns whether a contact under this law leaves a dent.
     pub fn is_elastic_plastic(self) -> bool {
-        use LawFamily::{JacksonGreen, Johnson, Luding, Thornton, WaltonBraun};
-        matches!(self, Thornton | Johnson | JacksonGreen | WaltonBraun | Luding)
+        use LawFamily::{JacksonGreen, Johnson, Luding, MeanPressure, Thornton, WaltonBraun};
+        matches!(self, Thornton | Johnson | JacksonGreen | MeanPressure | WaltonBraun | Luding)
     }
 
     /// Returns the index of the parameter that a fit varies to match the loss: the first one that damps, or else the
@@ -343,6 +344,8 @@ pub struct LawContext<'a> {
     pub materials: [Option<&'a Material>; 2],
     /// Yield strength of each body, Pa, where it is known.
     pub yield_strengths: [Option<f64>; 2],
+    /// Radius of each body, m; infinite for a flat one.
+    pub radii: [f64; 2],
     /// Relaxation of the contact modulus.
     pub relaxation: &'a PairRelaxation,
     /// When the contact is over.

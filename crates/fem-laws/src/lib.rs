@@ -11,8 +11,8 @@
 //!
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. The error of a
 //! neglected effect is an [`ImpactDifference`] of two impacts, or a [`RelativeError`] in closed form: for
-//! relaxation that is not integrated in time ([`FastSlowLimits`]) and for a [`rigid_partner`]. [`FirstYield`] and
-//! [`Adhesion`] give the [`ImpactQuantities`] of impacts that no law here computes in time. One law a
+//! relaxation that is not integrated in time ([`FastSlowLimits`]) and for a [`rigid_partner`]. [`Adhesion`]
+//! gives the [`ImpactQuantities`] of impacts that no law here computes in time, and [`FirstYield`] those of bodies that dent. One law a
 //! file; [`LawFamily`] lists them by name, with their parameters. Everything is SI; forces and pressures of
 //! a closed contact are positive, stresses are positive in tension.
 //!
@@ -42,7 +42,6 @@
 mod adhesion;
 mod dent_impact;
 mod difference;
-mod elastic_plastic_impact;
 mod error;
 mod family;
 mod fast_slow_limits;
@@ -61,7 +60,6 @@ mod ting;
 
 pub use adhesion::{Adhesion, RANGE_OF_ATTRACTION};
 pub use difference::{ImpactDifference, RelativeError, rigid_partner};
-pub use elastic_plastic_impact::elastic_plastic_impact;
 pub use error::LawError;
 pub use family::{
     KeyKind, KeyNeed, KeyRange, KeySet, LawContext, LawFamily, LawInput, LawInputError,
@@ -78,7 +76,7 @@ pub use laws::EndRule;
 pub use numerics::bisection;
 pub use pair::{Pair, Partner, compliance_shares, restitution_of_mass_centres, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
-pub use plastic_yield::{FirstYield, largest_von_mises};
+pub use plastic_yield::{FirstYield, YieldingBody, largest_von_mises};
 pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};
 pub use surface_slip::{SlipSurface, SurfaceSlip};
 pub use ting::Ting;

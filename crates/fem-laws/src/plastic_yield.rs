@@ -9,39 +9,37 @@
 //! ```
 //!
 //! 0.62 at ν = 0.3, so the contact first yields at p₀ = 1.6 Y, and p₀ ∝ v^(2/5) gives the speed. Beyond
-//! it, elastic–perfectly plastic spheres rebound with (Thornton 1997, *J. Appl. Mech.* 64, 383, eq. 39)
-//!
-//! ```math
-//! e = \left(\tfrac{6\sqrt3}5\right)^{1/2}\left[1-\tfrac16 x^2\right]^{1/2}
-//! \left[\frac{x}{x+2\sqrt{\tfrac65-\tfrac15 x^2}}\right]^{1/4}, \qquad x = v_Y/v,
-//! ```
-//!
-//! and fully plastic ones, which compress at a constant pressure p_d = 3Y and spring back from it as
-//! half-spaces do, W = πa⁴p_d/4R, W' = 3F²/(10 aE*), with (Johnson, section 11.5)
-//!
-//! ```math
-//! e^2 = \frac{W'}W = \frac{3\pi^{5/4}4^{3/4}}{10}\,\frac{p_d}{E^*}
-//! \left(\frac{m^* v^2/2}{p_d R^{*3}}\right)^{-1/4}.
-//! ```
-//!
-//! The same laws give their contact time, force and approach: Thornton's sphere loads with F = F_Y + πp_YR*(δ − δ_Y) and unloads
-//! from the largest force F as Hertz' of the radius R_p with R_pF = R*F_e, where F_e is Hertz' force at the same approach
-//! (Thornton and Ning 1998, *Powder Technology* 99, 154, eqs. 19 and 20); Johnson's loads for a quarter of the period of a
-//! spring 2πR*p_d.
-//!
-//! Finite elements of elastic–perfectly plastic spheres lie between the two from ten times the speed of
-//! first yield on: the first is a fifth to a third low, the second a quarter to two fifths high.
+//! it the law of the mean pressure ([`mean_pressure`](crate::laws::mean_pressure())) gives the impact of an elastic–perfectly plastic sphere, with
+//! its error beside finite elements.
 
-use std::f64::consts::PI;
-
-use crate::hertz::{HertzImpact, HertzPressure, contact_time_coefficient};
+use crate::dent_impact;
+use crate::hertz::{HertzImpact, HertzPressure};
 use crate::impact::ImpactQuantities;
-use crate::numerics::midpoint_sum;
+use crate::laws::{REPRESENTATIVE_STRAIN, mean_pressure};
 
-/// Dynamic hardness over yield strength.
-pub(crate) const HARDNESS: f64 = 3.0;
 /// Depths over the contact radius between which the largest stress lies, for any ν.
 const DEPTHS: (f64, f64) = (0.0, 1.5);
+/// Relative errors of the mean-pressure law beside the elements of `validation/data/flow_map.csv`, in small contacts.
+const ERRORS: [f64; 6] = [0.02, 0.02, 0.03, 0.03, 0.025, 0.15];
+/// Growth of these errors with the cube of the contact radius over R\*.
+const ERROR_OF_WIDE_CONTACTS: f64 = 0.3;
+/// Pressure of first yield of the harder body over that of the softer one, below which both flow.
+const BOTH_FLOW: f64 = 1.25;
+/// Passes that find the flow stress at the strain and the rate of the contact.
+const N_PASSES: usize = 4;
+
+/// The properties of a body on which its first yield depends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldingBody {
+    /// Yield strength, Pa.
+    pub yield_strength: f64,
+    /// Poisson's ratio of the body.
+    pub poissons_ratio: f64,
+    /// Plane strain modulus E/(1−ν²), Pa.
+    pub plane_strain_modulus: f64,
+    /// Radius, m; infinite for a flat body.
+    pub radius: f64,
+}
 
 /// First yield of one of two bodies in a Hertz impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +48,12 @@ pub struct FirstYield {
     pub pressure: f64,
     /// Approach speed from which on the impact reaches it, m/s.
     pub speed: f64,
-    yield_strength: f64,
+    /// Share of the bodies that flow in the flattening of a wide contact. With the shares κ of both bodies in the curvature
+    /// 1/R\* it is (1 + κ)/2 of one that flows, 1 of a ball on a flat, and κ₁² + κ₂² if both flow, 1/2 of like balls.
+    pub flattening_share: f64,
+    /// Share of the other body in the compliance 1/E\* if it does not flow.
+    pub elastic_share: f64,
+    body: YieldingBody,
     hertz: HertzImpact,
 }
 
@@ -69,11 +72,63 @@ pub fn largest_von_mises(poissons_ratio: f64) -> f64 {
 }
 
 impl FirstYield {
-    /// Returns the first yield of a body with a yield strength (Pa) and Poisson's ratio in an impact.
-    pub fn new(hertz: &HertzImpact, yield_strength: f64, poissons_ratio: f64) -> Self {
-        let pressure = yield_strength / largest_von_mises(poissons_ratio);
+    /// Returns the first yield of a body in an impact with one that does not yield.
+    pub fn new(hertz: &HertzImpact, body: YieldingBody) -> Self {
+        let pressure = body.yield_strength / largest_von_mises(body.poissons_ratio);
         let speed = hertz.approach_speed() * (pressure / hertz.peak_pressure()).powf(2.5);
-        Self { pressure, speed, yield_strength, hertz: *hertz }
+        let flattening_share = 0.5 * (1.0 + hertz.pair().effective_radius() / body.radius);
+        let elastic_share =
+            (1.0 - hertz.pair().contact_modulus() / body.plane_strain_modulus).max(0.0);
+        Self { pressure, speed, flattening_share, elastic_share, body, hertz: *hertz }
+    }
+
+    /// Returns the index of the body that yields first, of those with a yield strength, and its first yield.
+    pub fn earliest(
+        hertz: &HertzImpact,
+        bodies: [Option<YieldingBody>; 2],
+    ) -> Option<(usize, Self)> {
+        let [first, second] = bodies.map(|body| Some(Self::new(hertz, body?)));
+        let found = [first, second].into_iter().enumerate();
+        let found = found.filter_map(|(index, yields)| Some((index, yields?)));
+        let (index, earliest) = found.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))?;
+        let both = [first, second].into_iter().flatten();
+        let flowing: Vec<Self> =
+            both.filter(|it| it.pressure < BOTH_FLOW * earliest.pressure).collect();
+        if flowing.len() == 1 {
+            return Some((index, earliest));
+        }
+        let radius = hertz.pair().effective_radius();
+        let flattening_share = flowing.iter().map(|it| (radius / it.body.radius).powi(2)).sum();
+        Some((index, Self { flattening_share, elastic_share: 0.0, ..earliest }))
+    }
+
+    /// Returns the body that yields.
+    pub fn body(&self) -> YieldingBody {
+        self.body
+    }
+
+    /// Returns the first yield at the rate of the plastic strain, the mean slope of the flow stress over that strain (Pa), and the
+    /// rate (1/s), of a body with a flow stress (Pa) over plastic strain and its rate.
+    ///
+    /// The strain is the representative one of the largest contact, and it is reached in half of the contact time.
+    pub fn hardened(&self, flow_stress: impl Fn(f64, f64) -> f64) -> (Self, f64, f64) {
+        let (mut first, mut hardening, mut rate) = (*self, 0.0, 0.0);
+        for _ in 0..N_PASSES {
+            let impact = first.impact(hardening);
+            let size = impact.max_contact_radius / self.hertz.pair().effective_radius();
+            let strain = REPRESENTATIVE_STRAIN * size;
+            rate = 2.0 * strain / impact.contact_time;
+            let yield_strength = flow_stress(0.0, rate);
+            hardening = ((flow_stress(strain, rate) - yield_strength) / strain).max(0.0);
+            let over = yield_strength / self.body.yield_strength;
+            first = Self {
+                pressure: over * self.pressure,
+                speed: over.powf(2.5) * self.speed,
+                body: YieldingBody { yield_strength, ..self.body },
+                ..*self
+            };
+        }
+        (first, hardening, rate)
     }
 
     /// Returns the peak pressure of the impact over that of first yield.
@@ -81,90 +136,61 @@ impl FirstYield {
         self.hertz.peak_pressure() / self.pressure
     }
 
-    /// Returns Thornton's and Johnson's impacts, between whose restitutions elastic–perfectly plastic bodies lie. Both are
-    /// Hertz' impact if the body does not yield, and the second one is where its restitution would be above 1.
-    pub fn impacts(&self) -> [ImpactQuantities; 2] {
+    /// Returns the impact by the mean-pressure law with a linear hardening, Pa; Hertz' impact if the body does not yield.
+    pub fn impact(&self, hardening: f64) -> ImpactQuantities {
         let elastic = ImpactQuantities::from(&self.hertz);
         if self.ratio() <= 1.0 {
-            return [elastic; 2];
+            return elastic;
         }
-        let johnson = self.johnson();
-        [self.thornton(), if johnson.restitution < 1.0 { johnson } else { elastic }]
-    }
-
-    /// Returns the changes from Hertz' impact, in the order of [`ImpactQuantities::in_order`]: the absolute one of the
-    /// restitution to the middle of both impacts, and the larger relative one of every other quantity.
-    pub fn change(&self) -> [f64; 6] {
-        let elastic = ImpactQuantities::from(&self.hertz);
-        let [one, other] = self.impacts().map(|impact| impact.change_from(&elastic));
-        std::array::from_fn(|k| match k {
-            0 => 0.5 * (one[0] + other[0]),
-            _ if one[k].abs() > other[k].abs() => one[k],
-            _ => other[k],
+        let (pair, speed) = (self.hertz.pair(), self.hertz.approach_speed());
+        let YieldingBody { yield_strength, poissons_ratio, .. } = self.body;
+        let parameters =
+            [yield_strength, poissons_ratio, hardening, self.flattening_share, self.elastic_share];
+        let law = mean_pressure(pair, parameters).ok();
+        let found = law.as_ref().and_then(|law| {
+            dent_impact::quantities(pair, (law, law.elastic_plastic()?), speed).ok()
+        });
+        found.map_or(elastic, |found| {
+            let peak_pressure = found.peak_pressure.max(self.pressure);
+            ImpactQuantities { peak_pressure, ..found }
         })
     }
 
-    /// The pressure stays at that of first yield, and unloading is Hertz' of a flattened sphere.
-    fn thornton(&self) -> ImpactQuantities {
-        let (pair, speed) = (self.hertz.pair(), self.hertz.approach_speed());
-        let (radius, modulus, mass) =
-            (pair.effective_radius(), pair.contact_modulus(), pair.effective_mass());
-        let energy = 0.5 * mass * speed * speed;
-        let yields_at = radius * (0.5 * PI * self.pressure / modulus).powi(2);
-        let yield_force = self.hertz.force(yields_at);
-        let elastic_energy = 0.4 * yield_force * yields_at;
-        // Beyond, F = F_y + k (δ − δ_y).
-        let stiffness = PI * self.pressure * radius;
-        let root = yield_force.hypot((2.0 * stiffness * (energy - elastic_energy)).sqrt());
-        let max_approach = yields_at + (root - yield_force) / stiffness;
-        // δ = δ_y (1 − x²) removes the root of the speed where first yield stops the bodies.
-        let elastic_share = elastic_energy / energy;
-        let until_yield = yields_at / speed
-            * midpoint_sum(|x| 2.0 * x / (1.0 - elastic_share * (1.0 - x * x).powf(2.5)).sqrt());
-        let frequency = (stiffness / mass).sqrt();
-        let speed_at_yield = speed * (1.0 - elastic_share).sqrt();
-        let plastic = (speed_at_yield * frequency * mass / yield_force).atan() / frequency;
-        // The radius of the flattened sphere, by which it unloads from the same contact radius.
-        let crown = radius * self.hertz.force(max_approach) / root;
-        let unloaded = (0.75 * root / (modulus * crown.sqrt())).powf(2.0 / 3.0);
-        let restitution = (0.4 * root * unloaded / energy).sqrt();
-        ImpactQuantities {
-            restitution,
-            contact_time: until_yield + plastic + rebound_time(unloaded, restitution * speed),
-            peak_force: root,
-            max_approach,
-            max_contact_radius: (radius * max_approach).sqrt(),
-            peak_pressure: self.pressure,
-        }
+    /// Returns the relative errors of an impact by the law beside finite elements, in the order of
+    /// [`ImpactQuantities::in_order`].
+    pub fn errors(&self, impact: &ImpactQuantities) -> [f64; 6] {
+        let beyond = (self.hertz.approach_speed() / self.speed - 1.0).clamp(0.0, 1.0);
+        let size = impact.max_contact_radius / self.hertz.pair().effective_radius();
+        ERRORS.map(|small| beyond * (small + ERROR_OF_WIDE_CONTACTS * size.powi(3)))
     }
 
-    /// The pressure is the hardness throughout, F = πa²p_d with a² = 2R*δ.
-    fn johnson(&self) -> ImpactQuantities {
-        let (pair, speed) = (self.hertz.pair(), self.hertz.approach_speed());
-        let (radius, modulus, mass) =
-            (pair.effective_radius(), pair.contact_modulus(), pair.effective_mass());
-        let hardness = HARDNESS * self.yield_strength;
-        let energy = 0.5 * mass * speed * speed;
-        let contact_radius = (4.0 * radius * energy / (PI * hardness)).powf(0.25);
-        let peak_force = PI * contact_radius * contact_radius * hardness;
-        let returned = 0.3 * peak_force * peak_force / (contact_radius * modulus);
-        let restitution = (returned / energy).sqrt();
-        let loading = 0.5 * PI * (mass / (2.0 * PI * radius * hardness)).sqrt();
-        let unloaded = 2.5 * returned / peak_force;
-        ImpactQuantities {
-            restitution,
-            contact_time: loading + rebound_time(unloaded, restitution * speed),
-            peak_force,
-            max_approach: 0.5 * contact_radius * contact_radius / radius,
-            max_contact_radius: contact_radius,
-            peak_pressure: hardness,
-        }
+    /// Returns the smallest and largest value of every quantity within its error, without hardening.
+    pub fn range(&self) -> [ImpactQuantities; 2] {
+        let impact = self.impact(0.0);
+        let (impact, errors) = (impact.in_order(), self.errors(&impact));
+        [-1.0, 1.0].map(|sign| {
+            let [restitution, contact_time, peak_force, max_approach, radius, peak_pressure] =
+                std::array::from_fn(|k| impact[k] * (1.0 + sign * errors[k]));
+            let restitution = restitution.clamp(0.0, 1.0);
+            let max_contact_radius = radius;
+            ImpactQuantities {
+                restitution,
+                contact_time,
+                peak_force,
+                max_approach,
+                max_contact_radius,
+                peak_pressure,
+            }
+        })
     }
-}
 
-/// Returns half of Hertz' contact time, s, of a rebound over an approach (m) to a speed (m/s).
-fn rebound_time(approach: f64, speed: f64) -> f64 {
-    0.5 * contact_time_coefficient() * approach / speed
+    /// Returns the largest changes from Hertz' impact within the error, in the order of [`ImpactQuantities::in_order`]: the
+    /// absolute one of the restitution and the relative ones of the other quantities.
+    pub fn change(&self) -> [f64; 6] {
+        let elastic = ImpactQuantities::from(&self.hertz);
+        let [one, other] = self.range().map(|impact| impact.change_from(&elastic));
+        std::array::from_fn(|k| if one[k].abs() > other[k].abs() { one[k] } else { other[k] })
+    }
 }
 
 #[cfg(test)]
@@ -195,41 +221,17 @@ mod tests {
         let mass = crate::pair::sphere_mass(diameter, 7850.0);
         let sphere = || Partner::Sphere { radius, mass, plane_strain_modulus: 210e9 / 0.91 };
         let pair = Pair::new(sphere(), sphere()).unwrap();
-        FirstYield::new(&HertzImpact::new(&pair, speed).unwrap(), yield_strength, 0.3)
-    }
-
-    /// Thornton's closed restitution (1997, eq. 39) and its limits: 1 at first yield, 1.185 (v_Y/v)^(1/4) far beyond.
-    #[test]
-    fn thornton_restitution_is_the_published_one() {
-        let closed = |x: f64| {
-            let unloading = x / (x + 2.0 * (1.2 - 0.2 * x * x).sqrt());
-            (1.2 * 3f64.sqrt() * (1.0 - x * x / 6.0)).sqrt() * unloading.powf(0.25)
+        let body = YieldingBody {
+            yield_strength,
+            poissons_ratio: 0.3,
+            plane_strain_modulus: 210e9 / 0.91,
+            radius,
         };
-        let speed_of_yield = steel(10e-3, 1.0, 235e6).speed;
-        for x in [0.999, 0.5, 0.1, 1e-4, 1e-6] {
-            let [thornton, _] = steel(10e-3, speed_of_yield / x, 235e6).impacts();
-            assert!((thornton.restitution / closed(x) - 1.0).abs() < 1e-9, "{x}");
-            let far = thornton.restitution / (1.185 * x.powf(0.25));
-            assert!(x > 1e-3 || (far - 1.0).abs() < 2e-3, "{x}: {far}");
-        }
+        FirstYield::new(&HertzImpact::new(&pair, speed).unwrap(), body)
     }
 
-    /// Thornton's force law and Johnson's constant pressure, integrated in a script of its own: balls of 10 mm of S235 at
-    /// 5 m/s.
-    #[test]
-    fn impacts_of_steel_agree_with_an_integration() {
-        let first = steel(10e-3, 5.0, 235e6);
-        let [thornton, johnson] = first.impacts().map(|impact| impact.in_order());
-        let expected = [
-            [0.1643, 49.22e-6, 391.1, 131.4e-6, 573.1e-6, 0.379e9],
-            [0.3141, 29.27e-6, 754.3, 68.11e-6, 583.6e-6, 0.705e9],
-        ];
-        for (found, expected) in thornton.iter().chain(&johnson).zip(expected.as_flattened()) {
-            assert!((found / expected - 1.0).abs() < 1e-3, "{found:e} {expected:e}");
-        }
-    }
-
-    /// At first yield both are Hertz' impact, from either side, and they depart from it the more the faster the impact.
+    /// At first yield the impact is Hertz', from either side, and it departs from it the more the faster the impact; the
+    /// contact time is shorter at first and longer later.
     #[test]
     fn impacts_depart_from_first_yield_on() {
         let speed_of_yield = steel(10e-3, 1.0, 235e6).speed;
@@ -239,7 +241,7 @@ mod tests {
         let mut last = [0.0; 6];
         for times in [1.5, 3.0, 10.0, 30.0, 100.0, 1000.0] {
             let now = change(times);
-            for k in 0..6 {
+            for k in [0, 2, 3, 4, 5] {
                 assert!(now[k].abs() > last[k], "{times}: {now:?} {last:?}");
             }
             last = now.map(f64::abs);
@@ -264,16 +266,9 @@ mod tests {
         let johnson = 53.0 * pair.effective_radius().powi(3) * 1e9f64.powi(5)
             / pair.contact_modulus().powi(4);
         assert!((energy / johnson - 1.0).abs() < 0.06, "{}", energy / johnson);
-        let [low, high] = first.impacts().map(|impact| impact.restitution);
-        assert!(low < high && low > 0.1, "{low} {high}");
-        // Johnson's own rounded 3.8 (Y/E*)^(1/2) (½mv²/YR³)^(-1/8).
-        let over_strength = energy_at(5.0, &pair) / (1e9 * pair.effective_radius().powi(3));
-        let johnson = 3.8 * (1e9 / pair.contact_modulus()).sqrt() * over_strength.powf(-0.125);
-        assert!((high / johnson - 1.0).abs() < 0.02, "{high} {johnson}");
         // Slower than first yield nothing is lost.
-        assert_eq!(
-            steel(5e-3, 0.5 * first.speed, 1e9).impacts().map(|it| it.restitution),
-            [1.0; 2]
-        );
+        let slow = steel(5e-3, 0.5 * first.speed, 1e9);
+        let found = slow.impact(0.0);
+        assert_eq!((found.restitution, slow.errors(&found)), (1.0, [0.0; 6]));
     }
 }

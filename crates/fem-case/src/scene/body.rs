@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use fem_laws::Partner;
+use fem_laws::{Partner, YieldingBody};
 use fem_material::Material;
 
 /// One of the two bodies.
@@ -117,6 +117,22 @@ impl Body {
             Shape::Sphere { diameter, .. } | Shape::Rigid { diameter, .. } => Some(diameter),
             Shape::HalfSpace { .. } | Shape::Wall => None,
         }
+    }
+
+    /// Returns the radius, m; infinite for a flat body.
+    pub fn radius(&self) -> f64 {
+        self.diameter().map_or(f64::INFINITY, |diameter| 0.5 * diameter)
+    }
+
+    /// Returns what decides when the body yields; `None` without a material or its yield strength.
+    pub fn yielding(&self) -> Option<YieldingBody> {
+        let moduli = self.material()?.instantaneous();
+        Some(YieldingBody {
+            yield_strength: self.yield_strength?,
+            poissons_ratio: moduli.poissons_ratio(),
+            plane_strain_modulus: moduli.plane_strain_modulus(),
+            radius: self.radius(),
+        })
     }
 }
 

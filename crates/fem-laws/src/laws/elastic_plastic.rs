@@ -17,6 +17,7 @@
 //! | [`thornton`] | Hertz up to the pressure p_y, then F = F_y + πp_yR*(δ − δ_y), a² = R*δ | the public description of `chiton-helmet-sim`, which cites Thornton (1997); [`crate::FirstYield`] |
 //! | [`johnson`] | F = 2πR*p_dδ, a² = 2R*δ | Johnson (1985), section 11.5, as in [`crate::FirstYield`] |
 //! | [`jackson_green`] | Hertz up to 1.9 ω_c, then a fit to finite elements | `SPHERE_PLASTIC_PRE2.m`, for a sphere of radius R* on a rigid flat |
+//! | [`mean_pressure`] | Hertz, then a fit to finite elements, and so is the rebound | the module `mean_pressure` |
 //! | [`walton_braun`] | F = k₁δ | `walton::normal_force` of a public code for granular flow, which cites Walton & Braun (1986) |
 //! | [`luding`] | F = k₁δ, rebound stiffer with δ_m | YADE's LudingPM, which cites Luding (2008), eqs. 6 to 8 |
 //!
@@ -38,14 +39,20 @@
 
 use std::f64::consts::PI;
 
+use fem_material::Material;
+
+use super::mean_pressure::MeanPressure;
 use super::power::{ContactLaw, power};
 use super::published::hertz_stiffness;
-use crate::error::{LawError, positive, restitution as checked_restitution};
+use crate::error::{LawError, not_negative, positive, restitution as checked_restitution};
 use crate::family::{LawContext, LawInput, LawInputError, LawValues};
+use crate::hertz::HertzImpact;
 use crate::numerics::gauss;
 use crate::pair::Pair;
-use crate::plastic_yield::{HARDNESS, largest_von_mises};
+use crate::plastic_yield::{FirstYield, YieldingBody, largest_von_mises};
 
+/// Dynamic hardness over yield strength.
+const HARDNESS: f64 = 3.0;
 /// Interference over the critical one at which Jackson and Green's fit begins.
 const FIT_BEGINS: f64 = 1.9;
 /// Ratio of the ends of a panel of a quadrature.
@@ -72,6 +79,7 @@ enum Formula {
         strength: f64,
         constraint: f64,
     },
+    MeanPressure(MeanPressure),
     /// Stiffness of the rebound at most, N/m, reached at this approach, m.
     Springs {
         stiffness: f64,
@@ -110,6 +118,7 @@ impl ElasticPlastic {
                 self.radius * (0.5 * PI * pressure / self.modulus).powi(2)
             }
             Formula::JacksonGreen { .. } => FIT_BEGINS * self.critical_interference(),
+            Formula::MeanPressure(law) => law.yield_approach(),
             Formula::Johnson { .. } | Formula::Springs { .. } => f64::INFINITY,
         }
     }
@@ -129,6 +138,7 @@ impl ElasticPlastic {
                 let exponent = 0.14 * (23.0 * strength / self.modulus).exp();
                 hertz * fit.max(1.0).powf(0.5 * exponent)
             }
+            Formula::MeanPressure(law) => law.contact_radius(approach),
             Formula::Thornton { .. } | Formula::Springs { .. } => hertz,
         }
     }
@@ -161,18 +171,24 @@ impl ElasticPlastic {
                 let growing = -(-x.powf(5.0 / 9.0) / 25.0).exp_m1() * x;
                 critical * (fading + 4.0 * hardness / constraint * growing)
             }
+            Formula::MeanPressure(law) => law.force(approach),
             Formula::Johnson { .. } | Formula::Springs { .. } => elastic,
         }
     }
 
-    /// Stiffness of a linear rebound from an approach, N/m, of a law of springs.
-    fn rebound_stiffness(&self, approach: f64) -> Option<f64> {
+    /// Returns the length, m, and the energy, J, of the rebound from an approach (m) at a force, N.
+    fn rebound(&self, approach: f64, force: f64) -> (f64, f64) {
         match self.formula {
             Formula::Springs { stiffness, rebound, until } => {
                 let share = if until > 0.0 { (approach / until).min(1.0) } else { 1.0 };
-                Some(stiffness + (rebound - stiffness) * share)
+                let length = force / (stiffness + (rebound - stiffness) * share);
+                (length, 0.5 * force * length)
             }
-            _ => None,
+            Formula::MeanPressure(law) => law.rebound(approach),
+            Formula::Thornton { .. } | Formula::Johnson { .. } | Formula::JacksonGreen { .. } => {
+                let length = 0.75 * force / (self.modulus * self.contact_radius(approach));
+                (length, 0.4 * force * length)
+            }
         }
     }
 }
@@ -187,16 +203,18 @@ impl ContactLaw {
         }
     }
 
-    /// Returns the work of a first loading, J, up to an approach ≥ 0, m, without a dashpot.
-    pub(crate) fn loading_work(&self, approach: f64) -> f64 {
+    /// Returns the work of a first loading, J, from an approach ≥ 0 to a larger one, m, without a dashpot.
+    pub(crate) fn loading_work(&self, from: f64, to: f64) -> f64 {
         let yields = self.elastic_plastic().map_or(f64::INFINITY, ElasticPlastic::yield_approach);
         let exponent = self.elastic_exponent() + 1.0;
-        let mut work = self.stiffness() * approach.min(yields).powf(exponent) / exponent;
-        let mut from = yields;
-        while from < approach {
-            let to = (PANEL * from).min(approach);
-            work += gauss(from, to, |approach| self.loading_force(approach));
-            from = to;
+        let elastic =
+            |approach: f64| self.stiffness() * approach.min(yields).powf(exponent) / exponent;
+        let mut work = elastic(to) - elastic(from);
+        let mut from = from.max(yields);
+        while from < to {
+            let next = (PANEL * from).min(to);
+            work += gauss(from, next, |approach| self.loading_force(approach));
+            from = next;
         }
         work
     }
@@ -204,12 +222,8 @@ impl ContactLaw {
     /// Returns the rebound from an approach > 0, m, of a law that dents, after this work of the loading, J.
     pub(crate) fn rebound(&self, law: &ElasticPlastic, approach: f64, work: f64) -> Rebound {
         let force = self.loading_force(approach);
-        let (length, exponent) = match law.rebound_stiffness(approach) {
-            Some(stiffness) => (force / stiffness, 1.0),
-            None => (0.75 * force / (law.modulus * law.contact_radius(approach)), 1.5),
-        };
-        let returned = work.min(force * length / (exponent + 1.0));
-        let length = length.min(approach);
+        let (length, returned) = law.rebound(approach, force);
+        let (length, returned) = (length.min(approach), returned.min(work));
         // F ℓ/(n + 1) is what returns.
         Rebound { force, length, exponent: force * length / returned - 1.0 }
     }
@@ -250,12 +264,34 @@ pub fn jackson_green(
     poissons_ratio: f64,
 ) -> Result<ContactLaw, LawError> {
     let strength = positive("yield_strength", yield_strength)?;
-    if !(poissons_ratio > -1.0 && poissons_ratio <= 0.5) {
-        let (quantity, range) = ("nu", "(-1, 0.5]");
-        return Err(LawError::OutOfRange { quantity, value: poissons_ratio, range });
-    }
-    let constraint = 1.295 * (0.736 * poissons_ratio).exp();
+    let constraint = 1.295 * (0.736 * checked_ratio(poissons_ratio)?).exp();
     dented(pair, (hertz_stiffness(pair), 1.5), Formula::JacksonGreen { strength, constraint })
+}
+
+/// Returns the mean-pressure law of a pair, and yield strength (Pa), Poisson's ratio and linear hardening (Pa) of the body that
+/// flows, with its share in the flattening of a wide contact, 1 for a ball on a flat and 1/2 for like balls that both flow, and
+/// the share of an elastic partner in the compliance 1/E\*, 0 for a rigid one or if both flow.
+///
+/// A fit to explicit finite elements of this program: the module `mean_pressure` has its equations.
+///
+/// # Errors
+/// A strength that is not positive and finite, a ratio outside (−1, 0.5], a hardening or a share that is negative or not finite.
+pub fn mean_pressure(
+    pair: &Pair,
+    [yield_strength, poissons_ratio, hardening, flattening_share, elastic_share]: [f64; 5],
+) -> Result<ContactLaw, LawError> {
+    let yield_strength = positive("yield_strength", yield_strength)?;
+    let (radius, modulus) = (pair.effective_radius(), pair.contact_modulus());
+    let law = MeanPressure {
+        radius,
+        modulus,
+        strength: yield_strength,
+        constraint: largest_von_mises(checked_ratio(poissons_ratio)?).recip(),
+        hardening: not_negative("hardening", hardening)?,
+        flattening_share: not_negative("flattening_share", flattening_share)?,
+        elastic_share: not_negative("elastic_share", elastic_share)?,
+    };
+    dented(pair, (hertz_stiffness(pair), 1.5), Formula::MeanPressure(law))
 }
 
 /// Returns the spring of a stiffness k₁, N/m, that springs back with k₁/e², which gives a restitution in (0, 1] at any speed.
@@ -290,6 +326,12 @@ pub fn luding(pair: &Pair, ratio: f64, stiffness: f64, depth: f64) -> Result<Con
     dented(pair, (stiffness, 1.0), Formula::Springs { stiffness, rebound, until })
 }
 
+fn checked_ratio(value: f64) -> Result<f64, LawError> {
+    let (quantity, range) = ("nu", "(-1, 0.5]");
+    let is_allowed = value > -1.0 && value <= 0.5;
+    is_allowed.then_some(value).ok_or(LawError::OutOfRange { quantity, value, range })
+}
+
 /// Returns the law whose spring, K and γ, is followed until first yield.
 fn dented(
     pair: &Pair,
@@ -308,10 +350,7 @@ fn dented(
 pub fn thornton_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     let pressure = match law.get("yield_pressure") {
         Some(pressure) => pressure,
-        None => {
-            let (strength, ratio) = weakest(law, context)?;
-            strength / largest_von_mises(ratio)
-        }
+        None => earliest(law, context)?.1.pressure,
     };
     Ok((vec![pressure], context.pair))
 }
@@ -323,7 +362,7 @@ pub fn thornton_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
 pub fn johnson_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
     let hardness = match law.get("hardness") {
         Some(hardness) => hardness,
-        None => HARDNESS * weakest(law, context)?.0,
+        None => HARDNESS * earliest(law, context)?.1.body().yield_strength,
     };
     Ok((vec![hardness], context.pair))
 }
@@ -333,21 +372,50 @@ pub fn johnson_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
 /// # Errors
 /// Those of [`thornton_values`].
 pub fn jackson_green_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
-    let (strength, ratio) = weakest(law, context)?;
-    Ok((vec![strength, law.get("nu").unwrap_or(ratio)], context.pair))
+    let YieldingBody { yield_strength, poissons_ratio, .. } = earliest(law, context)?.1.body();
+    Ok((vec![yield_strength, law.get("nu").unwrap_or(poissons_ratio)], context.pair))
 }
 
-/// Returns yield strength (Pa) and Poisson's ratio of the body that yields at the lower pressure. A strength that the law
-/// gives is that of both bodies.
-fn weakest(law: &LawInput, context: &LawContext<'_>) -> Result<(f64, f64), LawInputError> {
+/// Returns yield strength, Poisson's ratio, hardening and shares as given, or those of the body that yields
+/// first. Those of a flow rule are at the representative strain of the contact and its rate.
+///
+/// # Errors
+/// Those of [`thornton_values`].
+pub fn mean_pressure_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let (index, first) = earliest(law, context)?;
+    let rule = context.materials[index].and_then(Material::flow);
+    let rule = rule.filter(|_| law.get("yield_strength").is_none());
+    let (first, slope, _) = match rule {
+        Some(rule) => first.hardened(|strain, rate| rule.flow_stress(strain, rate)),
+        None => (first, 0.0, 0.0),
+    };
+    let YieldingBody { yield_strength, poissons_ratio, .. } = first.body();
+    let parameters = vec![
+        yield_strength,
+        law.get("nu").unwrap_or(poissons_ratio),
+        law.get("hardening").unwrap_or(slope),
+        law.get("flattening_share").unwrap_or(first.flattening_share),
+        law.get("elastic_share").unwrap_or(first.elastic_share),
+    ];
+    Ok((parameters, context.pair))
+}
+
+/// Returns index and first yield of the body that yields first. A strength that the law gives is that of both bodies.
+fn earliest(
+    law: &LawInput,
+    context: &LawContext<'_>,
+) -> Result<(usize, FirstYield), LawInputError> {
     let given = law.get("yield_strength");
-    let bodies = context.materials.iter().zip(context.yield_strengths);
-    let known = bodies.filter_map(|(material, strength)| {
-        let ratio = (*material)?.instantaneous().poissons_ratio();
-        Some((given.or(strength)?, ratio))
-    });
-    let pressure = |(strength, ratio): &(f64, f64)| strength / largest_von_mises(*ratio);
-    known.min_by(|a, b| pressure(a).total_cmp(&pressure(b))).ok_or(LawInputError::Materials {
+    let body = |k: usize| {
+        Some(YieldingBody {
+            yield_strength: given.or(context.yield_strengths[k])?,
+            poissons_ratio: context.materials[k]?.instantaneous().poissons_ratio(),
+            plane_strain_modulus: context.materials[k]?.instantaneous().plane_strain_modulus(),
+            radius: context.radii[k],
+        })
+    };
+    let hertz = HertzImpact::new(&context.pair, context.approach_speed)?;
+    FirstYield::earliest(&hertz, [body(0), body(1)]).ok_or(LawInputError::Materials {
         message: "a law that dents needs a yield strength",
         help: "set material.NAME.yield_strength, or yield_strength in the law",
     })

@@ -4,6 +4,7 @@ mod elastic_plastic;
 mod hunt_crossley;
 mod kuwabara_kono;
 mod linear;
+mod mean_pressure;
 mod power;
 mod published;
 mod schwager_poeschel;
@@ -11,12 +12,13 @@ mod tsuji;
 
 pub(crate) use elastic_plastic::Rebound;
 pub use elastic_plastic::{
-    ElasticPlastic, jackson_green, jackson_green_values, johnson, johnson_values, luding, thornton,
-    thornton_values, walton_braun,
+    ElasticPlastic, jackson_green, jackson_green_values, johnson, johnson_values, luding,
+    mean_pressure, mean_pressure_values, thornton, thornton_values, walton_braun,
 };
 pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
 pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
 pub use linear::{linear, linear_from_restitution, linear_values};
+pub(crate) use mean_pressure::REPRESENTATIVE_STRAIN;
 pub use power::{ContactLaw, EndRule, power};
 pub use published::{bordbar_hyppanen, falcon, hertz, mishra_murty, morgado_oppenheim};
 pub use schwager_poeschel::{dissipation_time, schwager_poeschel, schwager_poeschel_values};
@@ -218,6 +220,35 @@ macro_rules! contact_laws {
                 yield_strength: Stress, Positive, Role::STRENGTH;
                 /// Poisson's ratio of the body that flows; absent: the material's.
                 nu: Number, LikePoissonsRatio, Role::number(Some(0.3), (0.0, 0.5));
+            }
+
+            /// A fit to finite elements of an elastic–plastic sphere: the best of the laws that dent.
+            MeanPressure, mean_pressure, MeanPressureTable,
+                "a table such as { yield_strength = \"1 GPa\" }";
+            formula(pair, [yield_strength, nu, hardening, flattening_share, elastic_share]) =
+                laws::mean_pressure(pair, [yield_strength, nu, hardening, flattening_share, elastic_share]);
+            given by [
+                yield_strength: KeyNeed::Optional,
+                nu: KeyNeed::Optional,
+                hardening: KeyNeed::Optional,
+                flattening_share: KeyNeed::Optional,
+                elastic_share: KeyNeed::Optional
+            ], values laws::mean_pressure_values;
+            ends at ZeroForce;
+            keys {
+                /// Yield strength, > 0; absent: that of the material that yields first.
+                yield_strength: Stress, Positive, Role::STRENGTH;
+                /// Poisson's ratio of the body that flows; absent: the material's.
+                nu: Number, LikePoissonsRatio, Role::number(Some(0.3), (0.0, 0.5));
+                /// Slope of the flow stress over the plastic strain, ≥ 0; absent: that of the material's flow rule, up to the strain
+                /// of the contact.
+                hardening: Stress, NotNegative, Role::HARDENING;
+                /// Share of the bodies that flow in the flattening of a wide contact: 1 for a ball on a flat, 1/2 for like balls that both flow,
+                /// 3/4 if one of them does; absent: the case's.
+                flattening_share: Number, NotNegative, Role::number(Some(1.0), (0.0, 1.0));
+                /// Share of a partner that stays elastic in the compliance 1/E\\*: 0 for a rigid one or if both flow; absent: the
+                /// case's.
+                elastic_share: Number, NotNegative, Role::number(Some(0.0), (0.0, 1.0));
             }
 
             /// A spring that springs back stiffer, with a restitution independent of speed.

@@ -4,6 +4,7 @@ mod common;
 mod dents;
 mod direct;
 mod fast_slow_limits;
+mod flow_map;
 mod gravity;
 mod hertz;
 mod hertz_pressure;

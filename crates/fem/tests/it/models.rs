@@ -96,6 +96,10 @@ fn every_model_and_law_is_read() {
             "jackson_green = { yield_strength = 1e9, nu = 0.3 }",
             "JacksonGreen yield_strength=1e9 nu=3e-1",
         ),
+        (
+            "mean_pressure = { yield_strength = 1e9, hardening = '2 GPa' }",
+            "MeanPressure yield_strength=1e9 hardening=2e9",
+        ),
         ("walton_braun = { e = 0.8, k1 = '1 N/um' }", "WaltonBraun e=8e-1 k1=1e6"),
         (
             "luding = { kp_over_k1 = 5, k1 = 1e6, phi_f = 0.05 }",

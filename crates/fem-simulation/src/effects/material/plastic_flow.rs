@@ -73,7 +73,7 @@ impl Effect for PlasticFlow {
         &[MaterialLoss::NAME, FiniteStrain::NAME]
     }
 
-    /// The impacts of the closed forms. The other losses of the run are added, between none of them and all. The loss of a
+    /// The impact of the mean-pressure law within its error. The other losses of the run are added, between none of them and all. The loss of a
     /// contact law is the user's, and may be that of plastic flow.
     fn leading_estimate(
         &self,
@@ -86,11 +86,11 @@ impl Effect for PlasticFlow {
             return None;
         }
         let by = format!(
-            "elastic–plastic laws ({} yields from {} on)",
+            "the mean-pressure law ({} yields from {} on)",
             body.name(),
             show(first.speed, "m/s")
         );
-        let impacts = first.impacts();
+        let impacts = first.range();
         let [low, high] = impacts.map(|impact| impact.restitution);
         let low = (low.powi(2) - (1.0 - restitution.powi(2)).max(0.0)).max(0.0).sqrt();
         LeadingEstimate::of_impacts(Self::NAME, by, "if it stayed elastic", impacts)
@@ -98,13 +98,13 @@ impl Effect for PlasticFlow {
             .if_it_leads(restitution)
     }
 
-    /// Central estimate of the closed forms for the restitution, and the farther one for contact time and force.
+    /// The largest change within the error of the mean-pressure law.
     fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
         let (_, first) = earliest(scene, estimate)?;
         Some(NeglectError::of_changes(estimate, first.change()))
     }
 
-    /// The change of all quantities by the closed forms. A flowing contact is wider and its pressure lower, so Hertz'
+    /// The change of all quantities by the mean-pressure law. A flowing contact is wider and its pressure lower, so Hertz'
     /// powers do not give them.
     fn model_form_error(
         &self,
@@ -138,7 +138,7 @@ impl PlasticFlow {
     /// Returns the support of explicit elements: they compute flow if every body that yields has a flow rule.
     pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Support {
         let lacks = |body: &Body| {
-            let yields = first_yield(body, estimate).is_some_and(|(_, first)| first.ratio() > 1.0);
+            let yields = first_yield(body, estimate).is_some_and(|first| first.ratio() > 1.0);
             yields && body.material().is_none_or(|material| material.flow().is_none())
         };
         match scene.flows() && !scene.bodies().iter().any(lacks) {
@@ -150,23 +150,23 @@ impl PlasticFlow {
 
 /// Returns the body that yields first, of those with a yield strength.
 fn earliest<'a>(scene: &'a Scene, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
-    let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
-    yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))
+    let bodies = scene.bodies().each_ref().map(Body::yielding);
+    let (index, first) = FirstYield::earliest(&estimate.hertz, bodies)?;
+    Some((&scene.bodies()[index], first))
 }
 
-fn first_yield<'a>(body: &'a Body, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
-    let poissons_ratio = body.material()?.instantaneous().poissons_ratio();
-    Some((body, FirstYield::new(&estimate.hertz, body.yield_strength()?, poissons_ratio)))
+fn first_yield(body: &Body, estimate: &Estimate) -> Option<FirstYield> {
+    Some(FirstYield::new(&estimate.hertz, body.yielding()?))
 }
 
 fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevance {
     let (ratio, name) = (first.ratio(), body.name());
     let is_needed = ratio > 1.0;
-    let [low, high] = first.impacts().map(|impact| impact.restitution);
+    let [low, high] = first.range().map(|impact| impact.restitution);
+    let by_law = format!("closed forms give a restitution from {low:.2} to {high:.2}");
     let warning = is_needed.then(|| {
         format!(
-            "{name} yields from {} on, and the impact is at {}: closed forms give a restitution from {low:.2} to {high:.2}; \
-             {}",
+            "{name} yields from {} on, and the impact is at {}: {by_law}; {}",
             show(first.speed, "m/s"),
             show(estimate.hertz.approach_speed(), "m/s"),
             match body.material().and_then(Material::flow) {
@@ -179,7 +179,7 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevanc
         is_needed,
         number: format!("peak pressure / pressure of first yield of {name} = {ratio:.2}"),
         if_not_needed: format!("it yields from {} on", show(first.speed, "m/s")),
-        open_error: format!("closed forms give a restitution from {low:.2} to {high:.2}"),
+        open_error: by_law,
         warning,
     }
 }

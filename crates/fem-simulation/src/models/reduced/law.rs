@@ -80,6 +80,7 @@ fn law_numbers(
         approach_speed: estimate.hertz.approach_speed(),
         materials,
         yield_strengths: scene.bodies().each_ref().map(|body| body.yield_strength()),
+        radii: scene.bodies().each_ref().map(|body| body.radius()),
         relaxation: &relaxation,
         end_rule,
     };
