@@ -21,6 +21,8 @@ use crate::laws::{REPRESENTATIVE_STRAIN, mean_pressure};
 const DEPTHS: (f64, f64) = (0.0, 1.5);
 /// Relative errors of the mean-pressure law beside the elements of `validation/data/flow_map.csv`, in small contacts.
 const ERRORS: [f64; 6] = [0.02, 0.02, 0.03, 0.03, 0.025, 0.15];
+/// Factor on these errors beside a partner that stays elastic.
+const ERROR_BESIDE_ELASTIC: f64 = 2.0;
 /// Growth of these errors with the cube of the contact radius over R\*.
 const ERROR_OF_WIDE_CONTACTS: f64 = 0.3;
 /// Pressure of first yield of the harder body over that of the softer one, below which both flow.
@@ -120,13 +122,7 @@ impl FirstYield {
             rate = 2.0 * strain / impact.contact_time;
             let yield_strength = flow_stress(0.0, rate);
             hardening = ((flow_stress(strain, rate) - yield_strength) / strain).max(0.0);
-            let over = yield_strength / self.body.yield_strength;
-            first = Self {
-                pressure: over * self.pressure,
-                speed: over.powf(2.5) * self.speed,
-                body: YieldingBody { yield_strength, ..self.body },
-                ..*self
-            };
+            first = self.of_strength(yield_strength);
         }
         (first, hardening, rate)
     }
@@ -161,16 +157,38 @@ impl FirstYield {
     pub fn errors(&self, impact: &ImpactQuantities) -> [f64; 6] {
         let beyond = (self.hertz.approach_speed() / self.speed - 1.0).clamp(0.0, 1.0);
         let size = impact.max_contact_radius / self.hertz.pair().effective_radius();
-        ERRORS.map(|small| beyond * (small + ERROR_OF_WIDE_CONTACTS * size.powi(3)))
+        let beside = if self.elastic_share > 0.0 { ERROR_BESIDE_ELASTIC } else { 1.0 };
+        ERRORS.map(|small| beside * beyond * (small + ERROR_OF_WIDE_CONTACTS * size.powi(3)))
     }
 
-    /// Returns the smallest and largest value of every quantity within its error, without hardening.
-    pub fn range(&self) -> [ImpactQuantities; 2] {
-        let impact = self.impact(0.0);
-        let (impact, errors) = (impact.in_order(), self.errors(&impact));
-        [-1.0, 1.0].map(|sign| {
+    /// Returns the first yield at another yield strength, Pa.
+    fn of_strength(&self, yield_strength: f64) -> Self {
+        let over = yield_strength / self.body.yield_strength;
+        Self {
+            pressure: over * self.pressure,
+            speed: over.powf(2.5) * self.speed,
+            body: YieldingBody { yield_strength, ..self.body },
+            ..*self
+        }
+    }
+
+    /// Returns the smallest and largest value of every quantity within its error, without hardening, of a yield strength with an
+    /// uncertainty, Pa.
+    pub fn range(&self, uncertainty: f64) -> [ImpactQuantities; 2] {
+        let strength = self.body.yield_strength;
+        let uncertainty = uncertainty.min(0.9 * strength);
+        let ends = [strength - uncertainty, strength + uncertainty].map(|strength| {
+            let first = self.of_strength(strength);
+            let impact = first.impact(0.0);
+            (impact.in_order(), first.errors(&impact))
+        });
+        [-1.0, 1.0].map(|sign: f64| {
             let [restitution, contact_time, peak_force, max_approach, radius, peak_pressure] =
-                std::array::from_fn(|k| impact[k] * (1.0 + sign * errors[k]));
+                std::array::from_fn(|k| {
+                    let [one, other] =
+                        ends.map(|(impact, errors)| impact[k] * (1.0 + sign * errors[k]));
+                    if sign > 0.0 { one.max(other) } else { one.min(other) }
+                });
             let restitution = restitution.clamp(0.0, 1.0);
             let max_contact_radius = radius;
             ImpactQuantities {
@@ -188,7 +206,7 @@ impl FirstYield {
     /// absolute one of the restitution and the relative ones of the other quantities.
     pub fn change(&self) -> [f64; 6] {
         let elastic = ImpactQuantities::from(&self.hertz);
-        let [one, other] = self.range().map(|impact| impact.change_from(&elastic));
+        let [one, other] = self.range(0.0).map(|impact| impact.change_from(&elastic));
         std::array::from_fn(|k| if one[k].abs() > other[k].abs() { one[k] } else { other[k] })
     }
 }

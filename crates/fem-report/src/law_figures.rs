@@ -184,7 +184,11 @@ pub fn export_figure(fitted: &DemExport) -> String {
         let laws = fitted.laws.iter().zip([COLOURS[0], COLOURS[2], COLOURS[3]]).map(law);
         laws.fold(chart_axes(&speed, y), Chart::with).with(
             Curve::points(
-                if is_measured { "data" } else { "Hertz, in place of data" },
+                match (is_measured, curve.law) {
+                    (true, None) => "data",
+                    (true, Some(_)) => "the fitted law",
+                    (false, _) => "Hertz, in place of data",
+                },
                 speed.points(y, &data),
             )
             .like_curve(if is_measured { 1 } else { 6 }),

@@ -44,7 +44,7 @@ impl DrawnField {
     pub const AXIAL_STRESS: Self = Self { array: "sigma_yy", name: "σ_yy", unit: Some("Pa") };
     /// The equivalent plastic strain.
     pub const PLASTIC_STRAIN: Self =
-        Self { array: "plastic_strain", name: "equivalent plastic strain", unit: None };
+        Self { array: "plastic_strain", name: "plastic strain", unit: None };
 
     /// Returns the factor of the values in files, which are SI and shares.
     pub(crate) fn factor(&self) -> f64 {

@@ -23,6 +23,8 @@ const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
 /// Plausible Young's moduli, Pa: the softest gels have about 100 Pa, diamond has 1.2 TPa.
 const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 
+/// Moduli below this, Pa, are those of gels: a bare number was probably meant in GPa or MPa.
+const SMALL_MODULUS: f64 = 1e5;
 /// Plausible yield strengths, Pa: soft waxes and greases have 10 kPa, diamond about 100 GPa.
 pub(crate) const YIELD_STRENGTHS: std::ops::RangeInclusive<f64> = 1e4..=2e11;
 
@@ -184,10 +186,12 @@ enum Number {
     Density,
     Modulus,
     YieldStrength,
+    HardeningModulus,
 }
 
 impl Case {
-    /// Rejects implausible numbers that the file or an override gives without a unit, and bare diameters of 1 m and more.
+    /// Rejects implausible numbers that the file or an override gives without a unit, bare diameters of 1 m and more, and bare
+    /// moduli below 0.1 MPa.
     ///
     /// # Errors
     /// All such numbers, each with its place. With a unit the same number is only warned of.
@@ -251,6 +255,21 @@ impl Case {
                 let message = format!("the diameter of {} is {}", body.name(), show(large, "m"));
                 found.push(Implausible { number: Number::Diameter, message });
             }
+            let is_told = found.iter().any(|one| one.number == Number::Modulus);
+            let modulus = body.material().map(|it| it.instantaneous().youngs_modulus());
+            if let Some(small) = modulus.filter(|modulus| *modulus < SMALL_MODULUS && !is_told) {
+                let message =
+                    format!("Young's modulus of {} is {}", body.name(), show(small, "Pa"));
+                found.push(Implausible { number: Number::Modulus, message });
+            }
+            let hardening = self.file.material.get(material).and_then(|table| {
+                table.flow.as_ref()?.hardening.as_ref()?.modulus.as_ref()?.si().ok()
+            });
+            if let Some(small) = hardening.filter(|it| *it > 0.0 && *it < SMALL_MODULUS) {
+                let message =
+                    format!("the hardening modulus of {} is {}", body.name(), show(small, "Pa"));
+                found.push(Implausible { number: Number::HardeningModulus, message });
+            }
             for Implausible { number, message } in found {
                 let mut push = |path: &[&str], unit| {
                     let path = path.iter().map(ToString::to_string).collect();
@@ -265,6 +284,9 @@ impl Case {
                         for key in ["youngs_modulus", "shear_modulus", "bulk_modulus"] {
                             push(&["material", material, key], "Pa");
                         }
+                    }
+                    Number::HardeningModulus => {
+                        push(&["material", material, "flow", "hardening", "modulus"], "Pa");
                     }
                     Number::YieldStrength => {
                         push(&["material", material, "yield_strength"], "Pa");

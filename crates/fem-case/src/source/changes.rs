@@ -13,7 +13,7 @@ const PHYSICAL_KEYS: [[&str; 2]; 2] = [["contact", "friction"], ["contact", "wor
 /// Longest value that is shown.
 const MAX_VALUE_LENGTH: usize = 24;
 /// Changes that a title names.
-const MAX_IN_TITLE: usize = 3;
+const MAX_IN_TITLE: usize = 5;
 /// Longest name of a folder, without the digits that a taken one gets.
 const MAX_NAME_LENGTH: usize = 100;
 
@@ -165,8 +165,11 @@ mod tests {
             of(&["material.ice.density=1", "contact.friction=0.1"]),
             "Ice, density = 1 kg/m^3, friction = 0.1"
         );
-        let many = ["stop.bounces=2", "start.gap=1 mm", "stop.a=1", "stop.b=1", "stop.c=1"];
-        assert_eq!(of(&many), "Ice, bounces = 2, gap = 1 mm, a = 1 and 2 more");
+        let many =
+            ["stop.bounces=2", "start.gap=1 mm", "stop.a=1", "stop.b=1", "stop.c=1", "stop.d=1"];
+        assert_eq!(of(&many), "Ice, bounces = 2, gap = 1 mm, a = 1, b = 1, c = 1 and 1 more");
+        let flow = ["material.ice.flow.yield_strength='1 MPa'", "material.ice.yield_strength=1e6"];
+        assert_eq!(of(&flow), "Ice, flow.yield_strength = 1 MPa, yield_strength = 1e6");
     }
 
     #[test]

@@ -110,8 +110,13 @@ impl StoredResult {
                 false => "name the folder of a run, such as runs/glass_0.5ms",
             },
         };
-        let text = std::fs::read_to_string(folder.join(SUMMARY_FILE))
-            .map_err(|error| no_result(format!("cannot be read: {error}")))?;
+        let text =
+            std::fs::read_to_string(folder.join(SUMMARY_FILE)).map_err(|error| {
+                match folder.is_file() {
+                    true => no_result("is looked for in a folder, and this is a file".to_string()),
+                    false => no_result(format!("cannot be read: {error}")),
+                }
+            })?;
         Self::of(folder, &text).map_err(|error| no_result(format!("is no summary: {error}")))
     }
 

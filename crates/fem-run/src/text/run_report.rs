@@ -9,9 +9,9 @@ use fem::results::{
     BodySummary, BounceSummary, DentSummary, EstimateSummary, Parts, RestSummary, Summary,
 };
 use fem::{ExpectedError, ModelCandidate};
-use fem_case::defaults;
 use fem_case::engineering::{Unit, number, range, show};
 use fem_case::schema::ToleranceValue;
+use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
 use fem_report::report::is_numerical;
 use indicatif::{DecimalBytes, HumanCount};
@@ -136,7 +136,10 @@ fn flow(summary: &Summary) -> Vec<[String; 2]> {
         let share = part.zip(energy.initial_j).map(|(part, initial)| 100.0 * part / initial);
         share.map_or_else(unknown, |share| number(share, 2))
     });
-    if let ([plastic, locked_in], false) = (&shares, rows.is_empty()) {
+    // Dents beside each other hold more residual stress than that of the first one.
+    let is_fresh = summary.bounces.as_ref().is_some_and(|bounces| bounces.len() > 1)
+        && summary.case.gravity.as_ref().is_some_and(|gravity| gravity.spot == Some(Spot::Fresh));
+    if let ([plastic, locked_in], false) = (&shares, rows.is_empty() || is_fresh) {
         let text = format!(
             "{plastic} % became plastic work, {locked_in} % is locked in by residual stress"
         );

@@ -26,6 +26,8 @@ pub struct StoredFit {
     pub model: Model,
     /// Values of all of its parameters, SI.
     pub values: Vec<f64>,
+    /// Warnings about the fit.
+    pub warnings: Vec<String>,
 }
 
 /// The keys of `fit.json` that are read.
@@ -38,6 +40,7 @@ struct Keys {
     scatter: f64,
     parameters: Vec<ParameterKeys>,
     bodies: [f64; 3],
+    warnings: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -75,8 +78,8 @@ impl StoredFit {
             );
         }
         let values = keys.parameters.iter().map(|one| one.value).collect();
-        let Keys { data, speeds_m_s: speeds, scatter, .. } = keys;
-        Ok(Self { data, speeds, scatter, model, values })
+        let Keys { data, speeds_m_s: speeds, scatter, warnings, .. } = keys;
+        Ok(Self { data, speeds, scatter, model, values, warnings })
     }
 
     /// Returns the family of the law.

@@ -189,7 +189,10 @@ fn fitted(
 ) -> Result<(DemExport, Vec<Snippet>), Failure> {
     let tolerance = arguments.checked_tolerance()?;
     let curve = match (table, arguments.stored_fit(case)?) {
-        (None, Some(fit)) => ImpactCurve::fitted(&fit, arguments.speeds)?,
+        (None, Some(fit)) => {
+            standard_output::warn(fit.warnings.iter().map(|text| format!("the fit: {text}")));
+            ImpactCurve::fitted(&fit, arguments.speeds)?
+        }
         (None, None) => ImpactCurve::computed(case, arguments.speeds)?,
         (Some(table), _) => {
             let data = Restitutions::read_with_contact_times(table, case.scene())?;

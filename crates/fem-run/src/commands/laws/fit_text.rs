@@ -81,7 +81,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
             text += &format!("correlation of {first} and {second}: {:.4}\n", fit.correlation[i][j]);
         }
     }
-    let unit = if problem.has_uncertainties() { " uncertainties" } else { "" };
+    let unit = if problem.has_uncertainties() { " of the uncertainties" } else { "" };
     let freedom = fit.degrees_of_freedom;
     let plural = if freedom == 1 { "degree" } else { "degrees" };
     text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);

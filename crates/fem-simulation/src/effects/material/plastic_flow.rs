@@ -4,9 +4,9 @@
 //! has a flow rule; below first yield it is computed as elastic. Without a yield strength the largest von Mises stress is
 //! reported, with a warning if few materials withstand the peak pressure.
 
-use fem_case::engineering::show;
+use fem_case::engineering::{range, show};
 use fem_case::{Body, ModelChoice, Scene, Switch};
-use fem_laws::{FirstYield, largest_von_mises};
+use fem_laws::{FirstYield, LawFamily, largest_von_mises};
 use fem_material::Material;
 
 use crate::effects::decision::leading_estimate::LeadingEstimate;
@@ -26,10 +26,13 @@ const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
 /// modulus and strength).
 const MAX_MODULUS_OF_ELASTOMERS: f64 = 0.1e9;
 
+/// Contact radius over R* up to which the mean-pressure law is compared with elements, with some room.
+const MAX_SIZE: f64 = 0.6;
+
 impl Effect for PlasticFlow {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
         Some(match earliest(scene, estimate) {
-            Some((body, first)) => of_strength(body, &first, estimate),
+            Some((body, first)) => of_strength(scene, body, &first, estimate),
             None => without_strength(scene, estimate),
         })
     }
@@ -73,8 +76,8 @@ impl Effect for PlasticFlow {
         &[MaterialLoss::NAME, FiniteStrain::NAME]
     }
 
-    /// The impact of the mean-pressure law within its error. The other losses of the run are added, between none of them and all. The loss of a
-    /// contact law is the user's, and may be that of plastic flow.
+    /// The impact of the mean-pressure law within its error and that of the yield strength. The other losses of the run are
+    /// added, between none of them and all. The loss of a contact law is the user's, and may be that of plastic flow.
     fn leading_estimate(
         &self,
         scene: &Scene,
@@ -90,12 +93,14 @@ impl Effect for PlasticFlow {
             body.name(),
             show(first.speed, "m/s")
         );
-        let impacts = first.range();
+        let impacts = first.range(scene.strength_uncertainty(body));
         let [low, high] = impacts.map(|impact| impact.restitution);
+        let size = impacts[1].max_contact_radius / estimate.hertz.pair().effective_radius();
         let low = (low.powi(2) - (1.0 - restitution.powi(2)).max(0.0)).max(0.0).sqrt();
-        LeadingEstimate::of_impacts(Self::NAME, by, "if it stayed elastic", impacts)
-            .with_restitution(low, high.min(restitution))
-            .if_it_leads(restitution)
+        let all = LeadingEstimate::of_impacts(Self::NAME, by, "if it stayed elastic", impacts);
+        // Wider contacts are beyond the law.
+        let known = if size > MAX_SIZE { all.of_restitution_alone() } else { all };
+        known.with_restitution(low, high.min(restitution)).if_it_leads(restitution)
     }
 
     /// The largest change within the error of the mean-pressure law.
@@ -104,17 +109,26 @@ impl Effect for PlasticFlow {
         Some(NeglectError::of_changes(estimate, first.change()))
     }
 
-    /// The change of all quantities by the mean-pressure law. A flowing contact is wider and its pressure lower, so Hertz'
-    /// powers do not give them.
+    /// The change of all quantities by the mean-pressure law, or the error of that law where it is the model. A flowing
+    /// contact is wider and its pressure lower, so Hertz' powers do not give them.
     fn model_form_error(
         &self,
         scene: &Scene,
         estimate: &Estimate,
         status: &EffectStatus,
     ) -> QuantityErrors {
-        match earliest(scene, estimate).filter(|_| status.is_lacking) {
-            Some((_, first)) => NeglectError::errors_of(estimate, first.change()),
-            None => QuantityErrors::ZERO,
+        let is_the_law = matches!(scene.model(), ModelChoice::Law { law, .. } if law.family == LawFamily::MeanPressure);
+        match earliest(scene, estimate) {
+            Some((_, first)) if status.is_lacking => {
+                NeglectError::errors_of(estimate, first.change())
+            }
+            Some((_, first)) if is_the_law => {
+                let impact = first.impact(0.0);
+                let (errors, impact) = (first.errors(&impact), impact.in_order());
+                let own = |quantity| Some(errors[quantity as usize] * impact[quantity as usize]);
+                QuantityErrors::from_fn(own).checked()
+            }
+            _ => QuantityErrors::ZERO,
         }
     }
 }
@@ -159,11 +173,11 @@ fn first_yield(body: &Body, estimate: &Estimate) -> Option<FirstYield> {
     Some(FirstYield::new(&estimate.hertz, body.yielding()?))
 }
 
-fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevance {
+fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevance {
     let (ratio, name) = (first.ratio(), body.name());
     let is_needed = ratio > 1.0;
-    let [low, high] = first.range().map(|impact| impact.restitution);
-    let by_law = format!("closed forms give a restitution from {low:.2} to {high:.2}");
+    let ends = first.range(scene.strength_uncertainty(body)).map(|impact| impact.restitution);
+    let by_law = format!("closed forms give a restitution of {}", range(ends, ""));
     let warning = is_needed.then(|| {
         format!(
             "{name} yields from {} on, and the impact is at {}: {by_law}; {}",

@@ -329,7 +329,7 @@ impl Export {
         };
         // If a loss is not known, the fit is valid but the restitution is not.
         let e = if self.unknown_loss.is_empty() { "e" } else { "the fit" };
-        let good = format!("good to {}", self.tolerance);
+        let good = format!("good to {}", number(self.tolerance, 2));
         let range = if from == to {
             format!("{e} is {good} at {} alone", speed(from))
         } else if from <= to {
