@@ -205,12 +205,12 @@ def test_an_estimate_of_what_a_run_lacks_leads():
     balls[0]["approach_speed"] = 5
     result = fem_run.Case.from_dict({"body": balls, "model": {"hertz": {}}}).run()
     assert "restitution about 0.29 to 0.3 (1 if it stayed elastic), contact time about 26 to 28 µs (" in repr(result)
-    assert "about 0.16 to 0.31" in result._repr_html_()
+    assert "about 0.29 to 0.3" in result._repr_html_()
     balls[0] |= {"material": "lib:cork", "approach_speed": 10}
     balls[1] |= {"material": "lib:natural-rubber"}
     rubber = fem_run.Case.from_dict({"body": balls, "model": {"hertz": {}}}).run()
     assert "restitution not known, " in repr(rubber)
-    assert result.estimate["effect"] == "plastic flow" and result.estimate["low"]["restitution"] < 0.2
+    assert result.estimate["effect"] == "plastic flow" and 0.28 < result.estimate["low"]["restitution"] < 0.3
 
 
 def test_plots_of_results_and_tables(glass, monkeypatch):

@@ -32,7 +32,7 @@ const STRAIGHT: f64 = 5e-4;
 #[derive(Clone, Copy, Debug)]
 pub struct DrawnField {
     /// Name of its array in the files of a result.
-    pub(crate) array: &'static str,
+    pub array: &'static str,
     /// Its name beside the scale.
     name: &'static str,
     /// Its SI unit; `None` for a share in per cent.
@@ -47,7 +47,7 @@ impl DrawnField {
         Self { array: "plastic_strain", name: "plastic strain", unit: None };
 
     /// Returns the factor of the values in files, which are SI and shares.
-    pub(crate) fn factor(&self) -> f64 {
+    pub fn factor(&self) -> f64 {
         if self.unit.is_some() { 1.0 } else { 100.0 }
     }
 }

@@ -75,7 +75,7 @@ fn a_yield_strength_gives_the_speed_and_an_estimate() {
             decision_on(STEEL, &[model, "material.steel.yield_strength='1 GPa'"]);
         // Johnson's ½mv² = 53 R³Y⁵/E*⁴ is 0.067 m/s; then the mean-pressure law at 72 times that.
         assert!(warnings.contains("yields from 69.1"), "{model}: {warnings}");
-        assert!(warnings.contains("from 0.59 to 0.62"), "{warnings}");
+        assert!(warnings.contains("a restitution of 0.59 to 0.62"), "{warnings}");
         assert!(decision.reason.contains("not computed"), "{}", decision.reason);
     }
 }
