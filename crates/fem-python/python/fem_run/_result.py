@@ -194,7 +194,9 @@ class Result:
         (times, per_s, s), (forces, per_n, n) = scales
         axes.plot(per_s * times, per_n * forces)
         axes.set(xlabel=f"time [{s}]", ylabel=f"contact force [{n}]")
-        axes.set_title(self.summary["case"].get("title") or "", fontsize="medium", wrap=True)
+        title = self.summary["case"].get("title") or ""
+        # A case of a dict has no name.
+        axes.set_title(title.removeprefix("<dict>").removeprefix(", "), fontsize="medium", wrap=True)
         return axes
 
     def _shown(self, key: str, unit: str) -> str:

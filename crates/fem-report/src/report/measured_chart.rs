@@ -13,15 +13,15 @@ pub fn measured_chart(result: &StoredResult) -> Option<(Chart, Vec<String>)> {
     let restitution = result.number(&["restitution"])?;
     let speed = approach_speed(result)?;
     let curves: Vec<_> = measured.iter().map(points).collect();
-    let speeds = curves.iter().flatten().map(|point| point.0).chain([speed]);
+    // Some room beside a single speed.
+    let around = [0.8 * speed, 1.25 * speed];
+    let speeds = curves.iter().flatten().map(|point| point.0).chain(around);
     if measured.is_empty() {
         return None;
     }
     let x = QuantityAxis::fitting("approach speed v", "m/s", speeds);
     let y = QuantityAxis::linear("Restitution e", "", 1.0).from_to(0.0, 1.05);
     let mut chart = chart_axes(&x, &y);
-    let this = Curve::points("this result", x.points(&y, &[(speed, restitution)]));
-    chart = chart.with(this.like_curve(0));
     for (k, (entry, points)) in measured.iter().zip(&curves).enumerate() {
         let curve = Curve::points_on_line(text(entry, "name"), x.points(&y, points));
         let curve = match entry.get("scatter").and_then(Value::as_f64) {
@@ -30,6 +30,9 @@ pub fn measured_chart(result: &StoredResult) -> Option<(Chart, Vec<String>)> {
         };
         chart = chart.with(curve.like_curve(k + 1));
     }
+    // Drawn last, since it may lie on a measured point.
+    let this = Curve::points("this result", x.points(&y, &[(speed, restitution)]));
+    chart = chart.with(this.like_curve(0));
     Some((chart, measured.iter().map(|entry| conditions(entry, speed)).collect()))
 }
 

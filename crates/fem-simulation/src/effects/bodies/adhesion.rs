@@ -39,6 +39,13 @@ impl Effect for AdhesionEffect {
             number(loss.unwrap_or_default(), 2)
         );
         let warning = match work {
+            WorkOfAdhesion::Given(_) if sticks && is_open((sticking / speed).powi(2)) => {
+                Some(format!(
+                    "adhesion may hold the bodies together, as this run has it: by closed forms they stick below {below}, and \
+                     the approach speed is {}",
+                    show(speed, "m/s")
+                ))
+            }
             WorkOfAdhesion::Given(_) if sticks => Some(format!(
                 "the bodies stay together by adhesion: they stick below {below}, and the approach speed is {}; history and \
                  fields are those without adhesion",

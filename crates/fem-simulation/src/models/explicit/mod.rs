@@ -140,7 +140,10 @@ impl Explicit {
             decisions,
             unread_key_warnings: {
                 let said = ignored_method_warning(scene, bodies.changes_stiffness());
-                plan.warnings.iter().cloned().chain(said).collect()
+                let has_spot = scene.gravity().is_some_and(|gravity| gravity.spot.is_some());
+                let spot = (has_spot && !scene.flows())
+                    .then(|| "gravity.spot has no effect: no body flows here".to_string());
+                plan.warnings.iter().cloned().chain(said).chain(spot).collect()
             },
             cost,
             elements: Some(ElementSetup {

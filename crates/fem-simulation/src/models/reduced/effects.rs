@@ -22,6 +22,7 @@ pub(super) fn support(
     law: Option<&ContactLaw>,
 ) -> Option<Support> {
     let is_ting = matches!(scene.model(), ModelChoice::Ting { .. });
+    let dents = law.is_some_and(|law| law.elastic_plastic().is_some());
     Some(match effect.name() {
         Viscoelasticity::NAME if is_ting => Support::Inherent { idle: "" },
         Viscoelasticity::NAME => relaxation(scene, estimate),
@@ -33,9 +34,9 @@ pub(super) fn support(
         SurfaceSlip::NAME if is_ting => Support::Computes { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
         AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene) => return None,
-        PlasticFlow::NAME if law.is_some_and(|law| law.elastic_plastic().is_some()) => {
-            Support::Inherent { idle: "" }
-        }
+        PlasticFlow::NAME if dents => Support::Inherent { idle: "" },
+        // The strain of a dent is that of its law.
+        FiniteStrain::NAME if dents => return None,
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
         MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
         MaterialLoss::NAME

@@ -270,7 +270,8 @@ impl Effect for FiniteStrain {
         Some(Relevance {
             is_needed,
             number: format!(
-                "contact radius / effective radius = {:.3}{}{}",
+                "{}contact radius / effective radius = {:.3}{}{}",
+                if estimate.flow.is_some() { "plastic flow needs it; " } else { "" },
                 estimate.strain,
                 if is_needed { format!(", {laws}") } else { String::new() },
                 match is_beyond(scene, estimate) {
@@ -338,6 +339,10 @@ impl Effect for FiniteStrain {
         estimate: &Estimate,
         collision: &Collision,
     ) -> Vec<String> {
+        if matches!(scene.model(), ModelChoice::Law { law, .. } if law.family.is_elastic_plastic())
+        {
+            return Vec::new();
+        }
         let radius = estimate.hertz.pair().effective_radius();
         let strain = collision.max_contact_radius.unwrap_or_default() / radius;
         let found = Estimate { strain, ..*estimate };
