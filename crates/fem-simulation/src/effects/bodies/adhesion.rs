@@ -41,8 +41,8 @@ impl Effect for AdhesionEffect {
         let warning = match work {
             WorkOfAdhesion::Given(_) if sticks && is_open((sticking / speed).powi(2)) => {
                 Some(format!(
-                    "adhesion may hold the bodies together, as this run has it: by closed forms they stick below {below}, and \
-                     the approach speed is {}",
+                    "the bodies may stay together by adhesion, as in this run: by closed forms they stick below {below}, and \
+                     the approach speed is {}; history and fields are those without adhesion",
                     show(speed, "m/s")
                 ))
             }
