@@ -91,7 +91,7 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     fem_figure::svg(&charts).unwrap_or_default()
 }
 
-/// Returns `histories.svg`: approach rate and, if both bodies can move, velocity of the first one over time at one speed
+/// Returns `histories.svg`: approach rate and, if both bodies can move, velocity of the striking one over time at one speed
 /// (m/s), elastic and with the law, and the overlap at several speeds.
 pub fn histories_figure(
     scene: &Scene,
@@ -108,9 +108,10 @@ pub fn histories_figure(
         let points = instants.map(|now| (time.scaled(now.time), y(now.approach_rate)));
         Curve::new(label, mark, points.collect()).coloured(colour)
     };
-    // At first touch the first body moves with v and the second rests, as in the paper's figure.
-    let share = scene.bodies()[0].material().map_or(0.0, |_| mass_share(scene));
-    let first = |rate: f64| speed - share * (speed - rate);
+    // At first touch the striking body moves with v and the other one rests, as in the paper's figure.
+    let striking = scene.bodies().iter().position(|body| body.velocity() != 0.0).unwrap_or(0);
+    let share = scene.bodies()[striking].material().map_or(0.0, |_| mass_share(scene, striking));
+    let own = |rate: f64| speed - share * (speed - rate);
     let panel = |label: &str, y: &dyn Fn(f64) -> f64| {
         let rate = QuantityAxis::linear(label, "m/s", speed);
         let scaled = |value: f64| rate.scaled(y(value));
@@ -118,25 +119,26 @@ pub fn histories_figure(
             .with(series(&elastic, "elastic", GREY, Mark::Dashed, &scaled))
             .with(series(&damped, name, COLOURS[0], Mark::Line, &scaled))
     };
-    let first_name = &scene.bodies()[0].name();
-    let mut charts = vec![panel("approach rate", &|rate| rate)];
+    let at = show(speed, "m/s");
+    let mut charts = vec![panel(&format!("approach rate at {at}"), &|rate| rate)];
     // Beside an immovable body the other one has the approach rate.
     if share > 0.0 && share < 1.0 {
-        charts.push(panel(&format!("velocity of {first_name}"), &first));
+        let name = scene.bodies()[striking].name();
+        charts.push(panel(&format!("velocity of {name} at {at}"), &own));
     }
     charts.push(overlap_chart(model, values, speed, &time)?);
     Ok(fem_figure::svg(&charts).unwrap_or_default())
 }
 
-/// Returns m*/m₁, the share of a change of the relative velocity that the first body takes.
-fn mass_share(scene: &Scene) -> f64 {
+/// Returns m*/m_k, the share of a change of the relative velocity that the body of this index takes.
+fn mass_share(scene: &Scene, k: usize) -> f64 {
     let mass = |index: usize| {
         let body = &scene.bodies()[index];
         body.diameter().zip(body.material()).map_or(f64::INFINITY, |(diameter, material)| {
             fem_laws::sphere_mass(diameter, material.density())
         })
     };
-    1.0 / (1.0 + mass(0) / mass(1))
+    1.0 / (1.0 + mass(k) / mass(1 - k))
 }
 
 fn overlap_chart(
