@@ -113,7 +113,13 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
     /// Starts a run at first touch.
     pub fn new(model: M, expected: Expectation, request: &OutputRequest) -> Self {
         let restart_state = RunState::new(&model, expected, request);
-        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, request));
+        Self::from_state(model, restart_state)
+    }
+
+    /// Makes a run in a state of its model.
+    fn from_state(model: M, restart_state: RunState) -> Self {
+        let (scratch, probing) =
+            (Scratch::new(&model), Probing::new(&model, restart_state.request()));
         Self { model, restart_state, scratch, probing }
     }
 
@@ -132,8 +138,7 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
             return Err(ModelError::ForeignRestartState);
         }
         let restart_state = RunState::again(&model, expected, request, before);
-        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, request));
-        Ok(Self { model, restart_state, scratch, probing })
+        Ok(Self::from_state(model, restart_state))
     }
 
     /// Resumes a run of the same model from its restart state; a run that had ended has ended.
@@ -145,9 +150,7 @@ impl<M: Deref<Target = ExplicitBodies>> Run<M> {
         if !restart_state.fits(&model) {
             return Err(ModelError::ForeignRestartState);
         }
-        let (scratch, probing) =
-            (Scratch::new(&model), Probing::new(&model, restart_state.request()));
-        Ok(Self { model, restart_state, scratch, probing })
+        Ok(Self::from_state(model, restart_state))
     }
 
     /// Returns the model, as the run borrows or shares it.

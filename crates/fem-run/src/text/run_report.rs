@@ -83,8 +83,9 @@ fn short(summary: &Summary) -> String {
     if let Some(rest) = &summary.rest {
         row("at rest", format!("from {} on", rest.time_s.map_or(NONE.into(), |t| show(t, "s"))));
     }
-    rows.extend(flow(summary));
-    let mut row = |name: &str, text: String| rows.push([format!("{name}:"), text]);
+    for (name, text) in flow(summary) {
+        row(name, text);
+    }
     let chosen = summary.models_considered.iter().flatten().find(|candidate| candidate.chosen);
     if let Some(ModelCandidate { model, reason, .. }) = chosen {
         row("model", format!("{model}, {reason}"));
@@ -116,7 +117,7 @@ fn short(summary: &Summary) -> String {
 }
 
 /// Returns the dent of each body that flowed, and where the energy went.
-fn flow(summary: &Summary) -> Vec<[String; 2]> {
+fn flow(summary: &Summary) -> Vec<(&'static str, String)> {
     let unknown = || UNKNOWN.to_string();
     let length = |value: Option<f64>| value.map_or_else(unknown, |value| show(value, "m"));
     let dent = |dent: &DentSummary| {
@@ -128,9 +129,9 @@ fn flow(summary: &Summary) -> Vec<[String; 2]> {
             length(dent.depth_m),
             length(dent.radius_m)
         );
-        ["dent:".to_string(), text]
+        ("dent", text)
     };
-    let mut rows: Vec<[String; 2]> = summary.dent.iter().flatten().map(dent).collect();
+    let mut rows: Vec<_> = summary.dent.iter().flatten().map(dent).collect();
     let energy = &summary.energy;
     let shares = [energy.get(Account::PlasticWork), energy.locked_in_j].map(|part| {
         let share = part.zip(energy.initial_j).map(|(part, initial)| 100.0 * part / initial);
@@ -143,7 +144,7 @@ fn flow(summary: &Summary) -> Vec<[String; 2]> {
         let text = format!(
             "{plastic} % became plastic work, {locked_in} % is locked in by residual stress"
         );
-        rows.push(["energy:".to_string(), text]);
+        rows.push(("energy", text));
     }
     rows
 }
@@ -442,7 +443,7 @@ fn balances(summary: &Summary) -> String {
         momentum.map(|drift| ["momentum".into(), format!("residual {}", residual(drift))]);
     // Closed forms take less than is worth printing.
     let cost = summary.steps.is_some().then(|| ["cost".into(), cost_text(summary)]);
-    let of_flow = flow(summary).into_iter().map(|[name, text]| [name.replace(':', ""), text]);
+    let of_flow = flow(summary).into_iter().map(|(name, text)| [name.to_string(), text]);
     let rows =
         peaks.into_iter().chain(null).chain(of_flow).chain([energy]).chain(momentum).chain(cost);
     table(&[Left, Left], rows)

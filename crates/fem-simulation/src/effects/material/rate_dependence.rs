@@ -84,9 +84,8 @@ impl RateDependence {
 
 /// Returns the change of the quantities by a steel's dependence on the rate, relative, that of the restitution absolute.
 fn changes(scene: &Scene, estimate: &Estimate) -> [f64; 6] {
-    let impact = |of_rate| flowing_impact(scene, &estimate.hertz, of_rate);
-    match impact(None).zip(impact(Some(STEEL))) {
-        Some((without, with)) => with.quantities.change_from(&without.quantities),
+    match estimate.flow.zip(flowing_impact(scene, &estimate.hertz, Some(STEEL))) {
+        Some((without, with)) => with.quantities.change_from(&without),
         None => [0.0; 6],
     }
 }
