@@ -69,14 +69,16 @@ pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Length, Number, Quantity, QuantityError,
     QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, SurfaceEnergy, Time, Viscosity,
 };
-pub use scene::body::{Body, Shape};
+pub use scene::body::{Body, Plate, Shape};
 pub use scene::defaults;
 pub use scene::model::{CondensedOptions, ModelChoice};
 pub use scene::{
     Accuracy, Gravity, Limits, MeshSettings, Probe, Scene, Snapshots, UncertainInput,
     WorkOfAdhesion, impact_speed,
 };
-pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Spot, Switch};
+pub use schema::{
+    CaseFile, ContactMethod, EffectsTable, Field, PlateSupport, SnapshotLabel, Spot, Switch,
+};
 pub use source::changes::readable_name;
 pub use source::similar_words::nearest;
 pub use sweep::Sweep;

@@ -22,7 +22,16 @@
 //! which makes x change by a constant factor a step while ẋ is large, and leaves a creep alone; b ≤ 1 is
 //! the overlap at which the dashpot alone would stop the motion. Gravity adds g ℓ/v² to ẍ; a ball that
 //! turns back while it touches, or whose energy does not lift it to x = 0 any more, stays. The dissipated
-//! energy ∫c xⁿ ẋ² dt is integrated along. Limits: a strongly damped creep back to zero overlap is rejected
+//! energy ∫c xⁿ ẋ² dt is integrated along.
+//!
+//! A thin plate ([`crate::plate_mobility`]) is a dashpot in series: the overlap x is less than the approach by its
+//! deflection, and with Zener's λ and the rate V of the approach
+//!
+//! ```math
+//! \dot x = V - \lambda F = \frac{V-\lambda x^\gamma}{1+\lambda c\,x^n}, \qquad \dot V = -F.
+//! ```
+//!
+//! Limits: a strongly damped creep back to zero overlap is rejected
 //! when it needs more than 100 000 steps.
 
 use differential_equations::control::ControlFlag;
@@ -33,6 +42,7 @@ use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 
 use crate::dent_impact;
+use crate::dent_on_plate;
 use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
 use crate::impact::{Impact, ImpactInstant, restitution};
 use crate::laws::{ContactLaw, EndRule};
@@ -48,6 +58,8 @@ pub struct LawImpact {
     tolerance: f64,
     /// Gravity along the approach, m/s².
     gravity: f64,
+    /// Mobility of a thin plate in series, m/(N s); 0 without a plate.
+    plate_mobility: f64,
 }
 
 /// Relative energy below which nothing comes back: restitutions below 1e-8.
@@ -68,7 +80,7 @@ impl LawImpact {
     /// Creates a model that ends at zero force, with the default tolerance.
     pub fn new(pair: &Pair, law: ContactLaw) -> Self {
         let (end_rule, tolerance) = (EndRule::default(), Self::DEFAULT_TOLERANCE);
-        Self { pair: *pair, law, end_rule, tolerance, gravity: 0.0 }
+        Self { pair: *pair, law, end_rule, tolerance, gravity: 0.0, plate_mobility: 0.0 }
     }
 
     /// Sets the rule for the end of contact.
@@ -92,6 +104,14 @@ impl LawImpact {
         Ok(Self { gravity: not_negative("gravity", acceleration)?, ..self })
     }
 
+    /// Puts a thin plate in series with the contact, given by its mobility, m/(N s); see [`crate::plate_mobility`].
+    ///
+    /// # Errors
+    /// A mobility that is not positive and finite.
+    pub fn with_plate(self, mobility: f64) -> Result<Self, LawError> {
+        Ok(Self { plate_mobility: positive("plate mobility", mobility)?, ..self })
+    }
+
     /// Returns the collision at an approach speed, m/s.
     ///
     /// # Errors
@@ -100,7 +120,16 @@ impl LawImpact {
     pub fn impact(&self, approach_speed: f64) -> Result<Impact, LawError> {
         let speed = positive("approach_speed", approach_speed)?;
         if let Some(dent) = self.law.elastic_plastic() {
-            return dent_impact::collide(&self.pair, (&self.law, dent), self.gravity, speed);
+            let law = (&self.law, dent);
+            return match self.plate_mobility > 0.0 {
+                true => dent_on_plate::collide(
+                    &self.pair,
+                    law,
+                    (self.plate_mobility, self.gravity),
+                    speed,
+                ),
+                false => dent_impact::collide(&self.pair, law, self.gravity, speed),
+            };
         }
         let (mass, law) = (self.pair.effective_mass(), &self.law);
         let (gamma, n) = (law.elastic_exponent(), law.damping_exponent());
@@ -114,7 +143,10 @@ impl LawImpact {
         if !damping.is_finite() {
             return Err(LawError::NotPositive { quantity: "contact law damping", value: damping });
         }
-        let oscillator = Oscillator { gamma, n, damping, gravity: self.gravity * time / speed };
+        let has_plate = self.plate_mobility > 0.0;
+        let lambda = self.plate_mobility * force / speed;
+        let gravity = self.gravity * time / speed;
+        let oscillator = Oscillator { gamma, n, damping, gravity, lambda };
         let outcome = oscillator.collide(self.end_rule, self.tolerance).map_err(|reached| {
             let (model, n_steps) = ("contact law", MAX_STEPS);
             LawError::NotFinished { model, n_steps, time: reached * time }
@@ -122,63 +154,90 @@ impl LawImpact {
         let radius = self.pair.effective_radius();
         let contact_radius = |overlap: f64| (radius * (overlap.max(0.0) * length)).sqrt();
         let energy = mass * speed * speed;
-        let history = outcome.history.iter().map(|([x, w, t, lost], f)| {
+        let history = outcome.history.iter().map(|(state, f)| {
+            let [x, v, t, lost, plate] = state;
             let strain_energy = energy * (x.max(0.0).powf(gamma + 1.0) / (gamma + 1.0));
             ImpactInstant {
                 time: t * time,
-                approach: x * length,
-                approach_rate: w * speed,
+                approach: oscillator.approach(*state) * length,
+                approach_rate: v * speed,
                 force: f * force,
                 contact_radius: contact_radius(*x),
                 centre_pressure: None,
-                work: strain_energy + energy * lost,
+                work: strain_energy + energy * lost + energy * plate,
                 strain_energy: Some(strain_energy),
                 dissipated: Some(energy * lost),
                 radiated: None,
+                plate: has_plate.then_some(energy * plate),
             }
         });
         Ok(Impact {
-            restitution: restitution(outcome.end.map(|[_, w, ..]| w), 1.0),
-            contact_time: outcome.end.map(|[_, _, t, _]| t * time),
+            restitution: restitution(outcome.end.map(|[_, v, ..]| v), 1.0),
+            contact_time: outcome.end.map(|[_, _, t, ..]| t * time),
             peak_force: outcome.peak_force * force,
             max_approach: outcome.max_approach * length,
-            max_contact_radius: contact_radius(outcome.max_approach),
+            max_contact_radius: contact_radius(outcome.max_overlap),
             peak_pressure: None,
             history: history.collect(),
         })
     }
 }
 
-/// ẍ = gravity − x^γ − c xⁿ ẋ.
+/// V̇ = gravity − x^γ − c xⁿ ẋ, ẋ = V − λ F.
 struct Oscillator {
     gamma: f64,
     n: f64,
     damping: f64,
     gravity: f64,
+    /// λ of a plate; 0 without one.
+    lambda: f64,
 }
 
-/// x, ẋ, t, and what the dashpot has taken.
-type State = [f64; 4];
+/// Overlap x, rate V of the approach, t, and what the dashpot and the plate have taken.
+type State = [f64; 5];
 
 impl Oscillator {
     /// Returns the force. The spring continues as an odd function, the dashpot as an even one, below x = 0, where only
     /// trial states of the integrator lie.
-    fn force(&self, [x, w, ..]: State) -> f64 {
-        let overlap = x.abs();
-        (overlap.powf(self.gamma)).copysign(x) + self.damping * overlap.powf(self.n) * w
+    fn force(&self, state: State) -> f64 {
+        let [x, ..] = state;
+        self.spring(x) + self.damping * x.abs().powf(self.n) * self.rate(state)
+    }
+
+    fn spring(&self, x: f64) -> f64 {
+        x.abs().powf(self.gamma).copysign(x)
+    }
+
+    /// Returns 1 + λ c xⁿ.
+    fn sharing(&self, x: f64) -> f64 {
+        1.0 + self.lambda * self.damping * x.abs().powf(self.n)
+    }
+
+    /// Returns the rate ẋ of the overlap.
+    fn rate(&self, [x, v, ..]: State) -> f64 {
+        match self.lambda > 0.0 {
+            true => (v - self.lambda * self.spring(x)) / self.sharing(x),
+            false => v,
+        }
+    }
+
+    /// Returns the approach: the overlap and the deflection of the plate, λ times the impulse.
+    fn approach(&self, [x, v, t, ..]: State) -> f64 {
+        x + self.lambda * (1.0 + self.gravity * t - v)
     }
 
     /// Returns dF/dt at x > 0.
     fn force_rate(&self, state: State) -> f64 {
-        let [x, w, ..] = state;
+        let (x, w) = (state[0], self.rate(state));
         let slowing = self.force(state) - self.gravity;
         let stretched = self.n * x.powf(self.n - 1.0) * w * w - x.powf(self.n) * slowing;
-        self.gamma * x.powf(self.gamma - 1.0) * w + self.damping * stretched
+        (self.gamma * x.powf(self.gamma - 1.0) * w + self.damping * stretched) / self.sharing(x)
     }
 
     /// Returns a function that is not positive when the contact is over; the power of x common to both parts of F is
     /// left out.
-    fn margin(&self, end_rule: EndRule, [x, w, ..]: State) -> f64 {
+    fn margin(&self, end_rule: EndRule, state: State) -> f64 {
+        let (x, w) = (state[0], self.rate(state));
         let common = self.gamma.min(self.n);
         match end_rule {
             EndRule::ZeroOverlap => x,
@@ -191,8 +250,8 @@ impl Oscillator {
     }
 
     /// Returns the energy of motion, spring and weight over the initial energy.
-    fn energy(&self, [x, w, ..]: State) -> f64 {
-        w * w + 2.0 / (self.gamma + 1.0) * x.abs().powf(self.gamma + 1.0) - 2.0 * self.gravity * x
+    fn energy(&self, [x, v, ..]: State) -> f64 {
+        v * v + 2.0 / (self.gamma + 1.0) * x.abs().powf(self.gamma + 1.0) - 2.0 * self.gravity * x
     }
 
     /// Returns b: braking by the dashpot alone, dẋ = −c xⁿ dx, stops at c xⁿ⁺¹ = n + 1.
@@ -211,7 +270,7 @@ impl Oscillator {
         let local = 1e-2 * tolerance;
         let method = ExplicitRungeKutta::dop853()
             .rtol(local)
-            .atol([local * braking, local, local * braking, local])
+            .atol([local * braking, local, local * braking, local, local])
             .h_max(LONGEST_STEP)
             .max_steps(MAX_STEPS);
         let motion = Motion { oscillator: self, braking };
@@ -219,7 +278,7 @@ impl Oscillator {
         let mut watch = Watch { motion: &motion, method: method.clone(), end_rule, outcome };
         // Beyond what MAX_STEPS of LONGEST_STEP reach.
         let horizon = MAX_STEPS as f64;
-        let start = [0.0, 1.0, 0.0, 0.0];
+        let start = [0.0, 1.0, 0.0, 0.0, 0.0];
         match solve_ode(&mut method.h0(0.1), &motion, 0.0, horizon, &start, &mut watch) {
             Ok(_) => Ok(watch.outcome),
             Err(_) => Err(watch.outcome.history.last().map_or(0.0, |(state, _)| state[2])),
@@ -237,11 +296,13 @@ impl ODE<f64, State> for Motion<'_> {
     fn diff(&self, _clock: f64, state: &State, rate: &mut State) {
         let overlap = state[0].max(0.0);
         let near = overlap + UNRESOLVED * self.braking;
-        let pace = self.braking * near / (near + self.braking * state[1] * state[1]);
-        let Oscillator { n, damping, gravity, .. } = self.oscillator;
-        let slowing = self.oscillator.force(*state) - gravity;
-        let taken = damping * state[0].abs().powf(*n) * state[1] * state[1];
-        *rate = [pace * state[1], -pace * slowing, pace, pace * taken];
+        let Oscillator { n, damping, gravity, lambda, .. } = self.oscillator;
+        let (force, w) = (self.oscillator.force(*state), self.oscillator.rate(*state));
+        let pace = self.braking * near / (near + self.braking * w * w);
+        let slowing = force - gravity;
+        let taken = damping * state[0].abs().powf(*n) * w * w;
+        let bending = lambda * force * force;
+        *rate = [pace * w, -pace * slowing, pace, pace * taken, pace * bending];
     }
 }
 
@@ -252,6 +313,7 @@ struct Outcome {
     end: Option<State>,
     peak_force: f64,
     max_approach: f64,
+    max_overlap: f64,
     /// With the force.
     history: Vec<(State, f64)>,
 }
@@ -298,7 +360,9 @@ impl Watch<'_> {
     fn note(&mut self, state: State) {
         let force = self.motion.oscillator.force(state);
         self.outcome.peak_force = self.outcome.peak_force.max(force);
-        self.outcome.max_approach = self.outcome.max_approach.max(state[0]);
+        let approach = self.motion.oscillator.approach(state);
+        self.outcome.max_approach = self.outcome.max_approach.max(approach);
+        self.outcome.max_overlap = self.outcome.max_overlap.max(state[0]);
     }
 }
 
@@ -325,12 +389,19 @@ impl Solout<f64, State> for Watch<'_> {
         if turns && let Some(turn) = self.before_fall(previous, step, |state| state[1]) {
             self.note(turn);
         }
+        // On a plate the overlap turns back before the approach does.
+        let rates = [previous, state].map(|state| oscillator.rate(*state));
+        let is_widest = oscillator.lambda > 0.0 && rates[0] > 0.0 && rates[1] <= 0.0;
+        if is_widest && let Some(widest) = self.before_fall(previous, step, |s| oscillator.rate(s))
+        {
+            self.note(widest);
+        }
         let passes = oscillator.force_rate(*previous) > 0.0 && oscillator.force_rate(*state) <= 0.0;
         if passes && let Some(top) = self.before_fall(previous, step, |s| oscillator.force_rate(s))
         {
             self.note(top);
         }
-        if state[1] < 0.0 && oscillator.margin(end_rule, *state) <= 0.0 {
+        if rates[1] < 0.0 && oscillator.margin(end_rule, *state) <= 0.0 {
             let end = self.before_fall(previous, step, |state| oscillator.margin(end_rule, state));
             let end = end.unwrap_or(*state);
             self.record(end);
@@ -338,7 +409,7 @@ impl Solout<f64, State> for Watch<'_> {
             return ControlFlag::Terminate;
         }
         self.record(*state);
-        let turns_back = oscillator.gravity > 0.0 && previous[1] < 0.0 && state[1] >= 0.0;
+        let turns_back = oscillator.gravity > 0.0 && rates[0] < 0.0 && rates[1] >= 0.0;
         if oscillator.energy(*state) < STUCK || turns_back {
             ControlFlag::Terminate
         } else {

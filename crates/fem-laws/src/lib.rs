@@ -6,7 +6,7 @@
 //! - [`HertzImpact`]: elastic, closed forms;
 //! - [`Ting`]: viscoelastic, with the [`PairRelaxation`] of the two materials and, if wanted, the
 //!   [`FiniteSize`] of the spheres, the [`SurfaceSlip`] of unlike ones and the waves that a half-space
-//!   takes away;
+//!   or a thin plate takes away;
 //! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
 //!
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. The error of a
@@ -41,6 +41,7 @@
 
 mod adhesion;
 mod dent_impact;
+mod dent_on_plate;
 mod difference;
 mod error;
 mod family;
@@ -54,6 +55,7 @@ mod numerics;
 mod pair;
 mod pair_relaxation;
 mod plastic_yield;
+mod plate;
 mod radiation;
 mod surface_slip;
 mod ting;
@@ -77,6 +79,9 @@ pub use numerics::bisection;
 pub use pair::{Pair, Partner, compliance_shares, restitution_of_mass_centres, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
 pub use plastic_yield::{FirstYield, YieldingBody, largest_von_mises};
-pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};
+pub use plate::{plate_lambda, plate_mobility};
+pub use radiation::{
+    radiated_share, radiation_coefficient, radiation_damping, rayleigh_wave_speed,
+};
 pub use surface_slip::{SlipSurface, SurfaceSlip};
 pub use ting::Ting;

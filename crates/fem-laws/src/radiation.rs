@@ -47,6 +47,17 @@ pub fn radiation_coefficient(poissons_ratio: f64) -> f64 {
         / (2.0 * PI)
 }
 
+/// Returns the speed of Rayleigh's surface wave, m/s, with the instantaneous moduli.
+pub fn rayleigh_wave_speed(material: &Material) -> f64 {
+    let nu = material.instantaneous().poissons_ratio();
+    let squared_ratio = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu));
+    let number = rayleigh_wave_number(|x| {
+        let inner = (x * x - squared_ratio).abs().sqrt() * (x * x - 1.0).abs().sqrt();
+        (2.0 * x * x - 1.0).powi(2) - 4.0 * x * x * inner
+    });
+    material.shear_wave_speed() / number
+}
+
 /// Returns c_s over the speed of Rayleigh's wave, where `function` falls through zero beyond 1.
 fn rayleigh_wave_number(function: impl Fn(f64) -> f64) -> f64 {
     // Rayleigh's wave is never slower than 0.69 c_s, at ν = −1.

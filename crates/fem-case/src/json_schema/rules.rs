@@ -33,6 +33,7 @@ const RANGES: &[(&str, &[&str], Range)] = &[
     ("JohnsonCookTable", &["c"], Range::NOT_NEGATIVE),
     ("JohnsonCookTable", &["reference_rate"], Range::POSITIVE),
     ("SphereTable", &["diameter"], Range::POSITIVE),
+    ("PlateTable", &["thickness", "diameter"], Range::POSITIVE),
     ("GravityTable", &["acceleration"], Range::POSITIVE),
     ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"], Range::POSITIVE),
     ("MeshTable", &["growth"], Range::GROWTH),
@@ -52,7 +53,7 @@ const RANGES: &[(&str, &[&str], Range)] = &[
 ];
 
 const MODULI: [&str; 4] = ["youngs_modulus", "shear_modulus", "bulk_modulus", "poissons_ratio"];
-const SHAPES: [&str; 3] = ["sphere", "wall", "half_space"];
+const SHAPES: [&str; 4] = ["sphere", "wall", "half_space", "plate"];
 
 /// Adds the rules to the schema of cases; `laws` are the names of laws.
 pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {

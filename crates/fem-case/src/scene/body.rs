@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use fem_laws::{Partner, YieldingBody};
 use fem_material::Material;
 
+use crate::schema::PlateSupport;
+
 /// One of the two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
@@ -56,7 +58,9 @@ impl Body {
     /// Returns the material; a rigid body has none.
     pub fn material(&self) -> Option<&Material> {
         match &self.shape {
-            Shape::Sphere { material, .. } | Shape::HalfSpace { material } => Some(material),
+            Shape::Sphere { material, .. }
+            | Shape::HalfSpace { material }
+            | Shape::Plate { material, .. } => Some(material),
             Shape::Rigid { .. } | Shape::Wall => None,
         }
     }
@@ -68,18 +72,29 @@ impl Body {
                 Shape::Sphere { diameter: *diameter, mesh: mesh.clone(), material }
             }
             Shape::HalfSpace { .. } => Shape::HalfSpace { material },
+            Shape::Plate { plate, .. } => Shape::Plate { plate: *plate, material },
             Shape::Rigid { .. } | Shape::Wall => self.shape.clone(),
         }
     }
 
-    /// Returns the body for closed forms, with instantaneous moduli.
+    /// Returns the plate, if the body is one.
+    pub fn plate(&self) -> Option<&Plate> {
+        match &self.shape {
+            Shape::Plate { plate, .. } => Some(plate),
+            _ => None,
+        }
+    }
+
+    /// Returns the body for closed forms, with instantaneous moduli; a plate is a half-space to the contact.
     pub fn partner(&self) -> Partner {
         match &self.shape {
             Shape::Sphere { diameter, material, .. } if self.held => {
                 Partner::solid_sphere(*diameter, material).held()
             }
             Shape::Sphere { diameter, material, .. } => Partner::solid_sphere(*diameter, material),
-            Shape::HalfSpace { material } => Partner::half_space(material),
+            Shape::HalfSpace { material } | Shape::Plate { material, .. } => {
+                Partner::half_space(material)
+            }
             Shape::Rigid { diameter, mass } => {
                 let mass = if self.held { f64::INFINITY } else { *mass };
                 let (radius, plane_strain_modulus) = (0.5 * diameter, f64::INFINITY);
@@ -89,33 +104,33 @@ impl Body {
         }
     }
 
-    /// Returns the rigid counterpart of the shape: a rigid sphere of the same mass, or a wall for a half-space.
+    /// Returns the rigid counterpart of the shape: a rigid sphere of the same mass, or a wall for a half-space or a plate.
     pub fn rigid(&self) -> Shape {
         match (&self.shape, self.mass()) {
             (Shape::Sphere { diameter, .. }, Some(mass)) => {
                 Shape::Rigid { diameter: *diameter, mass }
             }
-            (Shape::HalfSpace { .. }, _) => Shape::Wall,
+            (Shape::HalfSpace { .. } | Shape::Plate { .. }, _) => Shape::Wall,
             (shape, _) => shape.clone(),
         }
     }
 
-    /// Returns the mass, kg; a wall and a half-space have none.
+    /// Returns the mass, kg; a flat body has none, since it does not move as a whole.
     pub fn mass(&self) -> Option<f64> {
         match &self.shape {
             Shape::Sphere { diameter, material, .. } => {
                 Some(fem_laws::sphere_mass(*diameter, material.density()))
             }
             Shape::Rigid { mass, .. } => Some(*mass),
-            Shape::HalfSpace { .. } | Shape::Wall => None,
+            Shape::HalfSpace { .. } | Shape::Plate { .. } | Shape::Wall => None,
         }
     }
 
-    /// Returns the diameter, m; a wall and a half-space have none.
+    /// Returns the diameter of a sphere, m; a flat body has none.
     pub fn diameter(&self) -> Option<f64> {
         match self.shape {
             Shape::Sphere { diameter, .. } | Shape::Rigid { diameter, .. } => Some(diameter),
-            Shape::HalfSpace { .. } | Shape::Wall => None,
+            Shape::HalfSpace { .. } | Shape::Plate { .. } | Shape::Wall => None,
         }
     }
 
@@ -136,6 +151,17 @@ impl Body {
     }
 }
 
+/// Sizes and support of a plate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plate {
+    /// Thickness, m, > 0.
+    pub thickness: f64,
+    /// Diameter, m, > 0; `None` is unbounded.
+    pub diameter: Option<f64>,
+    /// Support of the face away from the contact.
+    pub support: PlateSupport,
+}
+
 /// Shape of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
@@ -150,6 +176,13 @@ pub enum Shape {
     },
     /// A deformable half-space.
     HalfSpace {
+        /// Material of the body.
+        material: Material,
+    },
+    /// A deformable plate.
+    Plate {
+        /// Sizes and support.
+        plate: Plate,
         /// Material of the body.
         material: Material,
     },

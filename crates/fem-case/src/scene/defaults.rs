@@ -7,12 +7,14 @@ use fem_laws::{EndRule, LawImpact, Ting};
 
 use crate::scene::Accuracy;
 use crate::scene::model::{CondensedOptions, ModelChoice};
-use crate::schema::ContactMethod;
+use crate::schema::{ContactMethod, PlateSupport};
 
 /// Distance of the surfaces at time 0 (`start.gap`), m.
 pub const GAP: f64 = 0.0;
 /// Speed toward the other body (`body.N.approach_speed`), m/s.
 pub const APPROACH_SPEED: f64 = 0.0;
+/// Support of the face of a plate away from the contact (`body.N.plate.support`).
+pub const PLATE_SUPPORT: PlateSupport = PlateSupport::Free;
 /// Number of contacts under gravity (`stop.bounces`).
 pub const BOUNCES: usize = 1;
 /// Contact method at small strain (`contact.method`): a massless boundary gains no energy at any penalty stiffness and does

@@ -180,7 +180,9 @@ impl Scene {
     pub fn at_equilibrium(&self) -> Option<Self> {
         let mut scene = self.clone();
         for body in &mut scene.bodies {
-            if let Shape::Sphere { material, .. } | Shape::HalfSpace { material } = &mut body.shape
+            if let Shape::Sphere { material, .. }
+            | Shape::HalfSpace { material }
+            | Shape::Plate { material, .. } = &mut body.shape
             {
                 *material = material.at_equilibrium()?;
             }
@@ -210,7 +212,7 @@ impl Scene {
         self
     }
 
-    /// Returns this scene with a half-space of the same material instead of a sphere (0 is the lower body). A rigid body is
+    /// Returns this scene with a half-space of the same material instead of a sphere or plate (0 is the lower body). A rigid body is
     /// unchanged.
     pub fn with_half_space(&self, side: usize) -> Self {
         let mut scene = self.clone();
@@ -307,7 +309,9 @@ impl Scene {
     pub fn finite_size(&self) -> Result<FiniteSize, LawError> {
         let [first, second] = self.bodies.each_ref().map(|body| match &body.shape {
             Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
-            Shape::HalfSpace { .. } | Shape::Rigid { .. } | Shape::Wall => None,
+            Shape::HalfSpace { .. } | Shape::Plate { .. } | Shape::Rigid { .. } | Shape::Wall => {
+                None
+            }
         });
         FiniteSize::new(first, second)
     }

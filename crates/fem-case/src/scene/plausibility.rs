@@ -8,7 +8,7 @@ use crate::engineering::{number, show};
 use crate::error::CaseError;
 use crate::library::{self, MeasuredRestitution};
 use crate::scene::Scene;
-use crate::scene::body::{Body, Shape};
+use crate::scene::body::Body;
 use crate::scene::model::ModelChoice;
 use crate::schema::CaseFile;
 use crate::source::toml_syntax::{join, quote_key};
@@ -136,9 +136,7 @@ impl Scene {
                 });
             }
         }
-        let (Shape::Sphere { material, .. } | Shape::HalfSpace { material }) = &body.shape else {
-            return found;
-        };
+        let Some(material) = body.material() else { return found };
         let density = material.density();
         if !DENSITIES.contains(&density) {
             found.push(Implausible {
@@ -183,6 +181,8 @@ struct Implausible {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Number {
     Diameter,
+    PlateThickness,
+    PlateDiameter,
     Density,
     Modulus,
     YieldStrength,
@@ -190,7 +190,7 @@ enum Number {
 }
 
 impl Case {
-    /// Rejects implausible numbers that the file or an override gives without a unit, bare diameters of 1 m and more, and bare
+    /// Rejects implausible numbers that the file or an override gives without a unit, bare sizes of 1 m and more, and bare
     /// moduli below 0.1 MPa.
     ///
     /// # Errors
@@ -255,6 +255,16 @@ impl Case {
                 let message = format!("the diameter of {} is {}", body.name(), show(large, "m"));
                 found.push(Implausible { number: Number::Diameter, message });
             }
+            for (number, size) in [
+                (Number::PlateThickness, body.plate().map(|plate| plate.thickness)),
+                (Number::PlateDiameter, body.plate().and_then(|plate| plate.diameter)),
+            ] {
+                let what = if number == Number::PlateThickness { "thickness" } else { "diameter" };
+                if let Some(large) = size.filter(|size| *size >= LARGE) {
+                    let message = format!("the {what} of {} is {}", body.name(), show(large, "m"));
+                    found.push(Implausible { number, message });
+                }
+            }
             let is_told = found.iter().any(|one| one.number == Number::Modulus);
             let modulus = body.material().map(|it| it.instantaneous().youngs_modulus());
             if let Some(small) = modulus.filter(|modulus| *modulus < SMALL_MODULUS && !is_told) {
@@ -278,6 +288,12 @@ impl Case {
                 match number {
                     Number::Diameter => {
                         push(&["body", &side.to_string(), "sphere", "diameter"], "m");
+                    }
+                    Number::PlateThickness => {
+                        push(&["body", &side.to_string(), "plate", "thickness"], "m");
+                    }
+                    Number::PlateDiameter => {
+                        push(&["body", &side.to_string(), "plate", "diameter"], "m");
                     }
                     Number::Density => push(&["material", material, "density"], "kg/m^3"),
                     Number::Modulus => {

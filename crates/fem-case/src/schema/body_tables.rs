@@ -1,6 +1,7 @@
 //! `[[body]]` as written.
 
 use crate::quantity::{Length, Quantity, Speed};
+use crate::schema::macros::keywords;
 use serde::{Deserialize, Serialize};
 
 /// `[[body]]`: a name, exactly one shape, and for all but a wall a material.
@@ -28,6 +29,9 @@ pub struct BodyTable {
     /// The table of a deformable half-space.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub half_space: Option<EmptyTable>,
+    /// A deformable plate.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate: Option<PlateTable>,
 }
 
 impl BodyTable {
@@ -52,6 +56,16 @@ impl BodyTable {
         Self { half_space, ..Self::without_shape(name.into(), Some(material.into())) }
     }
 
+    /// Creates an unbounded plate at rest, free below, made of `[material.NAME]`.
+    pub fn plate(
+        name: impl Into<String>,
+        thickness: impl Into<Quantity<Length>>,
+        material: impl Into<String>,
+    ) -> Self {
+        let plate = Some(PlateTable::new(thickness));
+        Self { plate, ..Self::without_shape(name.into(), Some(material.into())) }
+    }
+
     fn without_shape(name: String, material: Option<String>) -> Self {
         Self {
             name,
@@ -61,6 +75,7 @@ impl BodyTable {
             sphere: None,
             wall: None,
             half_space: None,
+            plate: None,
         }
     }
 
@@ -91,6 +106,38 @@ impl SphereTable {
     /// Creates a sphere with the built-in mesh.
     pub fn new(diameter: impl Into<Quantity<Length>>) -> Self {
         Self { diameter: diameter.into(), mesh: None }
+    }
+}
+
+/// `plate = { … }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { thickness = \"5 mm\" }")]
+pub struct PlateTable {
+    /// Thickness, > 0.
+    pub thickness: Quantity<Length>,
+    /// Diameter, > 0; an absent one is unbounded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diameter: Option<Quantity<Length>>,
+    /// Support of the face away from the contact; free if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<PlateSupport>,
+}
+
+impl PlateTable {
+    /// Creates an unbounded plate that is free below.
+    pub fn new(thickness: impl Into<Quantity<Length>>) -> Self {
+        Self { thickness: thickness.into(), diameter: None, support: None }
+    }
+}
+
+keywords! {
+    /// Support of the face of a plate away from the contact.
+    PlateSupport {
+        /// Nothing: the face is free of stress.
+        Free = "free",
+        /// A rigid base, to which the face is bonded.
+        Bonded = "bonded",
     }
 }
 

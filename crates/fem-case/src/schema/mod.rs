@@ -379,6 +379,8 @@ optional_keys! {
         plastic_flow: Switch,
         /// Slip between surfaces of different materials.
         surface_slip: Switch,
+        /// Bending of a plate; without it the plate is a half-space.
+        plate_bending: Switch,
         /// Energy of waves that do not return within the contact.
         partner_waves: Switch,
         /// Two identical bodies computed as one against a rigid plane.
@@ -401,6 +403,7 @@ impl EffectsTable {
             finite_strain: auto(self.finite_strain),
             plastic_flow: auto(self.plastic_flow),
             surface_slip: auto(self.surface_slip),
+            plate_bending: auto(self.plate_bending),
             partner_waves: auto(self.partner_waves),
             mirror_symmetry: auto(self.mirror_symmetry),
             rigid_partner: auto(self.rigid_partner),

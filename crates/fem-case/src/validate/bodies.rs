@@ -10,9 +10,9 @@ use super::materials::CheckedMaterial;
 use crate::error::CaseError;
 use crate::library;
 use crate::quantity::range::Range;
-use crate::scene::body::{Body, Shape};
+use crate::scene::body::{Body, Plate, Shape};
 use crate::scene::defaults;
-use crate::schema::{BodyTable, CaseFile, SphereTable};
+use crate::schema::{BodyTable, CaseFile, PlateTable, SphereTable};
 use crate::source::explain::{listed, near};
 use crate::source::toml_syntax::{is_bare, join, quote_key};
 
@@ -40,7 +40,7 @@ impl Check<'_> {
             };
             return Err(self.error(path, message).with_help(
                 "write exactly two [[body]] tables, the lower one first; wall = {} is a rigid plane, \
-                 half_space = {} a semi-infinite body",
+                 half_space = {} a semi-infinite body, plate = { thickness = \"5 mm\" } a plate",
             ));
         };
         let (lower_shape, lower_speed) = self.body("body.0", lower, &materials)?;
@@ -51,11 +51,11 @@ impl Check<'_> {
                 .conflict("body.1.name", &["body.0.name"], message)
                 .with_help("give each its own name"));
         }
-        if let (Some(below), Some(above)) = (unbounded(lower), unbounded(upper)) {
-            let message = match (below, above) {
-                ("wall", "wall") => "both bodies are walls",
-                ("half_space", "half_space") => "both bodies are half-spaces",
-                _ => "one body is a wall and the other a half-space",
+        if let (Some(below), Some(above)) = (flat(lower), flat(upper)) {
+            let noun = |key: &str| key.replace('_', "-");
+            let message = match below == above {
+                true => format!("both bodies are {}s", noun(below)),
+                false => format!("one body is a {} and the other a {}", noun(below), noun(above)),
             };
             let keys = [join("body.0", below), join("body.1", above)];
             return Err(self.conflict(&keys[1], &[&keys[0]], message).with_help(
@@ -124,6 +124,10 @@ impl Check<'_> {
             Key::HalfSpace => {
                 Shape::HalfSpace { material: self.material_of(path, table, materials)? }
             }
+            Key::Plate(plate) => {
+                let plate = self.plate(&at("plate"), plate)?;
+                Shape::Plate { plate, material: self.material_of(path, table, materials)? }
+            }
             Key::Wall => {
                 if table.material.is_some() {
                     let error =
@@ -134,9 +138,18 @@ impl Check<'_> {
                 Shape::Wall
             }
         };
-        let allowed = if unbounded(table).is_some() { Range::NOT_NEGATIVE } else { Range::ANY };
+        let allowed = if flat(table).is_some() { Range::NOT_NEGATIVE } else { Range::ANY };
         let speed = self.optional(&at("approach_speed"), table.approach_speed.as_ref(), allowed)?;
         Ok((shape, speed.unwrap_or(defaults::APPROACH_SPEED)))
+    }
+
+    fn plate(&self, path: &str, table: &PlateTable) -> Result<Plate, CaseError> {
+        let at = |key: &str| join(path, key);
+        Ok(Plate {
+            thickness: self.number(&at("thickness"), &table.thickness, Range::POSITIVE)?,
+            diameter: self.optional(&at("diameter"), table.diameter.as_ref(), Range::POSITIVE)?,
+            support: table.support.unwrap_or(defaults::PLATE_SUPPORT),
+        })
     }
 
     /// Returns the only shape of a body.
@@ -145,6 +158,7 @@ impl Check<'_> {
             table.sphere.as_ref().map(|sphere| ("sphere", Key::Sphere(sphere))),
             table.wall.map(|_| ("wall", Key::Wall)),
             table.half_space.map(|_| ("half_space", Key::HalfSpace)),
+            table.plate.as_ref().map(|plate| ("plate", Key::Plate(plate))),
         ]
         .into_iter()
         .flatten()
@@ -153,10 +167,11 @@ impl Check<'_> {
         match given.as_slice() {
             [(_, key)] => Ok(*key),
             [] => Err(self
-                .error(path, format!("\"{name}\" is neither sphere, wall nor half_space"))
+                .error(path, format!("\"{name}\" is neither sphere, wall, half_space nor plate"))
                 .lacking("sphere")
                 .with_help(
-                    "write sphere = { diameter = \"22.2 mm\" }, wall = {} or half_space = {}",
+                    "write sphere = { diameter = \"22.2 mm\" }, wall = {}, half_space = {} or \
+                     plate = { thickness = \"5 mm\" }",
                 )),
             [(first, _), .., (last, _)] => {
                 let names: Vec<&str> = given.iter().map(|(name, _)| *name).collect();
@@ -218,10 +233,12 @@ enum Key<'t> {
     Sphere(&'t SphereTable),
     Wall,
     HalfSpace,
+    Plate(&'t PlateTable),
 }
 
-/// Returns the key of a wall or a half-space.
-fn unbounded(table: &BodyTable) -> Option<&'static str> {
+/// Returns the key of a wall, a half-space or a plate.
+fn flat(table: &BodyTable) -> Option<&'static str> {
     let wall = table.wall.map(|_| "wall");
-    wall.or(table.half_space.map(|_| "half_space"))
+    let half_space = table.half_space.map(|_| "half_space");
+    wall.or(half_space).or(table.plate.as_ref().map(|_| "plate"))
 }

@@ -100,7 +100,7 @@ impl Check<'_> {
                 let help = "put the probe in a body with a material";
                 return Err(self.error(&join(&path, "body"), message).with_help(help));
             }
-            Shape::HalfSpace { .. } => f64::INFINITY,
+            Shape::HalfSpace { .. } | Shape::Plate { .. } => f64::INFINITY,
             Shape::Sphere { diameter, .. } => 0.5 * diameter,
         };
         if depth < 0.0 {

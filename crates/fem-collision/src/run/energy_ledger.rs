@@ -40,6 +40,8 @@ pub enum Account {
     Adhesion,
     /// Energy dissipated by plastic flow.
     PlasticWork,
+    /// Energy given to the bending waves of a plate, in models without elastic waves of their own.
+    Plate,
 }
 
 /// The side of the energy balance on which an account is entered.
@@ -80,6 +82,7 @@ const LINES: &[(Account, &str, BalanceSide, ShownIn)] = &[
     (Account::LeftBefore, "left_before", BalanceSide::Held, ShownIn::WhereFilled),
     (Account::Adhesion, "adhesion", BalanceSide::Lost, ShownIn::WhereFilled),
     (Account::PlasticWork, "plastic_work", BalanceSide::Lost, ShownIn::WhereFilled),
+    (Account::Plate, "plate", BalanceSide::Lost, ShownIn::WhereFilled),
 ];
 
 impl Account {

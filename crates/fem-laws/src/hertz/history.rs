@@ -81,6 +81,7 @@ impl HertzImpact {
                 strain_energy: Some(strain_energy),
                 dissipated: Some(0.0),
                 radiated: None,
+                plate: None,
             }
         });
         Impact {

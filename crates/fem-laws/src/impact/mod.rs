@@ -47,9 +47,11 @@ pub struct ImpactInstant {
     pub strain_energy: Option<f64>,
     /// Energy dissipated in the bodies, J, from the state; `None` if the model does not compute it.
     pub dissipated: Option<f64>,
-    /// Energy radiated as waves, J, from the state; `None` for a model without radiation. Where all three
-    /// are known they add up to the work.
+    /// Energy radiated as waves, J, from the state; `None` for a model without radiation.
     pub radiated: Option<f64>,
+    /// Energy given to the bending waves of a plate, J, from the state; `None` without a plate. Where all four are known they
+    /// add up to the work.
+    pub plate: Option<f64>,
 }
 
 /// Returns the restitution from the rate of the approach at the end of the contact, negative as the bodies separate; 0 for
@@ -80,6 +82,7 @@ impl ImpactInstant {
             strain_energy: energies.then_some(0.0),
             dissipated: energies.then_some(0.0),
             radiated: None,
+            plate: None,
         }
     }
 }

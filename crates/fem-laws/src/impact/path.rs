@@ -3,7 +3,7 @@
 //! Between two instants the approach is the polynomial of degree 5 with their δ, δ̇ and δ̈ = −F/m*; the
 //! rate is its derivative. Work and energies are cubic with their known rates Fδ̇; a law's force and strain
 //! energy follow from the motion. For Hertz and Ting, force, a² and p₀² are known at the instants only;
-//! they are cubic, with the slopes of parabolas through three instants. After the last instant the bodies fly freely.
+//! they are cubic, with the slopes of parabolas through three instants; so are those of laws on a plate. After the last instant the bodies fly freely.
 //! Gravity adds its acceleration to δ̈.
 
 use crate::impact::{Impact, ImpactInstant};
@@ -23,11 +23,12 @@ pub struct ImpactPath<'a> {
 impl<'a> ImpactPath<'a> {
     /// Creates the path of a collision of a pair; `law` is given if the collision followed a contact law.
     pub fn new(impact: &'a Impact, pair: &Pair, law: Option<&'a ContactLaw>) -> Self {
+        let has_plate = impact.history.first().is_some_and(|instant| instant.plate.is_some());
         Self {
             history: &impact.history,
             effective_mass: pair.effective_mass(),
             effective_radius: pair.effective_radius(),
-            law: law.filter(|law| law.elastic_plastic().is_none()),
+            law: law.filter(|law| law.elastic_plastic().is_none() && !has_plate),
             gravity: 0.0,
         }
     }
@@ -78,9 +79,14 @@ impl<'a> ImpactPath<'a> {
             cubic(s, length, [value(a), value(b)], slopes)
         };
         let power = [a, b].map(|instant| instant.force * instant.approach_rate);
-        let radiated = |instant: &ImpactInstant| instant.radiated.unwrap_or_default();
-        let leaving = [self.slope(k, radiated), self.slope(k + 1, radiated)];
-        let kept = [power[0] - leaving[0], power[1] - leaving[1]];
+        let slopes = |value: fn(&ImpactInstant) -> f64| [k, k + 1].map(|at| self.slope(at, value));
+        let leaving = slopes(|instant| instant.radiated.unwrap_or_default());
+        let bending = slopes(|instant| instant.plate.unwrap_or_default());
+        let lossy = match a.plate {
+            Some(_) => slopes(|instant| instant.dissipated.unwrap_or_default()),
+            None => [0.0; 2],
+        };
+        let kept = [0, 1].map(|end| power[end] - leaving[end] - bending[end] - lossy[end]);
         let of_law = self.law.map(|law| {
             let lost = [a, b].map(|instant| {
                 let spring = law.force(instant.approach, 0.0);
@@ -101,7 +107,7 @@ impl<'a> ImpactPath<'a> {
             None => (
                 from_instants(|instant| instant.force),
                 both(|instant| instant.strain_energy, kept),
-                both(|instant| instant.dissipated, [0.0; 2]),
+                both(|instant| instant.dissipated, lossy),
                 cubic(s, length, [a.work, b.work], power),
             ),
         };
@@ -122,6 +128,7 @@ impl<'a> ImpactPath<'a> {
             strain_energy,
             dissipated,
             radiated: both(|instant| instant.radiated, leaving),
+            plate: both(|instant| instant.plate, bending),
         }
     }
 

@@ -80,10 +80,11 @@ pub(crate) struct Collision<'a> {
     length: f64,
     work: f64,
     radiated: f64,
+    plate_energy: f64,
     n_steps: usize,
     peak_force: f64,
     peak_pressure: f64,
-    /// Largest approach in unloading, where the bodies radiate.
+    /// Largest approach in unloading, where the bodies radiate or a plate bends.
     max_approach: f64,
     history: Vec<ImpactInstant>,
 }
@@ -110,12 +111,14 @@ impl<'a> Collision<'a> {
             length: 1e-5 / fastest,
             work: 0.0,
             radiated: 0.0,
+            plate_energy: 0.0,
             n_steps: 0,
             peak_force: 0.0,
             peak_pressure: 0.0,
             max_approach: 0.0,
             history: vec![ImpactInstant {
                 radiated: contact.radiation.map(|_| 0.0),
+                plate: contact.plate.map(|_| 0.0),
                 ..ImpactInstant::first_touch(rate, true, contact.elements.is_empty())
             }],
         }
@@ -191,7 +194,7 @@ impl<'a> Collision<'a> {
             let solved = self.step(Some(record), units)?;
             let touches = |theta: f64| solved.step.surface_at(self.contact, theta) > 0.0;
             let end = if touches(1.0) { 1.0 } else { last_where(0.0, 1.0, touches) };
-            if self.contact.radiation.is_some() {
+            if self.contact.has_far_field() {
                 let top = last_where(0.0, end, |theta| solved.step.rate_at(theta) > 0.0);
                 self.max_approach = self.max_approach.max(solved.step.approach_at(top));
             }
@@ -210,11 +213,12 @@ impl<'a> Collision<'a> {
                         last.strain_energy = last.strain_energy.map(|energy| energy - held);
                     }
                     // A surface without load gives nothing back.
-                    last.dissipated.get_or_insert(last.work - last.radiated.unwrap_or_default());
+                    let left = last.work - last.radiated.unwrap_or_default();
+                    last.dissipated.get_or_insert(left - last.plate.unwrap_or_default());
                 }
                 return Ok(());
             }
-            if self.contact.gravity > 0.0 && self.state.rate >= 0.0 {
+            if self.contact.gravity > 0.0 && solved.step.turns_back_at(self.contact, end) {
                 return Ok(());
             }
         }
@@ -271,6 +275,10 @@ impl<'a> Collision<'a> {
                 strain_energy,
                 dissipated: is_elastic.then_some(0.0),
                 radiated,
+                plate: self.contact.plate.map(|plate| {
+                    let more = step.plate_energy_until(&plate, &self.interpolation, theta);
+                    self.plate_energy + more
+                }),
             }
         };
         let middle = (POINTS[MIDDLE] < theta).then(|| instant(POINTS[MIDDLE]));
@@ -279,6 +287,7 @@ impl<'a> Collision<'a> {
         self.history.push(last);
         self.work = last.work;
         self.radiated = last.radiated.unwrap_or_default();
+        self.plate_energy = last.plate.unwrap_or_default();
         let slow_force = |radiation| step.slow_force_at(&radiation, theta);
         self.state = State {
             time: last.time,
@@ -304,6 +313,7 @@ impl Units {
             strain_energy: instant.strain_energy.map(|energy| energy * self.energy),
             dissipated: instant.dissipated.map(|energy| energy * self.energy),
             radiated: instant.radiated.map(|energy| energy * self.energy),
+            plate: instant.plate.map(|energy| energy * self.energy),
         }
     }
 }

@@ -41,6 +41,8 @@ pub(crate) struct Contact {
     pub correction: Correction,
     /// Waves that leave, if they do.
     pub radiation: Option<Radiation>,
+    /// A thin plate in series, if there is one.
+    pub plate: Option<Plate>,
     /// Acceleration of the approach by gravity; 0 without gravity.
     pub gravity: f64,
     /// Accuracy of the iterations.
@@ -66,7 +68,38 @@ impl IterationAccuracy {
     pub const FORECAST: Self = Self { rate: 1e-8, n_newton: 3, equivalent_time: 1e-9 };
 }
 
+/// A thin plate as a dashpot in series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Plate {
+    /// β, whose dimensionless value is Zener's λ.
+    pub mobility: f64,
+    /// δ̇ at first touch.
+    pub first_rate: f64,
+}
+
+impl Plate {
+    /// Returns the deflection w = β ∫F dt, which the motion gives: the impulse is what it has lost of its rate.
+    pub fn deflection(&self, rate: f64, gravity: f64, time: f64) -> f64 {
+        self.mobility * (self.first_rate + gravity * time - rate)
+    }
+}
+
 impl Contact {
+    /// Returns whether the contact's own approach lags behind that of the mass centres.
+    pub fn has_far_field(&self) -> bool {
+        self.radiation.is_some() || self.plate.is_some()
+    }
+
+    /// Returns the deflection of the plate at a rate of the approach and a time; 0 without a plate.
+    pub fn deflection(&self, rate: f64, time: f64) -> f64 {
+        self.plate.map_or(0.0, |plate| plate.deflection(rate, self.gravity, time))
+    }
+
+    /// Returns the rate of that deflection under a force.
+    pub fn deflection_rate(&self, force: f64) -> f64 {
+        self.plate.map_or(0.0, |plate| plate.mobility * force)
+    }
+
     /// Returns Hertz' approach u at δ, with the internal variables of the elements.
     pub fn hertz_approach(&self, approach: f64, memory: &[Memory]) -> f64 {
         self.inverted(approach, &self.remembered(memory)).0
@@ -119,7 +152,8 @@ impl Step {
 
     /// Returns the share of δ that is the contact's own.
     pub fn contact_approach_at(&self, contact: &Contact, theta: f64) -> f64 {
-        let approach = self.approach_at(theta);
+        let time = self.start + theta * self.length;
+        let approach = self.approach_at(theta) - contact.deflection(self.rate_at(theta), time);
         match &contact.radiation {
             None => approach,
             Some(radiation) => {
@@ -132,15 +166,24 @@ impl Step {
     /// Returns u̇ for this ∂u/∂δ of the contact, without the creep of the finite size, a few per cent of a
     /// per cent.
     pub fn hertz_rate_at(&self, contact: &Contact, compression: f64, theta: f64) -> f64 {
-        match contact.radiation {
-            None => compression * self.rate_at(theta),
-            Some(_) => evaluate(&self.drives[SURFACE], theta),
+        match contact.has_far_field() {
+            false => compression * self.rate_at(theta),
+            true => evaluate(&self.drives[SURFACE], theta),
         }
     }
 
     /// Returns whether the contact grows.
     pub fn grows_at(&self, contact: &Contact, theta: f64) -> bool {
         self.hertz_rate_at(contact, 1.0, theta) > 0.0
+    }
+
+    /// Returns whether gravity has turned the motion back in unloading. On a plate, whose deflection outlasts the largest
+    /// contact, it is that of the surfaces.
+    pub fn turns_back_at(&self, contact: &Contact, theta: f64) -> bool {
+        match contact.plate {
+            None => self.rate_at(theta) >= 0.0,
+            Some(_) => self.grows_at(contact, theta),
+        }
     }
 
     /// Returns the force f.
@@ -161,6 +204,18 @@ impl Step {
             let slow_force = self.slow_force_at(radiation, point);
             radiation.power(evaluate(&self.force, point), slow_force)
         });
+        self.length * theta * integral(&interpolation.coefficients(&power), 1.0)
+    }
+
+    /// Returns ∫β F² dt from the start to θ: the energy that goes into the plate.
+    pub fn plate_energy_until(
+        &self,
+        plate: &Plate,
+        interpolation: &Interpolation,
+        theta: f64,
+    ) -> f64 {
+        let power =
+            POINTS.map(|point| plate.mobility * evaluate(&self.force, point * theta).powi(2));
         self.length * theta * integral(&interpolation.coefficients(&power), 1.0)
     }
 
@@ -202,7 +257,7 @@ impl Step {
 #[derive(Debug, Clone)]
 pub(crate) struct Record {
     pub steps: Vec<Step>,
-    /// Time of the largest contact: of the largest approach, unless waves leave.
+    /// Time of the largest contact: of the largest approach, unless waves leave or a plate bends.
     pub end: f64,
 }
 
@@ -278,10 +333,7 @@ impl Record {
             pressure += faded * memory[PRESSURE];
             relaxation += faded;
         }
-        let slope = match contact.radiation {
-            None => relaxation * compression * step.rate_at(theta),
-            Some(_) => relaxation * step.hertz_rate_at(contact, compression, theta),
-        };
+        let slope = relaxation * step.hertz_rate_at(contact, compression, theta);
         (
             surface,
             slope,

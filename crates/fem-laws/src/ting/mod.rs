@@ -37,6 +37,8 @@
 //! `radiation_compliance.rs`, by the force itself, in loading and unloading. The contact is then largest a little
 //! before the approach is, and t₁ is found from that time.
 //!
+//! A thin plate adds w = β ∫F dt = β m* (v + g t − δ̇) to δ: [`crate::plate_mobility`].
+//!
 //! With gravity, δ̈ = g − F/m*. A ball that turns back while it still touches, or that creeps under its
 //! weight, does not leave any more: it stays. Contacts that grow twice are not followed.
 //!
@@ -62,7 +64,7 @@ use crate::pair_relaxation::PairRelaxation;
 use crate::radiation::{radiation_damping, share_of_damping};
 use crate::surface_slip::SurfaceSlip;
 use crate::ting::collision::{Collision, Units};
-use crate::ting::loading_record::{Contact, Element, IterationAccuracy};
+use crate::ting::loading_record::{Contact, Element, IterationAccuracy, Plate};
 use crate::ting::radiation_compliance::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
 
 /// Rates above this are cut off: they leave a force of 1e-15.
@@ -79,6 +81,8 @@ pub struct Ting {
     radiation_damping: Option<f64>,
     /// Set by [`Ting::with_coarse_waves`].
     has_coarse_waves: bool,
+    /// Mobility β of a thin plate, m/(N s).
+    plate_mobility: Option<f64>,
     tolerance: f64,
     /// Gravity along the approach, m/s².
     gravity: f64,
@@ -101,6 +105,7 @@ impl Ting {
             surface_slip: None,
             radiation_damping: None,
             has_coarse_waves: false,
+            plate_mobility: None,
             tolerance: Self::DEFAULT_TOLERANCE,
             gravity: 0.0,
         }
@@ -148,6 +153,14 @@ impl Ting {
         Ok(Self { radiation_damping, ..self })
     }
 
+    /// Puts a thin plate in series with the contact, given by its mobility, m/(N s); see [`crate::plate_mobility`].
+    ///
+    /// # Errors
+    /// A mobility that is not positive and finite.
+    pub fn with_plate(self, mobility: f64) -> Result<Self, LawError> {
+        Ok(Self { plate_mobility: Some(positive("plate mobility", mobility)?), ..self })
+    }
+
     /// Returns the share of the contact modulus that never relaxes, 0 to 1.
     pub fn equilibrium_weight(&self) -> f64 {
         self.relaxation.equilibrium_weight()
@@ -190,6 +203,10 @@ impl Ting {
             elements: elements.collect(),
             correction: corrections.equilibrium,
             radiation: None,
+            plate: self.plate_mobility.map(|mobility| Plate {
+                mobility: mobility * units.force / units.speed,
+                first_rate: approach_speed / units.speed,
+            }),
             gravity: self.gravity * units.time / units.speed,
             accuracy: if self.has_coarse_waves {
                 IterationAccuracy::FORECAST

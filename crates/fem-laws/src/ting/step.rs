@@ -80,9 +80,10 @@ pub(crate) struct Stepper<'a> {
 impl Contact {
     /// Returns Hertz' approach u of a state.
     pub fn hertz_approach_of(&self, state: &State) -> f64 {
+        let approach = state.approach - self.deflection(state.rate, state.time);
         let own = match &self.radiation {
-            None => state.approach,
-            Some(radiation) => state.approach - radiation.approach(state.force, state.slow_force),
+            None => approach,
+            Some(radiation) => approach - radiation.approach(state.force, state.slow_force),
         };
         self.hertz_approach(own, &state.memory)
     }
@@ -129,7 +130,9 @@ impl Stepper<'_> {
                 let given = self.contact.gravity * theta;
                 let rate = state.rate - length * (dot(&coefficients, &singles[i]) - given);
                 let lost = length * (dot(&coefficients, &doubles[i]) - 0.5 * given * theta);
-                let approach = state.approach + length * (state.rate * theta - lost);
+                let approach = state.approach + length * (state.rate * theta - lost)
+                    - self.contact.deflection(rate, times[i]);
+                let rate = rate - self.contact.deflection_rate(force[i]);
                 let (remembered, creeping) = &creep[i];
                 let (u, slope, rate) = match &waves {
                     None => {

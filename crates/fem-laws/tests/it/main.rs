@@ -14,6 +14,7 @@ mod laws;
 mod neglect_errors;
 mod pair;
 mod pair_relaxation;
+mod plate;
 mod ramirez;
 mod ting;
 mod ting_finite_size;

@@ -33,8 +33,8 @@ pub use decision::support::Support;
 pub use decision::{
     AdhesionEffect, BulkViscosity, ContactSearch, DashpotEffect, EFFECTS, Effect, EffectKind,
     FiniteSizeEffect, FiniteStrain, Gravity, HourglassControl, MassScaling, MaterialLoss,
-    MirrorSymmetry, NamedEffect, PartnerWaves, PenaltySprings, PlasticFlow, RateDependence,
-    RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
+    MirrorSymmetry, NamedEffect, PartnerWaves, PenaltySprings, PlasticFlow, PlateBending,
+    RateDependence, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
 pub(crate) use decision::{effect_named, is_needed};
 

@@ -7,6 +7,7 @@ use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::{NamedEffect, PartnerWaves};
 use crate::estimate::Estimate;
+use crate::estimate::plate_impact::thin_plate_mobility;
 use crate::estimate::quasi_static::{known_impact, surfaces_slip, ting_of};
 use crate::estimate::semi_infinite_partner::radiating_impact;
 
@@ -37,7 +38,8 @@ impl TingPrediction {
             false => PartnerWaves::radiating(scene, &estimate),
         };
         let radiates = radiating != [None, None];
-        if !radiates && !relaxes(scene) && !finite_size && !surfaces_slip(scene) {
+        let is_hertz = !radiates && !relaxes(scene) && !finite_size && !surfaces_slip(scene);
+        if is_hertz && thin_plate_mobility(scene).is_none() {
             return Ok(Self::from(&estimate.hertz));
         }
         let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(PREDICTION_TOLERANCE);

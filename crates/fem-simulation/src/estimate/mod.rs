@@ -3,6 +3,7 @@
 pub(crate) mod approach;
 pub(crate) mod effective_modulus;
 pub(crate) mod plastic_flow;
+pub(crate) mod plate_impact;
 pub(crate) mod quasi_static;
 pub(crate) mod semi_infinite_partner;
 pub(crate) mod viscous_flow;
@@ -193,7 +194,7 @@ pub(crate) fn pair_at(scene: &Scene, time: f64, least: f64) -> Result<Pair, LawE
             let sphere = Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus };
             if body.is_held() { sphere.held() } else { sphere }
         }
-        Shape::HalfSpace { material } => {
+        Shape::HalfSpace { material } | Shape::Plate { material, .. } => {
             Partner::HalfSpace { plane_strain_modulus: modulus_at(material, time, least) }
         }
         Shape::Rigid { .. } | Shape::Wall => body.partner(),

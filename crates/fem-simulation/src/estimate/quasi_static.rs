@@ -8,6 +8,7 @@ use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
 use crate::estimate::Estimate;
+use crate::estimate::plate_impact::thin_plate_mobility;
 
 /// Returns Ting's impact of a scene between half-spaces, or with the compliance of finite spheres in series, however large
 /// the contact.
@@ -105,7 +106,7 @@ fn has_wall(scene: &Scene) -> bool {
     scene.bodies().iter().any(|body| *body.shape() == Shape::Wall)
 }
 
-/// Returns Ting's model of a scene and its pair, with surface slip if the scene has it, and without relaxation if `relaxes`
+/// Returns Ting's model of a scene and its pair, with surface slip and a thin plate if the scene has them, and without relaxation if `relaxes`
 /// is false.
 pub(crate) fn ting_of(
     scene: &Scene,
@@ -123,6 +124,9 @@ pub(crate) fn ting_of(
     let mut ting = Ting::new(pair, relaxation);
     if surfaces_slip(scene) {
         ting = ting.with_surface_slip(scene.surface_slip());
+    }
+    if let Some(mobility) = thin_plate_mobility(scene) {
+        ting = ting.with_plate(mobility)?;
     }
     Ok(match size {
         Some(size) => ting.with_finite_size(size),

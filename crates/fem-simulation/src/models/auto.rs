@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::method_of;
 use crate::effects::{
     EFFECTS, Effect, EffectStatus, FiniteSizeEffect, FiniteStrain, PartnerWaves, PlasticFlow,
-    Support, Vibration, Viscoelasticity, is_needed,
+    PlateBending, Support, Vibration, Viscoelasticity, is_needed,
 };
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
@@ -170,8 +170,15 @@ const JUDGED_QUANTITIES: [QuantityOfInterest; 4] = [
 ];
 
 /// The effects by which models differ. Effects that no model has decide nothing; the plan warns of them.
-const DECIDING_EFFECTS: [&dyn Effect; 6] =
-    [&Viscoelasticity, &FiniteSizeEffect, &FiniteStrain, &PlasticFlow, &PartnerWaves, &Vibration];
+const DECIDING_EFFECTS: [&dyn Effect; 7] = [
+    &Viscoelasticity,
+    &FiniteSizeEffect,
+    &FiniteStrain,
+    &PlasticFlow,
+    &PlateBending,
+    &PartnerWaves,
+    &Vibration,
+];
 
 /// The candidates, from the cheapest to the most expensive.
 const CANDIDATES: [Candidate; 6] = [
@@ -251,6 +258,15 @@ impl Candidate {
         for effect in DECIDING_EFFECTS {
             let lacks = lacks(support(effect).as_ref());
             let is_term = effect.name() == PartnerWaves::NAME && !lacks && !is_fem;
+            if effect.name() == PlateBending::NAME {
+                // The error of thin-plate theory; nothing without a plate.
+                let own = PlateBending::error_of_term(&own_scene, estimate);
+                match own {
+                    Some(own) => error = error.plus(own),
+                    None => unknown = unknown.or(Some(effect.name())),
+                }
+                continue;
+            }
             // Small strain is no difference between models where elements use it, too.
             let is_small =
                 effect.name() == FiniteStrain::NAME && !FiniteStrain::is_on(scene, estimate);
@@ -283,6 +299,7 @@ impl Candidate {
                 let radius = viscous_flow::widest_contact(scene, estimate);
                 size.check(radius).err().map(|error| error.to_string())
             });
+        let impossible = impossible.or_else(|| PlateBending::impossible(&own_scene, estimate));
         let is_possible = impossible.is_none();
         let rejection_reason = match (impossible, unknown, worst) {
             (Some(why), ..) => Some(why),

@@ -46,6 +46,10 @@ impl BodySource {
                 let mesh = MeshSource::QuarterDisc(quarter_disc(plan, side));
                 Self::Meshed { mesh, material: material.clone() }
             }
+            Shape::Plate { .. } => {
+                let message = format!("the plate {} has no mesh", body.name());
+                return Err(Rejection::new(format!("body.{side}.plate"), message));
+            }
             Shape::Rigid { diameter, mass } => Self::Rigid { radius: 0.5 * diameter, mass: *mass },
             Shape::Wall => Self::Wall,
         })

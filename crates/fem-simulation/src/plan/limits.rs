@@ -58,7 +58,10 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
             Shape::HalfSpace { material } => {
                 Some((quarter_disc(plan, side).n_elements(), material))
             }
-            Shape::Sphere { mesh: Some(_), .. } | Shape::Rigid { .. } | Shape::Wall => None,
+            Shape::Sphere { mesh: Some(_), .. }
+            | Shape::Plate { .. }
+            | Shape::Rigid { .. }
+            | Shape::Wall => None,
         };
         if let Some((n, material)) = made {
             let n = n.map_err(|error| match error {

@@ -24,7 +24,7 @@ use fem_collision::{
 
 use fem_laws::ImpactQuantities;
 
-use crate::effects::percent;
+use crate::effects::{PlateBending, percent};
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::plan::contact_method::contact_method;
@@ -110,6 +110,7 @@ impl Plan {
     pub fn of(scene: &Scene) -> Result<Self, Rejection> {
         let estimate = Estimate::checked(scene)?;
         viscous_flow::check(scene, &estimate)?;
+        PlateBending::check(scene)?;
         let finer_body = finer_body(scene);
         let rule = MeshRule::of(scene, &estimate, finer_body.is_some());
         let is_shared = touches_at_nodes(scene.model());

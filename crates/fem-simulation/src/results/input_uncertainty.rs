@@ -75,9 +75,10 @@ fn impact_of(scene: &Scene) -> Option<ImpactQuantities> {
     let estimate = Estimate::at(&scene, speed).ok()?;
     let kept = share_beside_waves(&scene, &estimate);
     let mut materials = scene.bodies().iter().filter_map(Body::material);
+    let has_plate = scene.bodies().iter().any(|body| body.plate().is_some());
     let impact = if let Some(flow) = estimate.flow {
         flow
-    } else if materials.all(|material| material.relaxation().is_none()) {
+    } else if !has_plate && materials.all(|material| material.relaxation().is_none()) {
         ImpactQuantities::from(&HertzImpact::new(&pair, speed).ok()?)
     } else {
         let ting = ting_of(&scene, &pair, true, None).ok()?.with_coarse_waves();

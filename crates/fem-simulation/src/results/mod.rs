@@ -31,5 +31,5 @@ pub use measured::MeasuredSummary;
 pub use snapshots::write_snapshots;
 pub use summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, EstimateSummary,
-    Parts, Quantities, RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
+    Parts, PlateSummary, Quantities, RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
 };

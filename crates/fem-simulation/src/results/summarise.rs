@@ -8,7 +8,7 @@ use super::energy::{Accounts, Energy, energy_key};
 use super::measured::MeasuredSummary;
 use super::summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, EstimateSummary,
-    Quantities, RestSummary, Summary,
+    PlateSummary, Quantities, RestSummary, Summary,
 };
 use super::uncertainty::uncertainty;
 use crate::effects::{
@@ -16,6 +16,7 @@ use crate::effects::{
 };
 use crate::error::{ComputedCollision, ErrorEstimate};
 use crate::estimate::Estimate;
+use crate::estimate::plate_impact::PlateImpact;
 use crate::simulation::Simulation;
 use crate::simulation::identity::{NUMERICS, PROGRAM};
 
@@ -73,6 +74,7 @@ impl Summary {
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
             bounces: bounces(simulation, collision, &mut numbers),
             adhesion: adhesion(simulation, collision, &mut numbers),
+            plate: plate(simulation, collision, &mut numbers),
             dent: dent(simulation, collision),
             rest: collision.rest.as_ref().map(|rest| at_rest(rest, &mut numbers)),
             bodies: [0, 1].map(|side| body(simulation, collision, side, &mut numbers)).to_vec(),
@@ -265,6 +267,25 @@ fn adhesion(
         work_of_adhesion_j_m2: number("work_of_adhesion_j_m2", adhesion.work_of_adhesion()),
         tabor: number("tabor", adhesion.tabor()),
         sticks: speed < adhesion.sticking_speed(),
+    })
+}
+
+/// Returns the impact on the plate of the case.
+fn plate(
+    simulation: &Simulation,
+    collision: &Collision,
+    numbers: &mut Numbers,
+) -> Option<PlateSummary> {
+    let estimate = simulation.estimate(collision)?;
+    let plate = PlateImpact::of(simulation.case().scene(), &estimate)?;
+    let mut number = |key: &str, value| numbers.finite(&format!("plate.{key}"), value);
+    let edge = Some(plate.edge_return).filter(|time| time.is_finite());
+    Some(PlateSummary {
+        lambda: number("lambda", plate.lambda),
+        regime: plate.regime.word(),
+        wave_travel_over_thickness: number("wave_travel_over_thickness", plate.thicknesses),
+        edge_return_over_contact_time: edge
+            .and_then(|time| number("edge_return_over_contact_time", time)),
     })
 }
 

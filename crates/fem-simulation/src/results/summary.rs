@@ -44,6 +44,8 @@ pub struct Summary {
     pub bounces: Option<Vec<BounceSummary>>,
     /// Adhesion of the bodies; `None` if the case gives neither surface energies nor a work of adhesion.
     pub adhesion: Option<AdhesionSummary>,
+    /// Impact on a plate; `None` without one.
+    pub plate: Option<PlateSummary>,
     /// Dents of the bodies that flowed plastically; `None` if none did.
     pub dent: Option<Vec<DentSummary>>,
     /// Static equilibrium of a ball at rest, fully relaxed.
@@ -266,6 +268,19 @@ pub struct AdhesionSummary {
     pub tabor: Option<f64>,
     /// Whether the bodies stay together in the first contact.
     pub sticks: bool,
+}
+
+/// Impact on a plate.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PlateSummary {
+    /// Zener's number λ, which decides the loss on a thin plate.
+    pub lambda: Option<f64>,
+    /// How the plate answers: `thin`, `between` or `thick`.
+    pub regime: &'static str,
+    /// Plate thicknesses that waves of the speed √(E/ρ) travel during the contact.
+    pub wave_travel_over_thickness: Option<f64>,
+    /// Contact times until a surface wave is back from the edge; `None` for an unbounded plate.
+    pub edge_return_over_contact_time: Option<f64>,
 }
 
 /// One body. A wall has no mass and no vibration, a reduced model has no elements.

@@ -257,7 +257,7 @@ fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFaul
         for (body, (material, diameter)) in file.body.iter_mut().zip(kinds) {
             body.material = Some(material.clone());
             body.sphere = Some(SphereTable::new(*diameter));
-            (body.wall, body.half_space, body.held) = (None, None, None);
+            (body.wall, body.half_space, body.plate, body.held) = (None, None, None, None);
         }
         file.gravity = None;
     });

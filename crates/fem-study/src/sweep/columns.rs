@@ -25,13 +25,15 @@ const FIRST: [&str; 14] = [
     "hertz_peak_pressure_pa",
 ];
 /// Columns after the accounts of energy.
-const LAST: [&str; 15] = [
+const LAST: [&str; 17] = [
     "energy_residual_relative",
     "dent_depth_m",
     "dent_radius_m",
     "dent_max_plastic_strain",
     "adhesion_sticking_speed_m_s",
     "adhesion_sticks",
+    "plate_lambda",
+    "plate_regime",
     "momentum_residual_relative",
     "elements",
     "time_step_s",
@@ -52,10 +54,11 @@ const UNCERTAINTIES: [(&str, &str); 3] = [
 /// Prefix of a column of the summary's `estimate`, and its end of the range.
 const ESTIMATES: [(&str, &str); 2] = [("estimate_low_", "low"), ("estimate_high_", "high")];
 /// Beginnings of columns that a table has only if a member has a value there.
-const OPTIONAL: [&str; 5] =
-    ["uncertainty_input_", "adhesion_", "estimate_", "energy_locked_in_j", "dent_"];
+const OPTIONAL: [&str; 6] =
+    ["uncertainty_input_", "adhesion_", "plate_", "estimate_", "energy_locked_in_j", "dent_"];
 
-/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_`, `estimate_` and `uncertainty_` are
+/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_`, `plate_`, `estimate_` and `uncertainty_`
+/// are
 /// the summary's objects of that name, the last two with end or part before the quantity, and `dent_` is the first of its
 /// dents. The cost of the run (`cost`)
 /// differs from run to run and stays in the member's summary.
@@ -152,8 +155,9 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
         }
         "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
         _ => {
-            let tables =
-                ["hertz_", "energy_", "adhesion_", "estimate_"].into_iter().find_map(table);
+            let tables = ["hertz_", "energy_", "adhesion_", "plate_", "estimate_"]
+                .into_iter()
+                .find_map(table);
             let dent = column.strip_prefix("dent_").map(|key| &summary["dent"][0][key]);
             let own = uncertainty.or(estimate).or(tables).or(dent);
             own.unwrap_or(&summary[column]).clone()

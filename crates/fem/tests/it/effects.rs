@@ -57,6 +57,7 @@ fn every_effects_key_is_the_switch_of_one_effect() {
         finite_strain: Some(Switch::On),
         plastic_flow: Some(Switch::On),
         surface_slip: Some(Switch::On),
+        plate_bending: Some(Switch::On),
         partner_waves: Some(Switch::On),
         mirror_symmetry: Some(Switch::On),
         rigid_partner: Some(Switch::On),
@@ -82,20 +83,20 @@ fn every_model_supports_or_excludes_every_effect() {
     let reduced = "viscoelasticity, dashpot, finite size, finite strain, surface slip, plastic flow, adhesion, partner waves, \
                    rigid partner, vibration, gravity";
     let law = reduced.replace("adhesion, ", "");
-    let no_elements = "material loss, rate dependence, mirror symmetry, hourglass control, bulk viscosity, penalty springs, contact search, mass scaling";
+    let no_elements = "material loss, plate bending, rate dependence, mirror symmetry, hourglass control, bulk viscosity, penalty springs, contact search, mass scaling";
     // Elements always include inertia, and modes of vibration resolve no fronts.
     for (model, answered, foreign) in [
         (
             "fem={}",
             "viscoelasticity, finite strain, surface slip, plastic flow, adhesion, partner waves, mirror symmetry, rigid partner, \
              hourglass control, bulk viscosity, gravity, contact search, mass scaling",
-            "material loss, dashpot, finite size, rate dependence, vibration, penalty springs",
+            "material loss, plate bending, dashpot, finite size, rate dependence, vibration, penalty springs",
         ),
         (
             "condensed={}",
             "viscoelasticity, finite strain, surface slip, plastic flow, adhesion, partner waves, mirror symmetry, rigid partner, \
              vibration, penalty springs, gravity, contact search",
-            "material loss, dashpot, finite size, rate dependence, hourglass control, bulk viscosity, mass scaling",
+            "material loss, plate bending, dashpot, finite size, rate dependence, hourglass control, bulk viscosity, mass scaling",
         ),
         ("hertz={}", reduced, no_elements),
         ("ting={}", reduced, no_elements),

@@ -35,6 +35,7 @@ mod partner_waves;
 mod plan;
 mod plastic_flow;
 mod plastic_yield;
+mod plate;
 mod probes;
 mod restart_state;
 mod rigid_partner;

@@ -148,7 +148,7 @@ fn the_examples_of_the_case_reference_are_valid() {
     let reference = include_str!("../../../../docs/cases.md");
     let examples: Vec<&str> =
         reference.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    assert_eq!(examples.len(), 7);
+    assert_eq!(examples.len(), 8);
     for example in examples {
         let case = Case::parse("cases.md", example, Path::new("."), &[]);
         let case = case.unwrap_or_else(|error| panic!("{error}"));

@@ -84,7 +84,7 @@ fn a_body_without_a_shape_reports_its_other_faults() {
     let error = parse(&format!("{before}{after}")).unwrap_err();
     let all = std::iter::once(&error).chain(error.others()).map(ToString::to_string);
     let all = all.collect::<Vec<_>>().join("\n");
-    for expected in ["neither sphere, wall nor half_space", "no material \"lib:stel\""] {
+    for expected in ["neither sphere, wall, half_space nor plate", "no material \"lib:stel\""] {
         assert!(all.contains(expected), "{all}");
     }
 }

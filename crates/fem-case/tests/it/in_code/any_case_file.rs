@@ -47,6 +47,7 @@ impl Random {
         let is_sphere = self.below(5) > 0;
         let is_sound = self.below(20) > 0;
         let is_block = self.below(2) > 0;
+        let is_plate = self.below(2) > 0;
         BodyTable {
             name: self.name(&[name]),
             material: ((is_sphere || is_block) == is_sound).then(|| self.name(&["glass"])),
@@ -57,7 +58,15 @@ impl Random {
                 mesh: self.maybe(|random| random.name(&["ball.vtu"])),
             }),
             wall: (is_sphere != is_sound && !is_block).then_some(EmptyTable {}),
-            half_space: (!is_sphere && is_block).then_some(EmptyTable {}),
+            half_space: (!is_sphere && is_block && !is_plate).then_some(EmptyTable {}),
+            plate: (!is_sphere && is_block && is_plate).then(|| PlateTable {
+                thickness: self.quantity(&[5e-3]),
+                diameter: self.maybe(|random| random.quantity(&[0.2])),
+                support: self.maybe(|random| match random.below(2) {
+                    0 => PlateSupport::Free,
+                    _ => PlateSupport::Bonded,
+                }),
+            }),
         }
     }
 

@@ -4,6 +4,7 @@ mod adhesion;
 mod finite_size;
 mod gravity;
 mod partner_waves;
+mod plate_bending;
 mod rigid_partner;
 mod surface_slip;
 mod vibration;

@@ -15,7 +15,7 @@ use crate::effects::decision::neglect_error::NeglectError;
 use crate::effects::decision::relevance::{Relevance, percent};
 use crate::effects::decision::simplified_scene::SimplifiedScene;
 use crate::effects::decision::support::Support;
-use crate::effects::decision::{Effect, NamedEffect, PartnerWaves};
+use crate::effects::decision::{Effect, NamedEffect, PartnerWaves, PlateBending};
 use crate::effects::ting_prediction::{TingPrediction, relaxes};
 use crate::estimate::Estimate;
 use crate::estimate::effective_modulus::{EffectiveModuli, left_at};
@@ -262,14 +262,18 @@ struct Crossed<'a> {
     body: &'a Body,
     /// Elastic material with the effective moduli of the contact.
     material: Material,
-    /// T c_s/D, zero for a half-space.
+    /// T c_s/D, zero for a half-space and for a plate from whose far face no wave returns.
     passage: f64,
 }
 
-/// Returns the bodies that waves cross, which are those with a material.
+/// Returns the bodies that waves cross, which are those with a material, but for a plate that bends.
 fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2] {
     let EffectiveModuli { after, hertz, .. } = &estimate.effective;
+    let bends = PlateBending::is_needed(scene, estimate);
     scene.bodies().each_ref().map(|body| {
+        if body.plate().is_some() && bends {
+            return None;
+        }
         let material = left_at(body.material()?, *after);
         let way = hertz.contact_time() * material.shear_wave_speed();
         let passage = body.diameter().map_or(0.0, |diameter| way / diameter);

@@ -115,8 +115,9 @@ fn stiffer(scene: &Scene) -> Option<Stiffer<'_>> {
 }
 
 impl Stiffer<'_> {
+    /// A plate that bends is not rigid, however stiff.
     fn is_rigid(&self) -> bool {
-        self.share <= RIGID_SHARE
+        self.share <= RIGID_SHARE && self.body.plate().is_none()
     }
 
     /// Returns the deciding number, as text.

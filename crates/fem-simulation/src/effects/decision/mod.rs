@@ -116,6 +116,9 @@ effects! {
     /// Attraction of the surfaces.
     Physical AdhesionEffect = "adhesion":
         "Surfaces attract each other: slow bodies stick, and faster ones lose energy.";
+    /// Bending of a plate that is struck.
+    Physical PlateBending = "plate bending" plate_bending:
+        "A plate bends under the impact, and its bending waves carry energy away.";
     /// Waves radiated into a large partner.
     Physical PartnerWaves = "partner waves" partner_waves:
         "Waves that do not return from a large body within the contact carry energy away.";

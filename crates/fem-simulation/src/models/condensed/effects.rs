@@ -6,8 +6,8 @@ use fem_condensed::CondensedPair;
 use super::options;
 use crate::effects::{
     AdhesionEffect, ContactSearch, Effect, FiniteStrain, Gravity, MaterialLoss, MirrorSymmetry,
-    PartnerWaves, PenaltySprings, PlasticFlow, RigidPartner, Support, SurfaceSlip, Vibration,
-    Viscoelasticity,
+    PartnerWaves, PenaltySprings, PlasticFlow, PlateBending, RigidPartner, Support, SurfaceSlip,
+    Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -24,6 +24,7 @@ pub(super) fn support(
         Viscoelasticity::NAME => Support::Inherent { idle: "" },
         Gravity::NAME => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
+        PlateBending::NAME => return PlateBending::of_model(scene),
         PartnerWaves::NAME => PartnerWaves::of_condensed(scene, estimate),
         Vibration::NAME => {
             let spheres = pair.map(|pair| modes_of_spheres(scene, pair)).unwrap_or_default();

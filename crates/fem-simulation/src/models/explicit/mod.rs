@@ -21,8 +21,8 @@ use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::effects::{
     AdhesionEffect, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticFlow, RateDependence,
-    RigidPartner, Support, SurfaceSlip, Viscoelasticity, decide,
+    MassScaling, MaterialLoss, MirrorSymmetry, PartnerWaves, PlasticFlow, PlateBending,
+    RateDependence, RigidPartner, Support, SurfaceSlip, Viscoelasticity, decide,
 };
 use crate::estimate::approach::{approach_of, expected_duration, frame_of};
 use crate::estimate::quasi_static::surfaces_slip;
@@ -462,6 +462,7 @@ fn support(
         ContactSearch::NAME => ContactSearch::within(&bodies?.candidate_region()),
         MassScaling::NAME => mass_scaling(scene, bodies?),
         MirrorSymmetry::NAME if bodies.is_none() => MirrorSymmetry::support_by_elements(scene),
+        PlateBending::NAME => return PlateBending::of_model(scene),
         PartnerWaves::NAME | Gravity::NAME => Support::Inherent { idle: "" },
         BulkViscosity::NAME => Support::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),

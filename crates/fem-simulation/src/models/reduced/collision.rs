@@ -88,7 +88,7 @@ impl Rows<'_> {
         let (frame, rate) = (self.frame, instant.approach_rate);
         let accounted = match (instant.strain_energy, instant.dissipated) {
             (Some(strain), Some(dissipated)) => {
-                strain + dissipated + instant.radiated.unwrap_or(0.0)
+                strain + dissipated + instant.radiated.unwrap_or(0.0) + instant.plate.unwrap_or(0.0)
             }
             _ => instant.work,
         };
@@ -98,6 +98,7 @@ impl Rows<'_> {
             (Account::Strain, instant.strain_energy),
             (lost, instant.dissipated),
             (Account::Radiated, instant.radiated),
+            (Account::Plate, instant.plate),
             (Account::Potential, potential),
         ];
         let mut energies = EnergyLedger::EMPTY

@@ -6,7 +6,8 @@ use fem_material::engineering::number;
 
 use crate::effects::{
     AdhesionEffect, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, MaterialLoss,
-    PartnerWaves, PlasticFlow, RigidPartner, Support, SurfaceSlip, Vibration, Viscoelasticity,
+    PartnerWaves, PlasticFlow, PlateBending, RigidPartner, Support, SurfaceSlip, Vibration,
+    Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -28,6 +29,7 @@ pub(super) fn support(
         Viscoelasticity::NAME => relaxation(scene, estimate),
         DashpotEffect::NAME => dashpot(scene.model(), law),
         FiniteSizeEffect::NAME => finite_size(scene, estimate),
+        PlateBending::NAME => return PlateBending::of_model(scene),
         PartnerWaves::NAME if is_ting => {
             PartnerWaves::of_term(scene, estimate, PartnerWaves::radiating)
         }

@@ -1,4 +1,4 @@
-//! Hertz' closed form for elastic half-spaces; with the spheres' finite size or gravity, Ting's model of
+//! Hertz' closed form for elastic half-spaces; with the spheres' finite size, gravity or a plate, Ting's model of
 //! elastic bodies.
 
 use fem_case::{Scene, Switch};
@@ -21,8 +21,9 @@ impl Motion for ClosedForm {
 /// Builds the model of a scene.
 pub(super) fn build(scene: &Scene, finite_size: bool) -> Result<Reduced, Rejection> {
     let estimate = Estimate::checked(scene)?;
-    // Ting's model of elastic bodies is Hertz' with finite size and gravity.
-    let is_closed = !finite_size && scene.gravity().is_none();
+    // Ting's model of elastic bodies is Hertz' with finite size, gravity and a plate.
+    let has_plate = scene.bodies().iter().any(|body| body.plate().is_some());
+    let is_closed = !finite_size && scene.gravity().is_none() && !has_plate;
     let tolerance = Ting::DEFAULT_TOLERANCE;
     let motion: Box<dyn Motion> = match is_closed {
         true => Box::new(ClosedForm(estimate.hertz)),

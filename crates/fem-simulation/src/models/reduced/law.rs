@@ -9,6 +9,7 @@ use fem_laws::{
 
 use super::{Motion, Reduced, rejected};
 use crate::estimate::Estimate;
+use crate::estimate::plate_impact::thin_plate_mobility;
 use crate::rejection::Rejection;
 
 /// Returns the law with Hunt and Crossley's speed (m/s) filled in, at which their restitution holds.
@@ -61,7 +62,10 @@ pub(super) fn build(
     let impact = LawImpact::new(&pair, law).with_end_rule(end_rule);
     let gravity = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
     let impact = impact.with_tolerance(tolerance).and_then(|impact| impact.with_gravity(gravity));
-    let impact = impact.map_err(reject)?;
+    let mut impact = impact.map_err(reject)?;
+    if let Some(mobility) = thin_plate_mobility(scene) {
+        impact = impact.with_plate(mobility).map_err(reject)?;
+    }
     let motion = Box::new(LawMotion { impact, law, numbers });
     Reduced::of(scene, estimate, pair, motion, description)
 }

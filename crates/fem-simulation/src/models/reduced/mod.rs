@@ -15,7 +15,7 @@ use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{EndRule, Impact, LawError, Pair, StaticHertz};
 
-use crate::effects::{Effect, Support, decide};
+use crate::effects::{Effect, PlateBending, Support, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
 use crate::models::method::{Cost, Method, Model, ModelSetup, SharedModels};
@@ -124,6 +124,7 @@ impl Reduced {
     /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
     /// contact too large for the finite-size correction; a law that cannot be made of this pair.
     pub fn new(scene: &Scene) -> Result<Self, Rejection> {
+        PlateBending::check(scene)?;
         match scene.model() {
             ModelChoice::Hertz { finite_size } => hertz::build(scene, *finite_size),
             ModelChoice::Ting { finite_size, tolerance } => {

@@ -1,0 +1,214 @@
+//! Impact on a thin plate: Zener's equation by every model, energy, gravity, and the figures of a steel ball.
+
+use fem_laws::laws::{hertz, linear, mean_pressure, thornton};
+use fem_laws::{
+    HertzImpact, Impact, ImpactPath, LawError, LawImpact, Pair, PairRelaxation, Partner, Ting,
+    plate_lambda, plate_mobility,
+};
+use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+
+use crate::common::assert_close;
+
+const SPEED: f64 = 1.0;
+
+fn steel() -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(210e9, 0.3).unwrap();
+    Material::new(7800.0, moduli, None).unwrap()
+}
+
+/// A steel ball of 10 mm on steel.
+fn pair() -> Pair {
+    Pair::new(Partner::solid_sphere(10e-3, &steel()), Partner::half_space(&steel())).unwrap()
+}
+
+fn elastic() -> PairRelaxation {
+    PairRelaxation::new(Some(&steel()), Some(&steel())).unwrap()
+}
+
+/// Returns the mobility for a λ of the pair at [`SPEED`].
+fn mobility(lambda: f64) -> f64 {
+    lambda / plate_lambda(&HertzImpact::new(&pair(), SPEED).unwrap(), 1.0)
+}
+
+/// Returns e, T/T₀ and F/F₀ of Zener's ü + (1 + λ d/dt) u^(3/2) = 0 by the classical Runge–Kutta method, for u and
+/// q = u̇ + λ u^(3/2), with the end by linear interpolation of the last of many steps.
+fn zener(lambda: f64) -> [f64; 3] {
+    let rate = |[u, q]: [f64; 2]| {
+        let force = u.max(0.0).powf(1.5);
+        [q - lambda * force, -force]
+    };
+    let step = 1e-4;
+    let (mut state, mut time, mut peak): ([f64; 2], f64, f64) = ([0.0, 1.0], 0.0, 0.0);
+    loop {
+        let at = |share: f64, k: [f64; 2]| [0, 1].map(|i: usize| state[i] + share * step * k[i]);
+        let a = rate(state);
+        let b = rate(at(0.5, a));
+        let c = rate(at(0.5, b));
+        let d = rate(at(1.0, c));
+        let next: [f64; 2] =
+            std::array::from_fn(|i| state[i] + step / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+        peak = peak.max(next[0].max(0.0).powf(1.5));
+        if next[0] <= 0.0 {
+            let last = time + step * state[0] / (state[0] - next[0]);
+            // Hertz' contact in these units: T₀ = 3.21804, F₀ = (5/4)^(3/5).
+            let hertz = HertzImpact::new(&pair(), SPEED).unwrap();
+            let unit = (pair().effective_mass() / hertz.stiffness()).powf(0.4) * SPEED.powf(-0.2);
+            return [-next[1], last * unit / hertz.contact_time(), peak / 1.25_f64.powf(0.6)];
+        }
+        (state, time) = (next, time + step);
+    }
+}
+
+fn ratios(impact: &Impact) -> [f64; 3] {
+    let hertz = HertzImpact::new(&pair(), SPEED).unwrap();
+    [
+        impact.restitution,
+        impact.contact_time.unwrap() / hertz.contact_time(),
+        impact.peak_force / hertz.peak_force(),
+    ]
+}
+
+/// Every model of an elastic contact solves Zener's equation, to five digits. The largest λ leaves e = 2e-3.
+#[test]
+fn elastic_models_on_a_plate_equal_zeners_equation() {
+    let never = 1e14;
+    for lambda in [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
+        let (pair, mobility) = (pair(), mobility(lambda));
+        let law = |law| LawImpact::new(&pair, law).with_plate(mobility).unwrap();
+        let expected = zener(lambda);
+        for (name, impact) in [
+            ("ting", Ting::new(&pair, elastic()).with_plate(mobility).unwrap().impact(SPEED)),
+            ("law", law(hertz(&pair).unwrap()).impact(SPEED)),
+            ("dent", law(thornton(&pair, never).unwrap()).impact(SPEED)),
+        ] {
+            let found = ratios(&impact.unwrap());
+            for k in 0..3 {
+                let error = (found[k] - expected[k]).abs();
+                assert!(error < 5e-6, "{name} {lambda} {k}: {} {}", found[k], expected[k]);
+            }
+        }
+        if lambda < 0.2 {
+            // The approximation is good to a few thousandths there.
+            assert!((expected[0] - (-1.719 * lambda).exp()).abs() < 4e-3, "{expected:?}");
+        }
+    }
+}
+
+/// Thin-plate theory of a 10 mm ball at 1 m/s on 20, 10, 5 and 2 mm of steel.
+#[test]
+fn a_steel_ball_loses_more_on_a_thinner_plate() {
+    for (thickness, expected) in [(20e-3, 0.98), (10e-3, 0.94), (5e-3, 0.77), (2e-3, 0.19)] {
+        let mobility = plate_mobility(&steel(), thickness);
+        let ting = Ting::new(&pair(), elastic()).with_plate(mobility).unwrap();
+        let found = ting.impact(SPEED).unwrap().restitution;
+        assert!((found - expected).abs() < 6e-3, "{thickness}: {found}");
+    }
+}
+
+fn relaxing() -> (Pair, PairRelaxation) {
+    let terms = vec![PronyTerm { weight: 0.3, relaxation_time: 2e-5 }];
+    let series = PronySeries::new(terms, ActsOn::All).unwrap();
+    let ball = Material::new(7800.0, *steel().instantaneous(), Some(series)).unwrap();
+    (pair(), PairRelaxation::new(Some(&ball), Some(&steel())).unwrap())
+}
+
+/// Work of the motion = what contact, material and plate have, from ∫F dδ and the state; and the impulse is the change of
+/// momentum.
+#[test]
+fn the_energy_is_accounted_for() {
+    let (relaxing_pair, relaxation) = relaxing();
+    for lambda in [0.05, 0.7] {
+        let mobility = mobility(lambda);
+        let law = |law| LawImpact::new(&pair(), law).with_plate(mobility).unwrap();
+        let rough = 1e-6;
+        for (name, impact, tolerance) in [
+            (
+                "elastic",
+                Ting::new(&pair(), elastic()).with_plate(mobility).unwrap().impact(SPEED),
+                rough,
+            ),
+            (
+                "relaxing",
+                Ting::new(&relaxing_pair, relaxation.clone())
+                    .with_plate(mobility)
+                    .unwrap()
+                    .impact(SPEED),
+                rough,
+            ),
+            ("linear", law(linear(1e7, 50.0).unwrap()).impact(SPEED), rough),
+            (
+                "dent",
+                law(mean_pressure(&pair(), [1e9, 0.3, 0.0, 1.0, 0.5]).unwrap()).impact(SPEED),
+                rough,
+            ),
+        ] {
+            let impact = impact.unwrap();
+            let end = impact.history.last().unwrap();
+            let energy = 0.5 * pair().effective_mass() * SPEED * SPEED;
+            let lost = energy * (1.0 - impact.restitution.powi(2));
+            let known =
+                end.strain_energy.unwrap_or(0.0) + end.dissipated.unwrap() + end.plate.unwrap();
+            assert!(
+                (known - lost).abs() < tolerance * energy,
+                "{name} {lambda}: {known:e} {lost:e}"
+            );
+            assert!((end.work - lost).abs() < tolerance * energy, "{name} {lambda}");
+            assert!(end.plate.unwrap() > 0.02 * energy, "{name}");
+            // Between the instants, too.
+            let (rate, path) = (pair(), ImpactPath::new(&impact, &pair(), None));
+            let middle = path.at(0.37 * end.time).unwrap();
+            let taken =
+                0.5 * rate.effective_mass() * (SPEED.powi(2) - middle.approach_rate.powi(2));
+            assert!((middle.work - taken).abs() < 1e-4 * energy, "{name} {lambda}");
+        }
+    }
+}
+
+/// A plate takes from a contact that relaxes, too, and both lose more than each alone.
+#[test]
+fn plate_and_relaxation_lose_together() {
+    let (pair, relaxation) = relaxing();
+    let relaxing = |ting: Ting| ting.impact(SPEED).unwrap().restitution;
+    let alone = relaxing(Ting::new(&pair, relaxation.clone()));
+    let mobility = mobility(0.1);
+    let plate = relaxing(Ting::new(&pair, elastic()).with_plate(mobility).unwrap());
+    let both = relaxing(Ting::new(&pair, relaxation).with_plate(mobility).unwrap());
+    assert!(both < alone.min(plate) - 0.05, "{both} {alone} {plate}");
+    // The losses are almost independent.
+    assert_close(both, alone * plate, 0.02);
+}
+
+/// The limit of a heavy plate is the contact alone, as is the limit of a slow ball.
+#[test]
+fn a_heavy_plate_is_a_half_space() {
+    let plain = Ting::new(&pair(), elastic()).impact(SPEED).unwrap();
+    let heavy = Ting::new(&pair(), elastic()).with_plate(mobility(1e-9)).unwrap();
+    let heavy = heavy.impact(SPEED).unwrap();
+    assert_close(heavy.restitution, plain.restitution, 1e-8);
+    assert_close(heavy.contact_time.unwrap(), plain.contact_time.unwrap(), 1e-8);
+    assert_close(heavy.peak_force, plain.peak_force, 1e-8);
+}
+
+#[test]
+fn a_ball_that_falls_on_a_plate_leaves_it_or_stays() {
+    let g = 9.81;
+    let fast = Ting::new(&pair(), elastic()).with_plate(mobility(0.2)).unwrap();
+    let without = fast.impact(SPEED).unwrap();
+    let with = fast.clone().with_gravity(g).unwrap().impact(SPEED).unwrap();
+    assert_close(with.restitution, without.restitution, 1e-3);
+    let law = LawImpact::new(&pair(), hertz(&pair()).unwrap()).with_plate(mobility(0.2)).unwrap();
+    let law = law.with_gravity(g).unwrap().impact(SPEED).unwrap();
+    assert_close(law.restitution, with.restitution, 1e-6);
+    let slow = fast.with_gravity(g).unwrap().impact(1e-4).unwrap();
+    assert!(slow.contact_time.is_none() && slow.restitution == 0.0, "{}", slow.restitution);
+}
+
+#[test]
+fn a_mobility_must_be_positive() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let found = Ting::new(&pair(), elastic()).with_plate(bad);
+        assert!(matches!(found, Err(LawError::NotPositive { .. })), "{bad}");
+        let law = LawImpact::new(&pair(), hertz(&pair()).unwrap()).with_plate(bad);
+        assert!(law.is_err(), "{bad}");
+    }
+}

@@ -1,0 +1,227 @@
+//! A plate bends under the impact, and its bending waves carry energy away. Closed forms and contact laws have a thin plate as a
+//! dashpot in series.
+//!
+//! Decided by the waves that return from the far face and the edge within the contact ([`PlateImpact`]). While none does, the
+//! plate is a half-space, exactly, and is computed as one.
+
+use fem_case::engineering::{number, show};
+use fem_case::{ModelChoice, PlateSupport, Scene, Switch};
+use fem_collision::{Collision, QuantityOfInterest};
+
+use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
+use crate::effects::decision::relevance::Relevance;
+use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::support::Support;
+use crate::effects::decision::{Effect, NamedEffect, PlateBending};
+use crate::effects::ting_prediction::TingPrediction;
+use crate::estimate::Estimate;
+use crate::estimate::plate_impact::{PlateImpact, PlateRegime, THIN};
+use crate::quantity_errors::QuantityErrors;
+use crate::rejection::Rejection;
+
+/// Relative error of the change by a thin plate, times c₀T/h.
+const ERROR_OF_THIN_PLATE: f64 = 2.0;
+
+impl PlateBending {
+    /// Returns whether the scene has a plate that is not a half-space to its impact.
+    pub(in crate::effects) fn is_needed(scene: &Scene, estimate: &Estimate) -> bool {
+        let switch = scene.effects().plate_bending;
+        PlateImpact::of(scene, estimate).is_some_and(|plate| match switch {
+            Some(Switch::Off) => false,
+            Some(Switch::On) => true,
+            Some(Switch::Auto) | None => !plate.is_half_space(),
+        })
+    }
+
+    /// Returns the support of a model that computes the plate of a scene, if there is one.
+    pub(crate) fn of_model(scene: &Scene) -> Option<Support> {
+        scene.bodies().iter().find_map(|body| body.plate())?;
+        Some(match Self::check(scene) {
+            Ok(()) => Support::Inherent { idle: "" },
+            Err(_) => Support::Lacks,
+        })
+    }
+
+    /// Returns the error of the plate in the model of a scene that computes it; `None` if it is unknown.
+    pub(crate) fn error_of_term(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
+        if !Self::is_needed(scene, estimate) || *scene.model() == ModelChoice::Fem {
+            return Some(QuantityErrors::ZERO);
+        }
+        let neglect_error = Self.neglect_error(scene, estimate);
+        let status = EffectStatus { is_lacking: false, neglect_error };
+        let error = Self.model_form_error(scene, estimate, &status);
+        error.size(QuantityOfInterest::Restitution).is_some().then_some(error)
+    }
+
+    /// Returns why the model of a scene cannot compute its plate, if it cannot.
+    pub(crate) fn impossible(scene: &Scene, estimate: &Estimate) -> Option<String> {
+        let fault = Self::check(scene).err()?;
+        Self::is_needed(scene, estimate).then_some(fault.message)
+    }
+
+    /// Checks that the model of a scene, which effects have transformed, computes its plate.
+    ///
+    /// # Errors
+    /// Condensed bodies; a bonded plate in a model without elements.
+    pub(crate) fn check(scene: &Scene) -> Result<(), Rejection> {
+        let mut bodies = scene.bodies().iter().enumerate();
+        let Some((side, plate)) = bodies.find_map(|(k, body)| Some((k, body.plate()?))) else {
+            return Ok(());
+        };
+        let model = scene.model().name();
+        match scene.model() {
+            ModelChoice::Fem | ModelChoice::Condensed(_) => {
+                let message = format!("model {model} cannot compute a plate that bends");
+                Err(Rejection::new("model", message).with_help("use model ting, hertz or a law"))
+            }
+            _ if plate.support == PlateSupport::Bonded => {
+                let message = format!("model {model} cannot compute a plate that is bonded");
+                let help = "write support = \"free\", or a half_space for a thick one";
+                Err(Rejection::new(format!("body.{side}.plate.support"), message).with_help(help))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Effect for PlateBending {
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+        let plate = PlateImpact::of(scene, estimate)?;
+        let name = plate.body.name();
+        let thicknesses = number(plate.thicknesses, 2);
+        let mut text = match plate.regime {
+            PlateRegime::Thick => {
+                format!(
+                    "waves travel {thicknesses} thicknesses of {name} during the contact and do not return"
+                )
+            }
+            _ => format!(
+                "waves travel {thicknesses} thicknesses of {name} during the contact; λ = {}",
+                number(plate.lambda, 2)
+            ),
+        };
+        if plate.edge_return <= 1.0 {
+            text += &format!(
+                "; surface waves are back from its edge after {} of it",
+                number(plate.edge_return, 2)
+            );
+        }
+        let open = match (plate.edge_return <= 1.0, plate.regime) {
+            (true, _) => Some(format!(
+                "waves return from the edge of {name} within the contact, and this model does not know what they give back"
+            )),
+            (_, PlateRegime::Between) => Some(format!(
+                "{name} is neither thin nor a half-space to this impact: waves travel {thicknesses} thicknesses, and \
+                 thin-plate theory holds from {THIN}"
+            )),
+            _ => None,
+        };
+        Some(Relevance {
+            is_needed: Self::is_needed(scene, estimate),
+            number: text,
+            if_not_needed: "it is a half-space".to_string(),
+            open_error: "the plate is not computed".to_string(),
+            warning: open,
+        })
+    }
+
+    fn transform(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+    ) -> Result<Option<TransformedScene>, Rejection> {
+        let Some(side) = scene.bodies().iter().position(|body| body.plate().is_some()) else {
+            return Ok(None);
+        };
+        check_edge(scene, estimate, side)?;
+        if Self::is_needed(scene, estimate) {
+            return Ok(None);
+        }
+        let relevance = self.relevance(scene, estimate).unwrap_or_default();
+        let support = Support::decided(false, format!("{}: a half-space", relevance.number));
+        let scene = PlateBending.switched(&scene.with_half_space(side), None);
+        Ok(Some(TransformedScene { scene, support }))
+    }
+
+    fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
+        let plate = PlateImpact::of(scene, estimate)?;
+        let is_off = scene.effects().plate_bending == Some(Switch::Off);
+        (is_off && !plate.is_half_space()).then(|| {
+            let change = self.neglect_error(scene, estimate).unwrap_or_default();
+            change.warning(Self::NAME)
+        })
+    }
+
+    /// Difference between Ting's impacts on the thin plate and on a half-space, with its waves.
+    fn neglect_error(&self, scene: &Scene, estimate: &Estimate) -> Option<NeglectError> {
+        let plate = PlateImpact::of(scene, estimate)?;
+        if plate.is_half_space() {
+            return Some(NeglectError::NOTHING);
+        }
+        if !plate.is_dashpot() {
+            return None;
+        }
+        let speed = estimate.hertz.approach_speed();
+        let [bent, half_space] = [Switch::On, Switch::Off].map(|switch| {
+            let switched = self.switched(scene, Some(switch));
+            let side = scene.bodies().iter().position(|body| body.plate().is_some())?;
+            let scene = match switch {
+                Switch::Off => self.switched(&switched.with_half_space(side), None),
+                _ => switched,
+            };
+            TingPrediction::of(&scene, speed, false).ok()
+        });
+        Some(bent?.change_from(&half_space?))
+    }
+
+    /// A model with the dashpot of a thin plate has the error of thin-plate theory; where the plate is not thin, or waves return
+    /// from its edge, the error is unknown.
+    fn model_form_error(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+        status: &EffectStatus,
+    ) -> QuantityErrors {
+        let Some(plate) = PlateImpact::of(scene, estimate) else { return QuantityErrors::ZERO };
+        if plate.is_half_space() || *scene.model() == ModelChoice::Fem {
+            return QuantityErrors::ZERO;
+        }
+        let Some(change) = status.neglect_error.filter(|_| plate.is_dashpot()) else {
+            return QuantityErrors::default();
+        };
+        if status.is_lacking {
+            return change.of_all_quantities(estimate);
+        }
+        match plate.regime {
+            PlateRegime::Thin => {
+                let part = ERROR_OF_THIN_PLATE / plate.thicknesses;
+                change.of_all_quantities(estimate).times(part)
+            }
+            _ => QuantityErrors::default(),
+        }
+    }
+
+    fn warnings_of_result(&self, scene: &Scene, estimate: &Estimate, _: &Collision) -> Vec<String> {
+        if !Self::is_needed(scene, estimate) || *scene.model() == ModelChoice::Fem {
+            return Vec::new();
+        }
+        self.relevance(scene, estimate)
+            .and_then(|relevance| relevance.warning)
+            .into_iter()
+            .collect()
+    }
+}
+
+/// Checks that a plate is wider than its contact.
+fn check_edge(scene: &Scene, estimate: &Estimate, side: usize) -> Result<(), Rejection> {
+    let diameter = scene.bodies()[side].plate().and_then(|plate| plate.diameter);
+    let least = 4.0 * estimate.contact_radius;
+    let Some(diameter) = diameter.filter(|diameter| *diameter < least) else { return Ok(()) };
+    let message = format!(
+        "the diameter of the plate is {}, too small for the contact, whose radius is {}",
+        show(diameter, "m"),
+        show(estimate.contact_radius, "m")
+    );
+    let help = format!("the diameter must be at least {}", show(least, "m"));
+    Err(Rejection::new(format!("body.{side}.plate.diameter"), message).with_help(help))
+}

@@ -1,0 +1,101 @@
+//! The impact on a plate by closed forms: whether the plate bends within the contact, and as what.
+//!
+//! Two numbers decide, with the contact time T: how many thicknesses a wave travels within it, c₀T/h with c₀ = √(E/ρ), and
+//! whether a surface wave comes back from the edge, 2r/c_R < T. While no wave returns from the far face, c_p T < 2h, the plate
+//! is a half-space, exactly; far beyond it the plate is thin and a dashpot in series with the contact
+//! ([`fem_laws::plate_mobility`]).
+
+use fem_case::{Body, Plate, PlateSupport, Scene};
+use fem_laws::{plate_lambda, plate_mobility, rayleigh_wave_speed};
+use fem_material::Material;
+
+use crate::estimate::Estimate;
+use crate::estimate::effective_modulus::left_at;
+
+/// c₀T/h from which a plate is thin.
+pub(crate) const THIN: f64 = 10.0;
+
+/// How a plate answers an impact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlateRegime {
+    /// Bending waves of thin-plate theory.
+    Thin,
+    /// Neither of the two limits.
+    Between,
+    /// No wave returns from the far face within the contact: a half-space.
+    Thick,
+}
+
+impl PlateRegime {
+    /// Returns the word used in results.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Thin => "thin",
+            Self::Between => "between",
+            Self::Thick => "thick",
+        }
+    }
+}
+
+/// A plate that is struck.
+#[derive(Clone, Copy, Debug)]
+pub struct PlateImpact<'a> {
+    /// The plate and its name.
+    pub body: &'a Body,
+    /// Sizes and support.
+    pub plate: &'a Plate,
+    /// Zener's λ.
+    pub lambda: f64,
+    /// Thicknesses that waves of the speed √(E/ρ) travel during the contact.
+    pub thicknesses: f64,
+    /// Contact times until a surface wave is back from the edge; infinite without an edge.
+    pub edge_return: f64,
+    /// How the plate answers.
+    pub regime: PlateRegime,
+}
+
+impl<'a> PlateImpact<'a> {
+    /// Returns the impact on the plate of a scene, if it has one.
+    pub fn of(scene: &'a Scene, estimate: &Estimate) -> Option<Self> {
+        let hertz = &estimate.effective.hertz;
+        let contact_time = hertz.contact_time().max(estimate.contact_time);
+        let (body, plate, whole) = plate_of(scene)?;
+        let material = left_at(whole, estimate.effective.after);
+        let way = |speed: f64| speed * contact_time;
+        let modulus = material.instantaneous().youngs_modulus();
+        let thicknesses = way((modulus / material.density()).sqrt()) / plate.thickness;
+        let edge_return = plate
+            .diameter
+            .map_or(f64::INFINITY, |diameter| diameter / way(rayleigh_wave_speed(&material)));
+        let is_thick = way(material.dilatational_wave_speed()) < 2.0 * plate.thickness;
+        let regime = match thicknesses {
+            _ if is_thick => PlateRegime::Thick,
+            THIN.. => PlateRegime::Thin,
+            _ => PlateRegime::Between,
+        };
+        let lambda = plate_lambda(hertz, plate_mobility(whole, plate.thickness));
+        Some(Self { body, plate, lambda, thicknesses, edge_return, regime })
+    }
+
+    /// Returns whether no wave returns within the contact from anywhere, so that the plate is a half-space.
+    pub fn is_half_space(&self) -> bool {
+        self.regime == PlateRegime::Thick && self.edge_return > 1.0
+    }
+
+    /// Returns whether the plate can be a dashpot: it is free below, bends, and no wave returns from its edge.
+    pub fn is_dashpot(&self) -> bool {
+        self.plate.support == PlateSupport::Free && self.edge_return > 1.0
+    }
+}
+
+/// Returns the plate of a scene, with its material.
+fn plate_of(scene: &Scene) -> Option<(&Body, &Plate, &Material)> {
+    let body = scene.bodies().iter().find(|body| body.plate().is_some())?;
+    Some((body, body.plate()?, body.material()?))
+}
+
+/// Returns the mobility of the plate of a scene as a thin one with instantaneous moduli, m/(N s).
+pub(crate) fn thin_plate_mobility(scene: &Scene) -> Option<f64> {
+    let (_, plate, material) = plate_of(scene)?;
+    (plate.support == PlateSupport::Free).then(|| plate_mobility(material, plate.thickness))
+}

@@ -1,0 +1,122 @@
+//! A ball on a plate: the limits of a thick and a thin one, what each model computes, and what it rejects.
+
+use fem::results::Summary;
+use fem::{Account, QuantityOfInterest};
+
+use crate::scene::{collision_of, decision_on, refused_of, simulation_of, summary_of};
+
+const BALL: &str = r#"
+[material.steel]
+density = "7800 kg/m^3"
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+
+[[body]]
+name = "bench"
+plate = { thickness = "5 mm" }
+material = "steel"
+
+[[body]]
+name = "ball"
+sphere = { diameter = "10 mm" }
+material = "steel"
+approach_speed = "1 m/s"
+"#;
+
+const HALF_SPACE: &str = "body.0={ name='bench', half_space={}, material='steel' }";
+const MODELS: [&str; 4] = [
+    "model.ting={}",
+    "model.hertz={}",
+    "model.law.hertz={}",
+    "model.law.thornton.yield_strength=1e12",
+];
+
+fn thickness(metres: f64) -> String {
+    format!("body.0.plate.thickness={metres}")
+}
+
+/// Thin-plate theory: 0.98, 0.94, 0.77 and 0.19 on 20, 10, 5 and 2 mm.
+#[test]
+fn every_reduced_model_loses_what_a_thin_plate_takes() {
+    for (metres, expected) in [(20e-3, 0.98), (10e-3, 0.94), (5e-3, 0.77), (2e-3, 0.19)] {
+        for model in MODELS {
+            let found = collision_of(BALL, &[model, &thickness(metres)]);
+            let restitution = found.restitution.unwrap();
+            assert!((restitution - expected).abs() < 6e-3, "{model} {metres}: {restitution}");
+            let energy = found.initial_energy.unwrap();
+            let taken = found.energies.get(Account::Plate).unwrap() / energy;
+            assert!((taken - (1.0 - restitution.powi(2))).abs() < 1e-6, "{model}: {taken}");
+            assert!(found.residual_relative.unwrap() < 1e-5, "{model}");
+        }
+    }
+}
+
+/// While no wave returns from the lower face all models compute a half-space, to the same bits.
+#[test]
+fn a_thick_plate_is_a_half_space() {
+    for model in ["model.ting={}", "model.condensed={}", "model.fem={}"] {
+        let plate = simulation_of(BALL, &[model, &thickness(0.15)]);
+        let decision = decision_on(&plate, "plate bending");
+        assert!(!decision.active && decision.reason.contains("half-space"), "{}", decision.reason);
+        let whole = collision_of(BALL, &[model, HALF_SPACE]);
+        let collision = plate.run(&mut ());
+        assert_eq!(collision.restitution, whole.restitution, "{model}");
+        assert_eq!(collision.contact_time, whole.contact_time, "{model}");
+    }
+    // The first waves that return are pressure waves: c_p T = 0.21 m.
+    let thinner = simulation_of(BALL, &["model.ting={}", &thickness(0.1)]);
+    assert!(decision_on(&thinner, "plate bending").active);
+    let off = ["model.condensed={}", "effects.plate_bending='off'"];
+    let off = simulation_of(BALL, &off);
+    assert!(off.setup().warnings().join("").contains("plate bending is needed"));
+}
+
+#[test]
+fn models_that_cannot_compute_a_plate_say_so() {
+    let fault = |set: &[&str]| refused_of(BALL, set).to_string();
+    let found = fault(&["model.condensed={}"]);
+    assert!(found.contains("model condensed cannot compute a plate that bends"), "{found}");
+    let found = fault(&["model.ting={}", "body.0.plate.support='bonded'"]);
+    assert!(found.contains("cannot compute a plate that is bonded"), "{found}");
+    let found = fault(&["model.ting={}", "body.0.plate.diameter='0.5 mm'"]);
+    assert!(found.contains("too small for the contact"), "{found}");
+}
+
+#[test]
+fn waves_from_the_edge_are_told() {
+    let set = ["model.law.hertz={}", "body.0.plate.diameter='5 cm'"];
+    let model =
+        |summary: &Summary| summary.uncertainty.parts(QuantityOfInterest::Restitution).model;
+    let decision = decision_on(&simulation_of(BALL, &set), "plate bending").clone();
+    assert!(decision.reason.contains("back from its edge"), "{}", decision.reason);
+    let summary = summary_of(BALL, &set);
+    assert!(summary.warnings.join("").contains("does not know what they give back"));
+    assert!(model(&summary).is_none());
+    // By hand: c_R = 2978 m/s, T = 34.5 µs.
+    let edge = summary.plate.unwrap().edge_return_over_contact_time.unwrap();
+    assert!((edge / (0.05 / (2978.0 * 34.47e-6)) - 1.0).abs() < 5e-3, "{edge}");
+    let wide = summary_of(BALL, &["model.law.hertz={}", "body.0.plate.diameter='20 cm'"]);
+    assert!(model(&wide).is_some() && wide.plate.unwrap().regime == "thin");
+}
+
+/// Auto takes a model that has the plate.
+#[test]
+fn auto_takes_a_model_with_the_plate() {
+    let auto = simulation_of(BALL, &["model.auto={}"]);
+    let plate = collision_of(BALL, &["model.ting.finite_size=true"]);
+    let restitution = auto.run(&mut ()).restitution.unwrap();
+    assert!((restitution - plate.restitution.unwrap()).abs() < 1e-4, "{restitution}");
+    let condensed = auto.considered().iter().find(|one| one.model == "condensed = {}").unwrap();
+    assert!(condensed.reason.contains("cannot compute a plate"), "{}", condensed.reason);
+}
+
+/// Every contact of a bouncing ball is on the plate.
+#[test]
+fn a_ball_bounces_on_a_plate() {
+    let set = ["model.ting={}", "gravity.acceleration=9.81", "stop.bounces=2"];
+    let collision = collision_of(BALL, &set);
+    // λ falls with v^(1/5), so that the slower second contact loses less.
+    let restitutions: Vec<f64> =
+        collision.bounces.iter().map(|bounce| bounce.restitution).collect();
+    assert!(restitutions[1] > restitutions[0] + 5e-3, "{restitutions:?}");
+}
