@@ -142,6 +142,14 @@ pub fn cradle(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
     commands::laws::cradle::numbers(&arguments, input.table.as_ref())
 }
 
+/// Runs `fem-run measure` on the bytes of a record; messages refer to it by `name`.
+///
+/// # Errors
+/// Options or a record that the command rejects, with its messages.
+pub fn measure(name: &str, bytes: &[u8], options: &[String]) -> Result<Value, Failure> {
+    commands::measure::numbers(&parsed("measure", &[name], options)?, bytes)
+}
+
 /// Runs `fem-run check --resolved` and returns the resolved case with comments on the expected run.
 ///
 /// # Errors

@@ -31,7 +31,7 @@ use std::ffi::OsString;
 use std::time::Instant;
 
 pub use jobs::{
-    JobInput, calibrate, check, cradle, export, fit, invert, material, options, stopped,
+    JobInput, calibrate, check, cradle, export, fit, invert, material, measure, options, stopped,
 };
 pub use progress::stopwatch::{Stopwatch, Timed};
 pub use result_folder::run_files::save;

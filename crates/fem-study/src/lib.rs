@@ -4,6 +4,7 @@
 //! ```text
 //! sweep      a case at many values of its keys
 //! measured   data from tables and text, with the place of every fault
+//! records    bounce times of a ball as they are measured
 //! fit        least squares over contact laws, Prony series, DEM codes, Newton's cradle
 //! laws       contact laws by their parameters: fitted, inverted, exported
 //! calibrate  relaxation of a material from restitutions
@@ -15,4 +16,6 @@ pub mod calibrate;
 pub mod fit;
 pub mod laws;
 pub mod measured;
+#[cfg(feature = "csv")]
+pub mod records;
 pub mod sweep;

@@ -24,6 +24,8 @@ pub use fem_simulation::{
     effects, error, method_of, model_of, restart_state_of, results, stop_advice, ting_impact,
     tolerance_of,
 };
+#[cfg(feature = "csv")]
+pub use fem_study::records;
 pub use fem_study::sweep::sweep;
 pub use fem_study::{accuracy, calibrate, fit, laws, measured, sweep};
 

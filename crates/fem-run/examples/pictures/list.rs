@@ -54,7 +54,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 24] = [
+pub const PICTURES: [Picture; 25] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -71,6 +71,11 @@ pub const PICTURES: [Picture; 24] = [
             "cradle --length 0.2 --diameters 22.2mm,15.9mm --data validation/data/cradle_trials.csv --angle-uncertainty 0.1deg",
         ],
         "runs/cradle_trials_cradle/cradle.svg",
+    ),
+    figure(
+        "measure.svg",
+        &["measure validation/data/bounce_times.csv --height 50cm"],
+        "runs/bounce_times_measure/measure.svg",
     ),
     figure(
         "export.svg",

@@ -15,7 +15,7 @@ use crate::text::{Failure, one_line, standard_output};
 /// Options for reading measured data.
 #[derive(clap::Args, Debug)]
 pub struct ColumnArguments {
-    /// Columns of --data by their names in the header: speed=v,restitution=COR,uncertainty=u
+    /// Columns of the data by their names in the header: speed=v,restitution=COR,uncertainty=u
     ///
     /// Without a unit in NAME the header gives it, as in v_cm_s or v [cm/s]; speed_cm_s=v sets it.
     #[arg(long, value_name = "NAME=COLUMN,…", value_delimiter = ',')]
@@ -32,25 +32,20 @@ impl ColumnArguments {
             standard_output::note(&note);
             return self.name_columns(table);
         }
-        let bytes = std::fs::read(path).map_err(|error| {
-            let name = one_line(&name);
-            let found = match error.kind() {
-                ErrorKind::NotFound => "there is no such file".to_string(),
-                _ => format!("this file cannot be read: {error}"),
-            };
-            Failure::bad_input(format!("{name}: {found}"))
-                .with_help("name a CSV file with a header, such as validation/data/bridges_ice.csv")
-        })?;
-        self.name_columns(Table::parse(&name, &decode(&bytes))?)
+        self.name_columns(Table::parse(&name, &decode(&read_bytes(path)?))?)
     }
 
     pub fn name_columns(&self, table: Table) -> Result<Table, Failure> {
+        Ok(table.renamed(&self.names()?)?)
+    }
+
+    /// Returns each name with the column that it is given to.
+    pub fn names(&self) -> Result<Vec<(&str, &str)>, Failure> {
         let names = self.columns.iter().map(|text| {
             let (name, column) = split(text, "--columns")?;
             Ok((name.trim(), column.trim()))
         });
-        let names: Vec<(&str, &str)> = names.collect::<Result<_, Failure>>()?;
-        Ok(table.renamed(&names)?)
+        names.collect()
     }
 
     /// Returns the origin of a result of `command` from a case, if there is one, and a data file. The digest is that of
@@ -79,6 +74,19 @@ impl ColumnArguments {
         };
         origin.with_options(&self.columns)
     }
+}
+
+/// Reads a file of data.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| {
+        let name = one_line(&path.display().to_string());
+        let found = match error.kind() {
+            ErrorKind::NotFound => "there is no such file".to_string(),
+            _ => format!("this file cannot be read: {error}"),
+        };
+        Failure::bad_input(format!("{name}: {found}"))
+            .with_help("name a CSV file with a header, such as validation/data/bridges_ice.csv")
+    })
 }
 
 impl From<DataError> for Failure {

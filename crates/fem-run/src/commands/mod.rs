@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod check;
 pub mod laws;
 pub mod materials;
+pub mod measure;
 pub mod mesh;
 pub mod new;
 pub mod report;
@@ -34,6 +35,7 @@ pub enum Command {
     Invert(invert::Arguments),
     Export(export::Arguments),
     Cradle(cradle::Arguments),
+    Measure(measure::Arguments),
     Schema(schema::Arguments),
     Report(report::ReportArguments),
     Plot(report::PlotArguments),
@@ -57,6 +59,7 @@ impl Command {
             Self::Invert(arguments) => invert::execute(&arguments),
             Self::Export(arguments) => export::execute(&arguments),
             Self::Cradle(arguments) => cradle::execute(&arguments),
+            Self::Measure(arguments) => measure::execute(&arguments),
             Self::Schema(arguments) => schema::execute(&arguments),
             Self::Report(arguments) => report::report(&arguments),
             Self::Plot(arguments) => report::plot(&arguments),

@@ -1,4 +1,4 @@
-//! The result folder of a fit, a calibration, an export, a cradle or a study of accuracy: `<command>.json`, which
+//! The result folder of a fit, a calibration, an export, a cradle, a record or a study of accuracy: `<command>.json`, which
 //! identifies it, and other files.
 
 use std::path::{Path, PathBuf};

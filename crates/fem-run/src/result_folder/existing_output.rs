@@ -12,8 +12,15 @@ use fem::{CheckpointHead, checkpoint_head};
 use fem_report::report::REPORT_FILE;
 
 /// Files that identify a result folder: a run writes summary.json, the command of the same name each other file.
-const IDENTIFYING_FILES: [&str; 6] =
-    [SUMMARY_FILE, "fit.json", "calibrate.json", "export.json", "cradle.json", "accuracy.json"];
+const IDENTIFYING_FILES: [&str; 7] = [
+    SUMMARY_FILE,
+    "fit.json",
+    "calibrate.json",
+    "export.json",
+    "cradle.json",
+    "measure.json",
+    "accuracy.json",
+];
 /// The restart file in a result folder.
 pub const RESTART_FILE: &str = "fem-run.restart";
 /// Bytes that contain the first line of a restart file.

@@ -7,4 +7,4 @@ pub mod tables;
 
 pub use failure::Failure;
 pub use standard_output::{one_line, shown};
-pub use tables::{headed, mesh_table, pairs, show_value, table, wrapped};
+pub use tables::{headed, mesh_table, pairs, show_measured, show_value, table, wrapped};

@@ -2,6 +2,7 @@
 
 use comfy_table::CellAlignment::{self, Left, Right};
 use comfy_table::{ColumnConstraint, ContentArrangement, Row, Table, Width};
+use fem::fit::cradle::Measured;
 use fem_case::Scene;
 use fem_case::engineering::show;
 use fem_mesh::{Quality, SphereMesh};
@@ -78,6 +79,15 @@ pub fn show_value(value: f64, unit: &str) -> String {
     } else {
         format!("{value:.4e} {unit}").trim_end().to_string()
     }
+}
+
+/// Returns `0.9250 ± 0.0031`, with two digits of the uncertainty.
+pub fn show_measured(Measured { value, uncertainty }: Measured, unit: &str) -> String {
+    if uncertainty <= 0.0 {
+        return format!("{value:.4} {unit}").trim_end().to_string();
+    }
+    let digits = (1 - uncertainty.log10().floor() as i32).clamp(0, 9) as usize;
+    format!("{value:.digits$} ± {uncertainty:.digits$} {unit}").trim_end().to_string()
 }
 
 /// Returns the size and the quality of both meshes; a rigid body has none.

@@ -217,13 +217,16 @@ fn pages_with_output_are_checked() {
         blocks.iter().any(is_command) && blocks.iter().any(|block| block.language == "text")
     };
     let pages: Vec<String> = Page::all().into_iter().filter(shows).map(|page| page.path).collect();
-    assert_eq!(pages, ["README.md", "docs/calibrate.md", "docs/cradle.md", "docs/fits.md"]);
+    let expected =
+        ["README.md", "docs/calibrate.md", "docs/cradle.md", "docs/fits.md", "docs/measure.md"];
+    assert_eq!(pages, expected);
 }
 
 #[test]
 fn quick_output_on_pages_equals_printed_output() {
     check("docs/fits.md", Pace::Quick, Digits::All);
     check("docs/cradle.md", Pace::Quick, Digits::All);
+    check("docs/measure.md", Pace::Quick, Digits::All);
     check("docs/calibrate.md", Pace::Quick, Digits::ButLast);
 }
 

@@ -145,11 +145,13 @@ pub(super) const DIAMETERS: [[&str; 2]; 2] =
     [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
 /// Columns of the trials of a cradle.
 const ANGLES: [&str; 4] = ["alpha", "beta", "alpha_uncertainty", "beta_uncertainty"];
+/// Columns of measured records.
+const RECORDS: [&str; 2] = ["time", "time_uncertainty"];
 
 /// Returns all names that a column may have, without units; among synonyms the preferred name comes first.
 pub(super) fn column_names() -> Vec<&'static str> {
     let diameters = DIAMETERS.map(|[name, _]| name);
-    let all: [&[&str]; 7] = [
+    let all: [&[&str]; 8] = [
         &SPEEDS,
         &RESTITUTIONS,
         &["restitution_uncertainty"],
@@ -157,6 +159,7 @@ pub(super) fn column_names() -> Vec<&'static str> {
         &CONTACT_TIMES,
         &diameters,
         &ANGLES,
+        &RECORDS,
     ];
     all.concat()
 }

@@ -114,6 +114,12 @@ pub(super) fn value_and_uncertainty(cell: &str) -> Option<[String; 2]> {
     Some([format!("{value} {unit}"), uncertainty.to_string()])
 }
 
+/// Whether a cell below a name is a unit, `cm`, `[cm]` or `(cm)`.
+pub(super) fn is_unit(cell: &str) -> bool {
+    ending_of_unit(cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim())
+        .is_some()
+}
+
 /// Returns the ending of a name that stands for a unit.
 fn ending_of_unit(unit: &str) -> Option<&'static str> {
     let (scale, dimension) = parse_quantity(&format!("1 {unit}")).ok()?;

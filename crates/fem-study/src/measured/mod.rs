@@ -5,7 +5,8 @@
 //! data_error ─┬─ restitutions ─ pairs ──────── e(v) of one pair of bodies, or of several
 //!             │
 //!             └─ column_roles ─ table ─┬────── restitution_table
-//!                speed_cm_s     CSV    └────── cradle_trials
+//!                speed_cm_s     CSV    ├────── cradle_trials
+//!                                      └────── number_columns: long records
 //! ```
 //!
 //! Callers pass texts and their names; nothing is opened here. Tables need the feature `csv`.
@@ -19,6 +20,8 @@ mod csv_dialect;
 mod data_error;
 #[cfg(feature = "csv")]
 mod library_data;
+#[cfg(feature = "csv")]
+mod number_columns;
 mod pairs;
 mod quantity;
 #[cfg(feature = "csv")]
@@ -36,6 +39,8 @@ pub use csv_dialect::decode;
 pub use data_error::DataError;
 #[cfg(feature = "csv")]
 pub use library_data::{is_of_library, library_table};
+#[cfg(feature = "csv")]
+pub use number_columns::{NumberColumn, NumberColumns};
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
 pub use restitutions::{MAX_UNCERTAINTY, Restitutions, UncertaintyError, UnevenUncertainties};

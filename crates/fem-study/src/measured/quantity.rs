@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::fit::cradle::Measured;
 use fem_case::parse_quantity;
 
-/// Kinds of quantity of a Newton's cradle.
+/// Kinds of quantity of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A length, m.
@@ -16,6 +16,12 @@ pub enum Kind {
     Acceleration,
     /// An angle, rad.
     Angle,
+    /// A time, s.
+    Time,
+    /// A speed, m/s.
+    Speed,
+    /// A density, kg/m³.
+    Density,
 }
 
 /// The reason why a text is no measured quantity.
@@ -44,6 +50,9 @@ impl Kind {
             Self::Mass => [0, 1, 0, 0],
             Self::Acceleration => [1, 0, -2, 0],
             Self::Angle => [0; 4],
+            Self::Time => [0, 0, 1, 0],
+            Self::Speed => [1, 0, -1, 0],
+            Self::Density => [-3, 1, 0, 0],
         }
     }
 
@@ -52,6 +61,9 @@ impl Kind {
             Self::Length => "a length, such as '20 cm' or '20 cm ± 1 mm'",
             Self::Mass => "a mass, such as '13.7 g' or '13.7 g ± 0.1 g'",
             Self::Acceleration => "an acceleration, such as '9.81 m/s^2'",
+            Self::Time => "a time, such as '50 us' or '50 us ± 5 us'",
+            Self::Speed => "a speed, such as '2 m/s' or '2 m/s ± 1 cm/s'",
+            Self::Density => "a density, such as '7800 kg/m^3'",
             Self::Angle => "an angle, such as '20 deg', '20 ± 0.5 deg' or '0.35 rad'",
         }
     }

@@ -14,8 +14,9 @@ use fem_case::Scene;
 const OPTIONAL: [&str; 5] =
     ["restitution_uncertainty", "uncertainty", "standard_error", "sigma", "contact_time"];
 /// Other columns that tables of trials, fits and sweeps have.
-const WRITTEN: [&str; 9] = [
+const WRITTEN: [&str; 10] = [
     "speed_uncertainty",
+    "time",
     "first_after",
     "second_after",
     "alpha",

@@ -74,7 +74,7 @@ impl Table {
         let header_line = text.lines().skip(n_above).position(is_header);
         let header_line = (n_above + header_line.unwrap_or(0) + 1) as u64;
         let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
-        if header.len() > 1 && header.iter().all(is_number) {
+        if !header.is_empty() && header.iter().all(is_number) {
             let error = DataError::new(&name, "the first row is of numbers: there is no header");
             return Err(error.in_line(header_line).with_help(
                 "write a line above it that names the columns, such as speed_m_s,restitution",

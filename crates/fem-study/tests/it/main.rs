@@ -8,4 +8,5 @@ mod dem;
 mod fits;
 mod inverse;
 mod measured;
+mod records;
 mod spectrum;

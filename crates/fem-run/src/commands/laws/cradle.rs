@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::{
     arguments::{case::stem_of, data::ColumnArguments},
     result_folder::command_output::OutputArguments,
-    text::{Failure, headed, standard_output, table},
+    text::{Failure, headed, show_measured, standard_output, table},
 };
 
 /// Compute the restitution from the angles of a Newton's cradle
@@ -191,15 +191,6 @@ fn swings(
         Ok((trial, swing))
     });
     trials.collect()
-}
-
-/// Returns `0.9250 ± 0.0031`, with two digits of the uncertainty.
-fn show_measured(Measured { value, uncertainty }: Measured, unit: &str) -> String {
-    if uncertainty <= 0.0 {
-        return format!("{value:.4} {unit}").trim_end().to_string();
-    }
-    let digits = (1 - uncertainty.log10().floor() as i32).clamp(0, 9) as usize;
-    format!("{value:.digits$} ± {uncertainty:.digits$} {unit}").trim_end().to_string()
 }
 
 fn one(cradle: &Cradle, trial: &Trial, swing: &Swing) -> String {

@@ -103,6 +103,8 @@ fn every_command_keeps_results_of_other_inputs() {
     place.write("b.csv", "speed_m_s,restitution\n0.1,0.90\n0.3,0.880\n0.5,0.86\n");
     place.write("a_trials.csv", "alpha_deg,beta_deg\n30,28\n20,19\n");
     place.write("b_trials.csv", "alpha_deg,beta_deg\n30,27\n20,18\n");
+    place.write("a_bounces.csv", "time_s\n0.4\n1.0\n1.54\n");
+    place.write("b_bounces.csv", "time_s\n0.4\n1.1\n1.64\n");
     place.write("a.toml", "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = [0.1, 0.2]\n");
     place.write(
         "b.toml",
@@ -122,6 +124,7 @@ fn every_command_keeps_results_of_other_inputs() {
         ("fit case.toml --law tsuji --data a.csv", [ting, smaller]),
         ("calibrate case.toml --terms 1 --model ting --data", ["a.csv", "b.csv"]),
         ("cradle --diameters 2cm,2cm --length 1m --data", ["a_trials.csv", "b_trials.csv"]),
+        ("measure", ["a_bounces.csv", "b_bounces.csv"]),
         ("accuracy case.toml --budget 0.01", [ting, smaller]),
     ] {
         let run = |input: &str, more: &str| place.run(&format!("{command} {input} -q {more}"));

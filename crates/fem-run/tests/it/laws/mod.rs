@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod fit;
+mod measure;
 
 use crate::common::Place;
 

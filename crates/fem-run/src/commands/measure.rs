@@ -1,0 +1,191 @@
+//! `fem-run measure FILE`: restitutions over speed from a record as it is measured.
+
+use std::path::PathBuf;
+
+use fem::fit::cradle::Measured;
+use fem::measured::{Kind, NotMeasured, parse_measured};
+use fem::records::{
+    BounceTimes, IMPACT_COLUMNS, Impact, Record, RecordKind, Rig, TimeUncertaintySource,
+};
+use fem_case::engineering::show;
+use fem_report::record_figures::record_figure;
+use serde_json::Value;
+
+use crate::arguments::case::stem_of;
+use crate::arguments::data::{ColumnArguments, read_bytes};
+use crate::result_folder::command_output::OutputArguments;
+use crate::text::{Failure, headed, show_measured, shown, standard_output};
+
+/// Turn a record of a bouncing ball into restitutions over speed, with uncertainties
+///
+/// The record is a CSV file of the instants at which the ball touches the plate. Writes measure.csv, which fit and
+/// calibrate read, measure.json and measure.svg, and prints the table. Values may carry a standard uncertainty: '20 cm ± 1 mm'.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// The record: a CSV file with a column time_s, the instants of the bounces
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// The kind of record [default: by its columns]
+    #[arg(long, value_name = "KIND", value_parser = parse_kind)]
+    kind: Option<RecordKind>,
+    #[command(flatten)]
+    columns: ColumnArguments,
+    #[command(flatten)]
+    rig: RigArguments,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Options for the rig, which the record does not show.
+#[derive(clap::Args, Debug)]
+struct RigArguments {
+    /// Acceleration of free fall [default: 9.80665 m/s^2]
+    #[arg(long, value_name = "G", value_parser = of_kind(Kind::Acceleration))]
+    gravity: Option<Measured>,
+    /// Height of the drop, from the ball's lowest point to the plate; it gives the speed of the first impact
+    #[arg(long, value_name = "LENGTH", value_parser = of_kind(Kind::Length))]
+    height: Option<Measured>,
+    /// Diameter of the ball; with the density it gives the air drag, which is neglected otherwise
+    #[arg(long, value_name = "LENGTH", value_parser = of_kind(Kind::Length))]
+    diameter: Option<Measured>,
+    /// Density of the ball
+    #[arg(long, value_name = "DENSITY", value_parser = of_kind(Kind::Density))]
+    density: Option<Measured>,
+    /// Contact time of a bounce, by which flights are shorter than the time between two bounces [default: 0]
+    #[arg(long, value_name = "TIME", value_parser = of_kind(Kind::Time))]
+    contact_time: Option<Measured>,
+    /// Standard uncertainty of an instant [default: by the scatter of the flights]
+    #[arg(long, value_name = "TIME", value_parser = of_kind(Kind::Time))]
+    time_uncertainty: Option<Measured>,
+    /// Instant at which the ball comes to rest, a check of the bounces
+    #[arg(long, value_name = "TIME", value_parser = of_kind(Kind::Time))]
+    rest: Option<Measured>,
+}
+
+fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
+    move |text| parse_measured(kind, text)
+}
+
+fn parse_kind(name: &str) -> Result<RecordKind, String> {
+    let found = RecordKind::ALL.into_iter().find(|kind| kind.name() == name);
+    let names = RecordKind::ALL.map(RecordKind::name);
+    found.ok_or_else(|| format!("a record is one of {}", names.join(", ")))
+}
+
+impl RigArguments {
+    fn rig(&self) -> Rig {
+        Rig {
+            gravity: self.gravity,
+            drop_height: self.height,
+            diameter: self.diameter,
+            density: self.density,
+            contact_time: self.contact_time,
+            time_uncertainty: self.time_uncertainty.map(|given| given.value),
+            rest: self.rest,
+        }
+    }
+}
+
+impl Arguments {
+    fn read(&self, bytes: &[u8]) -> Result<Record, Failure> {
+        let (name, names) = (self.file.display().to_string(), self.columns.names()?);
+        Ok(Record::read(&name, bytes, self.kind, &names, &self.rig.rig())?)
+    }
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let (path, rig) = (&arguments.file, arguments.rig.rig());
+    let record = arguments.read(&read_bytes(path)?)?;
+    let origin = arguments.columns.origin("measure", None, Some(path));
+    let mut output = arguments.output.claim(&stem_of(path), "measure", origin)?;
+    let rows = record.impacts().iter().map(Impact::row);
+    output.write_table("measure.csv", &IMPACT_COLUMNS, rows)?;
+    output.write("measure.svg", record_figure(&record, &rig))?;
+    standard_output::warn(record.warnings().iter().cloned());
+    let table = shown(&output.place().join("measure.csv"));
+    let numbers = record.numbers(&path.display().to_string(), &rig);
+    output.publish(&numbers, || {
+        let next = format!("\nFit a law to it: fem-run fit CASE.toml --data {table}\n");
+        answer(&record) + &impacts_table(record.impacts()) + &details(&record, &rig) + &next
+    })
+}
+
+/// Measures a record in memory and returns the numbers.
+pub fn numbers(arguments: &Arguments, bytes: &[u8]) -> Result<Value, Failure> {
+    let record = arguments.read(bytes)?;
+    Ok(record.numbers(&arguments.file.display().to_string(), &arguments.rig.rig()))
+}
+
+/// Returns the first line: how many restitutions, and their range.
+fn answer(record: &Record) -> String {
+    let impacts = record.impacts();
+    let fastest = impacts.iter().max_by(|a, b| a.speed.value.total_cmp(&b.speed.value));
+    let slowest = impacts.iter().min_by(|a, b| a.speed.value.total_cmp(&b.speed.value));
+    let of = |impact: &Impact| {
+        let e = show_measured(impact.restitution, "");
+        format!("{e} at {}", show(impact.speed.value, "m/s"))
+    };
+    match (fastest, slowest) {
+        (Some(one), _) if impacts.len() == 1 => format!("restitution {}\n\n", of(one)),
+        (Some(fastest), Some(slowest)) => {
+            format!("{} restitutions, from {} to {}\n\n", impacts.len(), of(fastest), of(slowest))
+        }
+        _ => String::new(),
+    }
+}
+
+/// Returns the table of impacts; of a long one its first rows and its last.
+fn impacts_table(impacts: &[Impact]) -> String {
+    const SHOWN: usize = 16;
+    let row = |impact: &Impact| {
+        [
+            show(impact.time, "s"),
+            show_measured(impact.speed, "m/s"),
+            show_measured(impact.restitution, ""),
+        ]
+    };
+    let mut rows: Vec<[String; 3]> = impacts.iter().map(row).collect();
+    if rows.len() > SHOWN {
+        let n_hidden = rows.len() - SHOWN + 1;
+        rows.splice(
+            SHOWN - 2..rows.len() - 1,
+            [["…".to_string(), format!("{n_hidden} more"), String::new()]],
+        );
+    }
+    headed(">time|>speed|>restitution", rows) + "\n"
+}
+
+fn details(record: &Record, rig: &Rig) -> String {
+    match record {
+        Record::BounceTimes(bounces) => of_bounces(bounces, rig),
+    }
+}
+
+fn of_bounces(bounces: &BounceTimes, rig: &Rig) -> String {
+    let source = match bounces.source {
+        TimeUncertaintySource::Given => "as given",
+        TimeUncertaintySource::Scatter => "by the scatter of the flights",
+        TimeUncertaintySource::Digits => "by the last digit",
+    };
+    let uncertainty = fem_case::engineering::Unit::fitting(bounces.time_uncertainty, "s");
+    let uncertainty = uncertainty.with_digits(2).show(bounces.time_uncertainty);
+    let mut text = format!("standard uncertainty of an instant: {uncertainty}, {source}\n");
+    if rig.contact_time.is_none() {
+        let change = 1e-4 * bounces.contact_time_slope;
+        text += &format!(
+            "contact time neglected: 100 µs would change the last restitution by {change:.1e}\n"
+        );
+    }
+    if rig.diameter.is_none() {
+        text += "air drag neglected: --diameter and --density of the ball include it\n";
+    }
+    if let Some(rest) = bounces.predicted_rest {
+        text += &format!(
+            "predicted rest: {rest:.3} s, if the ball bounces on as in its last bounces\n"
+        );
+    }
+    if let Some(e) = bounces.restitution_to_rest {
+        text += &format!("mean restitution by the time to rest: {}\n", show_measured(e, ""));
+    }
+    text
+}

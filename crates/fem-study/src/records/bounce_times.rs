@@ -1,0 +1,508 @@
+//! Restitutions from the instants at which a bouncing ball touches the plate.
+//!
+//! A flight of duration T begins and ends with gT/2 in vacuum, so that the restitution of the bounce between two flights is
+//! e = T₂/T₁ (A. D. Bernstein, *Am. J. Phys.* **45** (1977) 41, doi:10.1119/1.10904). With air drag the speeds are those
+//! of [`FreeFlight`](super::FreeFlight). Durations are less the contact
+//! time if it is given. Uncertainties of instants, contact time, gravity and drag propagate in first order.
+//!
+//! A ball with a constant restitution comes to rest after the first flight's T/(1 − e), which is a check.
+
+use fem_material::engineering::show;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::fit::cradle::Measured;
+use crate::measured::{DataError, NumberColumns};
+
+use super::impact::Impact;
+use super::rig::{Flights, Rig};
+use super::roles::{TIME_UNCERTAINTIES, TIMES};
+use super::series::{FlightSpan, Scatter, flight_spans, scatter};
+
+/// Longest flight, s; a longer one, with landing at 100 m/s, is one in another unit.
+const LONGEST_FLIGHT: f64 = 20.0;
+/// Flights shorter than this are warned of: the ball rises by 5 µm.
+const SHORT_FLIGHT: f64 = 2e-3;
+/// Most instants of one drop.
+const MOST_INSTANTS: usize = 1000;
+/// Most warnings about single flights.
+const MOST_WARNINGS: usize = 5;
+/// Number of restitutions whose mean is that of the bounces to come.
+const LAST: usize = 3;
+
+/// The instants of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instants {
+    /// The name of the record in messages.
+    pub name: String,
+    /// Increasing instants, s.
+    pub values: Vec<f64>,
+    /// The line of each in the text; empty for instants that are picked from a trace.
+    pub lines: Vec<u64>,
+    /// Standard uncertainty of each, s, if the record has them.
+    pub uncertainties: Option<Vec<f64>>,
+    /// The smallest step between instants, s: one of the last digit, or of a sample.
+    pub resolution: f64,
+}
+
+/// The source of the uncertainty of instants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TimeUncertaintySource {
+    /// The record or the user gives it.
+    Given,
+    /// The scatter of the flights about a smooth series.
+    Scatter,
+    /// The last digit of the record: the flights are too few or too regular for a scatter.
+    Digits,
+}
+
+/// The restitutions of a bouncing ball.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BounceTimes {
+    /// The instants of the record.
+    pub instants: Instants,
+    /// The flights between instants.
+    pub spans: Vec<FlightSpan>,
+    /// Scatter of the flights about a smooth series, if there are enough.
+    pub scatter: Option<Scatter>,
+    /// The largest standard uncertainty of an instant, s.
+    pub time_uncertainty: f64,
+    /// Where it is from.
+    pub source: TimeUncertaintySource,
+    /// The impacts in the order of the record.
+    pub impacts: Vec<Impact>,
+    /// The instant at which the ball comes to rest if it bounces on as in its last bounces, s.
+    pub predicted_rest: Option<f64>,
+    /// The restitution by the time from the first bounce to rest, if that is given.
+    pub restitution_to_rest: Option<Measured>,
+    /// Change of the last restitution per second of contact time, 1/s.
+    pub contact_time_slope: f64,
+    /// Instants and flights that are left out, and other warnings.
+    pub warnings: Vec<String>,
+}
+
+impl Instants {
+    /// Reads the instants of a table.
+    ///
+    /// # Errors
+    /// The table has no column of instants, a cell is no number, or the instants do not increase.
+    pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
+        let Some(column) = columns.find(&TIMES)? else {
+            let found = columns.header().join(", ");
+            let message = format!("there is no column of instants; found are {found}");
+            let help = "name a column time_s or time_ms, or say which it is, --columns time=COLUMN";
+            return Err(columns.header_fault(message).with_help(help));
+        };
+        let times = columns.numbers(column, [0, 0, 1])?;
+        let uncertainties = match columns.find(&TIME_UNCERTAINTIES)? {
+            Some(column) => Some(columns.numbers(column, [0, 0, 1])?.values),
+            None => None,
+        };
+        let is_known: Vec<bool> = times.values.iter().map(|time| time.is_finite()).collect();
+        let kept = |values: Vec<f64>| -> Vec<f64> {
+            let known = values.into_iter().zip(&is_known).filter(|(_, known)| **known);
+            known.map(|(value, _)| value).collect()
+        };
+        let lines = columns.lines().into_iter().zip(&is_known).filter(|(_, known)| **known);
+        let instants = Self {
+            name: columns.name().to_string(),
+            lines: lines.map(|(line, _)| line).collect(),
+            values: kept(times.values),
+            uncertainties: uncertainties.map(kept),
+            resolution: times.resolution,
+        };
+        let values = &instants.values;
+        if let Some(k) = (1..values.len()).find(|k| values[*k] <= values[k - 1]) {
+            let message =
+                format!("the instant {} s does not follow {} s", values[k], values[k - 1]);
+            let help =
+                "list the instants of one drop in order; keep each drop in a file of its own";
+            return Err(instants.fault(k, message).with_help(help));
+        }
+        let bad = instants.uncertainties.iter().flatten().position(|u| u.is_nan() || *u <= 0.0);
+        if let Some(k) = bad {
+            let help = "every instant has one greater than 0, or the column is left out";
+            return Err(instants.fault(k, "the uncertainty of the instant").with_help(help));
+        }
+        Ok(instants)
+    }
+
+    fn fault(&self, k: usize, message: impl std::fmt::Display) -> DataError {
+        let error = DataError::new(&self.name, message);
+        match self.lines.get(k) {
+            Some(line) => error.in_line(*line),
+            None => error,
+        }
+    }
+}
+
+impl BounceTimes {
+    /// Returns the restitutions between the flights of a ball.
+    ///
+    /// # Errors
+    /// The record does not support a restitution, or a value of the rig is out of range.
+    ///
+    /// ```
+    /// use fem_study::measured::NumberColumns;
+    /// use fem_study::records::{BounceTimes, Instants, Rig};
+    ///
+    /// let text = "time_s\n0.4515\n1.2640\n1.9954\n2.6537\n";
+    /// let instants = Instants::read(&NumberColumns::parse("drop.csv", text)?)?;
+    /// let bounces = BounceTimes::of(instants, &Rig::default())?;
+    /// let first = bounces.impacts[0];
+    /// assert!((first.restitution.value - 0.9002).abs() < 1e-4);
+    /// assert!((first.speed.value - 3.984).abs() < 1e-3);
+    /// # Ok::<(), fem_study::measured::DataError>(())
+    /// ```
+    pub fn of(instants: Instants, rig: &Rig) -> Result<Self, DataError> {
+        rig.check(&instants.name)?;
+        check_flights(&instants, rig)?;
+        let spans = flight_spans(&instants.values);
+        let found = scatter(&instants.values, &spans);
+        let (uncertainties, source) = uncertainties(&instants, rig, found.as_ref());
+        let mut warnings = left_out(&instants.values, &spans);
+        let speeds = Speeds::of(&instants, &spans, &uncertainties, rig, &mut warnings);
+        let mut impacts: Vec<Impact> =
+            speeds.first(rig).into_iter().chain(speeds.others()).collect();
+        impacts.retain(|impact| match impact.impossible() {
+            Some(reason) => {
+                warnings.push(format!("the impact at {:.4} s is left out: {reason}", impact.time));
+                false
+            }
+            None => true,
+        });
+        let restitution_to_rest = rig.rest.map(|rest| to_rest(&instants, &uncertainties, rest));
+        let restitution_to_rest = restitution_to_rest.transpose()?;
+        if impacts.is_empty()
+            && let (Some(restitution), Some(first)) = (restitution_to_rest, speeds.by_span.first())
+            && let Some(flight) = first
+        {
+            let time = instants.values[1];
+            impacts.push(Impact { time, speed: flight.landing_speed(), restitution });
+            warnings.push("the restitution is a mean over all bounces until rest".to_string());
+        }
+        if impacts.is_empty() {
+            let message = "no two flights in a row give a restitution between 0 and 1";
+            let help = warnings[..warnings.len().min(MOST_WARNINGS)].join("; ");
+            return Err(DataError::new(&instants.name, message).with_help(help));
+        }
+        let n_more = warnings.len().saturating_sub(MOST_WARNINGS);
+        if n_more > 1 {
+            warnings.truncate(MOST_WARNINGS);
+            warnings
+                .push(format!("{n_more} more flights or impacts are left out for such reasons"));
+        }
+        let mut bounces = Self {
+            contact_time_slope: speeds.contact_time_slope(),
+            time_uncertainty: uncertainties.iter().copied().fold(0.0, f64::max),
+            predicted_rest: None,
+            instants,
+            spans,
+            scatter: found,
+            source,
+            impacts,
+            restitution_to_rest,
+            warnings,
+        };
+        bounces.predict_rest(rig);
+        bounces.warn(rig);
+        Ok(bounces)
+    }
+
+    /// Predicts the end of bouncing by the sum of the flights to come.
+    fn predict_rest(&mut self, rig: &Rig) {
+        let last: Vec<f64> =
+            self.impacts.iter().rev().take(LAST).map(|impact| impact.restitution.value).collect();
+        let e = last.iter().sum::<f64>() / last.len() as f64;
+        let Some(FlightSpan { from, to, n_flights: 1 }) = self.spans.last().copied() else {
+            return;
+        };
+        if e >= 1.0 {
+            return;
+        }
+        let duration = self.instants.values[to] - self.instants.values[from];
+        let rest = self.instants.values[to] + duration * e / (1.0 - e);
+        self.predicted_rest = Some(rest);
+        let (Some(given), Some(start)) = (rig.rest, self.instants.values.first()) else { return };
+        // The last bounces are many and short: a twentieth of the time is what their restitution changes.
+        let tolerance = (3.0 * given.uncertainty).max(0.05 * (rest - start));
+        if (given.value - rest).abs() > tolerance {
+            self.warnings.push(format!(
+                "the ball comes to rest at {:.3} s, and would at {rest:.3} s if it bounced on as in its \
+                 last bounces: later bounces lose another share, or some are missing",
+                given.value
+            ));
+        }
+    }
+
+    /// Returns the numbers of the record for JSON, SI.
+    pub(super) fn numbers(&self) -> Value {
+        json!({
+            "instants_s": self.instants.values,
+            "time_uncertainty_s": self.time_uncertainty,
+            "time_uncertainty_from": self.source,
+            "degrees_of_freedom": self.scatter.as_ref().map(|scatter| scatter.freedom),
+            "predicted_rest_s": self.predicted_rest,
+            "restitution_to_rest": self.restitution_to_rest.map(|e| e.value),
+            "restitution_to_rest_uncertainty": self.restitution_to_rest.map(|e| e.uncertainty),
+            "restitution_per_contact_time_1_s": self.contact_time_slope,
+        })
+    }
+
+    fn warn(&mut self, rig: &Rig) {
+        let values = &self.instants.values;
+        let longest = values.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        if longest < SHORT_FLIGHT {
+            self.warnings.push(format!(
+                "the longest flight is {:.3} ms, a bounce of {:.1} um: is the time in seconds?",
+                1e3 * longest,
+                1e6 * rig.gravity().value * longest * longest / 8.0
+            ));
+        }
+        if self.source == TimeUncertaintySource::Digits {
+            self.warnings.push(format!(
+                "the uncertainty of an instant, {}, is that of its last digit only: \
+                 --time-uncertainty gives another",
+                show(self.time_uncertainty, "s")
+            ));
+        }
+    }
+}
+
+/// Rejects records without two flights or an equivalent, and those in another unit.
+fn check_flights(instants: &Instants, rig: &Rig) -> Result<(), DataError> {
+    let values = &instants.values;
+    let error = |message: String| DataError::new(&instants.name, message);
+    let is_enough =
+        values.len() >= 3 || values.len() == 2 && (rig.drop_height.is_some() || rig.rest.is_some());
+    if !is_enough {
+        let found = match values.len() {
+            0 => "there is no instant".to_string(),
+            1 => "one instant is no flight".to_string(),
+            _ => "two instants are one flight".to_string(),
+        };
+        let message = format!("{found}: a restitution needs two flights in a row, three instants");
+        return Err(error(message).with_help(
+            "list more bounces; with two of them --height of the drop or --rest, the time at which the ball comes to \
+             rest, suffices",
+        ));
+    }
+    if values.len() > MOST_INSTANTS {
+        let message = format!("{} instants are more than the bounces of one drop", values.len());
+        let help =
+            format!("keep each drop in a file of its own, of at most {MOST_INSTANTS} instants");
+        return Err(error(message).with_help(help));
+    }
+    let flights = values.windows(2).map(|pair| pair[1] - pair[0]);
+    let (k, longest) =
+        flights.enumerate().fold(
+            (0, 0.0),
+            |longest, (k, flight)| {
+                if flight > longest.1 { (k, flight) } else { longest }
+            },
+        );
+    if longest > LONGEST_FLIGHT {
+        let speed = 0.5 * rig.gravity().value * longest;
+        let message = format!("a flight of {longest:.3} s lands at {speed:.0} m/s");
+        let help =
+            "name the column with its unit, such as time_ms, if the instants are not in seconds";
+        return Err(instants.fault(k + 1, message).with_help(help));
+    }
+    Ok(())
+}
+
+/// Returns the standard uncertainty of each instant.
+fn uncertainties(
+    instants: &Instants,
+    rig: &Rig,
+    scatter: Option<&Scatter>,
+) -> (Vec<f64>, TimeUncertaintySource) {
+    let all = |uncertainty: f64| vec![uncertainty; instants.values.len()];
+    // A rectangular distribution over one step.
+    let digits = instants.resolution / 12f64.sqrt();
+    match (&instants.uncertainties, rig.time_uncertainty, scatter) {
+        (_, Some(given), _) => (all(given), TimeUncertaintySource::Given),
+        (Some(given), _, _) => (given.clone(), TimeUncertaintySource::Given),
+        (_, _, Some(scatter)) if scatter.uncertainty > digits => {
+            (all(scatter.uncertainty), TimeUncertaintySource::Scatter)
+        }
+        _ => (all(digits), TimeUncertaintySource::Digits),
+    }
+}
+
+fn left_out(instants: &[f64], spans: &[FlightSpan]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for FlightSpan { from, to, n_flights } in spans.iter().copied() {
+        let [start, end] = [from, to].map(|k| instants[k]);
+        if n_flights > 1 {
+            let missing = if n_flights == 2 { "an instant is" } else { "two instants are" };
+            warnings.push(format!(
+                "{missing} missing between {start:.4} s and {end:.4} s: these {n_flights} flights are left out"
+            ));
+        }
+        for between in from + 1..to {
+            let extra = instants[between];
+            warnings.push(format!("the instant {extra:.4} s is left out: it is no bounce"));
+        }
+    }
+    warnings
+}
+
+/// Returns the restitution of a ball that bounces on until rest with the same restitution: 1 − T/(rest − first instant).
+fn to_rest(
+    instants: &Instants,
+    uncertainties: &[f64],
+    rest: Measured,
+) -> Result<Measured, DataError> {
+    let [first, second, ..] = instants.values[..] else { return Ok(Measured::exact(0.0)) };
+    let last = instants.values[instants.values.len() - 1];
+    if rest.value <= last {
+        let message = format!("the ball is at rest at {} s and bounces at {last} s", rest.value);
+        let help = "--rest is the time at which the ball comes to rest, on the clock of the record";
+        return Err(DataError::new(&instants.name, message).with_help(help));
+    }
+    let (flight, whole) = (second - first, rest.value - first);
+    let e = 1.0 - flight / whole;
+    let slopes = [1.0 / whole - flight / (whole * whole), 1.0 / whole, flight / (whole * whole)];
+    let spread = [uncertainties[0], uncertainties[1], rest.uncertainty];
+    let uncertainty = slopes.iter().zip(spread).fold(0.0f64, |sum, (a, b)| sum.hypot(a * b));
+    Ok(Measured { value: e, uncertainty })
+}
+
+/// The speeds of a flight with their uncertainties.
+#[derive(Clone, Copy, Debug)]
+struct FlightSpeeds {
+    /// Launch and landing speed, m/s.
+    speeds: [f64; 2],
+    /// Their derivatives by the duration, m/s².
+    slopes: [f64; 2],
+    /// Their changes with the uncertainty of drag, m/s.
+    drag: [f64; 2],
+    /// Uncertainties of the instants at the beginning and the end, s.
+    ends: [f64; 2],
+    /// Uncertainty of the contact time, s.
+    contact: f64,
+    /// Relative uncertainty of gravity.
+    gravity: f64,
+    /// The instant at the end, s.
+    time: f64,
+}
+
+impl FlightSpeeds {
+    fn landing_speed(&self) -> Measured {
+        let of_time = self.ends[0].hypot(self.ends[1]).hypot(self.contact);
+        let uncertainty =
+            (self.slopes[1] * of_time).hypot(self.drag[1]).hypot(self.gravity * self.speeds[1]);
+        Measured { value: self.speeds[1], uncertainty }
+    }
+
+    /// Returns the restitution of the bounce between this flight and the next one.
+    fn restitution(&self, next: &Self) -> Measured {
+        let (landing, launch) = (self.speeds[1], next.speeds[0]);
+        let e = launch / landing;
+        // Slopes of e by the durations of the next flight and of this one.
+        let [later, earlier] = [next.slopes[0] / landing, e * self.slopes[1] / landing];
+        let by_drag = (launch + next.drag[0]) / (landing + self.drag[1]) - e;
+        let parts = [
+            later * next.ends[1],
+            (later + earlier) * self.ends[1],
+            earlier * self.ends[0],
+            (later - earlier) * self.contact,
+            by_drag,
+        ];
+        Measured { value: e, uncertainty: parts.iter().fold(0.0f64, |sum, part| sum.hypot(*part)) }
+    }
+}
+
+/// The speeds of all flights.
+struct Speeds {
+    /// Those of each single flight.
+    by_span: Vec<Option<FlightSpeeds>>,
+    /// The first instant and its uncertainty, s.
+    start: Measured,
+    flights: Flights,
+}
+
+impl Speeds {
+    fn of(
+        instants: &Instants,
+        spans: &[FlightSpan],
+        uncertainties: &[f64],
+        rig: &Rig,
+        warnings: &mut Vec<String>,
+    ) -> Self {
+        let (flights, contact) = (rig.flights(), rig.contact_time());
+        let gravity = rig.gravity();
+        let mut of_span = |span: &FlightSpan| {
+            let FlightSpan { from, to, n_flights: 1 } = *span else { return None };
+            let [start, end] = [from, to].map(|k| instants.values[k]);
+            let duration = end - start - contact.value;
+            if duration <= 0.0 {
+                warnings
+                    .push(format!("the flight from {start:.4} s is shorter than the contact time"));
+                return None;
+            }
+            let Some([own, more]) = flights.lasting(duration) else {
+                warnings.push(format!(
+                    "the flight from {start:.4} s is left out: the ball lands at its terminal speed"
+                ));
+                return None;
+            };
+            Some(FlightSpeeds {
+                speeds: [own.launch, own.landing],
+                slopes: [own.launch_slope, own.landing_slope],
+                drag: [more.launch - own.launch, more.landing - own.landing],
+                ends: [from, to].map(|k| uncertainties[k]),
+                contact: contact.uncertainty,
+                gravity: gravity.uncertainty / gravity.value,
+                time: end,
+            })
+        };
+        let by_span = spans.iter().map(&mut of_span).collect();
+        let start = Measured { value: instants.values[0], uncertainty: uncertainties[0] };
+        Self { by_span, start, flights }
+    }
+
+    /// Returns the impact after the drop from the height of the rig.
+    fn first(&self, rig: &Rig) -> Option<Impact> {
+        let (height, flight) = (rig.drop_height?, (*self.by_span.first()?)?);
+        let [landing, more] = self.flights.landing_after(height.value)?;
+        let e = flight.speeds[0] / landing;
+        let of_time = flight.ends[0].hypot(flight.ends[1]).hypot(flight.contact);
+        let by_drag = (flight.speeds[0] + flight.drag[0]) / more - e;
+        let [of_height, of_gravity] =
+            [height.uncertainty / height.value, flight.gravity].map(|relative| 0.5 * relative);
+        let uncertainty = (flight.slopes[0] * of_time / landing)
+            .hypot(by_drag)
+            .hypot(e * of_height.hypot(of_gravity));
+        let speed = Measured {
+            value: landing,
+            uncertainty: (landing * of_height.hypot(of_gravity)).hypot(more - landing),
+        };
+        let time = self.start.value;
+        Some(Impact { time, speed, restitution: Measured { value: e, uncertainty } })
+    }
+
+    /// Returns the impacts between two single flights.
+    fn others(&self) -> impl Iterator<Item = Impact> {
+        self.pairs().map(|(before, after)| Impact {
+            time: before.time,
+            speed: before.landing_speed(),
+            restitution: before.restitution(after),
+        })
+    }
+
+    fn pairs(&self) -> impl DoubleEndedIterator<Item = (&FlightSpeeds, &FlightSpeeds)> {
+        self.by_span.windows(2).filter_map(|pair| Some((pair[0].as_ref()?, pair[1].as_ref()?)))
+    }
+
+    /// Returns the change of the last restitution per second of contact time, 1/s.
+    fn contact_time_slope(&self) -> f64 {
+        let slope = |(before, after): (&FlightSpeeds, &FlightSpeeds)| {
+            let (landing, launch) = (before.speeds[1], after.speeds[0]);
+            (launch / landing * before.slopes[1] - after.slopes[0]) / landing
+        };
+        self.pairs().next_back().map_or(0.0, slope)
+    }
+}

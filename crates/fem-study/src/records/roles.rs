@@ -1,0 +1,54 @@
+//! The kinds of records, and the names of their columns.
+
+use crate::measured::{DataError, NumberColumns};
+
+/// The kinds of records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RecordKind {
+    /// The instants at which a bouncing ball touches the plate.
+    BounceTimes,
+}
+
+impl RecordKind {
+    /// All kinds of records, in the order of the documentation.
+    pub const ALL: [Self; 1] = [Self::BounceTimes];
+
+    /// Returns the name of the kind: `bounce-times`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BounceTimes => "bounce-times",
+        }
+    }
+
+    /// Returns the columns of the kind.
+    fn columns(self) -> &'static str {
+        match self {
+            Self::BounceTimes => "time_s",
+        }
+    }
+
+    /// Recognises the kind of a record by its columns.
+    ///
+    /// # Errors
+    /// The columns are those of no kind.
+    pub(super) fn of(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
+        let has = |names: &[&str]| columns.find(names).map(|found| found.is_some());
+        if has(&TIMES)? {
+            return Ok(Self::BounceTimes);
+        }
+        let found = columns.header().join(", ");
+        let kinds = Self::ALL.map(|kind| format!("{} ({})", kind.name(), kind.columns()));
+        let message = format!("the columns {found} are those of no record");
+        let help = format!(
+            "a record is one of {}; name the columns so, or say which they are, --columns time=COLUMN",
+            kinds.join(", ")
+        );
+        Err(columns.header_fault(message).with_help(help))
+    }
+}
+
+/// Names of a column of instants.
+pub(super) const TIMES: [&str; 8] =
+    ["time", "t", "instant", "bounce", "impact", "bounce_time", "impact_time", "timestamp"];
+/// Names of a column of the uncertainties of instants.
+pub(super) const TIME_UNCERTAINTIES: [&str; 3] = ["time_uncertainty", "t_uncertainty", "u(t)"];

@@ -1,0 +1,226 @@
+//! A series of flights between bounces: instants that are missing or too many, and the scatter of the others.
+//!
+//! The flights of a ball whose restitution varies little from bounce to bounce are nearly a geometric series. A flight
+//! that is longer than its neighbours allow by the sum of a second or a third flight spans several bounces; one that is
+//! too short ends at an instant that is no bounce.
+
+use nalgebra::DVector;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// A flight between two instants of a record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlightSpan {
+    /// Index of the instant at its beginning.
+    pub from: usize,
+    /// Index of the instant at its end.
+    pub to: usize,
+    /// Number of flights of the ball in it; above 1 if instants are missing.
+    pub n_flights: usize,
+}
+
+/// Most flights of the ball between two instants, and most instants that are no bounce in one flight, plus one.
+const MAX_JOINED: usize = 3;
+/// Spans that are looked at after one to decide about it.
+const LOOK_AHEAD: usize = 2;
+/// Ratios of flights on either side that decide what is usual.
+const NEIGHBOURS: usize = 3;
+/// Fewest flights in which missing instants are searched.
+const FEWEST: usize = 4;
+/// Most terms of the polynomial through the logarithms of flight times.
+const MAX_TERMS: usize = 5;
+/// Quantile of the interval that two standard uncertainties are.
+const TWO_SIDED_95: f64 = 0.975;
+/// The same quantile of the normal distribution.
+const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// Returns the flights between increasing instants.
+pub(super) fn flight_spans(instants: &[f64]) -> Vec<FlightSpan> {
+    let n = instants.len().saturating_sub(1);
+    if n < FEWEST {
+        return (0..n).map(|from| FlightSpan { from, to: from + 1, n_flights: 1 }).collect();
+    }
+    let lasts: Vec<f64> = instants.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    // The ratio of the flight k + 1 to the flight k, and what its neighbours have in the median.
+    let ratios: Vec<f64> = lasts.windows(2).map(|pair| pair[1] / pair[0]).collect();
+    let usual = |k: usize| {
+        let k = k.min(ratios.len() - 1);
+        let (from, to) = (k.saturating_sub(NEIGHBOURS), (k + NEIGHBOURS + 1).min(ratios.len()));
+        median(&ratios[from..to]).clamp(0.02, 0.999)
+    };
+    let unusual = |k: usize| (ratios[k] / usual(k)).ln().abs();
+    // A flight with usual ratios on both sides is one of the ball; the others follow from it in both directions.
+    let sum = |k: &usize| unusual(k - 1) + unusual(*k);
+    let anchor = (1..n - 1).min_by(|a, b| sum(a).total_cmp(&sum(b))).unwrap_or(1);
+    let after = steps(&lasts[anchor..], |k| usual(anchor + k));
+    let before: Vec<f64> = lasts[..=anchor].iter().rev().copied().collect();
+    let before = steps(&before, |k| 1.0 / usual(anchor.saturating_sub(k + 1)));
+    let mut spans = Vec::new();
+    let mut from = anchor;
+    for (n_steps, n_flights) in before {
+        spans.push(FlightSpan { from: from - n_steps, to: from, n_flights });
+        from -= n_steps;
+    }
+    spans.reverse();
+    spans.push(FlightSpan { from: anchor, to: anchor + 1, n_flights: 1 });
+    let mut from = anchor + 1;
+    for (n_steps, n_flights) in after {
+        spans.push(FlightSpan { from, to: from + n_steps, n_flights });
+        from += n_steps;
+    }
+    spans
+}
+
+/// Goes along durations, the first of which is one flight of the ball. Returns, for each span after it, how many durations
+/// it joins and how many flights it has; `usual(k)` is the ratio of two flights after the duration k.
+fn steps(lasts: &[f64], usual: impl Fn(usize) -> f64) -> Vec<(usize, usize)> {
+    let (mut found, mut at, mut last) = (Vec::new(), 1, lasts[0]);
+    while at < lasts.len() {
+        let step = best_step(lasts, &usual, at, last, LOOK_AHEAD);
+        found.push(step.choice);
+        (at, last) = (step.at, step.last);
+    }
+    found
+}
+
+/// A span after others.
+struct Step {
+    choice: (usize, usize),
+    /// The duration after it.
+    at: usize,
+    /// The last flight of the ball in it, s.
+    last: f64,
+    /// Logarithm of its duration over what is usual, and of those after it, with a penalty for unusual spans.
+    misfit: f64,
+}
+
+/// Returns the step at a duration, after the flight `last` (s), that makes it and the `ahead` next ones most usual.
+fn best_step(
+    lasts: &[f64],
+    usual: &impl Fn(usize) -> f64,
+    at: usize,
+    last: f64,
+    ahead: usize,
+) -> Step {
+    let e = usual(at - 1);
+    // What is nearly usual is not questioned, since restitutions scatter.
+    let penalty = 0.5 * (1.0 + e.min(1.0 / e)).ln();
+    let step = |(n_steps, n_flights): (usize, usize)| {
+        let whole: f64 = lasts[at..at + n_steps].iter().sum();
+        // The sum of the flights over the first of them.
+        let sum: f64 = (0..n_flights).map(|k| e.powi(k as i32)).sum();
+        let own = (whole / (last * e * sum)).ln().abs();
+        let own = if (n_steps, n_flights) == (1, 1) { own } else { own + penalty };
+        let last = whole * e.powi(n_flights as i32 - 1) / sum;
+        let at = at + n_steps;
+        let next = (ahead > 0 && at < lasts.len())
+            .then(|| best_step(lasts, usual, at, last, ahead - 1).misfit);
+        Step { choice: (n_steps, n_flights), at, last, misfit: own + next.unwrap_or(0.0) }
+    };
+    let mut best = step((1, 1));
+    if best.misfit <= penalty {
+        return best;
+    }
+    let longer = (2..=MAX_JOINED).map(|m| (1, m));
+    let joined = (2..=MAX_JOINED.min(lasts.len() - at)).map(|n_steps| (n_steps, 1));
+    for other in longer.chain(joined).map(step) {
+        if other.misfit < best.misfit {
+            best = other;
+        }
+    }
+    best
+}
+
+/// Returns the middle value of a list that is not empty; of an even number the upper one.
+pub(super) fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    let middle = sorted.len() / 2;
+    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// The scatter of instants about a smooth series of flights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scatter {
+    /// Standard uncertainty of an instant, s. Twice this is the half-width of a 95 % interval, by Student's quantile for the few
+    /// flights.
+    pub uncertainty: f64,
+    /// Effective number of degrees of freedom.
+    pub freedom: f64,
+    /// Duration less that of the smooth series, s, of each flight; `None` for one that spans several.
+    pub residuals: Vec<Option<f64>>,
+}
+
+/// Returns the scatter of instants that makes single flights differ from durations T_k whose logarithm is a polynomial over the
+/// number of the bounce; `None` for fewer than three flights. The degree from 1 to 4 with the smallest
+/// uncertainty is taken, which counts the degrees of freedom.
+pub(super) fn scatter(instants: &[f64], spans: &[FlightSpan]) -> Option<Scatter> {
+    let all = (2..=MAX_TERMS).filter_map(|n_terms| scatter_about(instants, spans, n_terms));
+    all.min_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty))
+}
+
+/// Returns the scatter about a polynomial with `n_terms` terms.
+///
+/// With independent errors of the instants, the errors of the durations have the covariance V, 2σ² on the diagonal and
+/// −σ² for flights that share an instant. The residuals of a fit with weights T_k are My, with the projector M, so that
+/// the sum of their squares has the mean σ² tr(MV) and the effective freedom (tr MV)²/tr(MVMV) (Satterthwaite 1946).
+fn scatter_about(instants: &[f64], spans: &[FlightSpan], n_terms: usize) -> Option<Scatter> {
+    let singles: Vec<usize> = (0..spans.len()).filter(|k| spans[*k].n_flights == 1).collect();
+    let n = singles.len();
+    if n <= n_terms {
+        return None;
+    }
+    let numbers: Vec<f64> = spans
+        .iter()
+        .scan(0, |number, span| {
+            *number += span.n_flights;
+            Some((*number - span.n_flights) as f64)
+        })
+        .collect();
+    let durations = DVector::from_iterator(
+        n,
+        singles.iter().map(|k| instants[spans[*k].to] - instants[spans[*k].from]),
+    );
+    let middle = 0.5 * (numbers[singles[0]] + numbers[singles[n - 1]]);
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    for power in 0..n_terms {
+        let mut term = DVector::from_fn(n, |k, _| {
+            durations[k] * ((numbers[singles[k]] - middle) / (middle + 1.0)).powi(power as i32)
+        });
+        // Twice is enough (Kahan and Parlett).
+        for _ in 0..2 {
+            for known in &basis {
+                term -= known * known.dot(&term);
+            }
+        }
+        let length = term.norm();
+        basis.push(term / length);
+    }
+    let mut residuals = durations.map(|duration| duration * duration.ln());
+    for known in &basis {
+        residuals -= known * known.dot(&residuals);
+    }
+    let is_shared = |k: usize| spans[singles[k]].from == spans[singles[k - 1]].to;
+    let covariance = |x: &DVector<f64>| {
+        DVector::from_fn(n, |k, _| {
+            let before = if k > 0 && is_shared(k) { x[k - 1] } else { 0.0 };
+            let after = if k + 1 < n && is_shared(k + 1) { x[k + 1] } else { 0.0 };
+            2.0 * x[k] - before - after
+        })
+    };
+    let images: Vec<DVector<f64>> = basis.iter().map(covariance).collect();
+    let n_shared = (1..n).filter(|k| is_shared(*k)).count();
+    let mut trace = 2.0 * n as f64;
+    let mut trace_of_square = 4.0 * n as f64 + 2.0 * n_shared as f64;
+    for (term, image) in basis.iter().zip(&images) {
+        trace -= term.dot(image);
+        trace_of_square -= 2.0 * image.norm_squared();
+        let cross = basis.iter().map(|other| other.dot(image).powi(2));
+        trace_of_square += cross.sum::<f64>();
+    }
+    let freedom = (trace * trace / trace_of_square).max(1.0);
+    let student = StudentsT::new(0.0, 1.0, freedom).ok()?;
+    let widened = student.inverse_cdf(TWO_SIDED_95) / NORMAL_95;
+    let uncertainty = widened * residuals.norm() / trace.sqrt();
+    let mut of_spans = vec![None; spans.len()];
+    singles.iter().zip(residuals.iter()).for_each(|(k, residual)| of_spans[*k] = Some(*residual));
+    Some(Scatter { uncertainty, freedom, residuals: of_spans })
+}
