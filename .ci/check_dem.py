@@ -20,6 +20,8 @@ import sys
 # 20 000 steps a contact leave up to 2e-5.
 STEPS_A_CONTACT = 20_000
 TOLERANCE = 3e-5
+# Spheres of LAMMPS' mdr grow by what they displace, which fem-run leaves out.
+TOLERANCES = {"lammps_mdr.in": 2e-3}
 
 YADE_SCRIPT = """
 import json, os, sys
@@ -60,7 +62,7 @@ def lammps_restitution(snippet, spheres, speed, time, types=None, n_types=None):
     start = speed if len(spheres) == 2 else -speed
     run = lammps(cmdargs=["-screen", "none", "-log", "none"])
     for line in [
-        "units si", "atom_style sphere", "atom_modify map array", "boundary f f f",
+        "units si", "atom_style sphere 1", "atom_modify map array", "boundary f f f",
         "comm_modify vel yes", "newton off",
         f"region box block {-box} {box} {-box} {box} {-box} {box}",
         f"create_box {n_types or len(spheres)} box",
@@ -155,7 +157,8 @@ def main():
         for k, speed, e in zip(picked, speeds, found):
             claimed = snippet["restitutions_at_data"][k]
             error = e - claimed
-            verdict = "ok" if abs(error) < TOLERANCE else "WRONG"
+            is_near = abs(error) < TOLERANCES.get(snippet["file"], TOLERANCE)
+            verdict = "ok" if is_near else "WRONG"
             failures += verdict == "WRONG"
             checked += 1
             print(f"{snippet['file']}: {speed:.4f} m/s, e = {e:.5f}, "

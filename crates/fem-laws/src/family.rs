@@ -289,8 +289,11 @@ impl LawFamily {
 
     /// Returns whether a contact under this law leaves a dent.
     pub fn is_elastic_plastic(self) -> bool {
-        use LawFamily::{JacksonGreen, Johnson, Luding, MeanPressure, Thornton, WaltonBraun};
-        matches!(self, Thornton | Johnson | JacksonGreen | MeanPressure | WaltonBraun | Luding)
+        use LawFamily::{JacksonGreen, Johnson, Luding, Mdr, MeanPressure, Thornton, WaltonBraun};
+        matches!(
+            self,
+            Thornton | Johnson | JacksonGreen | MeanPressure | Mdr | WaltonBraun | Luding
+        )
     }
 
     /// Returns the index of the parameter that a fit varies to match the loss: the first one that damps, or else the

@@ -183,12 +183,13 @@ pub fn export_figure(fitted: &DemExport) -> String {
                 .collect();
             Curve::new(law.name, mark(law), speed.points(y, &points)).coloured(colour)
         };
-        let laws = fitted.laws.iter().zip([COLOURS[0], COLOURS[2], COLOURS[3]]).map(law);
+        let colours = [0, 2, 3, 4, 5].map(|k| COLOURS[k]);
+        let laws = fitted.laws.iter().zip(colours).map(law);
         laws.fold(chart_axes(&speed, y), Chart::with).with(
             Curve::points(
                 match (is_measured, curve.law) {
                     (true, None) => "data",
-                    (true, Some(_)) => "the fitted law",
+                    (true, Some(law)) => law.name(),
                     (false, _) => "Hertz, in place of data",
                 },
                 speed.points(y, &data),

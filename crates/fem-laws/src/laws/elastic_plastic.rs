@@ -19,7 +19,8 @@
 //! | [`jackson_green`] | Hertz up to 1.9 ω_c, then a fit to finite elements | `SPHERE_PLASTIC_PRE2.m`, for a sphere of radius R* on a rigid flat |
 //! | [`mean_pressure`] | Hertz, then a fit to finite elements, and so is the rebound | the module `mean_pressure` |
 //! | [`walton_braun`] | F = k₁δ | `walton::normal_force` of a public code for granular flow, which cites Walton & Braun (1986) |
-//! | [`luding`] | F = k₁δ, rebound stiffer with δ_m | YADE's LudingPM, which cites Luding (2008), eqs. 6 to 8 |
+//! | [`luding`] | F = k₁δ, rebound stiffer with δ_m, up to δ\*; beyond all of it elastic with k_p | YADE's LudingPM, which cites Luding (2008), eqs. 6 to 8 |
+//! | [`mdr`] | Hertz' mean pressure up to p_Y(δ), then F = πa²p_Y | the module `mdr` |
 //!
 //! Jackson and Green's fit, with ω = δ, C = 1.295 exp(0.736 ν) and the yield strength S of the weaker body:
 //!
@@ -41,6 +42,7 @@ use std::f64::consts::PI;
 
 use fem_material::Material;
 
+use super::mdr::Mdr;
 use super::mean_pressure::MeanPressure;
 use super::power::{ContactLaw, power};
 use super::published::hertz_stiffness;
@@ -80,7 +82,8 @@ enum Formula {
         constraint: f64,
     },
     MeanPressure(MeanPressure),
-    /// Stiffness of the rebound at most, N/m, reached at this approach, m.
+    Mdr(Mdr),
+    /// Stiffness of the loading and of the rebound at most, N/m, and the approach at which that is reached, m.
     Springs {
         stiffness: f64,
         rebound: f64,
@@ -111,7 +114,7 @@ impl Rebound {
 }
 
 impl ElasticPlastic {
-    /// Returns the approach at which the loading is first plastic, m; infinite for a law that has one formula.
+    /// Returns the approach at which the formula of the loading changes, m; infinite for a law that has one formula.
     pub(crate) fn yield_approach(&self) -> f64 {
         match self.formula {
             Formula::Thornton { pressure } => {
@@ -119,6 +122,8 @@ impl ElasticPlastic {
             }
             Formula::JacksonGreen { .. } => FIT_BEGINS * self.critical_interference(),
             Formula::MeanPressure(law) => law.yield_approach(),
+            Formula::Mdr(law) => law.yield_approach(),
+            Formula::Springs { until, .. } if until > 0.0 => until,
             Formula::Johnson { .. } | Formula::Springs { .. } => f64::INFINITY,
         }
     }
@@ -139,6 +144,7 @@ impl ElasticPlastic {
                 hertz * fit.max(1.0).powf(0.5 * exponent)
             }
             Formula::MeanPressure(law) => law.contact_radius(approach),
+            Formula::Mdr(law) => law.contact_radius(approach),
             Formula::Thornton { .. } | Formula::Springs { .. } => hertz,
         }
     }
@@ -172,6 +178,10 @@ impl ElasticPlastic {
                 critical * (fading + 4.0 * hardness / constraint * growing)
             }
             Formula::MeanPressure(law) => law.force(approach),
+            Formula::Mdr(law) => law.force(approach),
+            Formula::Springs { stiffness, rebound, until } if until > 0.0 => {
+                stiffness * until + rebound * (approach - until)
+            }
             Formula::Johnson { .. } | Formula::Springs { .. } => elastic,
         }
     }
@@ -185,6 +195,7 @@ impl ElasticPlastic {
                 (length, 0.5 * force * length)
             }
             Formula::MeanPressure(law) => law.rebound(approach),
+            Formula::Mdr(law) => law.rebound(approach),
             Formula::Thornton { .. } | Formula::Johnson { .. } | Formula::JacksonGreen { .. } => {
                 let length = 0.75 * force / (self.modulus * self.contact_radius(approach));
                 (length, 0.4 * force * length)
@@ -294,6 +305,26 @@ pub fn mean_pressure(
     dented(pair, (hertz_stiffness(pair), 1.5), Formula::MeanPressure(law))
 }
 
+/// Returns the law of LAMMPS' `mdr` of a pair, and yield strength (Pa), Poisson's ratio and the radius of the smaller sphere
+/// over that of the larger one, 0 for a sphere on a flat: the module `mdr` has its equations.
+///
+/// # Errors
+/// A strength that is not positive and finite, a ratio outside (−1, 0.5], a ratio of the radii outside [0, 1].
+pub fn mdr(
+    pair: &Pair,
+    yield_strength: f64,
+    poissons_ratio: f64,
+    radius_ratio: f64,
+) -> Result<ContactLaw, LawError> {
+    let strength = positive("yield_strength", yield_strength)?;
+    if !(0.0..=1.0).contains(&radius_ratio) {
+        let (quantity, range) = ("radius_ratio", "[0, 1]");
+        return Err(LawError::OutOfRange { quantity, value: radius_ratio, range });
+    }
+    let law = Mdr::new(pair, strength, checked_ratio(poissons_ratio)?, radius_ratio);
+    dented(pair, (hertz_stiffness(pair), 1.5), Formula::Mdr(law))
+}
+
 /// Returns the spring of a stiffness k₁, N/m, that springs back with k₁/e², which gives a restitution in (0, 1] at any speed.
 ///
 /// Walton & Braun (1986), *J. Rheol.* 30, 949.
@@ -309,7 +340,7 @@ pub fn walton_braun(pair: &Pair, restitution: f64, stiffness: f64) -> Result<Con
 
 /// Returns Luding's law without adhesion: the spring of a stiffness k₁ springs back with a stiffness that grows with the
 /// largest approach from k₁, N/m, to k_p, `ratio` times as much, at δ* = 2R*φ_f k_p/(k_p − k₁), where φ_f is the plasticity
-/// depth. Beyond δ* the loading goes on with k₁, as in YADE.
+/// depth. Beyond δ* the loading goes on with k_p and loses nothing more.
 ///
 /// Luding (2008), *Granular Matter* 10, 235.
 ///
@@ -398,6 +429,18 @@ pub fn mean_pressure_values(law: &LawInput, context: &LawContext<'_>) -> LawValu
         law.get("elastic_share").unwrap_or(first.elastic_share),
     ];
     Ok((parameters, context.pair))
+}
+
+/// Returns yield strength and Poisson's ratio as given, or those of the body that yields first, and the ratio of the radii.
+///
+/// # Errors
+/// Those of [`thornton_values`].
+pub fn mdr_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let (mut parameters, pair) = jackson_green_values(law, context)?;
+    let [first, second] = context.radii;
+    let ratio = first.min(second) / first.max(second);
+    parameters.push(law.get("radius_ratio").unwrap_or(ratio));
+    Ok((parameters, pair))
 }
 
 /// Returns index and first yield of the body that yields first. A strength that the law gives is that of both bodies.

@@ -4,6 +4,7 @@ mod elastic_plastic;
 mod hunt_crossley;
 mod kuwabara_kono;
 mod linear;
+mod mdr;
 mod mean_pressure;
 mod power;
 mod published;
@@ -12,8 +13,8 @@ mod tsuji;
 
 pub(crate) use elastic_plastic::Rebound;
 pub use elastic_plastic::{
-    ElasticPlastic, jackson_green, jackson_green_values, johnson, johnson_values, luding,
-    mean_pressure, mean_pressure_values, thornton, thornton_values, walton_braun,
+    ElasticPlastic, jackson_green, jackson_green_values, johnson, johnson_values, luding, mdr,
+    mdr_values, mean_pressure, mean_pressure_values, thornton, thornton_values, walton_braun,
 };
 pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
 pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
@@ -251,6 +252,25 @@ macro_rules! contact_laws {
                 elastic_share: Number, NotNegative, Role::number(Some(0.0), (0.0, 1.0));
             }
 
+            /// The law of LAMMPS' `mdr`: a mean pressure that falls with the depth; a flat that springs back.
+            Mdr, mdr, MdrTable, "a table such as { yield_strength = \"1 GPa\" }";
+            formula(pair, [yield_strength, nu, radius_ratio]) =
+                laws::mdr(pair, yield_strength, nu, radius_ratio);
+            given by [
+                yield_strength: KeyNeed::Optional,
+                nu: KeyNeed::Optional,
+                radius_ratio: KeyNeed::Optional
+            ], values laws::mdr_values;
+            ends at ZeroForce;
+            keys {
+                /// Yield strength, > 0; absent: that of the material that yields first.
+                yield_strength: Stress, Positive, Role::STRENGTH;
+                /// Poisson's ratio of the body that flows; absent: the material's.
+                nu: Number, LikePoissonsRatio, Role::number(Some(0.3), (0.0, 0.5));
+                /// Radius of the smaller sphere over that of the larger one, 0 for a sphere on a flat; absent: the case's.
+                radius_ratio: Number, NotNegative, Role::number(Some(0.0), (0.0, 1.0));
+            }
+
             /// A spring that springs back stiffer, with a restitution independent of speed.
             WaltonBraun, walton_braun, WaltonBraunTable,
                 "a table such as { e = 0.8, k1 = \"1e6 N/m\" }";
@@ -276,7 +296,7 @@ macro_rules! contact_laws {
                 /// Stiffness of the loading, > 0.
                 k1: Stiffness, Positive, Role::STIFFNESS;
                 /// Plasticity depth over the reduced radius, > 0.
-                phi_f: Number, Positive, Role::number(None, (1e-6, 1.0)).starting_at(0.05);
+                phi_f: Number, Positive, Role::number(Some(0.05), (1e-6, 1.0));
             }
         }
     };

@@ -4,10 +4,13 @@ use fem_case::{Body, Scene, Switch};
 use fem_laws::{FirstYield, HertzImpact, ImpactQuantities};
 use fem_material::{FlowRule, RateFactor};
 
-/// An impact in which a body flows.
+/// An impact in which a body flows, by the mean-pressure law.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FlowingImpact {
+pub struct FlowingImpact {
+    /// The impact.
     pub quantities: ImpactQuantities,
+    /// Relative errors of the law beside finite elements, in the order of [`ImpactQuantities::in_order`].
+    pub errors: [f64; 6],
     /// Rate of the plastic strain, 1/s.
     pub strain_rate: f64,
 }
@@ -23,7 +26,7 @@ pub(crate) fn flowing_body<'a>(
 
 /// Returns the impact of a scene with a flow rule by the mean-pressure law; `None` if no body flows. A rule that does not depend
 /// on the rate takes the given factor.
-pub(crate) fn flowing_impact(
+pub fn flowing_impact(
     scene: &Scene,
     hertz: &HertzImpact,
     of_rate: Option<RateFactor>,
@@ -33,7 +36,8 @@ pub(crate) fn flowing_impact(
     let (first, hardening, strain_rate) = first.hardened(|strain, rate| {
         of_rate.map_or(1.0, |factor| factor.at(rate)) * rule.flow_stress(strain, rate)
     });
-    Some(FlowingImpact { quantities: first.impact(hardening), strain_rate })
+    let quantities = first.impact(hardening);
+    Some(FlowingImpact { quantities, errors: first.errors(&quantities), strain_rate })
 }
 
 /// Returns the body that flows first, its rule and its first yield.

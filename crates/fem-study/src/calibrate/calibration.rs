@@ -10,10 +10,12 @@ use rayon::prelude::*;
 
 use super::experiment::Experiment;
 use super::fault::CalibrationFault;
+use super::flow::FlowFit;
 use super::maxwell::Maxwell;
 use super::settings::{CalibrationModel, Settings};
 use super::speed_span::ends;
 use super::target::Target;
+use super::warnings::{LARGE_ERROR, LARGE_MISFIT, misses};
 use crate::measured::{DataError, MeasuredPairs};
 
 /// Factor by which the relaxation times reach beyond the contact times. A term that is ten times slower or faster
@@ -23,6 +25,10 @@ const RELAXATION_OVER_CONTACT_TIMES: f64 = 10.0;
 const REGULARISATION: f64 = 1e-3;
 /// Keys of a case's condensed model that a calibration replaces.
 pub(super) const UNUSED_STEPS: &str = "model.condensed.steps";
+/// Without uncertainties plastic flow explains data as well as a series if its rms error is that of the series times the first
+/// factor, or below the second.
+const AS_GOOD: f64 = 1.5;
+const SMALL_ERROR: f64 = 0.002;
 /// Smaller weights are rounding.
 const MIN_WEIGHT: f64 = 1e-9;
 
@@ -74,6 +80,8 @@ pub struct Calibration {
     pub fit: SpectrumFit,
     /// The single Maxwell term of weight 1 with the measured mean.
     pub maxwell: Maxwell,
+    /// The yield strength that explains the data as well; `None` if none does.
+    pub flow: Option<FlowFit>,
     /// The keys of the case's own model that are ignored.
     pub unused_key: Option<String>,
 }
@@ -93,7 +101,7 @@ impl Calibration {
     /// Calibrates a material; the pairs of bodies are computed in parallel.
     ///
     /// # Errors
-    /// The material, the data or the settings are invalid; no model supports the bodies at the sizes and speeds of the
+    /// The material, the data or the settings are invalid; plastic flow explains the data and no series does; no model supports the bodies at the sizes and speeds of the
     /// data; there are fewer data than terms without regularisation; a collision cannot be computed.
     pub fn of(
         case: &Case,
@@ -127,8 +135,14 @@ impl Calibration {
             regularisation,
         };
         let fit = problem.fit(settings.confidence)?;
+        let largest_rms = match misses(&fit) {
+            true => LARGE_ERROR,
+            false => (AS_GOOD * fit.rms).max(SMALL_ERROR),
+        };
+        let flow = FlowFit::of(case, &measured)?;
+        let flow = flow.filter(|flow| flow.explains(LARGE_MISFIT, largest_rms));
         let maxwell = Maxwell::of_mean(&of_terms, &wanted, contacts)?;
-        Ok(Self {
+        let found = Self {
             target,
             model: settings.model,
             regularisation,
@@ -137,9 +151,19 @@ impl Calibration {
             fit,
             maxwell,
             times,
+            flow,
             experiments,
             measured,
-        })
+        };
+        match found.flow {
+            Some(flow) if misses(&found.fit) => {
+                let exponent = found.loss_exponent();
+                let exponent = exponent.filter(|found| found.is_above(SpeedExponent::LIMIT));
+                let exponent = exponent.map(|found| found.value);
+                Err(CalibrationFault::Flow { flow, series_rms: found.fit.rms, exponent })
+            }
+            _ => Ok(found),
+        }
     }
 
     /// Returns the terms that are not zero.

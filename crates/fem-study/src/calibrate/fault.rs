@@ -5,6 +5,7 @@ use fem_case::CaseError;
 use fem_case::engineering::show;
 use fem_laws::LawError;
 
+use super::flow::FlowFit;
 use crate::measured::DataError;
 
 /// An error in the case, data or settings of a calibration, or a collision that fails.
@@ -32,6 +33,24 @@ pub enum CalibrationFault {
     TwoMaterials {
         /// The materials of the bodies.
         materials: Vec<String>,
+    },
+    /// The data are those of plastic flow, and no series makes them.
+    #[error(
+        "plastic flow explains these restitutions, and no relaxation does: a yield strength of {} has an rms error of \
+         {:.4}, the best series {series_rms:.4}{}",
+        show(flow.yield_strength, "Pa"),
+        flow.rms,
+        exponent.map_or(String::new(), |value| format!(
+            "; 1 - e grows as the speed to the power {value:.2}, and that of a linear relaxation to 0.2 at most"
+        ))
+    )]
+    Flow {
+        /// The yield strength that explains the data.
+        flow: FlowFit,
+        /// The rms error of the best series.
+        series_rms: f64,
+        /// The exponent of the speed in 1 − e, if it is above that of any series.
+        exponent: Option<f64>,
     },
     /// A mesh with elements that are small enough for the slowest collision has too many.
     #[error(

@@ -12,15 +12,26 @@ use fem_simulation::{WarningKind, WarningKinds};
 /// Fewest elements that resolve a contact radius.
 const MIN_ELEMENTS: f64 = 3.0;
 /// Larger misfits, in multiples of the uncertainties, are not scatter.
-const LARGE_MISFIT: f64 = 2.0;
+pub(super) const LARGE_MISFIT: f64 = 2.0;
 /// Larger rms errors of e are not those of the model or the mesh.
-const LARGE_ERROR: f64 = 0.02;
+pub(super) const LARGE_ERROR: f64 = 0.02;
 
 impl Calibration {
     /// Returns the warnings, the most important first; `names` are those of the settings that they suggest.
     pub fn warnings(&self, names: &SettingNames) -> Vec<String> {
         let mut warnings: Vec<String> = self.doubt(names).into_iter().collect();
         warnings.extend(self.loss_exponent().and_then(|found| falling(&found, &self.fit)));
+        warnings.extend(self.flow.map(|flow| {
+            format!(
+                "a yield strength of {} explains these restitutions too, with an rms error of {:.4} where the series has \
+                 {:.4}: {}data of other sizes tell both apart, since flow depends on the speed alone and a relaxation \
+                 on the contact time",
+                show(flow.yield_strength, "Pa"),
+                flow.rms,
+                self.fit.rms,
+                if self.experiments.len() > 1 { "more " } else { "" },
+            )
+        }));
         warnings.extend(self.measured.data.warnings());
         warnings.extend(self.misfit(names));
         warnings.extend(self.scatter(names));
@@ -137,7 +148,7 @@ impl Calibration {
 }
 
 /// Whether the best series does not fit the data.
-fn misses(fit: &SpectrumFit) -> bool {
+pub(super) fn misses(fit: &SpectrumFit) -> bool {
     fit.misfit.map_or(fit.rms > LARGE_ERROR, |misfit| misfit > LARGE_MISFIT)
 }
 

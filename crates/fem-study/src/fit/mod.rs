@@ -40,7 +40,7 @@ pub mod dem;
 mod error;
 mod estimates;
 mod inverse;
-mod least_squares;
+pub(crate) mod least_squares;
 mod model;
 mod problem;
 mod profile;

@@ -55,6 +55,8 @@ pub struct Problem<'a> {
 
 /// Factor by which a logarithmic parameter may differ from its natural size.
 const MAX_FACTOR_FROM_NATURAL_SIZE: f64 = 1e8;
+/// Relative difference below which neighbouring sums of squares are those of a plateau.
+const PLATEAU: f64 = 1e-6;
 
 impl<'a> Problem<'a> {
     /// Creates the problem with these parameters free and all others at their defaults.
@@ -207,21 +209,30 @@ impl<'a> Problem<'a> {
         starts
     }
 
-    /// Returns the best of some decades of one parameter around its natural size.
+    /// Returns the best of some decades of one parameter around its natural size, of those where a neighbour is different:
+    /// from a plateau, such as that of strengths that never flow, no fit finds away.
     fn scan(&self, free: &Free, mut values: Vec<f64>) -> Vec<f64> {
         let (parameter, speed) = (self.parameter(free.index), self.middle_speed());
         let size = self.model.natural_size(parameter, &values, speed);
         let size = size.unwrap_or(values[free.index]);
-        let mut best = (f64::INFINITY, values[free.index]);
+        let mut tried: Vec<(f64, f64)> = Vec::new();
         for half_decades in -10..=2 {
             let value = size * 10f64.powf(0.5 * f64::from(half_decades));
             values[free.index] = value.clamp(free.bounds.0, free.bounds.1);
             let sum = self.sum_of_squares(&values).unwrap_or(f64::INFINITY);
-            if sum < best.0 {
-                best = (sum, values[free.index]);
-            }
+            tried.push((sum, values[free.index]));
         }
-        values[free.index] = best.1;
+        let is_slope = |k: usize| {
+            let same = |other: &(f64, f64)| (other.0 - tried[k].0).abs() <= PLATEAU * tried[k].0;
+            !tried[k.saturating_sub(1)..(k + 2).min(tried.len())]
+                .iter()
+                .any(|other| other.1 != tried[k].1 && same(other))
+        };
+        let slopes = (0..tried.len()).filter(|k| is_slope(*k)).map(|k| tried[k]);
+        let least = |best: (f64, f64), next: (f64, f64)| if next.0 < best.0 { next } else { best };
+        let best = slopes.reduce(least).filter(|best| best.0.is_finite());
+        let best = best.or_else(|| tried.iter().copied().reduce(least));
+        values[free.index] = best.map_or(values[free.index], |(_, value)| value);
         values
     }
 

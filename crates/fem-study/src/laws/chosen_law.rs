@@ -2,7 +2,7 @@
 
 use crate::fit::{FitError, Model, Point, Problem};
 use fem_case::{Case, ModelChoice, Scene};
-use fem_laws::{EndRule, LawFamily, ParameterRole};
+use fem_laws::{EndRule, KeyNeed, LawFamily, LawInput, LawParameter, ParameterRole};
 
 use super::law_fault::LawFault;
 use super::parameter::{check_value, find_parameter, loss_parameter};
@@ -20,6 +20,28 @@ pub fn model_of(scene: &Scene, family: LawFamily, end_rule: EndRule) -> Result<M
         ModelChoice::Ting { finite_size: true, .. } => model.with_finite_size(scene.finite_size()?),
         _ => model,
     })
+}
+
+/// Returns the values of the parameters that a law takes from the case where they are not given.
+fn optional_values(scene: &Scene, family: LawFamily) -> Vec<Known> {
+    let parameters = family.parameters();
+    let (sets, loss) = (family.key_sets(), family.loss_parameter().map(|index| &parameters[index]));
+    let set =
+        loss.and_then(|loss| sets.iter().find(|set| set.iter().any(|(key, _)| *key == loss.key)));
+    let is_optional = |key: &str| set.is_some_and(|set| set.contains(&(key, KeyNeed::Optional)));
+    let given = loss.map(|loss| (loss.key, loss.guess(scene.approach_speed())));
+    let law = LawInput { family, values: given.into_iter().collect() };
+    let found = match parameters.iter().any(|parameter| is_optional(parameter.key)) {
+        true => Reduced::parameters_of(scene, &law).ok(),
+        false => None,
+    };
+    let known = |(index, parameter): (usize, &LawParameter)| match &found {
+        Some(values) if parameter.default.is_some() && is_optional(parameter.key) => {
+            Known::Case(values[index])
+        }
+        _ => Known::Nowhere,
+    };
+    parameters.iter().enumerate().map(known).collect()
 }
 
 /// Returns the law that `[model]` names, if it names one.
@@ -80,7 +102,7 @@ impl ChosenLaw {
         given: &[(&str, f64)],
         end_rule: Option<EndRule>,
     ) -> Result<Self, LawFault> {
-        let mut known = vec![Known::Nowhere; family.parameters().len()];
+        let mut known = optional_values(case.scene(), family);
         let mut own_end = family.end_rule().unwrap_or(EndRule::ZeroForce);
         if let ModelChoice::Law { law, end_rule, .. } = case.scene().model()
             && law.family == family
@@ -177,7 +199,7 @@ impl ChosenLaw {
     }
 
     /// Replaces `guesses` by substitute values, in the order of the parameters.
-    pub(super) fn values(&self, guesses: &[f64]) -> Vec<f64> {
+    pub(crate) fn values(&self, guesses: &[f64]) -> Vec<f64> {
         let value = |(known, guess): (&Known, &f64)| match known {
             Known::Nowhere => *guess,
             Known::Case(value) | Known::Given(value) => *value,

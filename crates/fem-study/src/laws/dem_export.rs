@@ -1,12 +1,14 @@
 //! The laws of DEM codes that fit e(v) and T(v), and their ranges of validity.
 
-use crate::fit::dem::{Export, Sphere, fit_dissipation, restitution_of};
+use crate::fit::dem::{
+    DentingSprings, Export, Sphere, fit_dissipation, fit_springs, restitution_of,
+};
 use crate::fit::{FitError, Model, Outcome, Point, Problem};
 use fem_case::{Body, Case, Scene};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, LawFamily};
 
-use super::chosen_law::model_of;
+use super::chosen_law::{ChosenLaw, model_of};
 use super::impact_curve::ImpactCurve;
 
 /// Confidence level of the fit's intervals, which are not used.
@@ -22,8 +24,9 @@ pub struct DemExport {
     pub curve: ImpactCurve,
     /// The content of the snippets.
     pub export: Export,
-    /// The law with one e at all speeds on Hertz' spring, the viscoelastic law and the linear law.
-    pub laws: [FittedLaw; 3],
+    /// The law with one e at all speeds on Hertz' spring, the viscoelastic law, the linear law and, for bodies that dent,
+    /// Luding's springs and LAMMPS' `mdr`.
+    pub laws: Vec<FittedLaw>,
 }
 
 /// A law and the values of its parameters.
@@ -82,6 +85,28 @@ impl DemExport {
             let made = |speed: f64| Ok(restitution_of(fitted.dissipation * speed));
             fitted.validity = curve.validity(tolerance, made)?;
         }
+        let (mut springs, mut mdr) = (None, None);
+        let mut laws = vec![constant, viscoelastic, linear];
+        let has_strength = scene.bodies().iter().any(|body| body.yield_strength().is_some());
+        if has_strength || curve.law.is_some_and(LawFamily::is_elastic_plastic) {
+            if let Some(fitted) = fit_springs(&pair, &curve.points)? {
+                let model = model_of(scene, LawFamily::Luding, force)?;
+                let values = vec![fitted.ratio, fitted.loading, fitted.depth];
+                let made = |speed: f64| Ok(model.outcome(&values, speed)?.restitution);
+                let validity = curve.validity(tolerance, made)?;
+                springs = Some(DentingSprings { validity, ..fitted });
+                laws.push(FittedLaw {
+                    name: "springs that dent (Luding)",
+                    model,
+                    values,
+                    validity,
+                });
+            }
+            if let Some(law) = by_mdr(case, &curve, tolerance) {
+                mdr = Some(([law.values[0], law.values[1]], law.validity));
+                laws.push(law);
+            }
+        }
         let export = Export {
             title: scene.title().replace(char::is_control, " "),
             spheres: spheres(scene),
@@ -91,11 +116,13 @@ impl DemExport {
             restitution: e,
             contact_time,
             validity: constant_validity,
-            dissipation_time: (viscoelastic.values[0], viscoelastic.validity),
+            dissipation_time: (laws[1].values[0], laws[1].validity),
             hunt_crossley,
+            springs,
+            mdr,
             unknown_loss: curve.unknown_loss.clone(),
         };
-        Ok(Self { curve, export, laws: [constant, viscoelastic, linear] })
+        Ok(Self { curve, export, laws })
     }
 }
 
@@ -113,12 +140,27 @@ fn viscoelastic(
     end_rule: EndRule,
 ) -> Result<FittedLaw, FitError> {
     let model = model_of(scene, LawFamily::KuwabaraKono, end_rule)?;
-    let timeless = |point: &Point| Point { contact_time: None, ..*point };
-    let points: Vec<Point> = curve.points.iter().map(timeless).collect();
+    let points = timeless(&curve.points);
     let values = Problem::new(&model, &points, &["a"])?.fit(CONFIDENCE)?.values;
     let validity =
         curve.validity(tolerance, |speed| Ok(model.outcome(&values, speed)?.restitution))?;
     Ok(FittedLaw { name: "viscoelastic (Kuwabara-Kono)", model, values, validity })
+}
+
+/// Fits the yield strength of LAMMPS' `mdr` to the restitutions; `None` if no strength makes them.
+fn by_mdr(case: &Case, curve: &ImpactCurve, tolerance: f64) -> Option<FittedLaw> {
+    let law = ChosenLaw::of(case, LawFamily::Mdr, &[], None).ok()?;
+    let points = timeless(&curve.points);
+    let values = law.problem(&points, &["yield_strength"]).ok()?.fit(CONFIDENCE).ok()?.values;
+    let model = law.model().clone();
+    let made = |speed: f64| Ok(model.outcome(&values, speed)?.restitution);
+    let validity = curve.validity(tolerance, made).ok()?;
+    Some(FittedLaw { name: "mdr of LAMMPS", model, values, validity })
+}
+
+/// Returns the points without their contact times.
+fn timeless(points: &[Point]) -> Vec<Point> {
+    points.iter().map(|point| Point { contact_time: None, ..*point }).collect()
 }
 
 /// Returns the spheres of a scene: two, or the one that strikes a wall.

@@ -3,13 +3,13 @@
 use crate::fit::{FitError, Point};
 use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{Case, ModelChoice, Scene};
-use fem_laws::{EndRule, HertzImpact, LawFamily, Pair};
+use fem_laws::{EndRule, HertzImpact, ImpactQuantities, LawFamily, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;
 use super::stored_fit::StoredFit;
 use crate::measured::{DataError, Restitutions};
-use fem_simulation::{Reduced, Rejection};
+use fem_simulation::{Reduced, flowing_impact};
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
@@ -25,10 +25,10 @@ pub struct ImpactCurve {
     pub has_hertz_times: bool,
     /// Materials whose loss is taken as 0 because the library has none; empty for measured data.
     pub unknown_loss: Vec<String>,
-    /// The law that the curve is that of, if it is one that was fitted to data.
+    /// The law that the curve is that of, if it was fitted to data or stands in for elements that flow.
     pub law: Option<LawFamily>,
     /// The deviation of e that is explained by the scatter of the data: three standard deviations of measured points, one
-    /// of a law fitted to them, 0 for computed points.
+    /// of a law fitted to them, the error of the law that stands in for elements, 0 for other computed points.
     pub scatter: f64,
 }
 
@@ -66,20 +66,18 @@ impl ImpactCurve {
         Ok(Self { law: Some(fit.family()), scatter: fit.scatter, ..curve })
     }
 
-    /// Computes the curve with the case's reduced model, or Ting's model for a case with elements, from one speed to
-    /// another, m/s, or over a decade around that of the case.
+    /// Computes the curve with the case's reduced model, or Ting's model for a case with elements and the mean-pressure law for
+    /// one whose bodies flow, from one speed to another, m/s, or over a decade around that of the case.
     ///
     /// # Errors
     /// The case has no such model, or a collision cannot be computed.
     pub fn computed(case: &Case, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
-        if case.scene().flows() {
-            let message = "plastic flow is computed by finite elements, and not at the many speeds of an export";
-            let help = "compute the restitutions by fem-run sweep over body.N.approach_speed, and give its sweep.csv as --data";
-            return Err(Rejection::new("material", message).with_help(help).in_case(case).into());
-        }
-        let reduced = reduced(case)?;
         let (middle, decade) = (case.scene().approach_speed(), 10f64.sqrt());
         let (low, high) = speeds.unwrap_or((middle / decade, middle * decade));
+        if case.scene().flows() && !matches!(case.scene().model(), ModelChoice::Law { .. }) {
+            return Self::flowing(case.scene(), (low, high));
+        }
+        let reduced = reduced(case)?;
         let point = |speed: f64| {
             let impact = reduced.impact(speed)?;
             let point = Point::new(speed, impact.restitution);
@@ -89,6 +87,28 @@ impl ImpactCurve {
         let unpublished = case.scene().materials_without_loss();
         let unknown_loss = unpublished.into_iter().map(String::from).collect();
         Ok(Self { unknown_loss, ..Self::of(&reduced.scene().pair()?, points)? })
+    }
+
+    /// Computes the curve of bodies that flow by the mean-pressure law, whose error is the scatter.
+    fn flowing(scene: &Scene, speeds: (f64, f64)) -> Result<Self, LawFault> {
+        let pair = scene.pair()?;
+        let mut scatter = 0.0f64;
+        let points = speeds_between(speeds).map(|speed| {
+            let hertz = HertzImpact::new(&pair, speed)?;
+            let flowing = flowing_impact(scene, &hertz, None);
+            let impact = match flowing {
+                Some(impact) => impact.quantities,
+                None => ImpactQuantities::from(&hertz),
+            };
+            let error =
+                flowing.map_or(0.0, |impact| impact.errors[0] * impact.quantities.restitution);
+            scatter = scatter.max(error);
+            let point = Point::new(speed, impact.restitution);
+            Ok(Point { contact_time: Some(impact.contact_time), ..point })
+        });
+        let points = points.collect::<Result<_, FitError>>()?;
+        let curve = Self::of(&pair, points)?;
+        Ok(Self { law: Some(LawFamily::MeanPressure), scatter, ..curve })
     }
 
     fn of(pair: &Pair, mut points: Vec<Point>) -> Result<Self, FitError> {

@@ -18,6 +18,8 @@ const GRID_REACH: f64 = 2.5;
 const EXPONENTS: (f64, f64) = (0.4, 1.1);
 /// Number of speeds of a curve.
 const CURVE_SPEEDS: usize = 80;
+/// Error of another law that dents over that of the mean-pressure law, below which flow does not explain data.
+const FAR_FROM_ELEMENTS: f64 = 0.5;
 /// Larger misfits, in multiples of the variances, are not scatter.
 const LARGE_CHI_SQUARE: f64 = 2.0;
 
@@ -183,6 +185,19 @@ impl<'a> LawFit<'a> {
                 "the misfit is {:.1} times the uncertainties: the law is wrong or they are too \
                  small, and so are the intervals",
                 chi_square.sqrt()
+            ));
+        }
+        let family = problem.model.family();
+        let elements = self.compared.iter().find(|law| law.0.family() == LawFamily::MeanPressure);
+        if let Some((_, flowing)) = elements
+            && family.is_elastic_plastic()
+            && fit.rms < FAR_FROM_ELEMENTS * flowing.rms
+        {
+            warnings.push(format!(
+                "{} fits best, but mean_pressure, which follows finite elements of bodies that flow, has an rms error \
+                 of {:.4}: plastic flow of smooth bodies alone does not make these data",
+                family.name(),
+                flowing.rms
             ));
         }
         if !problem.has_uncertainties() && has_trend(&fit.residuals) {

@@ -131,9 +131,7 @@ impl LawRanking {
 fn candidates() -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
     // The general law comes last, because its defaults are those of a named law.
     let named = LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Power);
-    let lossy = named
-        .chain([LawFamily::Power])
-        .filter(|family| loss_parameter(*family).is_ok() && !family.is_elastic_plastic());
+    let lossy = named.chain([LawFamily::Power]).filter(|family| loss_parameter(*family).is_ok());
     lossy.flat_map(|family| {
         let has_default = |key: &&'static str| {
             let mut parameters = family.parameters().iter();

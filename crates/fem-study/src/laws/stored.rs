@@ -127,12 +127,20 @@ impl DemExport {
     /// restitutions that it makes at the speeds of the data.
     fn snippet(&self, snippet: &Snippet) -> Value {
         let [from, to, worst] = snippet.validity;
-        let mut laws = self.laws.iter();
-        let viscoelastic = laws.find(|law| law.model.family() == LawFamily::KuwabaraKono);
-        let at_speed = |point: &Point| match (snippet.restitution, snippet.entries.first()) {
+        let family = match snippet.law {
+            "viscoelastic" => Some(LawFamily::KuwabaraKono),
+            "luding" => Some(LawFamily::Luding),
+            "mdr" => Some(LawFamily::Mdr),
+            _ => None,
+        };
+        let law =
+            family.and_then(|family| self.laws.iter().find(|law| law.model.family() == family));
+        let at_speed = |point: &Point| match (snippet.restitution, self.export.hunt_crossley) {
             (Some(restitution), _) => Some(restitution),
-            (None, Some(("dissipation", d))) => Some(restitution_of(d * point.speed)),
-            (None, _) => viscoelastic?.outcome(point.speed).map(|outcome| outcome.restitution),
+            (None, Some(fitted)) if law.is_none() => {
+                Some(restitution_of(fitted.dissipation * point.speed))
+            }
+            (None, _) => law?.outcome(point.speed).map(|outcome| outcome.restitution),
         };
         let entries = snippet.entries.iter().map(|(key, value)| (key.to_string(), json!(value)));
         json!({

@@ -8,9 +8,9 @@ use fem_laws::{EndRule, HertzImpact, LawFamily, LawImpact, Pair, Partner};
 use fem_study::fit::Point;
 use fem_study::fit::dem::{
     Export, Grain, HuntCrossley, PairOfGrains, Snippet, Sphere, TsujiVersion,
-    characteristic_velocity, dissipation_of, fit_dissipation, grain_snippets, hertz_mindlin_entry,
-    hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry, tsuji_outcome,
-    viscel_entry, viscoelastic_damping, yade_betan,
+    characteristic_velocity, dissipation_of, fit_dissipation, fit_springs, grain_snippets,
+    hertz_mindlin_entry, hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry,
+    tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
 };
 use fem_study::laws::PairExport;
 
@@ -34,8 +34,60 @@ fn export() -> Export {
         validity,
         dissipation_time: (1e-6, validity),
         hunt_crossley: None,
+        springs: None,
+        mdr: None,
         unknown_loss: Vec::new(),
     }
+}
+
+/// Luding's springs come back from their restitutions and contact times, up to the fastest of them, and the files hold the
+/// stiffnesses of LIGGGHTS, whose loops over time are integrated here: `normal_model_hooke_hysteresis.h`.
+#[test]
+fn springs_that_dent_come_back_and_make_their_restitution() {
+    let pair = export().pair;
+    let (k1, kp, phi) = (2e7, 6e7, 0.004);
+    let mass = pair.effective_mass();
+    let until = kp / (kp - k1) * phi * 2.0 * pair.effective_radius();
+    let fastest = until * f64::sqrt(k1 / mass);
+    let made = |speed: f64| {
+        // A step of the code: the history is the largest overlap.
+        let (mut overlap, mut rate, mut largest) = (0.0f64, speed, 0.0f64);
+        let (step, mut time) = (1e-5 * PI * f64::sqrt(mass / k1), 0.0);
+        loop {
+            overlap += 0.5 * step * rate;
+            largest = largest.max(overlap);
+            let k2 = k1 + (kp - k1) * largest / until;
+            let back = k2 * (overlap - largest) + k1 * largest;
+            let force = if back >= k1 * overlap { k1 * overlap } else { back };
+            if force < 0.0 {
+                return (-rate / speed, time);
+            }
+            rate -= step * force / mass;
+            overlap += 0.5 * step * rate;
+            time += step;
+        }
+    };
+    let points: Vec<Point> = [0.1, 0.3, 0.6, 0.999]
+        .into_iter()
+        .map(|share| {
+            let (restitution, time) = made(share * fastest);
+            Point { contact_time: Some(time), ..Point::new(share * fastest, restitution) }
+        })
+        .collect();
+    let springs = fit_springs(&pair, &points).unwrap().unwrap();
+    assert!((springs.loading / k1 - 1.0).abs() < 1e-3, "{springs:?}");
+    // Beyond the fastest of the data only the slope of the stiffness is meant.
+    let slope = |ratio: f64, depth: f64| (ratio - 1.0).powi(2) / (ratio * depth);
+    let found = slope(springs.ratio, springs.depth);
+    assert!((found / slope(kp / k1, phi) - 1.0).abs() < 1e-3, "{springs:?}");
+    let export = Export { springs: Some(springs), ..export() };
+    let of_liggghts = of_code("LIGGGHTS", &export);
+    let velocity = entry(&of_liggghts, "liggghts_hooke_hysteresis.in", "characteristicVelocity");
+    assert!((hooke_stiffness(&pair, velocity) / springs.loading - 1.0).abs() < 1e-9);
+    // No loss is no dent.
+    let lossless =
+        points.iter().map(|point| Point { restitution: 1.0, ..*point }).collect::<Vec<_>>();
+    assert_eq!(fit_springs(&pair, &lossless).unwrap(), None);
 }
 
 /// Every file warns of a missing loss, and only then.

@@ -27,9 +27,9 @@ pub fn export_text(fitted: &DemExport, snippets: &[Snippet]) -> String {
     };
     let header = "file|valid|>worst|input";
     let of_scatter = match curve.law {
-        _ if export.tolerance != curve.scatter => "",
-        Some(_) => ", the rms error of the fit",
-        None => ", three standard deviations of the data from a smooth curve",
+        _ if export.tolerance != curve.scatter => String::new(),
+        Some(law) => format!(", the error of the law {}", law.name()),
+        None => ", three standard deviations of the data from a smooth curve".to_string(),
     };
     let heading = format!(
         "{}, {} to {}",
@@ -52,6 +52,8 @@ pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
         Some(LawFamily::KuwabaraKono) => Some("lammps_viscoelastic.in"),
         Some(LawFamily::Tsuji) => Some("lammps_tsuji.in"),
         Some(LawFamily::Linear) => Some("liggghts_hooke.in"),
+        Some(LawFamily::Mdr) => Some("lammps_mdr.in"),
+        Some(LawFamily::Luding) => Some("liggghts_hooke_hysteresis.in"),
         _ => None,
     };
     let note = match (fitted.curve.law.map(LawFamily::name), own) {
@@ -62,13 +64,19 @@ pub fn law_note(fitted: &DemExport, has_data: bool) -> String {
                 .to_string()
         }
         (Some(law), Some(file)) => format!(
-            "{file} has the fitted law, {law}. Each other file has the law of its code that is nearest to it."
+            "{file} has the law {law}. Each other file has the law of its code that is nearest to it."
         ),
-        (Some(law), None) => format!(
-            "None of these codes has the fitted law, {law}. Each file has the law of its code that is nearest \
-             to it: one e for all speeds, Kuwabara-Kono (lammps_viscoelastic.in) or Hunt-Crossley \
-             (drake_point_contact.py)."
-        ),
+        (Some(law), None) => {
+            let dents = match fitted.export.springs {
+                Some(_) => ", LAMMPS' mdr and Luding's springs",
+                None => "",
+            };
+            format!(
+                "None of these codes has the law {law}. Each file has the law of its code that is nearest to it: one \
+                 e for all speeds, Kuwabara-Kono (lammps_viscoelastic.in), Hunt-Crossley (drake_point_contact.py)\
+                 {dents}."
+            )
+        }
     };
     format!("\n{}\n", wrapped(&note))
 }

@@ -95,6 +95,9 @@ impl From<CalibrationFault> for Failure {
             }
             CalibrationFault::TwoMaterials { materials } => Failure::bad_input(message)
                 .with_help(format!("name the one to calibrate: --material {}", materials[0])),
+            CalibrationFault::Flow { .. } => Failure::bad_input(message).with_help(
+                "give the material a yield strength: fem-run fit CASE --data FILE --law mean_pressure",
+            ),
             CalibrationFault::NoMesh { .. } => Failure::bad_input(message).with_help(
                 "split the data by speed, give mesh.contact_element_size, or use --model ting, which \
                  has no mesh",

@@ -1,5 +1,6 @@
 //! The texts of a fit and of a ranking of laws.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use fem::fit::{Estimate, Profile};
@@ -149,8 +150,7 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
              more speeds, or give uncertainties\n"
         }
     };
-    let mut of: Vec<&str> = ranking.twins.iter().map(|(_, of)| *of).collect();
-    of.dedup();
+    let of: BTreeSet<&str> = ranking.twins.iter().map(|(_, of)| *of).collect();
     for of in of {
         let twins = ranking.twins.iter().filter(|twin| twin.1 == of).map(|twin| twin.0.as_str());
         let twins: Vec<&str> = twins.collect();

@@ -1,6 +1,7 @@
 //! Commands about contact laws and measured data.
 
 mod calibrate;
+mod dents;
 mod fit;
 mod measure;
 

@@ -70,7 +70,8 @@ pub(super) fn build(
     Reduced::of(scene, estimate, pair, motion, description)
 }
 
-fn law_numbers(
+/// Returns the parameters of a law and the pair that they belong to.
+pub(super) fn law_numbers(
     scene: &Scene,
     estimate: &Estimate,
     law: &LawInput,

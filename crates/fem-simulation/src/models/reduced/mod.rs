@@ -13,7 +13,7 @@ use fem_case::schema::{End, HertzTable, ModelTable, StartTable, TingTable};
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_laws::laws::ContactLaw;
-use fem_laws::{EndRule, Impact, LawError, Pair, StaticHertz};
+use fem_laws::{EndRule, Impact, LawError, LawInput, Pair, StaticHertz};
 
 use crate::effects::{Effect, PlateBending, Support, decide};
 use crate::estimate::Estimate;
@@ -176,6 +176,17 @@ impl Reduced {
     /// Returns the law's parameters in SI units, in the order of its family.
     pub fn law_numbers(&self) -> Option<&[f64]> {
         self.motion.law_numbers()
+    }
+
+    /// Returns the parameters, SI, of a law that is given by some of its keys, in the order of its family; the others come from
+    /// the scene.
+    ///
+    /// # Errors
+    /// A scene whose closed-form estimates are not finite; a law that cannot be made of this pair.
+    pub fn parameters_of(scene: &Scene, law: &LawInput) -> Result<Vec<f64>, Rejection> {
+        let end_rule = law.family.end_rule().unwrap_or_default();
+        let (parameters, _) = law::law_numbers(scene, &Estimate::checked(scene)?, law, end_rule)?;
+        Ok(parameters)
     }
 
     /// Computes the relative motion at an approach speed, m/s, with the law's parameters of the case.

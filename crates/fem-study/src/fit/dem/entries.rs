@@ -20,6 +20,21 @@
 //! modulus, E* = E/(2(1−ν²)), so 2(1−ν²)E* of the contact is entered. Checked by collisions in LAMMPS,
 //! `.ci/check_dem.py`.
 //!
+//! `mdr` is the law of [`fem_laws::laws::mdr()`]. Its plane strain modulus of the spheres is entered as 2E\* and, of one sphere on a
+//! flat, as E\*. Run in LAMMPS by `.ci/check_dem.py`.
+//!
+//! **Luding's springs** without adhesion, [`fem_laws::laws::luding()`]: LIGGGHTS' `hooke/hysteresis`, whose k₁ is that of `hooke` and
+//! whose dashpot is off at a restitution of 1 (`normal_model_hooke_hysteresis.h`); YADE's LudingPM (`LudingPM.cpp`, run in YADE by
+//! `.ci/check_dem.py` where it is installed); MercuryDPM's `LinearPlasticViscoelasticSpecies`
+//! (`LinearPlasticViscoelasticInteraction.cc`). All have δ\* = 2R\*φ_f k_p/(k_p − k₁), and
+//!
+//! ```math
+//! e = \Bigl(1 + \bigl(\tfrac{k_p}{k_1}-1\bigr)\frac v{v^*}\Bigr)^{-1/2}, \qquad
+//! T = \frac\pi2\sqrt{\frac{m^*}{k_1}}\,(1+e), \qquad v^* = \delta^*\sqrt{k_1/m^*},
+//! ```
+//!
+//! up to v\*, which is put at the fastest of the data, since only the slope of k₂ matters below it.
+//!
 //! **LIGGGHTS**. `gran model hertz` is Tsuji's dashpot with the exact coefficient of the entered restitution. `hooke` has
 //!
 //! ```math
@@ -109,13 +124,17 @@ use fem_laws::bisection::{falling_zero, last_where};
 use fem_laws::laws::{ContactLaw, kuwabara_kono, power};
 use fem_laws::{LawError, LawImpact, Pair};
 
-use super::HuntCrossley;
+use super::{DentingSprings, HuntCrossley};
 use crate::fit::error::FitError;
 use crate::fit::least_squares::minimise;
 use crate::fit::problem::Point;
 
 /// Decades around the data's own values within which Drake's d is searched.
 const REACH: f64 = 1e6;
+/// v\* over the fastest speed of the data.
+const BEYOND: f64 = 1.001;
+/// Least k_p/k₁ − 1 that counts as a loss.
+const LEAST_EXCESS: f64 = 1e-6;
 
 /// Which LAMMPS: the factor of its `tsuji`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -289,4 +308,36 @@ pub fn fit_dissipation(points: &[Point]) -> Result<Option<HuntCrossley>, FitErro
         rms: (sum / points.len() as f64).sqrt(),
         validity: [f64::INFINITY, 0.0, 0.0],
     }))
+}
+
+/// Returns Luding's springs of a pair by least squares of e(v) and then of T(v), of T/T_i − 1; `None` if the restitution does not
+/// fall or there are no contact times.
+///
+/// # Errors
+/// A fit that does not converge.
+pub fn fit_springs(pair: &Pair, points: &[Point]) -> Result<Option<DentingSprings>, FitError> {
+    let fastest = BEYOND * points.iter().map(|point| point.speed).fold(0.0, f64::max);
+    let restitution = |excess: f64, speed: f64| (1.0 + excess * speed / fastest).powf(-0.5);
+    let residuals = |theta: &[f64]| {
+        let error = |point: &Point| restitution(theta[0].exp(), point.speed) - point.restitution;
+        Some(points.iter().map(error).collect())
+    };
+    let bounds = (LEAST_EXCESS.ln(), -LEAST_EXCESS.ln());
+    let excess = minimise(&residuals, &[0.0], &[bounds])?.0[0].exp();
+    let rate = |point: &Point| {
+        let share = 0.5 * PI * (1.0 + restitution(excess, point.speed));
+        point.contact_time.map(|time| share / time)
+    };
+    let rates = || points.iter().filter_map(rate);
+    let (sum, squares) = (rates().sum::<f64>(), rates().map(|rate| rate * rate).sum::<f64>());
+    if excess <= 2.0 * LEAST_EXCESS || sum == 0.0 {
+        return Ok(None);
+    }
+    let mass = pair.effective_mass();
+    let loading = mass * (squares / sum).powi(2);
+    let approach = fastest * (mass / loading).sqrt();
+    let ratio = 1.0 + excess;
+    let depth = approach * excess / (2.0 * pair.effective_radius() * ratio);
+    let validity = [f64::INFINITY, 0.0, 0.0];
+    Ok(Some(DentingSprings { loading, ratio, depth, validity }))
 }

@@ -13,9 +13,9 @@ mod entries;
 mod grains;
 
 pub use entries::{
-    TsujiVersion, characteristic_velocity, dissipation_of, fit_dissipation, hertz_mindlin_entry,
-    hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry, tsuji_outcome,
-    viscel_entry, viscoelastic_damping, yade_betan,
+    TsujiVersion, characteristic_velocity, dissipation_of, fit_dissipation, fit_springs,
+    hertz_mindlin_entry, hooke_stiffness, mfix_entry, mfix_outcome, restitution_of, tsuji_entry,
+    tsuji_outcome, viscel_entry, viscoelastic_damping, yade_betan,
 };
 pub use grains::{Grain, PairOfGrains, grain_snippets};
 
@@ -56,6 +56,19 @@ pub struct HuntCrossley {
     pub validity: [f64; 3],
 }
 
+/// Luding's springs without adhesion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DentingSprings {
+    /// Stiffness of the loading k₁, N/m.
+    pub loading: f64,
+    /// Largest stiffness of the rebound k_p over k₁.
+    pub ratio: f64,
+    /// Plasticity depth φ_f, over the reduced diameter.
+    pub depth: f64,
+    /// Range of speeds in which e is valid: from, to, m/s; and its largest error over all data.
+    pub validity: [f64; 3],
+}
+
 /// The fitted laws and the data they were fitted to: the content of all snippets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Export {
@@ -79,6 +92,10 @@ pub struct Export {
     pub dissipation_time: (f64, [f64; 3]),
     /// The law whose restitution falls with speed; `None` if it cannot make the loss.
     pub hunt_crossley: Option<HuntCrossley>,
+    /// Luding's springs for bodies that dent; `None` if no body has a yield strength, or the restitution does not fall.
+    pub springs: Option<DentingSprings>,
+    /// Yield strength (Pa) and Poisson's ratio of LAMMPS' `mdr` for bodies that dent, and its validity.
+    pub mdr: Option<([f64; 2], [f64; 3])>,
     /// Materials whose loss is taken as 0 because the library has none: e is too high.
     pub unknown_loss: Vec<String>,
 }
@@ -92,6 +109,8 @@ pub struct Snippet {
     pub code: &'static str,
     /// The model in the code's own words.
     pub model: &'static str,
+    /// The law in the words of `snippets.txt`: constant, viscoelastic, hunt_crossley, luding or mdr.
+    pub law: &'static str,
     /// Name and value of the numbers that decide on the loss.
     pub entries: Vec<(&'static str, f64)>,
     /// The restitution that it makes; `None` if it depends on speed.
@@ -182,11 +201,15 @@ impl Export {
             if !is_filled || lines.commands.is_empty() {
                 continue;
             }
-            let (restitution, validity) = match (law, self.hunt_crossley) {
-                ("viscoelastic", _) => (None, self.dissipation_time.1),
-                ("hunt_crossley", Some(fitted)) => (None, fitted.validity),
-                _ => (Some(self.restitution), self.validity),
+            let of_speed = match law {
+                "viscoelastic" => Some(self.dissipation_time.1),
+                "hunt_crossley" => self.hunt_crossley.map(|fitted| fitted.validity),
+                "luding" => self.springs.map(|fitted| fitted.validity),
+                "mdr" => self.mdr.map(|(_, validity)| validity),
+                _ => None,
             };
+            let restitution = of_speed.is_none().then_some(self.restitution);
+            let validity = of_speed.unwrap_or(self.validity);
             let heading = self.heading(&format!("{code}, {title}"), validity, &lines.notes);
             let text = match name.rsplit_once('.').map_or("", |(_, ending)| ending) {
                 "cpp" => slashed(&heading) + &lines.commands.replace(UNLIKE, &slashed(UNLIKE)),
@@ -194,7 +217,7 @@ impl Export {
                 _ => heading + &lines.commands,
             };
             let entries = entries.collect();
-            snippets.push(Snippet { name, code, model, entries, restitution, validity, text });
+            snippets.push(Snippet { name, code, model, law, entries, restitution, validity, text });
         }
         Ok(snippets)
     }
@@ -281,6 +304,24 @@ impl Export {
         numbers.extend(mfix_entry(*e).map(|entry| ("mfix_en", entry)));
         if self.spheres.len() == 2 {
             numbers.insert("mindlin_en", hertz_mindlin_entry(pair, *e)?);
+        }
+        if let Some(DentingSprings { loading, ratio, depth, .. }) = self.springs {
+            numbers.extend([
+                ("k1", loading),
+                ("kp", ratio * loading),
+                ("kp_over_k1", ratio),
+                ("phi_f", depth),
+                ("k1_velocity", characteristic_velocity(pair, loading)),
+            ]);
+        }
+        if let Some(([strength, ratio], _)) = self.mdr {
+            let n_sides = self.spheres.len() as f64;
+            let young = n_sides * (1.0 - ratio * ratio) * modulus;
+            numbers.extend([
+                ("mdr_strength", strength),
+                ("mdr_young", young),
+                ("mdr_poisson", ratio),
+            ]);
         }
         let Ok(law) = linear(EndRule::ZeroForce) else { return Ok(numbers) };
         numbers.extend([

@@ -1,0 +1,106 @@
+//! Laws of contacts that dent: from restitutions to a yield strength and to DEM codes.
+
+use crate::common::Place;
+
+/// Balls of 10 mm of a steel that yields at 1 GPa.
+const BALLS: &str = r#"
+[material.steel]
+density = "7850 kg/m^3"
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+yield_strength = "1 GPa"
+
+[[body]]
+name = "striker"
+sphere.diameter = "10 mm"
+material = "steel"
+approach_speed = "1 m/s"
+
+[[body]]
+name = "target"
+sphere.diameter = "10 mm"
+material = "steel"
+"#;
+
+fn flowing() -> String {
+    BALLS.replace(
+        "yield_strength = \"1 GPa\"",
+        "flow = { yield_strength = \"1 GPa\", hardening = \"perfect\" }",
+    )
+}
+
+/// A flowing pair is exported by the mean-pressure law, with the laws that dent of each code; an elastic one is not.
+#[test]
+fn a_flowing_pair_is_exported_with_laws_that_dent() {
+    let place = Place::with(&flowing());
+    let ran = place.succeed("export case.toml");
+    ran.prints("at most 0.018|error of the law mean_pressure");
+    ran.prints("LAMMPS' mdr\nand Luding's springs");
+    let numbers = place.json("runs/case_export/export.json");
+    let snippets = numbers["snippets"].as_array().unwrap();
+    let worst = |file: &str| {
+        let found = snippets.iter().find(|snippet| snippet["file"] == file).unwrap();
+        found["worst_error"].as_f64().unwrap()
+    };
+    let springs = ["liggghts_hooke_hysteresis.in", "yade_luding.py", "mercury_luding.cpp"];
+    for file in springs.into_iter().chain(["lammps_mdr.in"]) {
+        // Closer than one restitution for all speeds, and than a dashpot.
+        assert!(
+            worst(file) < worst("lammps_tsuji.in") && worst(file) < worst("lammps_viscoelastic.in")
+        );
+        assert!(
+            place.text(format!("runs/case_export/{file}")).contains("leaves no dent"),
+            "{file}"
+        );
+    }
+    let svg = place.text("runs/case_export/export.svg");
+    assert!(svg.contains("mean_pressure") && svg.contains("mdr of LAMMPS"));
+    // A rate that is entered is that of each speed.
+    let rate = "material.steel.flow.rate={johnson_cook={c=0.05, reference_rate='1 1/s'}}";
+    place.succeed(["export", "case.toml", "--set", rate, "--out", "rate", "--quiet"]);
+    let of =
+        |numbers: &serde_json::Value, k: usize| numbers["data"][k]["restitution"].as_f64().unwrap();
+    for k in [0, 12] {
+        assert!(of(&place.json("rate/export.json"), k) > of(&numbers, k) + 0.02);
+    }
+
+    let elastic = Place::with(&BALLS.replace("yield_strength = \"1 GPa\"", ""));
+    elastic.write("e.csv", "speed_m_s,restitution\n0.1,0.95\n1,0.9\n");
+    elastic.succeed("export case.toml --data e.csv");
+    assert!(!elastic.list("runs/case_export").contains(&"lammps_mdr.in".to_string()));
+}
+
+/// A yield strength comes back from its restitutions by every command, and no relaxation is taken for it.
+#[test]
+fn a_yield_strength_comes_back_from_restitutions() {
+    let place = Place::with(&flowing());
+    place.succeed("export case.toml --quiet");
+    let data = place.json("runs/case_export/export.json")["data"].clone();
+    let row =
+        |point: &serde_json::Value| format!("{},{}\n", point["speed_m_s"], point["restitution"]);
+    let rows: String = data.as_array().unwrap().iter().map(row).collect();
+    place.write("e.csv", &format!("speed_m_s,restitution\n{rows}"));
+    place.write("case.toml", &BALLS.replace("yield_strength = \"1 GPa\"", ""));
+
+    let ran = place.succeed("fit case.toml --data e.csv --law all");
+    ran.prints("yield_strength = 1e9|mean_pressure fits best of|the same curve as linear: tsuji");
+    assert_eq!(ran.stdout.matches("the same curve as linear").count(), 1, "{}", ran.stdout);
+    // Parameters that are not fitted are those of the case: like balls.
+    let fit = place.json("runs/e_fit/fit.json");
+    let values = fit["parameters"].as_array().unwrap().iter().map(|one| &one["value"]);
+    assert!(values.clone().any(|value| value == 0.5), "{fit}");
+    let e = data[6]["restitution"].as_f64().unwrap();
+    let ran =
+        place.succeed(format!("invert case.toml --law mean_pressure --restitution {e}").as_str());
+    ran.prints("1.0000e9 Pa");
+
+    let calibrate = "calibrate case.toml --data e.csv --model ting --terms 2";
+    let ran = place.fails(2, calibrate);
+    ran.tells("plastic flow explains these restitutions, and no relaxation does: a yield strength of 1.000 GPa");
+    ran.tells("1 - e grows as the speed to the power 0.56");
+    // A narrow range of speeds does not tell them apart.
+    let narrow: String = rows.lines().take(3).map(|row| format!("{row},0.03\n")).collect();
+    place.write("narrow.csv", &format!("speed_m_s,restitution,u\n{narrow}"));
+    let ran = place.succeed("calibrate case.toml --data narrow.csv --model ting --terms 2");
+    ran.prints("explains these restitutions too");
+}
