@@ -54,7 +54,7 @@ pub(super) struct Mdr {
     is_on_flat: bool,
 }
 
-/// A sphere.
+/// One of the two spheres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Side {
     radius: f64,

@@ -54,7 +54,7 @@ fn invalid_cases_are_rejected_with_their_position() {
         ("title = \"A pair\"", "title = A pair", "case.toml:1:"),
         ("poissons_ratio", "poisson_ratio", "did you mean"),
         ("density = \"2390 kg/m^3\"\n", "", "density"),
-        ("sphere = { diameter = \"22.2 mm\" }\n", "", "neither sphere, wall nor half_space"),
+        ("sphere = { diameter = \"22.2 mm\" }\n", "", "neither sphere, wall, half_space nor plate"),
         ("\"22.2 mm\"", "\"22,2 mm\"", "comma"),
         ("\"22.2 mm\"", "1e999", "diameter"),
         ("weight = 1.0", "weight = 1.1", "weight"),

@@ -7,7 +7,7 @@ use fem_material::{FlowRule, RateFactor};
 /// An impact in which a body flows, by the mean-pressure law.
 #[derive(Clone, Copy, Debug)]
 pub struct FlowingImpact {
-    /// The impact.
+    /// Restitution, contact time, force, approach, radius and pressure.
     pub quantities: ImpactQuantities,
     /// Relative errors of the law beside finite elements, in the order of [`ImpactQuantities::in_order`].
     pub errors: [f64; 6],

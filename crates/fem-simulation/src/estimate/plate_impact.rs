@@ -44,7 +44,7 @@ pub struct PlateImpact<'a> {
     pub body: &'a Body,
     /// Sizes and support.
     pub plate: &'a Plate,
-    /// Zener's λ.
+    /// Zener's parameter λ of the impact.
     pub lambda: f64,
     /// Thicknesses that waves of the speed √(E/ρ) travel during the contact.
     pub thicknesses: f64,

@@ -26,6 +26,8 @@ const DECADES_OF_A_RATE: f64 = 5.0;
 const STEPS_PER_DECADE: f64 = 4.0;
 /// Smaller restitutions count as 0.
 const MIN_RESTITUTION: f64 = 1e-7;
+/// Error of the restitution at a crossing that is a jump of the law.
+const JUMP: f64 = 1e-6;
 /// Number of steps over the limits of a plain number.
 const SEARCH_STEPS: f64 = 60.0;
 
@@ -76,7 +78,11 @@ pub fn invert(
         {
             let sign = if value > 0.0 { 1.0 } else { -1.0 };
             let signed = |theta: f64| excess(theta).map_or(-1.0, |excess| sign * excess);
-            solutions.push(value_at(falling_zero(before, theta, signed)));
+            let found = falling_zero(before, theta, signed);
+            // A law may jump over the restitution.
+            if excess(found).is_ok_and(|excess| excess.abs() < JUMP) {
+                solutions.push(value_at(found));
+            }
         }
         previous = Some((theta, here));
         // More damping leaves a smaller restitution, and its creep takes long to compute.

@@ -30,8 +30,13 @@ fn every_law_has_an_inverse() {
         let model = glass_model(family, None);
         let mut values = Problem::new(&model, &[Point::new(0.5, 0.9)], &[]).unwrap().values;
         for wanted in [0.99, 0.92, 0.5, 0.1] {
-            // Their coefficient is first order in 1 − e: the smallest e entered makes 0.66.
-            if family == LawFamily::HuntCrossley && wanted < 0.7 {
+            // Their coefficient is first order in 1 − e: the smallest e entered makes 0.66. `mdr` jumps from 1 at first yield.
+            let is_out_of_reach = match family {
+                LawFamily::HuntCrossley => wanted < 0.7,
+                LawFamily::Mdr => wanted > 0.95,
+                _ => false,
+            };
+            if is_out_of_reach {
                 let error = invert(&model, index, &values, 0.5, wanted).unwrap_err();
                 assert!(matches!(error, FitError::NoSolution { .. }));
                 continue;

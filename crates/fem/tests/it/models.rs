@@ -100,6 +100,10 @@ fn every_model_and_law_is_read() {
             "mean_pressure = { yield_strength = 1e9, hardening = '2 GPa' }",
             "MeanPressure yield_strength=1e9 hardening=2e9",
         ),
+        (
+            "mdr = { yield_strength = 1e9, radius_ratio = 0.5 }",
+            "Mdr yield_strength=1e9 radius_ratio=5e-1",
+        ),
         ("walton_braun = { e = 0.8, k1 = '1 N/um' }", "WaltonBraun e=8e-1 k1=1e6"),
         (
             "luding = { kp_over_k1 = 5, k1 = 1e6, phi_f = 0.05 }",
