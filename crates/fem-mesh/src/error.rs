@@ -46,6 +46,26 @@ pub enum MeshError {
         /// Half-width of the fine block, m.
         refined_radius: f64,
     },
+    /// The uniformly fine block does not fit into the plate.
+    #[error(
+        "a plate of thickness {thickness:?} m is too thin for its contact; at least {least:?} m is needed"
+    )]
+    ThinPlate {
+        /// Thickness of the plate, m.
+        thickness: f64,
+        /// Least thickness, m.
+        least: f64,
+    },
+    /// The rim of the plate is too near.
+    #[error(
+        "a plate of radius {radius:?} m is too narrow for its thickness; at least {least:?} m is needed"
+    )]
+    NarrowPlate {
+        /// Radius of the plate, m.
+        radius: f64,
+        /// Least radius, m.
+        least: f64,
+    },
     /// Successive rings cannot grow by this factor.
     #[error("growth {0} is not allowed; it must lie above 1 and not above 2")]
     Growth(f64),

@@ -1,4 +1,4 @@
-//! Nodes, quads and boundary curves of the meridian of a sphere or of a half-space.
+//! Nodes, quads and boundary curves of the meridian of a sphere, of a half-space or of a plate.
 
 /// The side of the plane y = 0 on which a body lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,11 +10,11 @@ pub enum Side {
 }
 
 /// Quadrilateral mesh of the meridian half disc of a sphere, or of a quarter disc of a half-space,
-/// which is a sphere of infinite radius.
+/// which is a sphere of infinite radius, or of a half strip of a plate, which has that radius, too.
 ///
 /// The contact pole is the origin; all nodes have r ≥ 0. Quads are listed
 /// counter-clockwise in (r, y). The mesh of a half-space ends at a far boundary, beyond which the
-/// body continues.
+/// body continues; that of a plate has one where the plate continues or is held.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereMesh {
     radius: f64,
@@ -23,6 +23,7 @@ pub struct SphereMesh {
     axis: Vec<u32>,
     surface: Vec<u32>,
     far_boundary: Vec<u32>,
+    thickness: Option<f64>,
 }
 
 impl SphereMesh {
@@ -34,17 +35,27 @@ impl SphereMesh {
         surface: Vec<u32>,
         far_boundary: Vec<u32>,
     ) -> Self {
-        Self { radius, nodes, quads, axis, surface, far_boundary }
+        Self { radius, nodes, quads, axis, surface, far_boundary, thickness: None }
     }
 
-    /// Returns the radius of the sphere, m; infinite for a half-space.
+    /// Returns this flat body as a plate of this thickness, m.
+    pub(crate) fn with_thickness(self, thickness: f64) -> Self {
+        Self { thickness: Some(thickness), ..self }
+    }
+
+    /// Returns the radius of the sphere, m; infinite for a half-space and for a plate.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Returns whether the body is a half-space.
+    /// Returns whether the body is flat: a half-space or a plate.
     pub fn is_half_space(&self) -> bool {
         self.radius.is_infinite()
+    }
+
+    /// Returns the thickness of a plate, m; `None` for other bodies.
+    pub fn thickness(&self) -> Option<f64> {
+        self.thickness
     }
 
     /// Returns the node positions (r, y), m.
@@ -69,15 +80,16 @@ impl SphereMesh {
     }
 
     /// Returns the nodes where the mesh of a half-space ends, from the axis to the surface, both included; none
-    /// for a sphere.
+    /// for a sphere. Those of a plate are the bonded far face and the rim beyond which it continues.
     pub fn far_boundary(&self) -> &[u32] {
         &self.far_boundary
     }
 
-    /// Returns the distance of the far boundary from the contact pole, m; `None` for a sphere.
+    /// Returns the distance from the contact pole beyond which the body continues, m; `None` for a body that ends.
     pub fn far_radius(&self) -> Option<f64> {
-        let &on_axis = self.far_boundary.first()?;
-        Some(self.nodes[on_axis as usize][1].abs())
+        let end = self.far_boundary.last()?;
+        let is_open = self.surface.last() == Some(end);
+        is_open.then(|| self.nodes[*end as usize][0])
     }
 
     /// Returns the corner positions of an element, (r, y) in m.

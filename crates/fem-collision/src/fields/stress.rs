@@ -156,8 +156,16 @@ impl Patches {
             })
             .collect();
         let mut on_boundary = vec![false; n_nodes];
-        for &node in mesh.axis().iter().chain(mesh.surface()).chain(mesh.far_boundary()) {
-            on_boundary[node as usize] = true;
+        let mut edges: Vec<[u32; 2]> = Vec::with_capacity(4 * mesh.quads().len());
+        for quad in mesh.quads() {
+            edges.extend((0..4).map(|k| {
+                let (one, other) = (quad[k], quad[(k + 1) % 4]);
+                [one.min(other), one.max(other)]
+            }));
+        }
+        edges.sort_unstable();
+        for same in edges.chunk_by(|one, other| one == other).filter(|same| same.len() == 1) {
+            same[0].iter().for_each(|&node| on_boundary[node as usize] = true);
         }
         let mut patches = Self { starts: vec![0], weights: Vec::with_capacity(5 * n_nodes) };
         let mut patch = Vec::new();

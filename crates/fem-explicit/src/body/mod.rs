@@ -118,7 +118,7 @@ impl Body {
         }
     }
 
-    /// Makes a sphere or a half-space with masses of its nodes (kg), of which mass scaling has moved `moved_mass` (kg),
+    /// Makes a sphere, a half-space or a plate with masses of its nodes (kg), of which mass scaling has moved `moved_mass` (kg),
     /// for a time step (s).
     pub(crate) fn of_mesh(
         unscaled: UnscaledMesh,
@@ -292,12 +292,12 @@ impl Body {
         self.mass.is_finite()
     }
 
-    /// Returns a node that keeps the velocity of a body that is not free.
-    pub(crate) fn held_node(&self) -> usize {
-        self.held_nodes().first().map_or(0, |&node| node as usize)
+    /// Returns a node that keeps the velocity of a body that is not free; a plate with a free rim has none.
+    pub(crate) fn held_node(&self) -> Option<usize> {
+        self.held_nodes().first().map(|&node| node as usize)
     }
 
-    /// Returns the nodes of a half-space that keep its velocity.
+    /// Returns the nodes of a half-space or a plate that keep its velocity.
     pub(crate) fn held_nodes(&self) -> &[u32] {
         self.mesh.as_ref().map_or(&[], SphereMesh::far_boundary)
     }
@@ -325,10 +325,12 @@ impl Body {
 
     /// Returns the mass-weighted mean of the y component of a field; its value far away for a body that is not free.
     pub(crate) fn centre(&self, field: &Field) -> f64 {
-        if !self.is_free() {
-            return field[self.held_node()][1];
+        match self.held_node() {
+            _ if self.is_wall() => field[0][1],
+            Some(node) => field[node][1],
+            None if self.is_free() => self.sum_mass(field) / self.mass,
+            None => self.sum_mass(field) / self.nodal_mass.iter().sum::<f64>(),
         }
-        self.sum_mass(field) / self.mass
     }
 
     /// Returns Σ m x_y; 0 for a wall.

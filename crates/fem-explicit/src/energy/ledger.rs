@@ -206,7 +206,8 @@ impl Ledger {
     ) -> HistoryRow {
         let (bodies, time_step) = (model.bodies(), state.time_step(model));
         let [lower, upper] = [0, 1].map(|side: usize| {
-            balance_body(&bodies[side], time_step, &state.bodies[side], &scratch.forces[side])
+            let (body, forces) = (&bodies[side], &scratch.forces[side]);
+            balance_body(body, (state.time, time_step), &state.bodies[side], forces)
         });
         let motions = state.motions(model);
         let mut accounts = energies_of_parts(model, state);
@@ -348,7 +349,7 @@ fn momentum_relative_to(velocity: f64, body: &Body, state: &BodyState) -> f64 {
 
 fn balance_body(
     body: &Body,
-    time_step: f64,
+    (time, time_step): (f64, f64),
     state: &BodyState,
     forces: &[[f64; 2]],
 ) -> BodyBalance {
@@ -373,7 +374,10 @@ fn balance_body(
             vibration: 0.5 * twice_kinetic,
             momentum,
             velocity: body.velocity,
-            displacement: state.displacement[body.held_node()][1],
+            displacement: match body.held_node() {
+                Some(node) => state.displacement[node][1],
+                None => body.velocity * time,
+            },
         };
     }
     let mass = body.mass();

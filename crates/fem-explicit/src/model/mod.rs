@@ -227,7 +227,13 @@ impl ExplicitBodies {
     pub(crate) fn waves_return(&self) -> Option<f64> {
         let returns = self.bodies.iter().filter_map(|body| {
             let way = body.mesh()?.far_radius()? - self.candidate_radius();
-            Some(2.0 * way / body.material()?.dilatational_wave_speed())
+            let material = body.material()?;
+            // Bending waves carry what matters in a plate, and none is faster than shear waves.
+            let speed = match body.mesh()?.thickness() {
+                Some(_) => material.shear_wave_speed(),
+                None => material.dilatational_wave_speed(),
+            };
+            Some(2.0 * way / speed)
         });
         returns.reduce(f64::min)
     }

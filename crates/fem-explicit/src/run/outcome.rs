@@ -125,8 +125,8 @@ fn run_warnings(model: &ExplicitBodies, run: &RunState, ending: &Ending) -> Vec<
         ends.zip(model.waves_return()).filter(|((first, last), time)| last - first > *time);
     let waves = returned.map(|(_, time)| {
         format!(
-            "{} after first touch waves that were reflected at the end of the half-space's mesh were back at \
-             the contact; a real half-space reflects none: set a larger far radius",
+            "{} after first touch waves that were reflected at the end of the mesh of a half-space or plate were back at \
+             the contact; an unbounded body reflects none: set a larger far radius",
             show(time, "s")
         )
     });

@@ -1,6 +1,6 @@
 //! Reference runs: cheaper collisions of the same bodies, whose Richardson limit estimates the discretisation error.
 
-use fem_case::schema::{ContactMethod, StopTable};
+use fem_case::schema::{ContactMethod, EmptyTable, StopTable};
 use fem_case::{CaseFile, Quantity, defaults};
 use fem_collision::{Approach, Collision, OutputRequest, QuantityOfInterest};
 
@@ -275,8 +275,14 @@ fn collide(
         // If the case leaves the model open, the selected one is used.
         file.model = simulation.resolved().model.clone();
         if is_condensed {
-            // Condensed bodies lack these effects and springs.
+            // Condensed bodies lack these effects and springs, and are half-spaces where the contact is on a plate.
             file.effects = None;
+            for body in file.body.iter_mut().filter(|body| body.plate.is_some()) {
+                (body.plate, body.half_space) = (None, Some(EmptyTable {}));
+            }
+            if let Some(mesh) = file.mesh.as_mut().filter(|_| subject.plan.estimate.bends) {
+                mesh.far_radius = None;
+            }
             let contact = file.contact.as_mut();
             if let Some(method) = contact.and_then(|contact| contact.method.as_mut())
                 && *method == ContactMethod::NodeToSurface

@@ -86,7 +86,7 @@ impl EffectiveModuli {
 }
 
 /// Returns the quantities of an impact. Bodies that stay together get the contact time of equally soft elastic ones.
-fn sizes_of(impact: &Impact, effective: &HertzImpact) -> ImpactQuantities {
+pub(super) fn sizes_of(impact: &Impact, effective: &HertzImpact) -> ImpactQuantities {
     ImpactQuantities {
         restitution: impact.restitution,
         contact_time: impact.contact_time.unwrap_or_else(|| effective.contact_time()),

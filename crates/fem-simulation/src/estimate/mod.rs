@@ -14,8 +14,10 @@ use fem_laws::{HertzImpact, ImpactQuantities, LawError, Pair, Partner};
 use fem_material::engineering::number;
 use fem_material::{ElasticModuli, Material};
 
-use crate::estimate::effective_modulus::EffectiveModuli;
+use crate::estimate::effective_modulus::{EffectiveModuli, sizes_of};
 use crate::estimate::plastic_flow::flowing_impact;
+use crate::estimate::plate_impact::{PlateImpact, thin_plate_mobility};
+use crate::estimate::quasi_static::predicted_on_half_spaces;
 use crate::rejection::Rejection;
 
 /// Least share of a modulus in the estimate: a relaxing body is stopped by its first, stiff response.
@@ -36,6 +38,8 @@ pub struct Estimate {
     pub approach: f64,
     /// Largest contact radius with plastic flow, or with the moduli relaxed to the middle of the contact, m.
     pub contact_radius: f64,
+    /// Whether a plate bends under the impact.
+    pub bends: bool,
     /// Smallest radius of a sphere of the scene, m.
     pub smallest_radius: f64,
     /// Largest contact radius over effective radius, a measure of the strain.
@@ -125,7 +129,15 @@ impl Estimate {
         let spheres = || scene.bodies().iter().filter_map(Body::diameter);
         let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
         let flow = flowing_impact(scene, &hertz, None).map(|impact| impact.quantities);
-        let sizes = flow.unwrap_or_else(|| ImpactQuantities::from(&relaxed_impact));
+        // A plate takes part of the force and lengthens the contact.
+        let bent = thin_plate_mobility(scene)
+            .and_then(|_| predicted_on_half_spaces(scene, hertz.pair(), speed).ok());
+        let bent = bent.map(|impact| {
+            let last = impact.history.last().map_or(0.0, |instant| instant.time);
+            let sizes = sizes_of(&impact, &relaxed_impact);
+            ImpactQuantities { contact_time: sizes.contact_time.max(last), ..sizes }
+        });
+        let sizes = flow.or(bent).unwrap_or_else(|| ImpactQuantities::from(&relaxed_impact));
         let contact_radius = sizes.max_contact_radius;
         let materials = || scene.bodies().iter().filter_map(Body::material);
         let contact_time = relaxed_impact.contact_time();
@@ -138,15 +150,19 @@ impl Estimate {
             false => None,
         };
         let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
-        let effective =
+        let mut effective =
             effective.unwrap_or_else(|| EffectiveModuli::little(&relaxed_impact, middle));
+        if let Some(bent) = bent {
+            effective.sizes = bent;
+        }
         let twin = effective.elastic_equivalent(scene);
-        Ok(Self {
+        let mut estimate = Self {
             hertz,
             flow,
             contact_time: sizes.contact_time,
             approach: sizes.max_approach,
             contact_radius,
+            bends: false,
             smallest_radius,
             strain: contact_radius / hertz.pair().effective_radius(),
             mach: mach(scene, speed),
@@ -155,7 +171,10 @@ impl Estimate {
             effective,
             effective_mach: mach(&twin, speed),
             effective_ringing: ringing(&twin, effective.hertz.contact_time()),
-        })
+        };
+        estimate.bends =
+            PlateImpact::of(scene, &estimate).is_some_and(|plate| !plate.is_half_space());
+        Ok(estimate)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The impact on a plate by closed forms: whether the plate bends within the contact, and as what.
 //!
-//! Two numbers decide, with the contact time T: how many thicknesses a wave travels within it, c₀T/h with c₀ = √(E/ρ), and
-//! whether a surface wave comes back from the edge, 2r/c_R < T. While no wave returns from the far face, c_p T < 2h, the plate
+//! Two numbers decide, with the contact time T: how many thicknesses a wave travels within that of Hertz, c₀T/h with
+//! c₀ = √(E/ρ), and whether a surface wave comes back from the edge, 2r/c_R < T. While no wave returns from the far face, c_p T < 2h, the plate
 //! is a half-space, exactly; far beyond it the plate is thin and a dashpot in series with the contact
 //! ([`fem_laws::plate_mobility`]).
 
@@ -46,7 +46,7 @@ pub struct PlateImpact<'a> {
     pub plate: &'a Plate,
     /// Zener's parameter λ of the impact.
     pub lambda: f64,
-    /// Thicknesses that waves of the speed √(E/ρ) travel during the contact.
+    /// Thicknesses that waves of the speed √(E/ρ) travel during Hertz' contact.
     pub thicknesses: f64,
     /// Contact times until a surface wave is back from the edge; infinite without an edge.
     pub edge_return: f64,
@@ -63,7 +63,8 @@ impl<'a> PlateImpact<'a> {
         let material = left_at(whole, estimate.effective.after);
         let way = |speed: f64| speed * contact_time;
         let modulus = material.instantaneous().youngs_modulus();
-        let thicknesses = way((modulus / material.density()).sqrt()) / plate.thickness;
+        let thicknesses =
+            (modulus / material.density()).sqrt() * hertz.contact_time() / plate.thickness;
         let edge_return = plate
             .diameter
             .map_or(f64::INFINITY, |diameter| diameter / way(rayleigh_wave_speed(&material)));

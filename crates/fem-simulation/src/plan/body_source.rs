@@ -8,7 +8,9 @@ use fem_mesh::SphereMesh;
 
 use crate::plan::Plan;
 use crate::plan::limits::check_size;
-use crate::plan::mesh_source::{MeshSource, half_disc, import, mesh_rejection, quarter_disc};
+use crate::plan::mesh_source::{
+    MeshSource, graded_plate, half_disc, import, mesh_rejection, quarter_disc,
+};
 use crate::rejection::Rejection;
 
 /// The source of a body. Equal sources give equal bodies.
@@ -37,7 +39,7 @@ impl BodySource {
         Ok(match body.shape() {
             Shape::Sphere { diameter, mesh, material } => {
                 let mesh = match mesh {
-                    Some(path) => MeshSource::File(import(side, *diameter, path)?),
+                    Some(path) => MeshSource::File(Box::new(import(side, *diameter, path)?)),
                     None => MeshSource::HalfDisc(half_disc(plan, side, *diameter)),
                 };
                 Self::Meshed { mesh, material: material.clone() }
@@ -46,9 +48,9 @@ impl BodySource {
                 let mesh = MeshSource::QuarterDisc(quarter_disc(plan, side));
                 Self::Meshed { mesh, material: material.clone() }
             }
-            Shape::Plate { .. } => {
-                let message = format!("the plate {} has no mesh", body.name());
-                return Err(Rejection::new(format!("body.{side}.plate"), message));
+            Shape::Plate { plate, material } => {
+                let mesh = MeshSource::Plate(graded_plate(plan, side, plate, material));
+                Self::Meshed { mesh, material: material.clone() }
             }
             Shape::Rigid { diameter, mass } => Self::Rigid { radius: 0.5 * diameter, mass: *mass },
             Shape::Wall => Self::Wall,
@@ -71,7 +73,9 @@ impl BodySource {
     /// A mesh that cannot be made.
     pub fn n_elements(&self) -> Result<usize, Rejection> {
         match self {
-            Self::Meshed { mesh, .. } => mesh.n_elements().map_err(|error| mesh_rejection(&error)),
+            Self::Meshed { mesh, .. } => {
+                mesh.n_elements().map_err(|error| mesh_rejection(&error, 0))
+            }
             Self::Rigid { .. } | Self::Wall => Ok(0),
         }
     }
@@ -83,7 +87,7 @@ impl BodySource {
     pub fn build(&self, side: usize) -> Result<BodyInput, Rejection> {
         Ok(match self {
             Self::Meshed { mesh, material } => {
-                let mesh = mesh.build(side).map_err(|error| mesh_rejection(&error))?;
+                let mesh = mesh.build(side).map_err(|error| mesh_rejection(&error, side))?;
                 let material = material.clone();
                 match mesh.is_half_space() {
                     true => BodyInput::HalfSpace { mesh, material },
@@ -128,7 +132,7 @@ pub(crate) fn probes_of(
     let name = scene.bodies()[side].name();
     Err(match meshes[side] {
         Some(_) => Rejection::new(key, format!("the mesh of \"{name}\" does not reach this place"))
-            .with_help("a half-space is meshed out to mesh.far_radius"),
+            .with_help("a half-space or plate is meshed out to mesh.far_radius"),
         None => Rejection::new(key, format!("\"{name}\" is computed as a rigid body"))
             .with_help("set effects.rigid_partner = \"off\""),
     })

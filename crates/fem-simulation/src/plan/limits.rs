@@ -10,7 +10,7 @@ use fem_mesh::MeshError;
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
 use crate::plan::Plan;
-use crate::plan::mesh_source::{half_disc, mesh_rejection, quarter_disc};
+use crate::plan::mesh_source::{graded_plate, half_disc, mesh_rejection, quarter_disc};
 use crate::rejection::Rejection;
 
 /// Growth of the elements below which it is the reason of their number.
@@ -58,15 +58,15 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Rejection> {
             Shape::HalfSpace { material } => {
                 Some((quarter_disc(plan, side).n_elements(), material))
             }
-            Shape::Sphere { mesh: Some(_), .. }
-            | Shape::Plate { .. }
-            | Shape::Rigid { .. }
-            | Shape::Wall => None,
+            Shape::Plate { plate, material } => {
+                Some((graded_plate(plan, side, plate, material).n_elements(), material))
+            }
+            Shape::Sphere { mesh: Some(_), .. } | Shape::Rigid { .. } | Shape::Wall => None,
         };
         if let Some((n, material)) = made {
             let n = n.map_err(|error| match error {
-                MeshError::TooLarge(_) => blame_growth(scene, mesh_rejection(&error)),
-                _ => mesh_rejection(&error),
+                MeshError::TooLarge(_) => blame_growth(scene, mesh_rejection(&error, side)),
+                _ => mesh_rejection(&error, side),
             })? as u64;
             elements += n;
             branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;

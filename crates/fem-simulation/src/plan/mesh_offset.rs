@@ -47,7 +47,10 @@ fn smaller(scene: &Scene) -> Option<usize> {
 
 /// Returns whether the mesh of a body is generated, and not read from a file.
 pub(super) fn is_generated(body: &Body) -> bool {
-    matches!(body.shape(), Shape::Sphere { mesh: None, .. } | Shape::HalfSpace { .. })
+    matches!(
+        body.shape(),
+        Shape::Sphere { mesh: None, .. } | Shape::HalfSpace { .. } | Shape::Plate { .. }
+    )
 }
 
 /// Returns the element sizes of both bodies (m) for a mean size in a contact of this radius (m); the body `finer` has the

@@ -1,8 +1,11 @@
-//! The source of a body's mesh: a generated half disc or quarter disc, or a file.
+//! The source of a body's mesh: a generated half disc, quarter disc or plate, or a file.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
-use fem_mesh::{HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
+use fem_case::{Plate, PlateSupport};
+use fem_material::Material;
+use fem_mesh::{GradedPlate, HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
 
 use crate::plan::Plan;
 use crate::rejection::Rejection;
@@ -14,8 +17,10 @@ pub(crate) enum MeshSource {
     HalfDisc(HalfDisc),
     /// Generated for a half-space.
     QuarterDisc(QuarterDisc),
+    /// Generated for a plate.
+    Plate(GradedPlate),
     /// Read from a file.
-    File(SphereMesh),
+    File(Box<SphereMesh>),
 }
 
 impl MeshSource {
@@ -27,6 +32,7 @@ impl MeshSource {
         match self {
             Self::HalfDisc(half_disc) => half_disc.n_elements(),
             Self::QuarterDisc(quarter_disc) => quarter_disc.n_elements(),
+            Self::Plate(plate) => plate.n_elements(),
             Self::File(mesh) => Ok(mesh.quads().len()),
         }
     }
@@ -39,7 +45,8 @@ impl MeshSource {
         let mesh = match self {
             Self::HalfDisc(half_disc) => half_disc.build()?,
             Self::QuarterDisc(quarter_disc) => quarter_disc.build()?,
-            Self::File(mesh) => mesh.clone(),
+            Self::Plate(plate) => plate.build()?,
+            Self::File(mesh) => mesh.as_ref().clone(),
         };
         Ok(mesh.on_side(if body == 0 { Side::Below } else { Side::Above }))
     }
@@ -65,9 +72,46 @@ pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
     }
 }
 
-/// Returns the rejection of a mesh that cannot be generated, with the key that causes it.
-pub(crate) fn mesh_rejection(error: &MeshError) -> Rejection {
+/// Rings per length of the bending waves of the frequency 1/T, T the contact time.
+const RINGS_PER_BENDING_WAVE: f64 = 20.0;
+/// Rings per distance that shear waves travel in the contact time.
+const RINGS_PER_SHEAR_WAVE: f64 = 20.0;
+
+/// Returns the mesh that the plan chooses for a plate, lower (0) or upper (1). A plate that ends before waves from its edge
+/// matter is meshed to its free edge, a wider one to the far radius.
+pub(crate) fn graded_plate(
+    plan: &Plan,
+    side: usize,
+    plate: &Plate,
+    material: &Material,
+) -> GradedPlate {
+    let own_radius = plate.diameter.map_or(f64::INFINITY, |diameter| 0.5 * diameter);
+    let time = plan.estimate.contact_time;
+    let moduli = material.instantaneous();
+    // k⁴ = ω²ρh/D.
+    let inertia_per_stiffness =
+        12.0 * material.density() / (moduli.plane_strain_modulus() * plate.thickness.powi(2));
+    let bending_wave = (TAU * time).sqrt() / inertia_per_stiffness.powf(0.25);
+    let shear_wave = material.shear_wave_speed() * time;
+    GradedPlate {
+        thickness: plate.thickness,
+        radius: plan.far_radius.unwrap_or(own_radius),
+        has_held_rim: plan.far_radius.is_some(),
+        is_bonded: plate.support == PlateSupport::Bonded,
+        contact_element_size: plan.element_sizes()[side],
+        refined_radius: plan.refined_radius,
+        growth: plan.growth,
+        ring_width: (bending_wave / RINGS_PER_BENDING_WAVE).min(shear_wave / RINGS_PER_SHEAR_WAVE),
+    }
+}
+
+/// Returns the rejection of a mesh of the lower (0) or upper (1) body that cannot be generated, with the key that causes it.
+pub(crate) fn mesh_rejection(error: &MeshError, side: usize) -> Rejection {
+    let of_plate =
+        |key: &str| Rejection::new(format!("body.{side}.plate.{key}"), error.to_string());
     let key = match error {
+        MeshError::ThinPlate { .. } => return of_plate("thickness").with_help("use model ting"),
+        MeshError::NarrowPlate { .. } => return of_plate("diameter").with_help("use model ting"),
         MeshError::RefinedRadius { .. } => "mesh.refined_radius",
         MeshError::Growth(_) => "mesh.growth",
         MeshError::FarRadius { .. } => "mesh.far_radius",

@@ -43,6 +43,10 @@ const PENALTY_OVER_MODULUS: f64 = 20.0;
 const RESTITUTION_OF_SHALLOW_DENTS: f64 = 0.8;
 /// Element sizes of condensed bodies per octave; sizes are rounded down by at most a ninth.
 const SIZES_PER_OCTAVE: f64 = 8.0;
+/// Return of shear waves from the rim of a plate's mesh over the expected contact time.
+const RETURN_OVER_CONTACT: f64 = 1.1;
+/// Least radius of a plate's mesh over its thickness.
+const LEAST_RADIUS_OF_PLATE: f64 = 2.0;
 /// Relative rounding of a length that was written and read.
 const ROUNDING_OF_LENGTH: f64 = 1e-9;
 
@@ -66,7 +70,7 @@ pub struct Plan {
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
     pub growth: Option<f64>,
-    /// Distance of the far boundary of a half-space, m.
+    /// Distance of the far boundary of a half-space or of a wide plate, m.
     pub far_radius: Option<f64>,
     /// Whether any mesh is generated, and not read from a file.
     pub makes_meshes: bool,
@@ -276,7 +280,12 @@ fn unread_keys(scene: &Scene, makes_meshes: bool, has_half_space: bool) -> Vec<S
         ("contact_element_size", mesh.contact_element_size, makes_meshes, of_files),
         ("refined_radius", mesh.refined_radius, makes_meshes, of_files),
         ("growth", mesh.growth, makes_meshes, of_files),
-        ("far_radius", mesh.far_radius, has_half_space, "no body is a half-space"),
+        (
+            "far_radius",
+            mesh.far_radius,
+            has_half_space,
+            "no body is a half-space or a plate that is wider",
+        ),
     ];
     let unread = keys.into_iter().filter(|(_, value, is_read, _)| value.is_some() && !is_read);
     unread.map(|(key, .., why)| format!("mesh.{key} has no effect: {why}")).collect()
@@ -303,6 +312,9 @@ fn radius_of_elements(estimate: &Estimate) -> f64 {
         return estimate.contact_radius;
     }
     let elastic = estimate.hertz.max_contact_radius();
+    if estimate.bends {
+        return elastic.min(estimate.contact_radius);
+    }
     let wider = 0.5 * estimate.contact_radius / elastic;
     if wider <= 1.0 { elastic } else { (elastic * wider * wider).min(estimate.contact_radius) }
 }
@@ -314,13 +326,23 @@ pub(crate) fn candidate_radius(estimate: &Estimate, contact_element_size: f64) -
 }
 
 /// Returns the far boundary of a half-space: no wave returns from it during the run, or, for condensed bodies, it does not
-/// change the compliance.
+/// change the compliance. That of a plate is nearer, since shear waves are the fastest that matter in it; `None` for one that
+/// ends before.
 fn far_radius(
     scene: &Scene,
     estimate: &Estimate,
     refined_radius: f64,
     candidate_radius: f64,
 ) -> Option<f64> {
+    if let Some((plate, material)) =
+        scene.bodies().iter().find_map(|body| body.plate().zip(body.material()))
+    {
+        let radius = scene.mesh().far_radius.unwrap_or_else(|| {
+            let way = material.shear_wave_speed() * RETURN_OVER_CONTACT * estimate.contact_time;
+            (candidate_radius + 0.5 * way).max(LEAST_RADIUS_OF_PLATE * plate.thickness)
+        });
+        return plate.diameter.is_none_or(|diameter| 0.5 * diameter > radius).then_some(radius);
+    }
     let half_space = |body: &Body| matches!(body.shape(), Shape::HalfSpace { .. });
     let material = scene.bodies().iter().find(|body| half_space(body))?.material()?;
     Some(scene.mesh().far_radius.unwrap_or_else(|| match scene.model() {

@@ -14,6 +14,9 @@ pub struct Energy {
     /// Elastic energy of the residual stress of bodies that flowed, a part of the strain energy; without it none flowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub locked_in_j: Option<f64>,
+    /// Energy of a plate of elements, a part of kinetic and strain energy; other models have it as an account.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate_j: Option<f64>,
     /// Energy residual: stored + dissipated − initial − external work.
     pub residual_j: Option<f64>,
     /// Largest residual of the run over the initial kinetic energy in the centre-of-mass frame.

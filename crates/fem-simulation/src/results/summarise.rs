@@ -1,6 +1,6 @@
 //! Builds the summary of a collision.
 
-use fem_collision::{Collision, EnergyLedger, RestState};
+use fem_collision::{Account, Collision, EnergyLedger, RestState};
 use fem_laws::ImpactQuantities;
 
 use super::dent::{DentSummary, dents};
@@ -69,7 +69,7 @@ impl Summary {
             measured_restitution: measured_restitution(simulation, collision),
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
-            energy: energy(collision, &mut numbers),
+            energy: energy(simulation, collision, &mut numbers),
             momentum_residual_relative: numbers
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
             bounces: bounces(simulation, collision, &mut numbers),
@@ -205,7 +205,7 @@ fn hertz(estimate: Option<Estimate>, numbers: &mut Numbers) -> Quantities {
     })
 }
 
-fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
+fn energy(simulation: &Simulation, collision: &Collision, numbers: &mut Numbers) -> Energy {
     let mut at_end =
         |key: &str, value: Option<f64>| numbers.finite_if_any(&format!("energy.{key}"), value);
     let initial_j = at_end("initial_j", collision.initial_energy);
@@ -219,9 +219,23 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
         initial_j,
         accounts: Accounts(accounts),
         locked_in_j: at_end("locked_in_j", locked_in),
+        plate_j: at_end("plate_j", plate_energy(simulation, collision)),
         residual_j: at_end("residual_j", collision.residual),
         residual_relative: at_end("residual_relative", collision.residual_relative),
     }
+}
+
+/// Returns the energy of a plate of elements at the end, J: what is not the ball's.
+fn plate_energy(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let is_plate = |side: &usize| simulation.case().scene().bodies()[*side].plate().is_some();
+    let side = [0, 1].into_iter().find(is_plate)?;
+    let (plate, ball) = (&collision.bodies[side], &collision.bodies[1 - side]);
+    plate.elements?;
+    let energy = |account| collision.energies.get(account).unwrap_or(0.0);
+    let whole =
+        [Account::Kinetic, Account::Strain, Account::Contact].map(energy).iter().sum::<f64>();
+    let of_ball = 0.5 * ball.mass? * ball.velocity_after?.powi(2);
+    Some(whole - of_ball - ball.vibration_energy.unwrap_or(0.0))
 }
 
 /// Returns the contacts of a case with gravity.

@@ -70,13 +70,15 @@ impl PlateBending {
         };
         let model = scene.model().name();
         match scene.model() {
-            ModelChoice::Fem | ModelChoice::Condensed(_) => {
+            ModelChoice::Fem => Ok(()),
+            ModelChoice::Condensed(_) => {
                 let message = format!("model {model} cannot compute a plate that bends");
-                Err(Rejection::new("model", message).with_help("use model ting, hertz or a law"))
+                Err(Rejection::new("model", message)
+                    .with_help("use model fem, ting or hertz, or a law"))
             }
             _ if plate.support == PlateSupport::Bonded => {
                 let message = format!("model {model} cannot compute a plate that is bonded");
-                let help = "write support = \"free\", or a half_space for a thick one";
+                let help = "use model fem";
                 Err(Rejection::new(format!("body.{side}.plate.support"), message).with_help(help))
             }
             _ => Ok(()),

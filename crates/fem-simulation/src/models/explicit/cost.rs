@@ -71,12 +71,12 @@ const MACH_OF_OWN_REFERENCE: f64 = 0.02;
 const STRAIN_OF_OWN_REFERENCE: f64 = 0.1;
 
 /// Returns whether the discretisation error of explicit elements needs a reference run of explicit elements: condensed
-/// bodies have neither large strains nor waves, and do not flow.
+/// bodies have neither large strains nor waves, do not flow, and have no plate that bends.
 pub(crate) fn needs_own_reference(estimate: &Estimate, is_at_finite_strain: bool) -> bool {
-    let Estimate { mach, strain, flow, .. } = *estimate;
+    let Estimate { mach, strain, flow, bends, .. } = *estimate;
     // A strain that is NaN counts as large.
     let is_large = is_at_finite_strain && (strain.is_nan() || strain >= STRAIN_OF_OWN_REFERENCE);
-    is_large || mach >= MACH_OF_OWN_REFERENCE || flow.is_some()
+    is_large || bends || mach >= MACH_OF_OWN_REFERENCE || flow.is_some()
 }
 
 /// Adds the reference runs to the seconds of a run.
