@@ -132,29 +132,6 @@ fn only_fem_run_depends_on_terminal_crates() {
     assert!(TERMINAL.iter().all(|name| command.contains(*name)), "a name that nobody has");
 }
 
-/// `cargo test` and `cargo build` take every crate but two.
-#[test]
-fn all_crates_but_two_are_default_members() {
-    let manifest: toml::Table =
-        fs::read_to_string(root().join("Cargo.toml")).expect("a manifest").parse().expect("TOML");
-    let patterns = manifest["workspace"]["default-members"].as_array().expect("default members");
-    let is_default = |name: &str| {
-        let folder = match name {
-            "fem-validate" => "validation",
-            "fem-fuzz" => "fuzz",
-            _ => &format!("crates/{name}"),
-        };
-        patterns.iter().filter_map(|pattern| pattern.as_str()).any(|pattern| {
-            let others = pattern.strip_suffix("[!p]*");
-            others.map_or(pattern == folder, |before| {
-                folder.strip_prefix(before).is_some_and(|rest| !rest.starts_with('p'))
-            })
-        })
-    };
-    let others: Vec<String> = workspace().into_keys().filter(|name| !is_default(name)).collect();
-    assert_eq!(others, ["fem-fuzz", PYTHON]);
-}
-
 #[test]
 fn every_crate_has_the_lints_of_the_workspace() {
     for (name, own) in workspace() {
