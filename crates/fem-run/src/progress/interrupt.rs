@@ -1,8 +1,8 @@
 //! Ctrl-C and the signals that end a process.
 
 use std::process::exit;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use crate::text::failure::Status;
@@ -15,22 +15,56 @@ const ONE_SIGNAL: Duration = Duration::from_secs(1);
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Listens to SIGINT, SIGTERM and SIGHUP. The first one requests an orderly end, a later one ends the
-    /// process at once.
+    /// Listens to the signals that ask a process to end. The first one requests an orderly end, and a later SIGINT, SIGTERM or
+    /// SIGHUP ends the process at once. SIGXCPU, which comes again every second, and SIGUSR1 are what batch systems send before a
+    /// job's time is over. After SIGXFSZ a write has failed, and its error is that of a full disk.
     pub fn listen() -> Self {
         let interrupt = Self::default();
-        let flag = interrupt.clone();
         // If no handler can be set, a signal ends the process.
-        let first = Mutex::new(None);
-        let _ = ctrlc::set_handler(move || {
-            flag.0.store(true, Ordering::Relaxed);
-            let Ok(mut first) = first.lock() else { return };
-            let first = *first.get_or_insert_with(Instant::now);
-            if first.elapsed() > ONE_SIGNAL {
-                exit(Status::Interrupted as i32);
+        let _ = interrupt.handle_signals();
+        interrupt
+    }
+
+    #[cfg(unix)]
+    fn handle_signals(&self) -> std::io::Result<()> {
+        use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
+
+        let asked = [SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGXFSZ];
+        let mut signals = signal_hook::iterator::Signals::new(asked)?;
+        let interrupt = self.clone();
+        std::thread::spawn(move || {
+            let mut first = None;
+            for signal in signals.forever() {
+                match signal {
+                    SIGXFSZ => {}
+                    SIGXCPU | SIGUSR1 => interrupt.request(),
+                    _ => interrupt.request_or_exit(&mut first),
+                }
             }
         });
-        interrupt
+        Ok(())
+    }
+
+    #[cfg(not(unix))]
+    fn handle_signals(&self) -> Result<(), ctrlc::Error> {
+        let interrupt = self.clone();
+        let first = std::sync::Mutex::new(None);
+        ctrlc::set_handler(move || {
+            if let Ok(mut first) = first.lock() {
+                interrupt.request_or_exit(&mut first);
+            }
+        })
+    }
+
+    fn request(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    fn request_or_exit(&self, first: &mut Option<Instant>) {
+        self.request();
+        if first.get_or_insert_with(Instant::now).elapsed() > ONE_SIGNAL {
+            exit(Status::Interrupted as i32);
+        }
     }
 
     pub fn is_requested(&self) -> bool {

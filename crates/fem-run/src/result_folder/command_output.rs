@@ -66,7 +66,7 @@ impl CommandOutput {
         self.files.push(name.to_string());
         std::fs::write(self.folder.path().join(name), bytes).map_err(|error| {
             unwritten(name, error)
-                .with_help("nothing was kept; is the disk full? An older result is unchanged")
+                .with_help("nothing was kept; is the disk full, or a quota or ulimit -f reached? An older result is unchanged")
         })
     }
 

@@ -101,7 +101,8 @@ pub fn write_result(
     }
     let fault = missing.map(|missing| {
         let kept = summary.files.join(", ");
-        Failure::failed(missing).with_help(format!("kept: {kept}; is the disk full?"))
+        Failure::failed(missing)
+            .with_help(format!("kept: {kept}; is the disk full, or a quota or ulimit -f reached?"))
     });
     WrittenResult { summary, text, fault }
 }
@@ -131,7 +132,7 @@ fn nothing_written(
 ) -> WrittenResult {
     summary.files.clear();
     let fault = Failure::failed(format!("the result cannot be written: {error}"))
-        .with_help("nothing was kept of this run; is the disk full? An older result is unchanged");
+        .with_help("nothing was kept of this run; is the disk full, or a quota or ulimit -f reached? An older result is unchanged");
     WrittenResult { summary, text, fault: Some(fault) }
 }
 

@@ -139,7 +139,7 @@ impl ResultKeeper<'_> {
         let summary = Summary::of(simulation, collision, errors, spent, warnings, Vec::new());
         self.pack.append(identity, &summary).map_err(|error| {
             Failure::failed(format!("a summary cannot be written: {error}"))
-                .with_help("the members before it are kept; is the disk full?")
+                .with_help("the members before it are kept; is the disk full, or a quota or ulimit -f reached?")
         })?;
         Ok(summary)
     }

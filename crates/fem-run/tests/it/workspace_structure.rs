@@ -26,7 +26,7 @@ const SOLVERS: [&str; 8] = [
 
 /// Crates for arguments, terminals and signals.
 const TERMINAL: [&str; 7] =
-    ["clap", "clap_complete", "comfy-table", "ctrlc", "indicatif", "miette", "textwrap"];
+    ["clap", "clap_complete", "comfy-table", "indicatif", "miette", "signal-hook", "textwrap"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

@@ -83,7 +83,10 @@ mod signals {
     #[test]
     fn interrupted_run_writes_its_results_so_far() {
         let twice = &[Signal::SIGINT; 2][..];
-        for signals in [&[Signal::SIGINT][..], &[Signal::SIGTERM], twice, twice, twice] {
+        // Batch systems send the last two; that of the CPU limit comes again every second.
+        let of_batch_systems = [&[Signal::SIGUSR1][..], &[Signal::SIGXCPU; 3]];
+        let of_users = [&[Signal::SIGINT][..], &[Signal::SIGTERM], &[Signal::SIGHUP]];
+        for signals in of_users.into_iter().chain(of_batch_systems).chain([twice; 3]) {
             let place = Place::new();
             let summary = interrupted(&place, start(&place, &[]), signals);
             assert!(summary["stopped_because"].as_str().unwrap().contains("interrupted"));
