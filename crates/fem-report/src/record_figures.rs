@@ -1,10 +1,15 @@
 //! Figures of measured records: the record with what was picked, the restitutions, and residuals.
 
-use fem::records::{BounceTimes, FlightSpan, Impact, Record, Rig};
+use fem::records::{BounceTimes, FlightSpan, ForceRecord, Impact, Pulse, Record, Rig, Track};
+use fem_case::engineering::show;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
 use crate::quantity_axis::{QuantityAxis, chart_axes};
 
+/// Most points of a drawn record.
+const MOST_POINTS: usize = 1500;
+/// Most pulses that are drawn one over the other.
+const MOST_PULSES: usize = 5;
 /// Points of a drawn flight.
 const FLIGHT_POINTS: usize = 24;
 
@@ -12,6 +17,8 @@ const FLIGHT_POINTS: usize = 24;
 pub fn record_figure(record: &Record, rig: &Rig) -> String {
     let charts = match record {
         Record::BounceTimes(bounces) => bounce_charts(bounces, rig),
+        Record::Track(track) => track_charts(track),
+        Record::Force(force) => force_charts(force),
     };
     fem_figure::svg(&charts).unwrap_or_default()
 }
@@ -24,6 +31,11 @@ fn restitution_chart(impacts: &[Impact]) -> Chart {
     let bars = impacts.iter().map(|it| 2.0 * it.restitution.uncertainty);
     let curve = Curve::points("restitution ± 2 u", points.collect()).with_errors(bars.collect());
     Chart::new(x.axis(), Axis::new("restitution e")).with(curve.like_curve(0))
+}
+
+/// Adds points with a name like the k-th curve, if there are any.
+fn with_marks(chart: Chart, name: &str, points: Vec<(f64, f64)>, k: usize) -> Chart {
+    if points.is_empty() { chart } else { chart.with(Curve::points(name, points).like_curve(k)) }
 }
 
 fn bounce_charts(bounces: &BounceTimes, rig: &Rig) -> Vec<Chart> {
@@ -58,9 +70,8 @@ fn bounce_charts(bounces: &BounceTimes, rig: &Rig) -> Vec<Chart> {
         let all = (0..instants.len()).filter(|k| is_used(k) == used);
         all.map(|k| (time.scaled(instants[k]), 0.0)).collect()
     };
-    record = record
-        .with(Curve::points("bounce", picked(true)).like_curve(1))
-        .with(Curve::points("left out", picked(false)).like_curve(3));
+    record = with_marks(record, "bounce", picked(true), 1);
+    record = with_marks(record, "left out", picked(false), 3);
     let mut charts = vec![record, restitution_chart(&bounces.impacts)];
     if let Some(scatter) = &bounces.scatter {
         let largest =
@@ -77,4 +88,104 @@ fn bounce_charts(bounces: &BounceTimes, rig: &Rig) -> Vec<Chart> {
         charts.push(chart_axes(&time, &residual).with(zero).with(points));
     }
     charts
+}
+
+/// Returns about [`MOST_POINTS`] indices of a list with n entries: all, or in each of equal parts those of the smallest and the
+/// largest value.
+fn thinned(values: &[f64]) -> Vec<usize> {
+    let n = values.len();
+    if n <= MOST_POINTS {
+        return (0..n).collect();
+    }
+    let size = n.div_ceil(MOST_POINTS / 2);
+    let mut kept = Vec::new();
+    for start in (0..n).step_by(size) {
+        let part = start..(start + size).min(n);
+        let by = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
+        let ends = [part.clone().min_by(by), part.max_by(by)];
+        let mut ends: Vec<usize> = ends.into_iter().flatten().collect();
+        ends.sort_unstable();
+        ends.dedup();
+        kept.extend(ends);
+    }
+    kept
+}
+
+fn track_charts(track: &Track) -> Vec<Chart> {
+    let frames = &track.frames;
+    let (times, heights) = (&frames.times, &frames.heights);
+    let start = times.first().copied().unwrap_or(0.0);
+    let end = times.last().copied().unwrap_or(1.0);
+    let time = QuantityAxis::linear("time", "s", end.abs().max(start.abs()));
+    let largest = heights.iter().fold(0.0f64, |most, y| most.max(y.abs()));
+    let height = QuantityAxis::linear("height", "m", largest);
+    let point = |k: &usize| (time.scaled(times[*k]), height.scaled(heights[*k]));
+    let points = thinned(heights).iter().map(point).collect();
+    let mut record = chart_axes(&time, &height).with(Curve::points("frame", points).coloured(GREY));
+    let mut deviations = Vec::new();
+    for flight in &track.flights {
+        let (Some(first), Some(last)) = (flight.frames.first(), flight.frames.last()) else {
+            continue;
+        };
+        let point = |k: usize| {
+            let share = k as f64 / FLIGHT_POINTS as f64;
+            let t = times[*first] + share * (times[*last] - times[*first]);
+            (time.scaled(t), height.scaled(track.height(flight, t)))
+        };
+        let points = (0..=FLIGHT_POINTS).map(point).collect();
+        record = record.with(Curve::line("parabola", points).coloured(COLOURS[0]));
+        let off = |k: &usize| (times[*k], heights[*k] - track.height(flight, times[*k]));
+        deviations.extend(flight.frames.iter().map(off));
+    }
+    let level = |impact: &Impact| {
+        let near = times.partition_point(|t| *t < impact.time).min(heights.len() - 1);
+        (time.scaled(impact.time), height.scaled(heights[near]))
+    };
+    let picked = track.impacts.iter().map(level).collect();
+    record = record.with(Curve::points("bounce", picked).like_curve(1));
+    let residual = QuantityAxis::linear("frame less parabola", "m", 3.0 * track.noise);
+    let values: Vec<f64> = deviations.iter().map(|it| it.1).collect();
+    let kept = thinned(&values).into_iter();
+    let kept = kept.map(|k| (time.scaled(deviations[k].0), residual.scaled(deviations[k].1)));
+    let points = Curve::points("residual", kept.collect()).like_curve(2);
+    vec![record, restitution_chart(&track.impacts), chart_axes(&time, &residual).with(points)]
+}
+
+fn force_charts(force: &ForceRecord) -> Vec<Chart> {
+    let (times, forces) = (&force.samples.times, &force.samples.forces);
+    let end = times.last().copied().unwrap_or(1.0);
+    let time = QuantityAxis::linear("time", "s", end.abs().max(times[0].abs()));
+    let largest = force.pulses.iter().map(|pulse| pulse.peak_force_n).fold(0.0, f64::max);
+    let newton = QuantityAxis::linear("force", "N", largest);
+    let point = |k: &usize| (time.scaled(times[*k]), newton.scaled(forces[*k]));
+    let points = thinned(forces).iter().map(point).collect();
+    let peak = |clipped: bool| -> Vec<(f64, f64)> {
+        let pulses = force.pulses.iter().filter(|pulse| pulse.is_clipped == clipped);
+        let top = |pulse: &Pulse| {
+            let middle = 0.5 * pulse.baseline[1] + pulse.baseline[0];
+            (time.scaled(pulse.time_s), newton.scaled(pulse.peak_force_n + middle))
+        };
+        pulses.map(top).collect()
+    };
+    let record = chart_axes(&time, &newton).with(Curve::line("", points).coloured(GREY));
+    let record = with_marks(record, "pulse", peak(false), 1);
+    let record = with_marks(record, "clipped", peak(true), 3);
+    let longest = force.pulses.iter().take(MOST_PULSES).filter_map(Pulse::contact_time);
+    let contact = QuantityAxis::linear("time since touch", "s", longest.fold(0.0, f64::max));
+    let mut pulses = chart_axes(&contact, &newton);
+    for (k, pulse) in force.pulses.iter().take(MOST_PULSES).enumerate() {
+        let [first, last] = pulse.samples;
+        let values: Vec<f64> = (first..=last)
+            .map(|k| {
+                let share = (times[k] - times[first]) / (times[last] - times[first]);
+                forces[k] - pulse.baseline[0] - share * pulse.baseline[1]
+            })
+            .collect();
+        let point =
+            |k: usize| (contact.scaled(times[first + k] - pulse.time_s), newton.scaled(values[k]));
+        let points = thinned(&values).into_iter().map(point).collect();
+        let label = format!("less baseline, {}", show(pulse.time_s, "s"));
+        pulses = pulses.with(Curve::points_on_line(label, points).like_curve(k + 4));
+    }
+    vec![record, restitution_chart(&force.impacts), pulses]
 }

@@ -5,24 +5,27 @@ use std::path::PathBuf;
 use fem::fit::cradle::Measured;
 use fem::measured::{Kind, NotMeasured, parse_measured};
 use fem::records::{
-    BounceTimes, IMPACT_COLUMNS, Impact, Record, RecordKind, Rig, TimeUncertaintySource,
+    BounceTimes, ForceRecord, IMPACT_COLUMNS, Impact, Record, RecordKind, Rig,
+    TimeUncertaintySource, Track,
 };
-use fem_case::engineering::show;
+use fem_case::engineering::{Unit, show};
 use fem_report::record_figures::record_figure;
 use serde_json::Value;
 
 use crate::arguments::case::stem_of;
 use crate::arguments::data::{ColumnArguments, read_bytes};
+use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
 use crate::text::{Failure, headed, show_measured, shown, standard_output};
 
 /// Turn a record of a bouncing ball into restitutions over speed, with uncertainties
 ///
-/// The record is a CSV file of the instants at which the ball touches the plate. Writes measure.csv, which fit and
+/// The record is a CSV file of the instants at which the ball touches the plate, of its height over time, or of the force of
+/// impacts over time. Writes measure.csv, which fit and
 /// calibrate read, measure.json and measure.svg, and prints the table. Values may carry a standard uncertainty: '20 cm ± 1 mm'.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
-    /// The record: a CSV file with a column time_s, the instants of the bounces
+    /// The record: a CSV file with the columns time_s (the instants of bounces); time_s and y_m; or time_s and force_n
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// The kind of record [default: by its columns]
@@ -60,6 +63,18 @@ struct RigArguments {
     /// Instant at which the ball comes to rest, a check of the bounces
     #[arg(long, value_name = "TIME", value_parser = of_kind(Kind::Time))]
     rest: Option<Measured>,
+    /// Mass of the moving body, for a record of the force
+    #[arg(long, value_name = "MASS", value_parser = of_kind(Kind::Mass))]
+    mass: Option<Measured>,
+    /// Mass between the force sensor and the contact if the moving body carries the sensor
+    #[arg(long, value_name = "MASS", value_parser = of_kind(Kind::Mass))]
+    sensor_mass: Option<Measured>,
+    /// Approach speed of the first impact, for a record of the force; --height of a drop gives it too
+    #[arg(long, value_name = "SPEED", value_parser = of_kind(Kind::Speed))]
+    speed: Option<Measured>,
+    /// Relative standard uncertainty of the calibration of the force, such as '1 %'
+    #[arg(long, value_name = "SHARE", value_parser = parse_share)]
+    force_uncertainty: Option<f64>,
 }
 
 fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
@@ -82,6 +97,10 @@ impl RigArguments {
             contact_time: self.contact_time,
             time_uncertainty: self.time_uncertainty.map(|given| given.value),
             rest: self.rest,
+            mass: self.mass,
+            sensor_mass: self.sensor_mass,
+            speed: self.speed,
+            force_uncertainty: self.force_uncertainty,
         }
     }
 }
@@ -158,7 +177,47 @@ fn impacts_table(impacts: &[Impact]) -> String {
 fn details(record: &Record, rig: &Rig) -> String {
     match record {
         Record::BounceTimes(bounces) => of_bounces(bounces, rig),
+        Record::Track(track) => of_track(track, rig),
+        Record::Force(force) => of_force(force),
     }
+}
+
+fn of_track(track: &Track, rig: &Rig) -> String {
+    let gravity = match track.has_fitted_gravity {
+        true => format!("fitted g: {}", show_measured(track.gravity, "m/s²")),
+        false => format!("g: {:.4} m/s²", track.gravity.value),
+    };
+    let mut text = format!(
+        "{} frames, {} flights; {gravity}; scatter of a frame: {}\n",
+        track.frames.times.len(),
+        track.flights.len(),
+        two_digits(track.noise, "m")
+    );
+    if rig.contact_time.is_none() {
+        text += "contact time neglected: --contact-time includes it\n";
+    }
+    text
+}
+
+fn of_force(force: &ForceRecord) -> String {
+    const SHOWN: usize = 16;
+    let time = |time: Option<f64>| time.map_or("-".to_string(), |time| show(time, "s"));
+    let rows = force.pulses.iter().take(SHOWN).map(|pulse| {
+        [
+            show(pulse.time_s, "s"),
+            show(pulse.peak_force_n, "N") + if pulse.is_clipped { ", clipped" } else { "" },
+            time(pulse.contact_time_10_percent_s),
+            time(pulse.contact_time_1_percent_s),
+            show(pulse.impulse_n_s, "N·s"),
+        ]
+    });
+    let header = ">pulse at|>peak force|>contact time at 10 %|>at 1 %|>impulse";
+    let noise = two_digits(force.noise, "N");
+    format!("{}\nnoise of a sample: {noise}\n", headed(header, rows))
+}
+
+fn two_digits(value: f64, unit: &str) -> String {
+    Unit::fitting(value, unit).with_digits(2).show(value)
 }
 
 fn of_bounces(bounces: &BounceTimes, rig: &Rig) -> String {
@@ -167,8 +226,7 @@ fn of_bounces(bounces: &BounceTimes, rig: &Rig) -> String {
         TimeUncertaintySource::Scatter => "by the scatter of the flights",
         TimeUncertaintySource::Digits => "by the last digit",
     };
-    let uncertainty = fem_case::engineering::Unit::fitting(bounces.time_uncertainty, "s");
-    let uncertainty = uncertainty.with_digits(2).show(bounces.time_uncertainty);
+    let uncertainty = two_digits(bounces.time_uncertainty, "s");
     let mut text = format!("standard uncertainty of an instant: {uncertainty}, {source}\n");
     if rig.contact_time.is_none() {
         let change = 1e-4 * bounces.contact_time_slope;

@@ -19,7 +19,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 20] = [
+const ENDINGS: [UnitSuffix; 23] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_um_s", 1e-6, [1, 0, -1]),
@@ -40,6 +40,9 @@ const ENDINGS: [UnitSuffix; 20] = [
     ending("_cm", 1e-2, [1, 0, 0]),
     ending("_um", 1e-6, [1, 0, 0]),
     ending("_m", 1.0, [1, 0, 0]),
+    ending("_kn", 1e3, [1, 1, -2]),
+    ending("_mn", 1e-3, [1, 1, -2]),
+    ending("_n", 1.0, [1, 1, -2]),
 ];
 
 /// Returns the unit in which a column's name ends.
@@ -146,7 +149,8 @@ pub(super) const DIAMETERS: [[&str; 2]; 2] =
 /// Columns of the trials of a cradle.
 const ANGLES: [&str; 4] = ["alpha", "beta", "alpha_uncertainty", "beta_uncertainty"];
 /// Columns of measured records.
-const RECORDS: [&str; 2] = ["time", "time_uncertainty"];
+const RECORDS: [&str; 6] =
+    ["time", "time_uncertainty", "height", "height_uncertainty", "force", "signal"];
 
 /// Returns all names that a column may have, without units; among synonyms the preferred name comes first.
 pub(super) fn column_names() -> Vec<&'static str> {

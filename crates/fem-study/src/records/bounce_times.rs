@@ -179,7 +179,8 @@ impl BounceTimes {
             && let Some(flight) = first
         {
             let time = instants.values[1];
-            impacts.push(Impact { time, speed: flight.landing_speed(), restitution });
+            let speed = flight.landing_speed();
+            impacts.push(Impact { time, speed, restitution, contact_time: None });
             warnings.push("the restitution is a mean over all bounces until rest".to_string());
         }
         if impacts.is_empty() {
@@ -481,7 +482,8 @@ impl Speeds {
             uncertainty: (landing * of_height.hypot(of_gravity)).hypot(more - landing),
         };
         let time = self.start.value;
-        Some(Impact { time, speed, restitution: Measured { value: e, uncertainty } })
+        let restitution = Measured { value: e, uncertainty };
+        Some(Impact { time, speed, restitution, contact_time: None })
     }
 
     /// Returns the impacts between two single flights.
@@ -490,6 +492,7 @@ impl Speeds {
             time: before.time,
             speed: before.landing_speed(),
             restitution: before.restitution(after),
+            contact_time: None,
         })
     }
 

@@ -16,15 +16,23 @@ pub struct Impact {
     pub speed: Measured,
     /// Restitution of the impact.
     pub restitution: Measured,
+    /// Contact time, s, if the record shows it.
+    pub contact_time: Option<f64>,
 }
 
 /// The columns of the table of impacts.
-pub const IMPACT_COLUMNS: [&str; 5] =
-    ["speed_m_s", "restitution", "restitution_uncertainty", "speed_uncertainty_m_s", "time_s"];
+pub const IMPACT_COLUMNS: [&str; 6] = [
+    "speed_m_s",
+    "restitution",
+    "restitution_uncertainty",
+    "speed_uncertainty_m_s",
+    "time_s",
+    "contact_time_s",
+];
 
 impl Impact {
     /// Returns the row of the impact in the order of [`IMPACT_COLUMNS`]; an unknown uncertainty is absent.
-    pub fn row(&self) -> [Option<f64>; 5] {
+    pub fn row(&self) -> [Option<f64>; 6] {
         let known = |it: Measured| Some(it.uncertainty).filter(|u| *u > 0.0);
         [
             Some(self.speed.value),
@@ -32,6 +40,7 @@ impl Impact {
             known(self.restitution),
             known(self.speed),
             Some(self.time),
+            self.contact_time,
         ]
     }
 

@@ -1,29 +1,32 @@
 //! Records of bouncing balls as they are measured: restitutions over impact speed with their uncertainties.
 //!
 //! ```text
-//! roles ── number columns ─ bounce_times ─┬─ impact: rows of the table
-//!          of crate::measured             │
-//! rig ──── free_flight ───────────────────┤
-//!          drag                           │
-//!          series ────────────────────────┘
-//!          missing instants, scatter
+//! roles ── number columns ─┬─ bounce_times ─┬─ impact: rows of the table
+//!          of              ├─ track ────────┤
+//!          crate::measured └─ force ────────┘
+//! rig ──── free_flight, with drag
+//! series ─ missing instants, scatter
 //! ```
 //!
 //! A record that does not support a restitution is an error that says why. Nothing is opened here: callers pass texts and
 //! their names.
 
 mod bounce_times;
+mod force;
 mod free_flight;
 mod impact;
 mod record;
 mod rig;
 mod roles;
 mod series;
+mod track;
 
 pub use bounce_times::{BounceTimes, Instants, TimeUncertaintySource};
+pub use force::{ForceRecord, Pulse, Samples};
 pub use free_flight::{Flight, FreeFlight};
 pub use impact::{IMPACT_COLUMNS, Impact};
 pub use record::Record;
 pub use rig::Rig;
 pub use roles::RecordKind;
 pub use series::{FlightSpan, Scatter};
+pub use track::{Frames, Track, TrackFlight};

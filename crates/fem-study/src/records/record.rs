@@ -5,15 +5,21 @@ use serde_json::{Value, json};
 use crate::measured::{DataError, NumberColumns, decode};
 
 use super::bounce_times::{BounceTimes, Instants};
+use super::force::{ForceRecord, Samples};
 use super::impact::Impact;
 use super::rig::Rig;
 use super::roles::RecordKind;
+use super::track::{Frames, Track};
 
 /// A measured record and what it says.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Record {
     /// The instants at which a bouncing ball touches the plate.
     BounceTimes(BounceTimes),
+    /// The height of a ball over time.
+    Track(Track),
+    /// The force of impacts over time.
+    Force(ForceRecord),
 }
 
 impl Record {
@@ -39,6 +45,8 @@ impl Record {
             RecordKind::BounceTimes => {
                 BounceTimes::of(Instants::read(&columns)?, rig).map(Self::BounceTimes)
             }
+            RecordKind::Track => Track::of(Frames::read(&columns)?, rig).map(Self::Track),
+            RecordKind::Force => ForceRecord::of(Samples::read(&columns)?, rig).map(Self::Force),
         }
     }
 
@@ -46,6 +54,8 @@ impl Record {
     pub fn kind(&self) -> RecordKind {
         match self {
             Self::BounceTimes(_) => RecordKind::BounceTimes,
+            Self::Track(_) => RecordKind::Track,
+            Self::Force(_) => RecordKind::Force,
         }
     }
 
@@ -53,6 +63,8 @@ impl Record {
     pub fn impacts(&self) -> &[Impact] {
         match self {
             Self::BounceTimes(bounces) => &bounces.impacts,
+            Self::Track(track) => &track.impacts,
+            Self::Force(force) => &force.impacts,
         }
     }
 
@@ -60,6 +72,8 @@ impl Record {
     pub fn warnings(&self) -> &[String] {
         match self {
             Self::BounceTimes(bounces) => &bounces.warnings,
+            Self::Track(track) => &track.warnings,
+            Self::Force(force) => &force.warnings,
         }
     }
 
@@ -67,6 +81,8 @@ impl Record {
     pub fn numbers(&self, name: &str, rig: &Rig) -> Value {
         let details = match self {
             Self::BounceTimes(bounces) => bounces.numbers(),
+            Self::Track(track) => track.numbers(),
+            Self::Force(force) => force.numbers(),
         };
         json!({
             "data": name,

@@ -25,6 +25,14 @@ pub struct Rig {
     pub time_uncertainty: Option<f64>,
     /// Instant at which the ball comes to rest, s.
     pub rest: Option<Measured>,
+    /// Mass of the moving body, kg.
+    pub mass: Option<Measured>,
+    /// Mass between the force sensor and the contact, part of the moving body that carries the sensor, kg.
+    pub sensor_mass: Option<Measured>,
+    /// Approach speed of the first impact, m/s.
+    pub speed: Option<Measured>,
+    /// Relative standard uncertainty of the calibration of a force.
+    pub force_uncertainty: Option<f64>,
 }
 
 /// Flights of the ball, with drag and with more drag, whose difference is the uncertainty of drag.
@@ -45,6 +53,9 @@ impl Rig {
             ("height", self.drop_height),
             ("diameter", self.diameter),
             ("density", self.density),
+            ("mass", self.mass),
+            ("sensor-mass", self.sensor_mass),
+            ("speed", self.speed),
         ];
         let exact = |value: f64| Measured::exact(value);
         let at_least_0 = [("contact-time", self.contact_time), ("rest", self.rest)]
@@ -62,6 +73,14 @@ impl Rig {
                     DataError::new(name, message).with_help(format!("it must be {allowed}"))
                 );
             }
+        }
+        if let (Some(sensor), Some(mass)) = (self.sensor_mass, self.mass)
+            && sensor.value >= mass.value
+        {
+            let message =
+                "the mass in front of the sensor is part of the mass of the body, and not less";
+            let help = "--mass is that of the whole moving body, --sensor-mass that of its front";
+            return Err(DataError::new(name, message).with_help(help));
         }
         if self.diameter.is_some() != self.density.is_some() {
             let message = "air drag needs the diameter and the density of the ball";

@@ -7,16 +7,22 @@ use crate::measured::{DataError, NumberColumns};
 pub enum RecordKind {
     /// The instants at which a bouncing ball touches the plate.
     BounceTimes,
+    /// The height of a ball over time.
+    Track,
+    /// The force of impacts over time.
+    Force,
 }
 
 impl RecordKind {
     /// All kinds of records, in the order of the documentation.
-    pub const ALL: [Self; 1] = [Self::BounceTimes];
+    pub const ALL: [Self; 3] = [Self::BounceTimes, Self::Track, Self::Force];
 
     /// Returns the name of the kind: `bounce-times`.
     pub fn name(self) -> &'static str {
         match self {
             Self::BounceTimes => "bounce-times",
+            Self::Track => "track",
+            Self::Force => "force",
         }
     }
 
@@ -24,6 +30,8 @@ impl RecordKind {
     fn columns(self) -> &'static str {
         match self {
             Self::BounceTimes => "time_s",
+            Self::Track => "time_s, y_m",
+            Self::Force => "time_s, force_n",
         }
     }
 
@@ -34,6 +42,12 @@ impl RecordKind {
     pub(super) fn of(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
         let has = |names: &[&str]| columns.find(names).map(|found| found.is_some());
         if has(&TIMES)? {
+            let second = [(&FORCES[..], Self::Force), (&HEIGHTS, Self::Track)];
+            for (names, kind) in second {
+                if has(names)? {
+                    return Ok(kind);
+                }
+            }
             return Ok(Self::BounceTimes);
         }
         let found = columns.header().join(", ");
@@ -52,3 +66,10 @@ pub(super) const TIMES: [&str; 8] =
     ["time", "t", "instant", "bounce", "impact", "bounce_time", "impact_time", "timestamp"];
 /// Names of a column of the uncertainties of instants.
 pub(super) const TIME_UNCERTAINTIES: [&str; 3] = ["time_uncertainty", "t_uncertainty", "u(t)"];
+/// Names of a column of heights.
+pub(super) const HEIGHTS: [&str; 6] = ["height", "y", "position", "h", "z", "position_y"];
+/// Names of a column of the uncertainties of heights.
+pub(super) const HEIGHT_UNCERTAINTIES: [&str; 4] =
+    ["height_uncertainty", "y_uncertainty", "u(y)", "position_uncertainty"];
+/// Names of a column of forces.
+pub(super) const FORCES: [&str; 3] = ["force", "f", "load"];

@@ -130,6 +130,13 @@ fn best_step(
     best
 }
 
+/// Returns the factor from a standard deviation with few degrees of freedom to the standard uncertainty, twice which is the
+/// half-width of a 95 % interval: Student's quantile over that of the normal distribution.
+pub(super) fn widened(freedom: f64) -> f64 {
+    let student = StudentsT::new(0.0, 1.0, freedom.max(1.0)).ok();
+    student.map_or(1.0, |student| student.inverse_cdf(TWO_SIDED_95) / NORMAL_95)
+}
+
 /// Returns the middle value of a list that is not empty; of an even number the upper one.
 pub(super) fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
@@ -217,9 +224,7 @@ fn scatter_about(instants: &[f64], spans: &[FlightSpan], n_terms: usize) -> Opti
         trace_of_square += cross.sum::<f64>();
     }
     let freedom = (trace * trace / trace_of_square).max(1.0);
-    let student = StudentsT::new(0.0, 1.0, freedom).ok()?;
-    let widened = student.inverse_cdf(TWO_SIDED_95) / NORMAL_95;
-    let uncertainty = widened * residuals.norm() / trace.sqrt();
+    let uncertainty = widened(freedom) * residuals.norm() / trace.sqrt();
     let mut of_spans = vec![None; spans.len()];
     singles.iter().zip(residuals.iter()).for_each(|(k, residual)| of_spans[*k] = Some(*residual));
     Some(Scatter { uncertainty, freedom, residuals: of_spans })

@@ -3,7 +3,9 @@
 
 use fem_study::fit::cradle::Measured;
 use fem_study::measured::DataError;
-use fem_study::records::{BounceTimes, FreeFlight, Impact, Record, Rig, TimeUncertaintySource};
+use fem_study::records::{
+    BounceTimes, ForceRecord, FreeFlight, Impact, Record, Rig, TimeUncertaintySource, Track,
+};
 
 /// Random numbers with a normal distribution.
 struct Noise(fastrand::Rng);
@@ -65,9 +67,8 @@ fn read(text: &str, rig: &Rig) -> Result<Record, DataError> {
 }
 
 fn bounces(text: &str, rig: &Rig) -> BounceTimes {
-    match read(text, rig).unwrap() {
-        Record::BounceTimes(bounces) => bounces,
-    }
+    let Record::BounceTimes(bounces) = read(text, rig).unwrap() else { panic!("another kind") };
+    bounces
 }
 
 fn list(times: impl IntoIterator<Item = f64>) -> String {
@@ -331,4 +332,258 @@ fn records_that_say_nothing_are_errors_that_say_why() {
     let foam = Rig { diameter: exact(5e-3), density: exact(10.0), ..Rig::default() };
     let _ = read(&geometric(5), &foam);
     let _ = read(&list((0..2_000).map(|k| f64::from(k) * 1e-3)), &foam);
+}
+
+/// Returns the height of a ball at a time, m, by its bounces.
+fn height(ball: &Ball, bounces: &[(f64, f64)], time: f64) -> f64 {
+    match bounces.iter().rev().find(|(start, _)| *start <= time) {
+        None => ball.height - 0.5 * Ball::G * time * time,
+        Some((start, speed)) => {
+            let (s, launch) = (time - start, speed * ball.e(*speed));
+            (launch - 0.5 * Ball::G * s) * s
+        }
+    }
+}
+
+fn track(text: &str, rig: &Rig) -> Track {
+    let Record::Track(track) = read(text, rig).unwrap() else { panic!("another kind") };
+    track
+}
+
+/// Returns the true restitution of the bounce nearest to an impact.
+fn true_restitution(ball: &Ball, bounces: &[(f64, f64)], impact: &Impact) -> f64 {
+    let distance = |bounce: &&(f64, f64)| (bounce.0 - impact.time).abs();
+    let near = bounces.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    ball.e(near.unwrap().1)
+}
+
+#[test]
+fn tracks_give_back_the_restitution_within_its_uncertainty() {
+    let mut noise = Noise::seeded(2);
+    let mut coverage = Coverage::default();
+    for draw in 0..100 {
+        let ball = Ball::random(&mut noise);
+        let n = 2 + noise.0.usize(0..5);
+        let true_bounces = ball.bounces(n + 1);
+        let rate = [60.0, 120.0, 240.0, 1000.0][draw % 4];
+        let (jitter, phase) = (10f64.powf(noise.between(-4.0, -3.0)), noise.between(0.0, 1.0));
+        let drift = if draw % 5 == 0 { noise.between(-0.01, 0.01) } else { 0.0 };
+        let flips = draw % 7 == 0;
+        let until = true_bounces[n].0 - 2.0 / rate;
+        let mut text = "# a ball\nmass_A\nt\tx\ty\ns\tcm\tcm\n".to_string();
+        for frame in 0..(until * rate) as usize {
+            let time = (frame as f64 + phase) / rate;
+            if noise.0.f64() < 0.05 {
+                // The tracker has lost the ball.
+                text += &format!("{time:.7}\t\t\n");
+                continue;
+            }
+            let y =
+                height(&ball, &true_bounces[..n], time) + drift * time + jitter * noise.normal();
+            let y = 100.0 * if flips { -y } else { y };
+            text += &format!("{time:.7}\t1.0\t{y:.6}\n");
+        }
+        let found = track(&text, &Rig::default());
+        assert!(found.has_fitted_gravity, "{draw}: {:?}", found.gravity);
+        // At 60 frames per second the last flights have too few frames.
+        let n_short = if rate < 100.0 { 2 } else { 1 };
+        assert!(
+            found.impacts.len() + n_short >= n,
+            "{draw}: {} of {n}: {:?}",
+            found.impacts.len(),
+            found.warnings
+        );
+        coverage.count(&found.impacts, |impact| true_restitution(&ball, &true_bounces, impact));
+    }
+    assert!(coverage.n > 300, "{coverage:?}");
+    coverage.check();
+}
+
+/// A hand holds the ball before the drop, a frame is wrong, the scale is 3 % off, and the ball rests at the end.
+#[test]
+fn hands_outliers_and_scales_of_tracks_are_found() {
+    let ball = Ball { height: 0.6, restitution: 0.8, slope: 0.0 };
+    let all = ball.bounces(40);
+    let mut noise = Noise::seeded(3);
+    let mut rows = String::new();
+    for frame in 0..900 {
+        let time = f64::from(frame) / 240.0;
+        let y = if time < 0.5 { 0.6 } else { height(&ball, &all, time - 0.5) };
+        let y = 1.03 * y + 2e-4 * noise.normal() + if frame == 300 { 0.2 } else { 0.0 };
+        rows += &format!("{time:.6};{y:.6}\n").replace('.', ",");
+    }
+    let found = track(&format!("time [s];height [m]\n{rows}"), &Rig::default());
+    assert!(found.impacts.len() >= 6, "{:?}", found.warnings);
+    for impact in &found.impacts {
+        let Measured { value, uncertainty } = impact.restitution;
+        assert!((value - 0.8).abs() < 4.0 * uncertainty, "{impact:?}");
+        // The scale is in the bar of the speed.
+        assert!(impact.speed.uncertainty > 0.02 * impact.speed.value, "{impact:?}");
+    }
+    assert!((found.gravity.value / Ball::G - 1.03).abs() < 0.003, "{:?}", found.gravity);
+    let warnings = found.warnings.join("; ");
+    assert!(warnings.contains("the scale of the heights is off by 3."), "{warnings}");
+    assert!(warnings.contains("far off"), "{warnings}");
+    // With a given g the scale is not questioned.
+    let rig = Rig { gravity: Some(Measured::exact(1.03 * Ball::G)), ..Rig::default() };
+    let given = track(&format!("time [s];height [m]\n{rows}"), &rig);
+    assert!(!given.has_fitted_gravity && given.impacts.len() == found.impacts.len());
+    // A contact time of 4 ms has the ball fall and rise for 2 ms less.
+    let rig = Rig { contact_time: Some(Measured::exact(4e-3)), ..Rig::default() };
+    let late = track(&format!("time [s];height [m]\n{rows}"), &rig).impacts[0];
+    let own = found.impacts[0];
+    let change = 0.5 * 1.03 * Ball::G * 4e-3;
+    let expected = (own.restitution.value * own.speed.value + change) / (own.speed.value - change);
+    assert!((late.restitution.value - expected).abs() < 1e-3, "{late:?} {expected}");
+}
+
+/// Returns the force of pulses at these times with these impulses and durations, N.
+fn force(time: f64, pulses: &[(f64, f64, f64)]) -> f64 {
+    let one = |(start, impulse, lasts): &(f64, f64, f64)| {
+        let s = (time - start) / lasts;
+        // The integral of sin^1.5 from 0 to π is 1.748 038 369 528 08.
+        let peak = impulse / lasts * std::f64::consts::PI / 1.748_038_369_528_08;
+        if (0.0..=1.0).contains(&s) {
+            peak * (std::f64::consts::PI * s).sin().powf(1.5)
+        } else {
+            0.0
+        }
+    };
+    pulses.iter().map(one).sum()
+}
+
+fn forces(text: &str, rig: &Rig) -> Result<ForceRecord, DataError> {
+    read(text, rig).map(|record| match record {
+        Record::Force(force) => force,
+        other => panic!("{other:?}"),
+    })
+}
+
+#[test]
+fn forces_give_back_the_restitution_within_its_uncertainty() {
+    let mut noise = Noise::seeded(4);
+    let mut coverage = Coverage::default();
+    for draw in 0..100 {
+        let mass = noise.between(2e-3, 0.2);
+        let ball = Ball { height: noise.between(0.01, 0.04), ..Ball::random(&mut noise) };
+        let (lasts, n) = (noise.between(5e-4, 2e-3), 1 + draw % 3);
+        let true_bounces = ball.bounces(n);
+        let pulses: Vec<(f64, f64, f64)> = true_bounces
+            .iter()
+            .enumerate()
+            .map(|(k, (time, speed))| {
+                let impulse = mass * (speed * (1.0 + ball.e(*speed)) + Ball::G * lasts);
+                (time + k as f64 * lasts, impulse, lasts)
+            })
+            .collect();
+        let peak = pulses[0].1 / lasts;
+        let (jitter, rate) = (peak * 10f64.powf(noise.between(-3.5, -2.0)), 40e3);
+        let (offset, slope) = (noise.between(-1.0, 1.0) * peak, noise.between(-0.3, 0.3) * peak);
+        let sign = if draw % 4 == 0 { -1.0 } else { 1.0 };
+        let until = pulses[n - 1].0 + 0.02;
+        let mut text = "TIME,FORCE\nms,N\n".to_string();
+        for sample in 0..(until * rate) as usize {
+            let time = sample as f64 / rate;
+            let value =
+                sign * force(time, &pulses) + offset + slope * time + jitter * noise.normal();
+            text += &format!("{:.5},{value:.9}\n", 1e3 * time);
+        }
+        let off = |value: f64, share: f64, noise: &mut Noise| {
+            Some(Measured {
+                value: value * (1.0 + share * noise.normal()),
+                uncertainty: share * value,
+            })
+        };
+        let rig = Rig {
+            mass: off(mass, 2e-3, &mut noise),
+            speed: off(true_bounces[0].1, 3e-3, &mut noise),
+            ..Rig::default()
+        };
+        let found = forces(&text, &rig).unwrap();
+        assert_eq!(found.impacts.len(), n, "{draw}: {:?}", found.warnings);
+        for pulse in &found.pulses {
+            // sin^1.5 is above a tenth of its peak for 0.862 of its length, and above a hundredth for 0.9703.
+            let short = pulse.contact_time_10_percent_s.unwrap() / lasts;
+            assert!((short - 0.862).abs() < 0.03, "{draw}: {short}");
+            if let Some(long) = pulse.contact_time_1_percent_s {
+                assert!((long / lasts - 0.9703).abs() < 0.05, "{draw}: {}", long / lasts);
+            }
+        }
+        coverage.count(&found.impacts, |impact| true_restitution(&ball, &true_bounces, impact));
+    }
+    coverage.check();
+}
+
+#[test]
+fn clipped_and_other_pulses_without_a_restitution_say_why() {
+    let record = |top: f64, pulses: &[(f64, f64, f64)]| {
+        let mut noise = Noise::seeded(5);
+        let row = |k: u32| {
+            let time = f64::from(k) / 50e3;
+            let value = (force(time, pulses) + 0.02 * noise.normal()).min(top);
+            format!("{time:.6},{value:.4}\n")
+        };
+        "time_s,force_n\n".to_string() + &(0..5000).map(row).collect::<String>()
+    };
+    let exact = |value: f64| Some(Measured::exact(value));
+    // 10 g with 1 m/s and e = 0.8.
+    let pulses = [(0.02, 0.01 * (1.8 + Ball::G * 1e-3), 1e-3), (0.07, 0.01 * 0.9, 1e-3)];
+    let rig = Rig { mass: exact(0.01), speed: exact(1.0), ..Rig::default() };
+    let whole = forces(&record(100.0, &pulses[..1]), &rig).unwrap();
+    assert!((whole.impacts[0].restitution.value - 0.8).abs() < 5e-3, "{:?}", whole.impacts);
+    assert!(whole.impacts[0].contact_time.is_some() && !whole.pulses[0].is_clipped);
+    for (text, rig, expected) in [
+        (record(20.0, &pulses[..1]), rig, "the pulse gives no restitution|clipped at "),
+        (record(100.0, &pulses[..1]), Rig { mass: None, ..rig }, "no restitution|--mass"),
+        (
+            record(100.0, &pulses[..1]),
+            Rig { speed: None, ..rig },
+            "no restitution|--speed or --height",
+        ),
+        (
+            record(100.0, &pulses[..1]),
+            Rig { mass: exact(10.0), ..rig },
+            "below 0|units of the force",
+        ),
+        (record(100.0, &[]), rig, "there is no pulse above the noise"),
+        ("time_s,force_n\n0,1\n1,2\n".to_string(), rig, "2 samples are too few"),
+        ("time_s,force [V]\n0,1\n1,2\n".to_string(), rig, "the unit of force_[v] is not known"),
+    ] {
+        let error = forces(&text, &rig).expect_err(expected);
+        let whole = format!("{error}; {}", error.help.clone().unwrap_or_default());
+        assert!(expected.split('|').all(|part| whole.contains(part)), "{expected}: {whole}");
+    }
+    // The second pulse is no bounce of the first one, which would follow after 2 · 0.8/g = 0.16 s: it is a drop of its own.
+    let two = forces(&record(100.0, &pulses), &rig).unwrap();
+    assert_eq!(two.impacts.len(), 1, "{:?}", two.warnings);
+    // A sensor in the striking body measures less than the contact force, by the mass in front of it.
+    let front = Rig { sensor_mass: exact(0.002), ..rig };
+    let e = forces(&record(100.0, &pulses[..1]), &front);
+    assert!(e.err().is_some_and(|error| error.to_string().contains("no restitution")));
+}
+
+#[test]
+fn tracks_without_a_bounce_say_why() {
+    let row = |k: i32, y: f64| format!("{:.4},{y:.6}\n", f64::from(k) / 100.0);
+    let fall: String = (0..40).map(|k| row(k, 1.0 - 4.9 * f64::from(k * k) * 1e-4)).collect();
+    let ball = Ball { height: 0.5, restitution: 0.8, slope: 0.0 };
+    let all = ball.bounces(6);
+    let whole = |scale: f64| -> String {
+        (0..200).map(|k| row(k, scale * height(&ball, &all, f64::from(k) / 100.0))).collect()
+    };
+    for (text, expected) in [
+        ("time_s,y_m\n0,1\n0.1,0.9\n".to_string(), "2 frames are too few for a bounce"),
+        (format!("time_s,y_m\n{fall}"), "there is no bounce"),
+        (format!("time_s,y_m\n{}", whole(100.0)), "the parabolas fall with 980.66"),
+        (format!("time_s,y [px]\n{}", whole(100.0)), "the unit of y_[px] is not known"),
+        (
+            format!("time_s,y_m\n{}0.5,0.1\n", whole(1.0)),
+            "record.csv:202: the time 0.5 s does not increase",
+        ),
+        ("time_s,y_m\n0,1\n0.1,x\n".to_string(), "record.csv:3: y_m is \"x\""),
+    ] {
+        let error = read(&text, &Rig::default()).expect_err(expected);
+        assert!(error.to_string().contains(expected), "{expected}: {error}");
+    }
+    assert_eq!(track(&format!("time_s,y_m\n{}", whole(1.0)), &Rig::default()).drift, 0.0);
 }

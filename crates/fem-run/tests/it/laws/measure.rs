@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 use crate::common::Place;
 
 const BOUNCES: &str = include_str!("../../../../../validation/data/bounce_times.csv");
+const TRACK: &str = include_str!("../../../../../validation/data/ball_track.csv");
+const FORCE: &str = include_str!("../../../../../validation/data/ball_force.csv");
 
 #[test]
 fn bounce_times_become_a_table_that_fit_and_calibrate_read() {
@@ -27,18 +29,54 @@ fn bounce_times_become_a_table_that_fit_and_calibrate_read() {
     place.succeed(("calibrate case.toml --terms 1 --model ting --out calibrate -q", table));
 }
 
+/// The data are made with e = 0.85 − 0.02 v/(m/s) and 0.82 − 0.03 v/(m/s).
+#[test]
+fn tracks_and_forces_become_tables() {
+    let place = Place::new();
+    place.write("track.csv", TRACK);
+    place.write("force.csv", FORCE);
+    let e = |folder: &str, k: usize| {
+        let numbers = place.json(&format!("runs/{folder}/measure.json"));
+        let impact = &numbers["impacts"][k];
+        let of = |key: &str| impact[key].as_f64().unwrap();
+        [of("speed_m_s"), of("restitution"), of("restitution_uncertainty")]
+    };
+    place.succeed("measure track.csv").prints("4 restitutions|fitted g: 9.80|318 frames");
+    let [speed, restitution, uncertainty] = e("track_measure", 0);
+    assert!((restitution - 0.85 + 0.02 * speed).abs() < 3.0 * uncertainty);
+    let ran = place.succeed("measure force.csv --mass '10 g ± 0.02 g' --height '3 cm ± 0.1 mm'");
+    ran.prints("2 restitutions|peak force|contact time at 10 %|1.180 ms|noise of a sample: 27 mN");
+    for k in 0..2 {
+        let [speed, restitution, uncertainty] = e("force_measure", k);
+        assert!((restitution - 0.82 + 0.03 * speed).abs() < 3.0 * uncertainty);
+    }
+    // The contact times are data of a fit too.
+    let table = "--data runs/force_measure/measure.csv";
+    let ran =
+        place.succeed(("fit case.toml --law linear --contact-time --free c,k --out fit", table));
+    assert!(!ran.stderr.contains("not read"), "{}", ran.stderr);
+    for kind in ["track", "force"] {
+        let svg = place.text(format!("runs/{kind}_measure/measure.svg"));
+        assert!(svg.starts_with("<svg") && svg.contains("restitution"), "{kind}");
+    }
+}
+
 #[test]
 fn options_of_a_record_are_checked() {
     let place = Place::new();
     place.write("drop.csv", BOUNCES);
+    place.write("force.csv", FORCE);
     place.write("two.csv", "time_ms\n400\n1000\n");
     for (options, expected) in [
-        ("drop.csv --kind film", "a record is one of bounce-times"),
+        ("drop.csv --kind film", "a record is one of bounce-times, track, force"),
         ("drop.csv --gravity 0", "--gravity is 0.0"),
         ("drop.csv --gravity '9.8 m'", "is not an acceleration"),
         ("drop.csv --diameter 1cm", "air drag needs the diameter and the density"),
         ("drop.csv --columns time=when", "there is no column when; found are time_s"),
         ("drop.csv --rest 2s", "the ball is at rest at 2 s and bounces at"),
+        ("force.csv", "the 2 pulses give no restitution|--mass of the moving body"),
+        ("force.csv --mass 10g --speed 1m/s --sensor-mass 20g", "the mass in front of the sensor"),
+        ("force.csv --kind track", "there is no column height; found are time_ms, force_n"),
         ("two.csv", "two instants are one flight"),
         ("none.csv", "there is no such file"),
     ] {
@@ -47,6 +85,10 @@ fn options_of_a_record_are_checked() {
         assert_eq!(ran.stderr.matches("error: ").count(), 1, "{}", ran.stderr);
         assert!(!place.path("runs").exists());
     }
+    // The flight between the pulses gives the speed of the second one.
+    let ran = place.succeed("measure force.csv --mass 10g");
+    ran.prints("restitution 0.80");
+    ran.tells("the pulse at 0.0040 s gives no restitution: --speed or --height");
     place.succeed("measure two.csv --height 1m").prints("restitution 0.66");
 }
 
