@@ -6,7 +6,10 @@
 //! ([`fem_laws::plate_mobility`]).
 
 use fem_case::{Body, Plate, PlateSupport, Scene};
-use fem_laws::{plate_lambda, plate_mobility, rayleigh_wave_speed};
+use fem_laws::{
+    HertzImpact, LawError, Pair, plate_lambda, plate_mobility, plate_thickness_factor,
+    plate_wave_travel, rayleigh_wave_speed,
+};
 use fem_material::Material;
 
 use crate::estimate::Estimate;
@@ -62,9 +65,7 @@ impl<'a> PlateImpact<'a> {
         let (body, plate, whole) = plate_of(scene)?;
         let material = left_at(whole, estimate.effective.after);
         let way = |speed: f64| speed * contact_time;
-        let modulus = material.instantaneous().youngs_modulus();
-        let thicknesses =
-            (modulus / material.density()).sqrt() * hertz.contact_time() / plate.thickness;
+        let thicknesses = plate_wave_travel(hertz, &material, plate.thickness);
         let edge_return = plate
             .diameter
             .map_or(f64::INFINITY, |diameter| diameter / way(rayleigh_wave_speed(&material)));
@@ -99,4 +100,19 @@ fn plate_of(scene: &Scene) -> Option<(&Body, &Plate, &Material)> {
 pub(crate) fn thin_plate_mobility(scene: &Scene) -> Option<f64> {
     let (_, plate, material) = plate_of(scene)?;
     (plate.support == PlateSupport::Free).then(|| plate_mobility(material, plate.thickness))
+}
+
+/// Returns the same with the finite thickness of the plate, at the approach speed of the scene, for a pair with instantaneous moduli.
+///
+/// # Errors
+/// Numbers so extreme that Hertz' values leave the range of f64.
+pub(crate) fn plate_mobility_of(scene: &Scene, pair: &Pair) -> Result<Option<f64>, LawError> {
+    let (Some(mobility), Some((_, plate, material))) =
+        (thin_plate_mobility(scene), plate_of(scene))
+    else {
+        return Ok(None);
+    };
+    let hertz = HertzImpact::new(pair, scene.approach_speed())?;
+    let travel = plate_wave_travel(&hertz, material, plate.thickness);
+    Ok(Some(mobility * plate_thickness_factor(material, travel)))
 }

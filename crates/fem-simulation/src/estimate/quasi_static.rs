@@ -8,7 +8,7 @@ use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
 use crate::estimate::Estimate;
-use crate::estimate::plate_impact::thin_plate_mobility;
+use crate::estimate::plate_impact::{plate_mobility_of, thin_plate_mobility};
 
 /// Returns Ting's impact of a scene between half-spaces, or with the compliance of finite spheres in series, however large
 /// the contact.
@@ -106,8 +106,8 @@ fn has_wall(scene: &Scene) -> bool {
     scene.bodies().iter().any(|body| *body.shape() == Shape::Wall)
 }
 
-/// Returns Ting's model of a scene and its pair, with surface slip and a thin plate if the scene has them, and without relaxation if `relaxes`
-/// is false.
+/// Returns Ting's model of a scene and its pair, with surface slip and a plate if the scene has them, and without relaxation if `relaxes`
+/// is false. With a finite size the plate has its finite thickness, too.
 pub(crate) fn ting_of(
     scene: &Scene,
     pair: &Pair,
@@ -125,7 +125,11 @@ pub(crate) fn ting_of(
     if surfaces_slip(scene) {
         ting = ting.with_surface_slip(scene.surface_slip());
     }
-    if let Some(mobility) = thin_plate_mobility(scene) {
+    let mobility = match size {
+        Some(_) => plate_mobility_of(scene, pair)?,
+        None => thin_plate_mobility(scene),
+    };
+    if let Some(mobility) = mobility {
         ting = ting.with_plate(mobility)?;
     }
     Ok(match size {

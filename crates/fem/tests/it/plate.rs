@@ -6,7 +6,7 @@ use fem::{Account, ModelCandidate, QuantityOfInterest};
 use crate::scene::{collision_of, decision_on, refused_of, simulation_of, summary_of};
 
 const BALL: &str = r#"
-[material.steel]
+[material.metal]
 density = "7800 kg/m^3"
 youngs_modulus = "210 GPa"
 poissons_ratio = 0.3
@@ -14,16 +14,16 @@ poissons_ratio = 0.3
 [[body]]
 name = "bench"
 plate = { thickness = "5 mm" }
-material = "steel"
+material = "metal"
 
 [[body]]
 name = "ball"
 sphere = { diameter = "10 mm" }
-material = "steel"
+material = "metal"
 approach_speed = "1 m/s"
 "#;
 
-const HALF_SPACE: &str = "body.0={ name='bench', half_space={}, material='steel' }";
+const HALF_SPACE: &str = "body.0={ name='bench', half_space={}, material='metal' }";
 const MODELS: [&str; 4] = [
     "model.ting={}",
     "model.hertz={}",
@@ -92,11 +92,32 @@ fn elements_go_from_the_thin_plate_to_the_half_space() {
         assert!((plate - last).abs() < 1e-3, "{metres}: {plate} {last}");
     }
     // 2 % of the loss, and the coarse mesh.
-    let [thin, theory] =
-        ["model.fem={}", "model.ting.finite_size=true"].map(|model| loss(&summary(2e-3, model)));
+    let [thin, theory] = ["model.fem={}", "model.ting={}"].map(|model| loss(&summary(2e-3, model)));
     assert!((thin / theory - 1.0).abs() < 0.02, "{thin} {theory}");
     let half_space = loss(&summary_of(BALL, &["model.ting={}", HALF_SPACE]));
     assert!((last / half_space - 1.0).abs() < 0.1, "{last} {half_space}");
+}
+
+/// Error bars of reduced models hold elements, from thin plates to thick ones, with the plate's thickness and without it.
+#[test]
+fn bars_of_reduced_models_hold_elements() {
+    let other = "material.metal.density='8000 kg/m^3'";
+    for metres in [2e-3, 5e-3, 20e-3, 60e-3] {
+        let thickness = thickness(metres);
+        let fine = "mesh.contact_element_size='40 um'";
+        let elements = collision_of(BALL, &["model.fem={}", fine, other, &thickness]);
+        for model in ["model.ting.finite_size=true", "model.ting={}", "model.law.hertz={}"] {
+            let summary = summary_of(BALL, &[model, other, &thickness]);
+            for (quantity, floor) in
+                [(QuantityOfInterest::Restitution, 2e-4), (QuantityOfInterest::ContactTime, 0.0)]
+            {
+                let found = summary.collision.number(quantity).unwrap();
+                let bar = summary.uncertainty.parts(quantity).model.unwrap();
+                let off = (found - quantity.of(&elements).unwrap()).abs();
+                assert!(off < bar + floor, "{model} {metres} {quantity:?}: {off:e} {bar:e}");
+            }
+        }
+    }
 }
 
 /// A bonded plate gives its waves back; one with a near edge gives back a part, and keeps no energy where nothing returns.
@@ -154,7 +175,7 @@ fn waves_from_the_edge_are_told() {
     assert!(model(&wide).is_some() && wide.plate.unwrap().regime == "thin");
 }
 
-/// Auto takes elements where thin-plate theory is not accurate enough.
+/// Auto takes thin-plate theory, that with the plate's thickness, or elements, as the tolerance asks.
 #[test]
 fn auto_takes_a_model_with_the_plate() {
     let chosen = |set: &[&str]| {
@@ -165,8 +186,9 @@ fn auto_takes_a_model_with_the_plate() {
         assert!(reason.contains("cannot compute a plate"), "{reason}");
         simulation.considered().iter().find(|one| one.chosen).unwrap().model
     };
-    assert_eq!(chosen(&[]), "fem = {}");
+    assert_eq!(chosen(&[]), "hertz = { finite_size = true }");
     assert_eq!(chosen(&["accuracy.tolerance='5 %'"]), "hertz = {}");
+    assert_eq!(chosen(&["accuracy.tolerance='0.5 %'"]), "fem = {}");
     assert_eq!(chosen(&["body.0.plate.support='bonded'"]), "fem = {}");
 }
 

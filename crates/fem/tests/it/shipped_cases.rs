@@ -16,7 +16,7 @@ const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"
 type Row = (&'static str, &'static str, &'static [&'static str], &'static [[&'static str; 2]]);
 
 const RELAXES: &str = "viscoelasticity";
-const ROWS: [Row; 15] = [
+const ROWS: [Row; 16] = [
     ("glass_0.5ms", "fem", &[RELAXES], &[["mirror symmetry", "differ"]]),
     ("glass_0.5ms_14um", "fem", &[], &[]),
     ("glass_0.5ms_elastic", "fem", &[], &[]),
@@ -45,6 +45,12 @@ const ROWS: [Row; 15] = [
         "fem",
         &["partner waves"],
         &[["partner waves", "waves do not return from block"]],
+    ),
+    (
+        "ball_on_plate",
+        "fem",
+        &["plate bending"],
+        &[["plate bending", "waves travel 36 thicknesses of bench during the contact; λ = 0.16"]],
     ),
     (
         "steel_on_aluminium",

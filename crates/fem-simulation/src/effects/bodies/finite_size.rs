@@ -1,4 +1,5 @@
-//! A sphere deforms otherwise than the half-space of Hertz: its own compliance is in series, to first order.
+//! A sphere deforms otherwise than the half-space of Hertz: its own compliance is in series, to first order. A plate that bends
+//! has its thickness with it ([`fem_laws::plate_thickness_factor`]).
 
 use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;

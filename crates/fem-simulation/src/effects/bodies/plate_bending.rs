@@ -7,6 +7,7 @@
 use fem_case::engineering::{number, show};
 use fem_case::{ModelChoice, PlateSupport, Scene, Switch};
 use fem_collision::{Collision, QuantityOfInterest};
+use fem_laws::plate_thickness_error;
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
@@ -18,9 +19,6 @@ use crate::estimate::Estimate;
 use crate::estimate::plate_impact::{PlateImpact, PlateRegime, THIN};
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
-
-/// Relative error of the change by a thin plate, times c₀T/h.
-const ERROR_OF_THIN_PLATE: f64 = 2.0;
 
 impl PlateBending {
     /// Returns whether the scene has a plate that is not a half-space to its impact.
@@ -112,9 +110,9 @@ impl Effect for PlateBending {
             (true, _) => Some(format!(
                 "waves return from the edge of {name} within the contact, and this model does not know what they give back"
             )),
-            (_, PlateRegime::Between) => Some(format!(
+            (_, PlateRegime::Between) if !has_thickness(scene) => Some(format!(
                 "{name} is neither thin nor a half-space to this impact: waves travel {thicknesses} thicknesses, and \
-                 thin-plate theory holds from {THIN}"
+                 thin-plate theory holds from {THIN}; finite_size = true of models ting and hertz, or model fem, has the thickness"
             )),
             _ => None,
         };
@@ -171,13 +169,14 @@ impl Effect for PlateBending {
                 Switch::Off => self.switched(&switched.with_half_space(side), None),
                 _ => switched,
             };
-            TingPrediction::of(&scene, speed, false).ok()
+            let of = |finite_size| TingPrediction::of(&scene, speed, finite_size).ok();
+            of(true).or_else(|| of(false))
         });
         Some(bent?.change_from(&half_space?))
     }
 
-    /// A model with the dashpot of a thin plate has the error of thin-plate theory; where the plate is not thin, or waves return
-    /// from its edge, the error is unknown.
+    /// A model with a plate as a dashpot has the error of the fit to elements that includes its finite thickness; without it that is
+    /// part of the error of finite size. Where waves return from the edge, the error is unknown.
     fn model_form_error(
         &self,
         scene: &Scene,
@@ -194,13 +193,7 @@ impl Effect for PlateBending {
         if status.is_lacking {
             return change.of_all_quantities(estimate);
         }
-        match plate.regime {
-            PlateRegime::Thin => {
-                let part = ERROR_OF_THIN_PLATE / plate.thicknesses;
-                change.of_all_quantities(estimate).times(part)
-            }
-            _ => QuantityErrors::default(),
-        }
+        change.of_all_quantities(estimate).times(plate_thickness_error(plate.thicknesses))
     }
 
     fn warnings_of_result(&self, scene: &Scene, estimate: &Estimate, _: &Collision) -> Vec<String> {
@@ -212,6 +205,16 @@ impl Effect for PlateBending {
             .into_iter()
             .collect()
     }
+}
+
+/// Returns whether the model of a scene has the finite thickness of its plate.
+fn has_thickness(scene: &Scene) -> bool {
+    matches!(
+        scene.model(),
+        ModelChoice::Fem
+            | ModelChoice::Hertz { finite_size: true }
+            | ModelChoice::Ting { finite_size: true, .. }
+    )
 }
 
 /// Checks that a plate is wider than its contact.
