@@ -50,6 +50,10 @@ impl PairRelaxation {
     }
 
     fn of_chain(chain: &[Element]) -> Result<Self, LawError> {
+        // Like elements in series relax as each of them does.
+        if chain.iter().all(|element| *element == chain[0]) {
+            return chain[0].relaxation();
+        }
         let compliance: f64 = chain.iter().map(|element| element.instantaneous().recip()).sum();
         let creep = chain.iter().flat_map(|element| element.creep_poles(compliance.recip()));
         let terms = zeros(-1.0, &merged(creep.collect()))
@@ -96,6 +100,7 @@ impl PairRelaxation {
 }
 
 /// M(s) = M∞ + Σ M_k s/(s+b_k).
+#[derive(PartialEq)]
 struct Element {
     /// Equilibrium modulus M∞, Pa.
     equilibrium: f64,
@@ -106,6 +111,17 @@ struct Element {
 impl Element {
     fn instantaneous(&self) -> f64 {
         self.equilibrium + self.terms.iter().map(|term| term.weight).sum::<f64>()
+    }
+
+    /// Returns M(t)/M(0).
+    fn relaxation(&self) -> Result<PairRelaxation, LawError> {
+        let instantaneous = self.instantaneous();
+        let terms = merged(self.terms.clone()).into_iter().map(|pole| {
+            let weight = positive("pair relaxation weight", pole.weight / instantaneous)?;
+            Ok(PronyTerm { weight, relaxation_time: pole.at.recip() })
+        });
+        let equilibrium_weight = self.equilibrium / instantaneous;
+        Ok(PairRelaxation { equilibrium_weight, terms: terms.collect::<Result<_, LawError>>()? })
     }
 
     /// Poles at λ of `unit`/M(−x) = `unit`/M₀ − Σ r/(x−λ).

@@ -10,7 +10,7 @@
 //! rank one; as in LAPACK's `dlaed4`, each zero is sought as its distance from the nearer pole,
 //! which keeps f and its slope accurate to rounding however close to the pole the zero lies.
 
-use crate::numerics::bisection::last_where;
+use crate::numerics::bisection::falling_zero;
 
 /// The pole w/(x−d).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +34,9 @@ pub(crate) struct Zero {
 /// it. A pair left apart costs digits as the inverse of its distance: at 1e-6 the sum of weights of a
 /// series has an error of 2e-12.
 const SAME_POLE: f64 = 1e-7;
+
+/// Ratio of the ends of the interval in which a zero is sought.
+const GROWTH: f64 = 4.0;
 
 /// Returns sorted poles with non-zero weights, coinciding poles as one.
 pub(crate) fn merged(mut poles: Vec<Pole>) -> Vec<Pole> {
@@ -75,9 +78,31 @@ fn zero_between(at_infinity: f64, poles: &[Pole], right: usize) -> Zero {
 }
 
 /// Returns the zero at most `reach` from the pole at `origin`, on the side of the sign.
+///
+/// With the distance x from that pole, x f has no pole there, and is w at it. The secant method starts around the zero of its
+/// tangent there if that is a bracket, so that the result has full relative accuracy however close to the pole it lies.
 fn zero_near(at_infinity: f64, poles: &[Pole], origin: f64, side: f64, reach: f64) -> Zero {
-    let is_nearer = |distance: f64| side * value(at_infinity, poles, origin, side * distance) > 0.0;
-    let offset = side * last_where(f64::MIN_POSITIVE, reach, is_nearer);
+    let without_pole = |distance: f64| {
+        let term = |pole: &Pole| match pole.at == origin {
+            true => side * pole.weight,
+            false => pole.weight * distance / ((origin - pole.at) + side * distance),
+        };
+        side * (at_infinity * distance + poles.iter().map(term).sum::<f64>())
+    };
+    let weight = without_pole(0.0);
+    let step = (0.5 * reach).min(reach * weight / (weight - without_pole(reach)).abs());
+    let mut low = 0.0;
+    let mut high = step;
+    while high < reach && without_pole(high) > 0.0 {
+        (low, high) = (high, (GROWTH * high).min(reach));
+    }
+    while low == 0.0 && high > f64::MIN_POSITIVE {
+        match without_pole(high / GROWTH) > 0.0 {
+            true => low = high / GROWTH,
+            false => high /= GROWTH,
+        }
+    }
+    let offset = side * falling_zero(low, high, without_pole);
     let slope = poles
         .iter()
         .map(|pole| {
