@@ -69,6 +69,14 @@ pub fn cradle(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<Stri
     done(py, JobInput::default(), data, options, fem_command::cradle)
 }
 
+/// Runs `fem-run measure`.
+#[pyfunction]
+pub fn measure(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
+    let (name, bytes) = data.unwrap_or_default();
+    let numbers = py.detach(|| fem_command::measure(&name, &bytes, &options)).or_raise(py)?;
+    serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
+}
+
 /// Returns the options of the jobs as JSON.
 #[pyfunction]
 pub fn options() -> String {

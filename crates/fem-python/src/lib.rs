@@ -24,7 +24,8 @@ mod _native {
     use crate::case::Case;
     #[pymodule_export]
     use crate::jobs::{
-        calibrate, cradle, export, fit, invert, material_toml, materials, options, run_command,
+        calibrate, cradle, export, fit, invert, material_toml, materials, measure, options,
+        run_command,
     };
     #[pymodule_export]
     use crate::outcome::Outcome;

@@ -164,6 +164,24 @@ def test_laws_are_those_of_the_commands(glass, command, tmp_path):
     assert rows["restitution"][0] == swing["restitution"] and len(rows["restitution"]) == 2
 
 
+def test_records_become_data_of_a_fit():
+    data = ROOT / "validation" / "data"
+    found = fem_run.measure(data / "bounce_times.csv", height="50 cm ± 1 mm")
+    table = found.table()
+    assert found["kind"] == "bounce-times" and len(table["restitution"]) == 13
+    assert table["restitution"][0] == pytest.approx(0.8874, abs=1e-3) and table["time_s"][0] == 0.35
+    assert "contact_time_s" not in table
+    assert "13 restitutions" in repr(found) and found._repr_html_().startswith("<svg")
+    case = fem_run.Case.load(ROOT / "cases" / "glass_0.5ms.toml")
+    assert fem_run.fit(case, table, law="kuwabara_kono")["points"] == 13
+    force = fem_run.measure(data / "ball_force.csv", mass="10 g", height=0.03)
+    assert (force.table()["contact_time_s"] > 1e-3).all()
+    instants = fem_run.measure({"time_s": [0.4, 1.0, 1.54, 2.026]})
+    assert instants["impacts"][0]["restitution"] == pytest.approx(0.9)
+    with pytest.raises(fem_run.InputError, match="two instants are one flight"):
+        fem_run.measure({"when": [0.4, 1.0]}, columns={"time": "when"})
+
+
 def test_the_library_of_materials():
     assert "pmma" in fem_run.materials and "lib:pmma" in fem_run.materials
     pmma = fem_run.materials["pmma"]

@@ -95,6 +95,8 @@ def test_what_a_sweep_cannot_vary(case, vary, words):
         (lambda case: fem_run.calibrate(case, None), fem_run.InputError, "data"),
         (lambda case: fem_run.cradle(), fem_run.InputError, "length"),
         (lambda case: fem_run.cradle(3), TypeError, "data are"),
+        (lambda case: fem_run.measure(3), TypeError, "data are"),
+        (lambda case: fem_run.measure(None), fem_run.InputError, "<data>"),
         (lambda case: fem_run.materials["unobtainium"], fem_run.InputError, "unobtainium"),
         (lambda case: case.number(3), TypeError, "dotted path"),
         (lambda case: case.run().uncertainty("speed"), KeyError, "there are: restitution"),

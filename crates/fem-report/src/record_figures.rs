@@ -1,6 +1,8 @@
 //! Figures of measured records: the record with what was picked, the restitutions, and residuals.
 
-use fem::records::{BounceTimes, FlightSpan, ForceRecord, Impact, Pulse, Record, Rig, Track};
+use fem::records::{
+    BounceTimes, FlightSpan, ForceRecord, Impact, Pulse, Record, Rig, Sound, Track,
+};
 use fem_case::engineering::show;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
@@ -19,6 +21,7 @@ pub fn record_figure(record: &Record, rig: &Rig) -> String {
         Record::BounceTimes(bounces) => bounce_charts(bounces, rig),
         Record::Track(track) => track_charts(track),
         Record::Force(force) => force_charts(force),
+        Record::Sound(sound) => sound_charts(sound, rig),
     };
     fem_figure::svg(&charts).unwrap_or_default()
 }
@@ -188,4 +191,19 @@ fn force_charts(force: &ForceRecord) -> Vec<Chart> {
         pulses = pulses.with(Curve::points_on_line(label, points).like_curve(k + 4));
     }
     vec![record, restitution_chart(&force.impacts), pulses]
+}
+
+/// The signal with the picked onsets, and the charts of their bounces.
+fn sound_charts(sound: &Sound, rig: &Rig) -> Vec<Chart> {
+    let signal = &sound.signal;
+    let end = signal.time(signal.values.len());
+    let time = QuantityAxis::linear("time", "s", end.abs().max(signal.start.abs()));
+    let point = |k: usize| (time.scaled(signal.time(k)), signal.values[k]);
+    let points = thinned(&signal.values).into_iter().map(point).collect();
+    let chart = Chart::new(time.axis(), Axis::new("signal"));
+    let picked = sound.bounces.instants.values.iter().map(|t| (time.scaled(*t), 0.0)).collect();
+    let chart = chart.with(Curve::line("", points).coloured(GREY));
+    let mut charts = vec![with_marks(chart, "bounce", picked, 1)];
+    charts.extend(bounce_charts(&sound.bounces, rig));
+    charts
 }

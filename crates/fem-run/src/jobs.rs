@@ -50,12 +50,14 @@ fn parsed<A: Args>(job: &'static str, before: &[&str], options: &[String]) -> Re
 /// the values that it may have, or `null` if they cannot be listed.
 pub fn options() -> Value {
     use commands::laws::{calibrate, cradle, export, fit, invert};
+    use commands::measure;
     json!({
         "calibrate": options_of::<calibrate::Arguments>(),
         "cradle": options_of::<cradle::Arguments>(),
         "export": options_of::<export::Arguments>(),
         "fit": options_of::<fit::Arguments>(),
         "invert": options_of::<invert::Arguments>(),
+        "measure": options_of::<measure::Arguments>(),
     })
 }
 
@@ -142,7 +144,7 @@ pub fn cradle(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
     commands::laws::cradle::numbers(&arguments, input.table.as_ref())
 }
 
-/// Runs `fem-run measure` on the bytes of a record; messages refer to it by `name`.
+/// Runs `fem-run measure` on the bytes of a record; messages refer to it by `name`. The key `svg` is the picture.
 ///
 /// # Errors
 /// Options or a record that the command rejects, with its messages.

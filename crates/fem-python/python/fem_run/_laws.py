@@ -48,6 +48,7 @@ Law = Literal[
     "mean_pressure",
     "walton_braun",
     "luding",
+    "mdr",
     "ting",
 ]
 #: When a contact ends: at zero force, or at zero overlap.
@@ -320,6 +321,84 @@ def cradle(
         return found
     names = found[0] if found else {}
     return {name: _array([row[name] for row in found]) for name in names}
+
+
+class Measurement(dict[str, Any]):
+    """The keys of ``measure.json``, SI, and ``svg``, the picture; shown as the picture, or as the range of the restitutions.
+
+    It is data for :func:`fit` and :func:`calibrate`: ``fit(case, measure("drop.csv").table())``.
+    """
+
+    def table(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Returns the columns of ``measure.csv``, one row per impact; ``nan`` for what is not known."""
+        names = list(dict.fromkeys(name for impact in self["impacts"] for name in impact))
+        rows = [[float("nan") if row[name] is None else row[name] for row in self["impacts"]] for name in names]
+        columns = {name: _array(values) for name, values in zip(names, rows)}
+        return {name: values for name, values in columns.items() if not np.isnan(values).all()}
+
+    def __repr__(self) -> str:
+        values = [impact["restitution"] for impact in self["impacts"]]
+        return f"<fem_run.Measurement of {self['kind']}: {len(values)} restitutions from {min(values):.4g} to {max(values):.4g}>"
+
+    def _repr_html_(self) -> str:
+        return f"{self['svg']}{_listed(self['warnings'])}"
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the restitutions over the speed with matplotlib, ``pip install fem-run[plot]``.
+
+        Args:
+            axes: the axes to draw on; new ones if ``None``.
+
+        Raises:
+            ImportError: matplotlib is not installed.
+        """
+        table = self.table()
+        errors = table.get("restitution_uncertainty")
+        return restitutions(axes, "speed_m_s", (table["speed_m_s"], table["restitution"], errors), [])
+
+
+def measure(
+    data: Any,
+    *,
+    kind: Literal["bounce-times", "track", "force", "sound"] | None = None,
+    gravity: Quantity | None = None,
+    height: Quantity | None = None,
+    diameter: Quantity | None = None,
+    density: Quantity | None = None,
+    contact_time: Quantity | None = None,
+    time_uncertainty: Quantity | None = None,
+    rest: Quantity | None = None,
+    mass: Quantity | None = None,
+    sensor_mass: Quantity | None = None,
+    speed: Quantity | None = None,
+    force_uncertainty: Quantity | None = None,
+    columns: Columns | None = None,
+) -> Measurement:
+    """Turns a record of a bouncing ball into restitutions over speed: ``measure("drop.csv", height="50 cm ± 1 mm")``.
+
+    Args:
+        data: the record: instants of bounces, a track of heights, a force over time, or a sound (the path of a WAV file).
+        kind: the kind of the record; by default its columns decide.
+        gravity: acceleration of free fall, 9.80665 m/s² by default; that of a track is fitted.
+        height: height of the drop, from the ball's lowest point to the plate.
+        diameter: diameter of the ball; with ``density`` it gives the air drag.
+        density: density of the ball.
+        contact_time: contact time of a bounce, 0 by default.
+        time_uncertainty: standard uncertainty of an instant; by default it comes from the scatter of the flights.
+        rest: instant at which the ball comes to rest.
+        mass: mass of the moving body, for a force.
+        sensor_mass: mass between the sensor and the contact, for a force that the moving body measures.
+        speed: approach speed of the first impact, for a force.
+        force_uncertainty: relative standard uncertainty of the force.
+        columns: names of the columns by their meaning: ``{"time": "t_ms"}``.
+
+    Returns:
+        The keys of ``measure.json``; ``table()`` has the columns that :func:`fit` reads, ``plot()`` draws them.
+
+    Raises:
+        InputError: the options are invalid, or the record does not support a restitution.
+    """
+    return Measurement(_found(_native.measure(_data({} if data is None else data), _words(locals()))))
 
 
 def check(case: Case) -> str:

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use fem::fit::cradle::Measured;
 use fem::measured::{Kind, NotMeasured, parse_measured};
 use fem::records::{
@@ -21,15 +22,16 @@ use crate::text::{Failure, headed, show_measured, shown, standard_output};
 /// Turn a record of a bouncing ball into restitutions over speed, with uncertainties
 ///
 /// The record is a CSV file of the instants at which the ball touches the plate, of its height over time, or of the force of
-/// impacts over time. Writes measure.csv, which fit and
+/// impacts over time; or it is a sound (WAV). Writes measure.csv, which fit and
 /// calibrate read, measure.json and measure.svg, and prints the table. Values may carry a standard uncertainty: '20 cm ± 1 mm'.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
-    /// The record: a CSV file with the columns time_s (the instants of bounces); time_s and y_m; or time_s and force_n
+    /// The record: a CSV file with the columns time_s (the instants of bounces); time_s and y_m; or time_s and force_n;
+    /// or a WAV file
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// The kind of record [default: by its columns]
-    #[arg(long, value_name = "KIND", value_parser = parse_kind)]
+    #[arg(long, value_name = "KIND", value_parser = kinds())]
     kind: Option<RecordKind>,
     #[command(flatten)]
     columns: ColumnArguments,
@@ -81,10 +83,10 @@ fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone
     move |text| parse_measured(kind, text)
 }
 
-fn parse_kind(name: &str) -> Result<RecordKind, String> {
-    let found = RecordKind::ALL.into_iter().find(|kind| kind.name() == name);
-    let names = RecordKind::ALL.map(RecordKind::name);
-    found.ok_or_else(|| format!("a record is one of {}", names.join(", ")))
+fn kinds() -> impl TypedValueParser<Value = RecordKind> {
+    let kind = |name: String| RecordKind::ALL.into_iter().find(|kind| kind.name() == name);
+    PossibleValuesParser::new(RecordKind::ALL.map(RecordKind::name))
+        .try_map(move |name| kind(name).ok_or("this is no kind of record"))
 }
 
 impl RigArguments {
@@ -129,10 +131,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })
 }
 
-/// Measures a record in memory and returns the numbers.
+/// Measures a record in memory and returns the numbers with the picture.
 pub fn numbers(arguments: &Arguments, bytes: &[u8]) -> Result<Value, Failure> {
-    let record = arguments.read(bytes)?;
-    Ok(record.numbers(&arguments.file.display().to_string(), &arguments.rig.rig()))
+    let (record, rig) = (arguments.read(bytes)?, arguments.rig.rig());
+    let mut numbers = record.numbers(&arguments.file.display().to_string(), &rig);
+    numbers["svg"] = record_figure(&record, &rig).into();
+    Ok(numbers)
 }
 
 /// Returns the first line: how many restitutions, and their range.
@@ -179,6 +183,11 @@ fn details(record: &Record, rig: &Rig) -> String {
         Record::BounceTimes(bounces) => of_bounces(bounces, rig),
         Record::Track(track) => of_track(track, rig),
         Record::Force(force) => of_force(force),
+        Record::Sound(sound) => {
+            let (n, rate) = (sound.bounces.instants.values.len(), sound.signal.rate);
+            format!("{n} bounces in a signal of {rate:.0} samples per second\n")
+                + &of_bounces(&sound.bounces, rig)
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! roles ── number columns ─┬─ bounce_times ─┬─ impact: rows of the table
+//! wav ─── sound: onsets ───┤                │
 //!          of              ├─ track ────────┤
 //!          crate::measured └─ force ────────┘
 //! rig ──── free_flight, with drag
@@ -19,7 +20,9 @@ mod record;
 mod rig;
 mod roles;
 mod series;
+mod sound;
 mod track;
+mod wav;
 
 pub use bounce_times::{BounceTimes, Instants, TimeUncertaintySource};
 pub use force::{ForceRecord, Pulse, Samples};
@@ -29,4 +32,5 @@ pub use record::Record;
 pub use rig::Rig;
 pub use roles::RecordKind;
 pub use series::{FlightSpan, Scatter};
+pub use sound::{Signal, Sound};
 pub use track::{Frames, Track, TrackFlight};

@@ -9,7 +9,9 @@ use super::force::{ForceRecord, Samples};
 use super::impact::Impact;
 use super::rig::Rig;
 use super::roles::RecordKind;
+use super::sound::{Signal, Sound};
 use super::track::{Frames, Track};
+use super::wav::{is_wav, read_wav};
 
 /// A measured record and what it says.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +22,8 @@ pub enum Record {
     Track(Track),
     /// The force of impacts over time.
     Force(ForceRecord),
+    /// A sound or another trace.
+    Sound(Sound),
 }
 
 impl Record {
@@ -35,6 +39,13 @@ impl Record {
         names: &[(&str, &str)],
         rig: &Rig,
     ) -> Result<Self, DataError> {
+        if is_wav(bytes) {
+            if kind.is_some_and(|kind| kind != RecordKind::Sound) {
+                let error = DataError::new(name, "a WAV file is a record of the kind sound");
+                return Err(error.with_help("leave out --kind"));
+            }
+            return Sound::of(read_wav(name, bytes)?, rig).map(Self::Sound);
+        }
         let text = decode(bytes);
         let columns = NumberColumns::parse(name, &text)?.renamed(names)?;
         let kind = match kind {
@@ -46,6 +57,7 @@ impl Record {
                 BounceTimes::of(Instants::read(&columns)?, rig).map(Self::BounceTimes)
             }
             RecordKind::Track => Track::of(Frames::read(&columns)?, rig).map(Self::Track),
+            RecordKind::Sound => Sound::of(Signal::read(&columns)?, rig).map(Self::Sound),
             RecordKind::Force => ForceRecord::of(Samples::read(&columns)?, rig).map(Self::Force),
         }
     }
@@ -56,6 +68,7 @@ impl Record {
             Self::BounceTimes(_) => RecordKind::BounceTimes,
             Self::Track(_) => RecordKind::Track,
             Self::Force(_) => RecordKind::Force,
+            Self::Sound(_) => RecordKind::Sound,
         }
     }
 
@@ -65,6 +78,7 @@ impl Record {
             Self::BounceTimes(bounces) => &bounces.impacts,
             Self::Track(track) => &track.impacts,
             Self::Force(force) => &force.impacts,
+            Self::Sound(sound) => &sound.bounces.impacts,
         }
     }
 
@@ -74,6 +88,7 @@ impl Record {
             Self::BounceTimes(bounces) => &bounces.warnings,
             Self::Track(track) => &track.warnings,
             Self::Force(force) => &force.warnings,
+            Self::Sound(sound) => &sound.bounces.warnings,
         }
     }
 
@@ -83,6 +98,7 @@ impl Record {
             Self::BounceTimes(bounces) => bounces.numbers(),
             Self::Track(track) => track.numbers(),
             Self::Force(force) => force.numbers(),
+            Self::Sound(sound) => sound.bounces.numbers(),
         };
         json!({
             "data": name,

@@ -11,11 +11,13 @@ pub enum RecordKind {
     Track,
     /// The force of impacts over time.
     Force,
+    /// A sound or another trace in which bounces are onsets.
+    Sound,
 }
 
 impl RecordKind {
     /// All kinds of records, in the order of the documentation.
-    pub const ALL: [Self; 3] = [Self::BounceTimes, Self::Track, Self::Force];
+    pub const ALL: [Self; 4] = [Self::BounceTimes, Self::Track, Self::Force, Self::Sound];
 
     /// Returns the name of the kind: `bounce-times`.
     pub fn name(self) -> &'static str {
@@ -23,6 +25,7 @@ impl RecordKind {
             Self::BounceTimes => "bounce-times",
             Self::Track => "track",
             Self::Force => "force",
+            Self::Sound => "sound",
         }
     }
 
@@ -32,6 +35,7 @@ impl RecordKind {
             Self::BounceTimes => "time_s",
             Self::Track => "time_s, y_m",
             Self::Force => "time_s, force_n",
+            Self::Sound => "a WAV file, or time_s, signal",
         }
     }
 
@@ -42,7 +46,8 @@ impl RecordKind {
     pub(super) fn of(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
         let has = |names: &[&str]| columns.find(names).map(|found| found.is_some());
         if has(&TIMES)? {
-            let second = [(&FORCES[..], Self::Force), (&HEIGHTS, Self::Track)];
+            let second =
+                [(&FORCES[..], Self::Force), (&HEIGHTS, Self::Track), (&SIGNALS, Self::Sound)];
             for (names, kind) in second {
                 if has(names)? {
                     return Ok(kind);
@@ -73,3 +78,18 @@ pub(super) const HEIGHT_UNCERTAINTIES: [&str; 4] =
     ["height_uncertainty", "y_uncertainty", "u(y)", "position_uncertainty"];
 /// Names of a column of forces.
 pub(super) const FORCES: [&str; 3] = ["force", "f", "load"];
+/// Names of a column of amplitudes.
+pub(super) const SIGNALS: [&str; 12] = [
+    "signal",
+    "amplitude",
+    "voltage",
+    "sound",
+    "level",
+    "pressure",
+    "acceleration",
+    "sample",
+    "ch1",
+    "channel_1",
+    "channel_a",
+    "value",
+];

@@ -68,7 +68,7 @@ fn options_of_a_record_are_checked() {
     place.write("force.csv", FORCE);
     place.write("two.csv", "time_ms\n400\n1000\n");
     for (options, expected) in [
-        ("drop.csv --kind film", "a record is one of bounce-times, track, force"),
+        ("drop.csv --kind film", "possible values: bounce-times, track, force, sound"),
         ("drop.csv --gravity 0", "--gravity is 0.0"),
         ("drop.csv --gravity '9.8 m'", "is not an acceleration"),
         ("drop.csv --diameter 1cm", "air drag needs the diameter and the density"),
@@ -90,6 +90,98 @@ fn options_of_a_record_are_checked() {
     ran.prints("restitution 0.80");
     ran.tells("the pulse at 0.0040 s gives no restitution: --speed or --height");
     place.succeed("measure two.csv --height 1m").prints("restitution 0.66");
+}
+
+/// Returns a WAV file (16 bits, one channel) of bursts at these times, s.
+fn wav(rate: u32, seconds: f64, bursts: &[(f64, f64)]) -> Vec<u8> {
+    let n = (seconds * f64::from(rate)) as usize;
+    let sample = |k: usize| {
+        let time = k as f64 / f64::from(rate);
+        let burst = |(start, size): &(f64, f64)| {
+            let s = time - start;
+            if (0.0..0.03).contains(&s) {
+                size * (-s / 2e-3).exp() * (2.5e4 * s).sin()
+            } else {
+                0.0
+            }
+        };
+        let hum = 0.02 * (300.0 * time).sin() + 1e-3 * ((k * 7919 % 1009) as f64 / 504.0 - 1.0);
+        let value: f64 = bursts.iter().map(burst).sum::<f64>() + hum;
+        ((value * 32_767.0).clamp(-32_768.0, 32_767.0) as i16).to_le_bytes()
+    };
+    let data: Vec<u8> = (0..n).flat_map(sample).collect();
+    let size = u32::try_from(data.len()).unwrap();
+    let mut bytes = b"RIFF".to_vec();
+    bytes.extend((36 + size).to_le_bytes());
+    bytes.extend(b"WAVEfmt ");
+    bytes.extend(16u32.to_le_bytes());
+    bytes.extend([1, 0, 1, 0]);
+    bytes.extend(rate.to_le_bytes());
+    bytes.extend((2 * rate).to_le_bytes());
+    bytes.extend([2, 0, 16, 0]);
+    bytes.extend(b"data");
+    bytes.extend(size.to_le_bytes());
+    bytes.extend(data);
+    bytes
+}
+
+/// A minute of sound with 48,000 samples per second, as a WAV file and as a table of 2.9 million rows, ends within the two
+/// seconds that a user waits; so does a minute of noise.
+#[test]
+#[allow(clippy::disallowed_methods, reason = "the test measures the time of a command")]
+fn a_minute_of_sound_is_measured_soon() {
+    let place = Place::new();
+    let (mut time, mut flight, mut bursts) = (1.0, 0.6, Vec::new());
+    while flight > 0.05 {
+        bursts.push((time, flight));
+        time += flight;
+        flight *= 0.85;
+    }
+    let bytes = wav(48_000, 60.0, &bursts);
+    std::fs::write(place.path("drop.wav"), &bytes).unwrap();
+    std::fs::write(place.path("cut.wav"), &bytes[..400_000]).unwrap();
+    std::fs::write(place.path("noise.wav"), wav(48_000, 60.0, &[])).unwrap();
+    let row = |(k, pair): (usize, &[u8])| {
+        format!("{:.7},{}\n", k as f64 / 48e3, i16::from_le_bytes([pair[0], pair[1]]))
+    };
+    let rows: String = bytes[44..].chunks_exact(2).enumerate().map(row).collect();
+    place.write("drop.csv", &format!("Recorder,X1\nTIME,CH1\n{rows}"));
+    for (options, expected) in [
+        ("drop.wav", "restitution"),
+        ("drop.csv", "restitution"),
+        ("cut.wav", "restitution"),
+        ("noise.wav", "bounces stand out from the noise"),
+    ] {
+        let started = Instant::now();
+        let ran = place.run(&format!("measure {options} --out {}", options.replace('.', "_")));
+        assert!(
+            format!("{}{}", ran.stdout, ran.stderr).contains(expected),
+            "{options}: {}",
+            ran.stderr
+        );
+        assert_eq!(ran.code, Some(if options == "noise.wav" { 2 } else { 0 }), "{options}");
+        // Tests run side by side, and without optimisation.
+        assert!(started.elapsed() < Duration::from_secs(20), "{options}: {:?}", started.elapsed());
+    }
+    for folder in ["drop_wav", "drop_csv"] {
+        let numbers = place.json(&format!("{folder}/measure.json"));
+        let impacts = numbers["impacts"].as_array().unwrap();
+        assert_eq!(impacts.len(), bursts.len() - 2, "{}", numbers["warnings"]);
+        for impact in impacts {
+            let of = |key: &str| impact[key].as_f64().unwrap();
+            assert!((of("restitution") - 0.85).abs() < 1e-3 + 3.0 * of("restitution_uncertainty"));
+        }
+    }
+    for (bytes, expected) in [
+        (&b"RIFF\x04\0\0\0AVI LIST"[..], "no WAV file"),
+        (b"RIFF\x04\0\0\0WAVEfmt \x10\0\0\0\x55\0\x01\0", "the format of the samples"),
+    ] {
+        std::fs::write(place.path("bad.wav"), bytes).unwrap();
+        place.fails(2, "measure bad.wav").tells(expected);
+    }
+    place
+        .fails(2, "measure drop.wav --kind track")
+        .tells("a WAV file is a record of the kind sound");
 }
 
 /// A list of 100,000 instants, and one that no ball makes, end within the two seconds that a user waits.
