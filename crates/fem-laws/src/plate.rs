@@ -28,6 +28,7 @@
 
 use fem_material::Material;
 
+use crate::error::LawError;
 use crate::hertz::HertzImpact;
 use crate::numerics::functions::power;
 
@@ -41,6 +42,40 @@ pub fn plate_mobility(material: &Material, thickness: f64) -> f64 {
 pub fn plate_wave_travel(hertz: &HertzImpact, material: &Material, thickness: f64) -> f64 {
     let modulus = material.instantaneous().youngs_modulus();
     (modulus / material.density()).sqrt() * hertz.contact_time() / thickness
+}
+
+/// A plate, free on its lower face, that a body strikes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FreePlate {
+    /// Material of the plate.
+    pub material: Material,
+    /// Thickness h, m.
+    pub thickness: f64,
+    /// Diameter, m; infinite for a plate without an edge.
+    pub diameter: f64,
+}
+
+impl FreePlate {
+    /// Returns the point mobility with the plate's finite thickness in an impact, m/(N s); `None` if no wave returns from the lower
+    /// face within the contact, which leaves a half-space.
+    ///
+    /// # Errors
+    /// Surface waves come back from the edge within the contact.
+    pub fn mobility_in(&self, hertz: &HertzImpact) -> Result<Option<f64>, LawError> {
+        let Self { material, thickness, diameter } = self;
+        let contact_time = hertz.contact_time();
+        let value = crate::rayleigh_wave_speed(material) * contact_time / diameter;
+        if value > 1.0 {
+            let quantity = "way of surface waves within the contact / diameter of the plate";
+            return Err(LawError::OutsideValidity { quantity, value, limit: 1.0 });
+        }
+        if material.dilatational_wave_speed() * contact_time < 2.0 * thickness {
+            return Ok(None);
+        }
+        let travel = plate_wave_travel(hertz, material, *thickness);
+        let factor = plate_thickness_factor(material, travel);
+        Ok(Some(factor * plate_mobility(material, *thickness)))
+    }
 }
 
 /// Returns the factor by which a plate's finite thickness enlarges its mobility, for c₀T/h: a fit to explicit elements, whose relative

@@ -7,6 +7,7 @@
 use crate::fit::FitError;
 use fem_case::engineering::show;
 use fem_case::{Body, Case, CaseError};
+use fem_laws::HertzImpact;
 use fem_material::PronyTerm;
 
 use super::fault::CalibrationFault;
@@ -14,6 +15,7 @@ use super::pair_model::{Evaluator, PairModel};
 use super::settings::CalibrationModel;
 use super::speed_span::{SpeedDoubt, SpeedSpan};
 use super::target::Target;
+use crate::laws::plate_of;
 use crate::measured::{MeasuredPair, MeasuredPairs};
 use fem_simulation::{Condensed, Model, SharedModels};
 
@@ -71,7 +73,7 @@ impl Experiment {
                     ))
                 })?;
                 Made {
-                    evaluator: Evaluator::Ting(*span.fastest.pair()),
+                    evaluator: Evaluator::Ting(*span.fastest.pair(), plate_of(case.scene())?),
                     elements_across: None,
                     warnings: Vec::new(),
                     is_quasi_static: false,
@@ -118,6 +120,12 @@ struct Made {
 }
 
 fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
+    if let Some(plate) = plate_of(case.scene())? {
+        let slowest = HertzImpact::new(span.fastest.pair(), span.speeds().0)?;
+        if plate.mobility_in(&slowest) != Ok(None) {
+            return Err(CalibrationFault::Plate);
+        }
+    }
     let is_given = case.gives("mesh.contact_element_size");
     let size = span.element_size(case.scene());
     let moving = usize::from(case.scene().bodies()[0].diameter().is_none());

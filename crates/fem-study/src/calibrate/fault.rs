@@ -52,6 +52,9 @@ pub enum CalibrationFault {
         /// The exponent of the speed in 1 − e, if it is above that of any series.
         exponent: Option<f64>,
     },
+    /// The model has no plate that bends.
+    #[error("condensed bodies have no plate that bends")]
+    Plate,
     /// A mesh with elements that are small enough for the slowest collision has too many.
     #[error(
         "no mesh for all speeds from {} to {}: elements of {} are needed for the smallest contact, \

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use crate::fit::FitError;
 use fem_case::Scene;
 use fem_collision::Stop;
-use fem_laws::{FiniteSize, LawError, Pair, PairRelaxation, Ting};
+use fem_laws::{FiniteSize, FreePlate, HertzImpact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::{Material, PronySeries, PronyTerm};
 use rayon::prelude::*;
 
@@ -33,8 +33,8 @@ pub(super) struct PairModel {
 pub(super) enum Evaluator {
     /// Condensed bodies, factored once.
     Condensed(Box<Condensed>),
-    /// Ting's model with the spheres' finite size.
-    Ting(Pair),
+    /// Ting's model with the spheres' finite size, and a plate that bends under the contact.
+    Ting(Pair, Option<FreePlate>),
 }
 
 impl PairModel {
@@ -77,7 +77,7 @@ impl PairModel {
                     result => result.map_err(failed),
                 }
             }
-            Evaluator::Ting(pair) => {
+            Evaluator::Ting(pair, plate) => {
                 let material = |side: usize| {
                     let own = self.materials[side].as_ref()?;
                     let series = relaxations[side].cloned();
@@ -87,7 +87,8 @@ impl PairModel {
                     material(0).transpose().map_err(failed)?,
                     material(1).transpose().map_err(failed)?,
                 ];
-                match ting(pair, materials.each_ref().map(Option::as_ref), self.diameters, speed) {
+                let bodies = (materials.each_ref().map(Option::as_ref), self.diameters);
+                match ting((pair, plate.as_ref()), bodies, speed) {
                     Err(LawError::NotFinished { .. }) => Ok(0.0),
                     result => result.map_err(failed),
                 }
@@ -101,14 +102,18 @@ fn failed(error: impl Display) -> FitError {
 }
 
 fn ting(
-    pair: &Pair,
-    [first, second]: [Option<&Material>; 2],
-    diameters: [Option<f64>; 2],
+    (pair, plate): (&Pair, Option<&FreePlate>),
+    ([first, second], diameters): ([Option<&Material>; 2], [Option<f64>; 2]),
     speed: f64,
 ) -> Result<f64, LawError> {
     let relaxation = PairRelaxation::new(first, second)?;
     let sized = |side: usize, material| Some((0.5 * diameters[side]?, material?));
     let size = FiniteSize::new(sized(0, first), sized(1, second))?;
-    let ting = Ting::new(pair, relaxation).with_tolerance(TOLERANCE)?.with_finite_size(size);
+    let mut ting = Ting::new(pair, relaxation).with_tolerance(TOLERANCE)?.with_finite_size(size);
+    if let Some(plate) = plate
+        && let Some(mobility) = plate.mobility_in(&HertzImpact::new(pair, speed)?)?
+    {
+        ting = ting.with_plate(mobility)?;
+    }
     Ok(ting.impact(speed)?.restitution)
 }

@@ -93,6 +93,12 @@ pub enum FitError {
         law: &'static str,
     },
 
+    /// No closed form has the plate.
+    #[error(
+        "a plate that is bonded below is computed by finite elements only, and not at the many speeds of a fit"
+    )]
+    BondedPlate,
+
     /// Another model cannot compute a collision.
     #[error("a collision cannot be computed: {reason}")]
     Collision {

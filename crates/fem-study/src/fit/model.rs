@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{
-    EndRule, FiniteSize, HertzImpact, Impact, LawError, LawFamily, LawImpact, LawParameter, Pair,
-    PairRelaxation, ParameterRole, Ting,
+    EndRule, FiniteSize, FreePlate, HertzImpact, Impact, LawError, LawFamily, LawImpact,
+    LawParameter, Pair, PairRelaxation, ParameterRole, Ting,
 };
 use fem_material::{Material, PronySeries, PronyTerm};
 use statrs::function::gamma::gamma;
@@ -23,6 +23,7 @@ pub struct Model {
     family: LawFamily,
     end_rule: EndRule,
     finite_size: Option<FiniteSize>,
+    plate: Option<FreePlate>,
 }
 
 /// The results by which collisions are compared.
@@ -49,7 +50,8 @@ impl Model {
         if family.end_rule().is_some_and(|own| own != end_rule) {
             return Err(FitError::OwnEnd { law: family.name() });
         }
-        let model = Self { pair: *pair, materials, family, end_rule, finite_size: None };
+        let model =
+            Self { pair: *pair, materials, family, end_rule, finite_size: None, plate: None };
         if family == LawFamily::Ting && model.fastest_rate().is_none() {
             return Err(FitError::NoRelaxation);
         }
@@ -61,6 +63,11 @@ impl Model {
         Self { finite_size: Some(finite_size), ..self }
     }
 
+    /// Returns this model with a plate that bends under the contact.
+    pub fn with_plate(self, plate: FreePlate) -> Self {
+        Self { plate: Some(plate), ..self }
+    }
+
     /// Returns these bodies under another law, with the end rule of that law if it has one.
     ///
     /// # Errors
@@ -68,7 +75,8 @@ impl Model {
     pub fn with_family(&self, family: LawFamily) -> Result<Self, FitError> {
         let end_rule = family.end_rule().unwrap_or(self.end_rule);
         let model = Self::new(&self.pair, self.materials.clone(), family, end_rule)?;
-        Ok(Self { finite_size: self.finite_size.clone(), ..model })
+        let (finite_size, plate) = (self.finite_size.clone(), self.plate.clone());
+        Ok(Self { finite_size, plate, ..model })
     }
 
     /// Returns the pair of bodies.
@@ -99,15 +107,26 @@ impl Model {
     /// # Errors
     /// The law rejects a value or the speed, does not describe the collision, or cannot compute it to its end.
     pub fn impact(&self, values: &[f64], speed: f64) -> Result<Impact, LawError> {
+        let mobility = match &self.plate {
+            Some(plate) => plate.mobility_in(&HertzImpact::new(&self.pair, speed)?)?,
+            None => None,
+        };
         match (self.family.law(&self.pair, values), values) {
             (Some(law), _) => {
                 let model = LawImpact::new(&self.pair, law?).with_end_rule(self.end_rule);
-                model.with_tolerance(TOLERANCE)?.impact(speed)
+                let model = model.with_tolerance(TOLERANCE)?;
+                match mobility {
+                    Some(mobility) => model.with_plate(mobility)?.impact(speed),
+                    None => model.impact(speed),
+                }
             }
             (None, &[rate, ..]) => {
                 let [first, second] = self.materials_at_rate(rate)?;
                 let relaxation = PairRelaxation::new(first.as_ref(), second.as_ref())?;
-                let ting = Ting::new(&self.pair, relaxation);
+                let mut ting = Ting::new(&self.pair, relaxation);
+                if let Some(mobility) = mobility {
+                    ting = ting.with_plate(mobility)?;
+                }
                 match &self.finite_size {
                     Some(size) => ting.with_finite_size(size.clone()).impact(speed),
                     None => ting.impact(speed),

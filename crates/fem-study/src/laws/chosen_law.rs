@@ -1,21 +1,39 @@
 //! The contact law of a case's bodies, and its values from `[model]` and from the caller.
 
 use crate::fit::{FitError, Model, Point, Problem};
-use fem_case::{Case, ModelChoice, Scene};
-use fem_laws::{EndRule, KeyNeed, LawFamily, LawInput, LawParameter, ParameterRole};
+use fem_case::{Body, Case, ModelChoice, PlateSupport, Scene};
+use fem_laws::{EndRule, FreePlate, KeyNeed, LawFamily, LawInput, LawParameter, ParameterRole};
 
 use super::law_fault::LawFault;
 use super::parameter::{check_value, find_parameter, loss_parameter};
 use fem_simulation::Reduced;
 
-/// Returns the model of a scene's bodies under a law.
+/// Returns the plate of a scene that bends under the contact.
 ///
 /// # Errors
-/// The numbers leave the range of f64; no body relaxes under Ting's law; the law ends contacts by another rule.
+/// A plate that is bonded below.
+pub(crate) fn plate_of(scene: &Scene) -> Result<Option<FreePlate>, FitError> {
+    let plate = |body: &Body| Some((*body.plate()?, body.material()?.clone()));
+    let Some((plate, material)) = scene.bodies().iter().find_map(plate) else { return Ok(None) };
+    if plate.support != PlateSupport::Free {
+        return Err(FitError::BondedPlate);
+    }
+    let diameter = plate.diameter.unwrap_or(f64::INFINITY);
+    Ok(Some(FreePlate { material, thickness: plate.thickness, diameter }))
+}
+
+/// Returns the model of a scene's bodies under a law, with the plate that bends under the contact.
+///
+/// # Errors
+/// A plate is bonded below; the numbers leave the range of f64; no body relaxes under Ting's law; the law ends contacts by another rule.
 pub fn model_of(scene: &Scene, family: LawFamily, end_rule: EndRule) -> Result<Model, FitError> {
     let pair = scene.pair()?;
     let materials = scene.bodies().each_ref().map(|body| body.material().cloned());
     let model = Model::new(&pair, materials, family, end_rule)?;
+    let model = match plate_of(scene)? {
+        Some(plate) => model.with_plate(plate),
+        None => model,
+    };
     Ok(match scene.model() {
         ModelChoice::Ting { finite_size: true, .. } => model.with_finite_size(scene.finite_size()?),
         _ => model,

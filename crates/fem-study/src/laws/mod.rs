@@ -52,6 +52,7 @@ mod parameter;
 mod stored;
 mod stored_fit;
 
+pub(crate) use chosen_law::plate_of;
 pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of};
 pub use dem_export::{DemExport, FittedLaw};
 pub use impact_curve::ImpactCurve;

@@ -69,6 +69,7 @@ impl From<FitError> for Failure {
             FitError::OwnEnd { .. } => {
                 "leave --end out; zhang_whiten with another end is the law tsuji"
             }
+            FitError::BondedPlate => "compute restitutions by fem-run sweep with model fem",
             FitError::NoRelaxation => "give a material a [material.NAME.relaxation] table",
             _ => return failure,
         };
@@ -98,6 +99,8 @@ impl From<CalibrationFault> for Failure {
             CalibrationFault::Flow { .. } => Failure::bad_input(message).with_help(
                 "give the material a yield strength: fem-run fit CASE --data FILE --law mean_pressure",
             ),
+            CalibrationFault::Plate => Failure::bad_input(message)
+                .with_help("write --model ting, which has free plates; bonded ones need model fem"),
             CalibrationFault::NoMesh { .. } => Failure::bad_input(message).with_help(
                 "split the data by speed, give mesh.contact_element_size, or use --model ting, which \
                  has no mesh",

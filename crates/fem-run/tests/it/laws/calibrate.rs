@@ -289,3 +289,60 @@ fn calibrate_rejects_data_and_meshes_that_do_not_fit() {
         assert_eq!(ran.stderr.contains("--set"), !set.is_empty(), "{}", ran.stderr);
     }
 }
+
+/// The loss of a ball on a plate is that of its material if the case has the plate, and far from it if the case has a
+/// half-space.
+#[test]
+fn calibrations_and_fits_take_the_plate_with_them() {
+    const RIG: &str = r#"
+[material.polymer]
+density = "1200 kg/m^3"
+youngs_modulus = "3 GPa"
+poissons_ratio = 0.35
+
+[material.polymer.relaxation]
+acts_on = "all"
+terms = [{ weight = 0.2, relaxation_time = "100 us" }]
+
+[[body]]
+name = "plate"
+plate = { thickness = "5 mm" }
+material = "lib:steel"
+
+[[body]]
+name = "ball"
+sphere = { diameter = "10 mm" }
+material = "polymer"
+approach_speed = "1 m/s"
+
+[model]
+ting = { finite_size = true }
+"#;
+    let place = Place::with(RIG);
+    let speeds = "case = \"case.toml\"\n[vary]\n\"body.1.approach_speed\" = [0.1, 0.3, 1.0]\n";
+    place.write("sweep.toml", speeds);
+    place.succeed("sweep sweep.toml --out drops --quiet");
+    let calibrate = "calibrate case.toml --material polymer --data drops/sweep.csv --terms 1 --times '100 us..100 us'";
+    let half_space = set(&["body.0={name='block',half_space={},material='lib:steel'}"]);
+    let weight = |folder: &str| {
+        number(&place.json(format!("{folder}/calibrate.json").as_str())["terms"][0]["weight"])
+    };
+    place.succeed((calibrate, "--model ting --out plate"));
+    assert!((weight("plate") - 0.2).abs() < 1e-4, "{}", weight("plate"));
+    place.succeed((calibrate, "--model ting --out block", half_space.clone()));
+    assert!(weight("block") > 0.25, "{}", weight("block"));
+
+    let fit = "fit case.toml --data drops/sweep.csv --law kuwabara_kono";
+    let time = |folder: &str| {
+        number(&place.json(format!("{folder}/fit.json").as_str())["parameters"][0]["value"])
+    };
+    place.succeed((fit, "--out of_plate"));
+    place.succeed((fit, "--out of_block", half_space));
+    assert!(time("of_plate") < 0.8 * time("of_block"), "{} {}", time("of_plate"), time("of_block"));
+    // What no closed form has is refused.
+    place.fails(2, (calibrate, "--model condensed")).tells("no plate that bends|--model ting");
+    let bonded = set(&["body.0.plate.support='bonded'"]);
+    place.fails(2, (calibrate, "--model ting", bonded)).tells("bonded below");
+    let small = set(&["body.0.plate.diameter='2 cm'"]);
+    place.fails(1, (calibrate, "--model ting", small)).tells("diameter of the plate");
+}
