@@ -113,7 +113,7 @@ impl Element {
         self.equilibrium + self.terms.iter().map(|term| term.weight).sum::<f64>()
     }
 
-    /// Returns M(t)/M(0).
+    /// Returns the relaxation function of a chain of such elements, M(t)/M(0).
     fn relaxation(&self) -> Result<PairRelaxation, LawError> {
         let instantaneous = self.instantaneous();
         let terms = merged(self.terms.clone()).into_iter().map(|pole| {
