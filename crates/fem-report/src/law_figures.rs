@@ -5,6 +5,7 @@ use fem::fit::cradle::{Swing, Trial};
 use fem::fit::{Fit, FitError, Model};
 use fem::laws::{DemExport, FittedLaw, LawFit, LawRanking};
 use fem_case::Scene;
+use fem_case::engineering::number;
 use fem_case::engineering::show;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_laws::laws::hertz;
@@ -54,7 +55,15 @@ pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
         let exponent = exponent.map(|(_, n)| format!(", n = {n:.3}")).next();
         format!("{}{}{}", title(model.family()), exponent.unwrap_or_default(), share(rank))
     };
-    let mut chart = Chart::new(x.axis(), Axis::new("restitution e"))
+    let band = speeds.iter().zip(fitted.band(&speeds));
+    let band: Vec<(f64, f64, f64)> =
+        band.filter_map(|(&speed, ends)| ends.map(|(a, b)| (x.scaled(speed), a, b))).collect();
+    let mut chart = Chart::new(x.axis(), Axis::new("restitution e"));
+    if !band.is_empty() {
+        let label = format!("{} % band of the fit", number(100.0 * fitted.confidence, 3));
+        chart = chart.with_band(label, band, GREY);
+    }
+    let mut chart = chart
         .with(Curve::line(label(0, model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
     // The fitted law and the data have the first two colours.
     for (k, (model, fit)) in fitted.compared.iter().enumerate() {

@@ -30,6 +30,8 @@ pub struct Fit {
     pub estimates: Vec<Estimate>,
     /// Correlation matrix of the free parameters' θ.
     pub correlation: Vec<Vec<f64>>,
+    /// Covariance matrix of the free parameters' θ; `None` without degrees of freedom.
+    pub covariance: Option<Vec<Vec<f64>>>,
     /// Weighted residuals in the order of the data.
     pub residuals: Vec<f64>,
     /// Sum of the squared residuals, Σ r².
@@ -114,11 +116,13 @@ impl Problem<'_> {
             if i == j { 1.0 } else { inverse[(i, j)] / (inverse[(i, i)] * inverse[(j, j)]).sqrt() }
         };
         let n_free = self.free.len();
+        let matrix = |element: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
+            (0..n_free).map(|i| (0..n_free).map(|j| element(i, j)).collect()).collect()
+        };
         Ok(Fit {
             estimates: estimates.collect(),
-            correlation: (0..n_free)
-                .map(|i| (0..n_free).map(|j| correlation(i, j)).collect())
-                .collect(),
+            correlation: matrix(&correlation),
+            covariance: variance.map(|variance| matrix(&|i, j| variance * inverse[(i, j)])),
             rms: (sum_of_squares / n_values as f64).sqrt(),
             allowed_rise: variance.zip(quantile).map(|(variance, q)| variance * q * q),
             values,
@@ -128,6 +132,26 @@ impl Problem<'_> {
             quantile,
             condition,
         })
+    }
+
+    /// Returns half of the width of the confidence band of the restitution at a speed, m/s, to first order,
+    ///
+    /// ```math
+    /// t_{N-p}\,\sqrt{g^T\,\mathrm{cov}(\theta)\,g}, \qquad g = \frac{\partial e(v)}{\partial\theta} ;
+    /// ```
+    ///
+    /// `None` without degrees of freedom, or if the law cannot be computed there.
+    pub fn band(&self, fit: &Fit, speed: f64) -> Option<f64> {
+        let (covariance, quantile) = (fit.covariance.as_ref()?, fit.quantile?);
+        let at = |theta: &[f64]| {
+            let outcome = self.model.outcome(&self.values_at(theta), speed).ok();
+            Some(vec![outcome?.restitution])
+        };
+        let gradient = jacobian(&at, &self.theta_of(&fit.values), &self.bounds())?;
+        let each = gradient.iter().zip(covariance).map(|(own, row)| {
+            own * gradient.iter().zip(row).map(|(other, element)| other * element).sum::<f64>()
+        });
+        Some(quantile * each.sum::<f64>().max(0.0).sqrt())
     }
 
     fn check_count(&self) -> Result<(), FitError> {

@@ -122,6 +122,16 @@ impl<'a> LawFit<'a> {
         speeds.iter().map(restitution).collect()
     }
 
+    /// Returns the ends of the confidence band of the fitted law's restitution at some speeds, m/s; `None` where there is none.
+    pub fn band(&self, speeds: &[f64]) -> Vec<Option<(f64, f64)>> {
+        let curve = Self::curve((self.problem.model, &self.fit), speeds);
+        let ends = |(speed, restitution): (&f64, Option<f64>)| {
+            let (restitution, half) = (restitution?, self.problem.band(&self.fit, *speed)?);
+            Some(((restitution - half).max(0.0), (restitution + half).min(1.0)))
+        };
+        speeds.iter().zip(curve).map(ends).collect()
+    }
+
     /// Returns data, fitted values and their differences, one row per point; SI.
     pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
         self.problem.points.iter().map(|point| {

@@ -31,6 +31,7 @@ impl LawFit<'_> {
             "confidence": self.confidence,
             "parameters": parameters.map(|(k, one)| self.parameter(k, one)).collect::<Value>(),
             "correlation": fit.correlation,
+            "covariance": fit.covariance,
             "rms": fit.rms,
             "sum_of_squares": fit.sum_of_squares,
             "degrees_of_freedom": fit.degrees_of_freedom,
@@ -58,11 +59,15 @@ impl LawFit<'_> {
         })
     }
 
-    /// Returns the restitutions of all laws over the speed.
+    /// Returns the restitutions of all laws over the speed, and the confidence band of the fitted one.
     fn curve_numbers(&self) -> Value {
         let speeds = self.curve_speeds();
         let law = |(model, fit): (&Model, &Fit)| json!({ "law": model.family().name(), "restitution": Self::curve((model, fit), &speeds) });
-        json!({ "laws": self.laws().map(law).collect::<Value>(), "speed_m_s": speeds })
+        json!({
+            "laws": self.laws().map(law).collect::<Value>(),
+            "band": self.band(&speeds),
+            "speed_m_s": speeds,
+        })
     }
 
     /// Returns the columns of the data.

@@ -60,6 +60,39 @@ fn ice_with_both_parameters_free() {
     assert!(low < 0.7 && 0.7 < high);
 }
 
+/// A restitution that does not depend on speed is the mean of the data, whose band is t s/√N at any speed, with Student's
+/// t = 2.262 for nine degrees of freedom (95 %). With a second parameter the band is narrowest inside the data.
+#[test]
+fn the_band_of_a_constant_restitution_is_that_of_a_mean() {
+    let model = glass_model(LawFamily::Tsuji, None);
+    let errors = [0.01, -0.02, 0.005, 0.0, -0.01, 0.015, 0.02, -0.005, -0.01, -0.005];
+    let points: Vec<Point> = (0..10)
+        .zip(errors)
+        .map(|(k, error)| Point::new(0.1 * f64::from(k + 1), 0.8 + error))
+        .collect();
+    let problem = Problem::new(&model, &points, &["alpha"]).unwrap();
+    let fit = problem.fit(0.95).unwrap();
+    let scatter = (errors.iter().map(|error| error * error).sum::<f64>() / 9.0).sqrt();
+    for speed in [0.01, 0.5, 10.0] {
+        // The differences have a step of 1e-4.
+        assert_close(problem.band(&fit, speed).unwrap(), 2.262_157 * scatter / 10f64.sqrt(), 1e-4);
+    }
+    let covariance = &fit.covariance.as_ref().unwrap()[0][0];
+    assert_close(
+        covariance.sqrt() * fit.values[0],
+        fit.estimates[0].standard_error.unwrap(),
+        1e-12,
+    );
+
+    let (model, points) = (ice_model(LawFamily::BordbarHyppanen), bridges());
+    let problem = Problem::new(&model, &points, &["a", "n"]).unwrap();
+    let fit = problem.fit(0.95).unwrap();
+    let band = |speed: f64| problem.band(&fit, speed).unwrap();
+    assert!(band(3e-3) < band(2e-4) && band(3e-3) < band(5e-2));
+    let few = Problem::new(&model, &points[..1], &["a"]).unwrap();
+    assert_eq!(few.band(&few.fit(0.95).unwrap(), 1.0), None);
+}
+
 /// Data without errors give the parameters that made them, whichever are free.
 #[test]
 fn fit_of_exact_data_recovers_the_parameters() {

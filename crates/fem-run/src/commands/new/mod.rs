@@ -52,6 +52,8 @@ enum Partner {
     Wall,
     /// A half-space of the same material
     HalfSpace,
+    /// A plate of the same material
+    Plate,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -118,6 +120,10 @@ fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Fail
             "name = \"floor\"\nwall = {}                              # rigid, no material"
         }
         Partner::HalfSpace => "name = \"floor\"\nhalf_space = {}\nmaterial = \"{material}\"",
+        Partner::Plate => {
+            "name = \"plate\"\nplate = { thickness = \"5 mm\" }         # also diameter = \"20 cm\", support = \"bonded\"\n\
+             material = \"{material}\""
+        }
     };
     let gravity = if partner == Partner::Sphere { "" } else { GRAVITY };
     let words = [

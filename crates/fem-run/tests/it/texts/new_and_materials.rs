@@ -36,9 +36,12 @@ fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
 #[test]
 fn new_case_is_valid_with_all_commented_keys_enabled() {
     let place = Place::new();
-    for (partner, material) in
-        [("sphere", "soda-lime-glass"), ("wall", "pmma"), ("half-space", "lib:pvb")]
-    {
+    for (partner, material) in [
+        ("sphere", "soda-lime-glass"),
+        ("wall", "pmma"),
+        ("half-space", "lib:pvb"),
+        ("plate", "lib:pvb"),
+    ] {
         let name = format!("{partner}_0.5ms");
         let ran = place.succeed(["new", &name, "--partner", partner, "--material", material]);
         let file = format!("{name}.toml");
