@@ -13,4 +13,5 @@ export const ACCOUNT_WORDS = {
   left_before: 'energy left in the bodies by earlier contacts',
   adhesion: 'held back by adhesion',
   plastic_work: 'heat from plastic flow',
+  plate: 'bending waves of the plate',
 };
