@@ -55,6 +55,7 @@ class Result:
     momentum_residual_relative: float | None
     bounces: list[dict[str, Any]] | None
     adhesion: dict[str, Any] | None
+    plate: dict[str, Any] | None
     dent: list[dict[str, Any]] | None
     rest: dict[str, Any] | None
     bodies: list[dict[str, Any]]
