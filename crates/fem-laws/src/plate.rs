@@ -56,7 +56,18 @@ pub struct FreePlate {
 }
 
 impl FreePlate {
-    /// Returns the point mobility with the plate's finite thickness in an impact, m/(N s); `None` if no wave returns from the lower
+    /// Returns the point mobility of a thin plate without an edge, m/(N s).
+    pub fn thin_mobility(&self) -> f64 {
+        plate_mobility(&self.material, self.thickness)
+    }
+
+    /// Returns the same with the plate's finite thickness in an impact, m/(N s).
+    pub fn mobility(&self, hertz: &HertzImpact) -> f64 {
+        let travel = plate_wave_travel(hertz, &self.material, self.thickness);
+        self.thin_mobility() * plate_thickness_factor(&self.material, travel)
+    }
+
+    /// Returns [`FreePlate::mobility`]; `None` if no wave returns from the lower
     /// face within the contact, which leaves a half-space.
     ///
     /// # Errors
@@ -72,9 +83,7 @@ impl FreePlate {
         if material.dilatational_wave_speed() * contact_time < 2.0 * thickness {
             return Ok(None);
         }
-        let travel = plate_wave_travel(hertz, material, *thickness);
-        let factor = plate_thickness_factor(material, travel);
-        Ok(Some(factor * plate_mobility(material, *thickness)))
+        Ok(Some(self.mobility(hertz)))
     }
 }
 

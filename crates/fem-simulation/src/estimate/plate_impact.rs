@@ -7,8 +7,8 @@
 
 use fem_case::{Body, Plate, PlateSupport, Scene};
 use fem_laws::{
-    HertzImpact, LawError, Pair, plate_lambda, plate_mobility, plate_thickness_factor,
-    plate_wave_travel, rayleigh_wave_speed,
+    FreePlate, HertzImpact, LawError, Pair, plate_lambda, plate_mobility, plate_wave_travel,
+    rayleigh_wave_speed,
 };
 use fem_material::Material;
 
@@ -96,10 +96,19 @@ fn plate_of(scene: &Scene) -> Option<(&Body, &Plate, &Material)> {
     Some((body, body.plate()?, body.material()?))
 }
 
+/// Returns the plate of a scene, if it has one that is free below.
+pub fn free_plate(scene: &Scene) -> Option<FreePlate> {
+    let (_, plate, material) = plate_of(scene)?;
+    (plate.support == PlateSupport::Free).then(|| FreePlate {
+        material: material.clone(),
+        thickness: plate.thickness,
+        diameter: plate.diameter.unwrap_or(f64::INFINITY),
+    })
+}
+
 /// Returns the mobility of the plate of a scene as a thin one with instantaneous moduli, m/(N s).
 pub(crate) fn thin_plate_mobility(scene: &Scene) -> Option<f64> {
-    let (_, plate, material) = plate_of(scene)?;
-    (plate.support == PlateSupport::Free).then(|| plate_mobility(material, plate.thickness))
+    free_plate(scene).map(|plate| plate.thin_mobility())
 }
 
 /// Returns the same with the finite thickness of the plate, at the approach speed of the scene, for a pair with instantaneous moduli.
@@ -107,12 +116,6 @@ pub(crate) fn thin_plate_mobility(scene: &Scene) -> Option<f64> {
 /// # Errors
 /// Numbers so extreme that Hertz' values leave the range of f64.
 pub(crate) fn plate_mobility_of(scene: &Scene, pair: &Pair) -> Result<Option<f64>, LawError> {
-    let (Some(mobility), Some((_, plate, material))) =
-        (thin_plate_mobility(scene), plate_of(scene))
-    else {
-        return Ok(None);
-    };
-    let hertz = HertzImpact::new(pair, scene.approach_speed())?;
-    let travel = plate_wave_travel(&hertz, material, plate.thickness);
-    Ok(Some(mobility * plate_thickness_factor(material, travel)))
+    let Some(plate) = free_plate(scene) else { return Ok(None) };
+    Ok(Some(plate.mobility(&HertzImpact::new(pair, scene.approach_speed())?)))
 }

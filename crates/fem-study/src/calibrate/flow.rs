@@ -1,7 +1,7 @@
 //! Plastic flow as another cause of measured restitutions: the yield strength that explains them without a relaxation.
 
 use fem_case::Case;
-use fem_laws::{HertzImpact, LawFamily, ParameterRole};
+use fem_laws::{HertzImpact, LawFamily};
 
 use super::fault::CalibrationFault;
 use crate::fit::FitError;
@@ -42,22 +42,20 @@ impl FlowFit {
         if measured.data.points.len() < FEWEST {
             return Ok(None);
         }
-        let parameters = LawFamily::MeanPressure.parameters();
-        let is_strength = |k: &usize| parameters[*k].role == ParameterRole::Strength;
-        let Some(strength) = (0..parameters.len()).find(is_strength) else { return Ok(None) };
+        let family = LawFamily::MeanPressure;
+        let Some(strength) = family.loss_parameter() else { return Ok(None) };
         let (mut pairs, mut largest) = (Vec::new(), 0.0f64);
         for pair in &measured.pairs {
             let case = case.edited(|file| pair.resize(file))?;
             // A law that cannot be made of a pair explains nothing.
-            let Ok(law) = ChosenLaw::of(&case, LawFamily::MeanPressure, &[], None) else {
-                return Ok(None);
-            };
+            let Ok(law) = ChosenLaw::of(&case, family, &[], None) else { return Ok(None) };
             let points: Vec<Point> =
                 pair.points.iter().map(|point| measured.data.points[*point]).collect();
             let fastest = points.iter().map(|point| point.speed).fold(0.0, f64::max);
             let hertz = HertzImpact::new(law.model().pair(), fastest)?;
             largest = largest.max(hertz.peak_pressure());
-            let guesses: Vec<f64> = parameters.iter().map(|one| one.guess(fastest)).collect();
+            let guesses: Vec<f64> =
+                family.parameters().iter().map(|one| one.guess(fastest)).collect();
             let values = law.values(&guesses);
             pairs.push(FlowingPair { model: law.model().clone(), values, points });
         }
@@ -73,15 +71,15 @@ impl FlowFit {
             }
             Some(errors)
         };
-        let residuals = |theta: &[f64]| {
-            let all = errors(theta)?;
-            let weighted = all.iter().all(|(_, point)| point.restitution_uncertainty.is_some());
-            let scale = |point: &Point| point.restitution_uncertainty.filter(|_| weighted);
-            Some(all.iter().map(|(error, point)| error / scale(point).unwrap_or(1.0)).collect())
+        let is_weighted =
+            measured.data.points.iter().all(|point| point.restitution_uncertainty.is_some());
+        let scale = |point: &Point| point.restitution_uncertainty.filter(|_| is_weighted);
+        let residuals = |theta: &[f64]| -> Option<Vec<f64>> {
+            let residual = |(error, point): &(f64, &Point)| error / scale(point).unwrap_or(1.0);
+            Some(errors(theta)?.iter().map(residual).collect())
         };
         let sum = |theta: &[f64]| -> f64 {
-            let residuals: Option<Vec<f64>> = residuals(theta);
-            residuals.map_or(f64::INFINITY, |all| all.iter().map(|one| one * one).sum())
+            residuals(theta).map_or(f64::INFINITY, |all| all.iter().map(|one| one * one).sum())
         };
         let tried = FIRST_TRIED.map(|k| (largest * 10f64.powf(0.5 * f64::from(k))).ln());
         let Some(start) = tried.min_by(|a, b| sum(&[*a]).total_cmp(&sum(&[*b]))) else {
@@ -96,8 +94,7 @@ impl FlowFit {
         let Some(all) = errors(&theta) else { return Ok(None) };
         let n = all.len() as f64;
         let rms = (all.iter().map(|(error, _)| error * error).sum::<f64>() / n).sqrt();
-        let weighted = all.iter().all(|(_, point)| point.restitution_uncertainty.is_some());
-        let misfit = weighted.then(|| (squares / (n - 1.0)).sqrt());
+        let misfit = is_weighted.then(|| (squares / (n - 1.0)).sqrt());
         Ok(Some(Self { yield_strength: theta[0].exp(), rms, misfit }))
     }
 

@@ -6,20 +6,18 @@ use fem_laws::{EndRule, FreePlate, KeyNeed, LawFamily, LawInput, LawParameter, P
 
 use super::law_fault::LawFault;
 use super::parameter::{check_value, find_parameter, loss_parameter};
-use fem_simulation::Reduced;
+use fem_simulation::{Reduced, free_plate};
 
 /// Returns the plate of a scene that bends under the contact.
 ///
 /// # Errors
 /// A plate that is bonded below.
 pub(crate) fn plate_of(scene: &Scene) -> Result<Option<FreePlate>, FitError> {
-    let plate = |body: &Body| Some((*body.plate()?, body.material()?.clone()));
-    let Some((plate, material)) = scene.bodies().iter().find_map(plate) else { return Ok(None) };
-    if plate.support != PlateSupport::Free {
-        return Err(FitError::BondedPlate);
+    let mut plates = scene.bodies().iter().filter_map(Body::plate);
+    match plates.any(|plate| plate.support != PlateSupport::Free) {
+        true => Err(FitError::BondedPlate),
+        false => Ok(free_plate(scene)),
     }
-    let diameter = plate.diameter.unwrap_or(f64::INFINITY);
-    Ok(Some(FreePlate { material, thickness: plate.thickness, diameter }))
 }
 
 /// Returns the model of a scene's bodies under a law, with the plate that bends under the contact.

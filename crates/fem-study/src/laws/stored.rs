@@ -132,12 +132,7 @@ impl DemExport {
     /// restitutions that it makes at the speeds of the data.
     fn snippet(&self, snippet: &Snippet) -> Value {
         let [from, to, worst] = snippet.validity;
-        let family = match snippet.law {
-            "viscoelastic" => Some(LawFamily::KuwabaraKono),
-            "luding" => Some(LawFamily::Luding),
-            "mdr" => Some(LawFamily::Mdr),
-            _ => None,
-        };
+        let family = LawFamily::from_name(snippet.law);
         let law =
             family.and_then(|family| self.laws.iter().find(|law| law.model.family() == family));
         let at_speed = |point: &Point| match (snippet.restitution, self.export.hunt_crossley) {

@@ -174,6 +174,19 @@ impl<'a> NumberColumns<'a> {
         Ok(self.header().iter().position(bare))
     }
 
+    /// Returns the column that has one of these names, as [`NumberColumns::find`] does; `wanted` describes it in the error that there
+    /// is none, and `help` says how to name it.
+    ///
+    /// # Errors
+    /// There is no such column, or two columns have one of the names.
+    pub fn require(&self, names: &[&str], wanted: &str, help: &str) -> Result<usize, DataError> {
+        self.find(names)?.ok_or_else(|| {
+            let found = self.header().join(", ");
+            self.header_fault(format!("there is no column {wanted}; found are {found}"))
+                .with_help(help)
+        })
+    }
+
     /// Returns the line of each row in the text.
     pub fn lines(&self) -> Vec<u64> {
         self.rows().map(|(line, _)| line).collect()

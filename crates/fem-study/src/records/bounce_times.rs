@@ -88,12 +88,8 @@ impl Instants {
     /// # Errors
     /// The table has no column of instants, a cell is no number, or the instants do not increase.
     pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
-        let Some(column) = columns.find(&TIMES)? else {
-            let found = columns.header().join(", ");
-            let message = format!("there is no column of instants; found are {found}");
-            let help = "name a column time_s or time_ms, or say which it is, --columns time=COLUMN";
-            return Err(columns.header_fault(message).with_help(help));
-        };
+        let help = "name a column time_s or time_ms, or say which it is, --columns time=COLUMN";
+        let column = columns.require(&TIMES, "of instants", help)?;
         let times = columns.numbers(column, [0, 0, 1])?;
         let uncertainties = match columns.find(&TIME_UNCERTAINTIES)? {
             Some(column) => Some(columns.numbers(column, [0, 0, 1])?.values),

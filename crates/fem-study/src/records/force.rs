@@ -106,13 +106,7 @@ impl Samples {
     /// # Errors
     /// A column is missing, a cell is no number, or the times do not increase.
     pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
-        let require = |names: &[&str], help: &str| {
-            columns.find(names)?.ok_or_else(|| {
-                let found = columns.header().join(", ");
-                let message = format!("there is no column {}; found are {found}", names[0]);
-                columns.header_fault(message).with_help(help)
-            })
-        };
+        let require = |names: &[&str], help| columns.require(names, names[0], help);
         let time =
             require(&TIMES, "name a column time_s or time_ms, or write --columns time=COLUMN")?;
         let force =

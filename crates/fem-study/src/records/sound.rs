@@ -63,15 +63,9 @@ impl Signal {
     /// # Errors
     /// A column is missing, a cell is no number, or the samples are not evenly spaced.
     pub fn read(columns: &NumberColumns<'_>) -> Result<Self, DataError> {
-        let find = |names: &[&str]| {
-            columns.find(names)?.ok_or_else(|| {
-                let found = columns.header().join(", ");
-                let message = format!("there is no column {}; found are {found}", names[0]);
-                let help = "name the columns time_s and signal, or write --columns time=A,signal=B";
-                columns.header_fault(message).with_help(help)
-            })
-        };
-        let (time, signal) = (find(&TIMES)?, find(&SIGNALS)?);
+        let help = "name the columns time_s and signal, or write --columns time=A,signal=B";
+        let time = columns.require(&TIMES, TIMES[0], help)?;
+        let signal = columns.require(&SIGNALS, SIGNALS[0], help)?;
         let times = columns.numbers(time, [0, 0, 1])?.values;
         let values = columns.plain(signal)?.values;
         let fault = |message: String| {

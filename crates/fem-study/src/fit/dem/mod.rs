@@ -109,7 +109,7 @@ pub struct Snippet {
     pub code: &'static str,
     /// The model in the code's own words.
     pub model: &'static str,
-    /// The law in the words of `snippets.txt`: constant, viscoelastic, hunt_crossley, luding or mdr.
+    /// The name of the law's family, or `constant`.
     pub law: &'static str,
     /// Name and value of the numbers that decide on the loss.
     pub entries: Vec<(&'static str, f64)>,
@@ -202,7 +202,7 @@ impl Export {
                 continue;
             }
             let of_speed = match law {
-                "viscoelastic" => Some(self.dissipation_time.1),
+                "kuwabara_kono" => Some(self.dissipation_time.1),
                 "hunt_crossley" => self.hunt_crossley.map(|fitted| fitted.validity),
                 "luding" => self.springs.map(|fitted| fitted.validity),
                 "mdr" => self.mdr.map(|(_, validity)| validity),
