@@ -80,7 +80,7 @@ def test_every_key_of_the_summary_is_a_typed_attribute(case):
 @pytest.mark.parametrize(
     ("line", "error"),
     [
-        ('fem_run.fit(case, {}, law="ting", free=["a"], bounds={"n": (0.3, 1.5)}, contact_time=True)', None),
+        ('fem_run.fit(case, {}, law="ting", free=["a"], bounds={"n": (0.3, 1.5)}, contact_time=True, robust=True)', None),
         ('fem_run.fit(case, {}, lawe="ting")', "lawe"),
         ('fem_run.fit(case, {}, law="tin")', "tin"),
         ('fem_run.calibrate(case, {}, model="hertz")', "hertz"),

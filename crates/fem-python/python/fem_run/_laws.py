@@ -153,6 +153,7 @@ def fit(
     profile: str | None = None,
     compare: Law | Sequence[Law] | None = None,
     contact_time: bool = False,
+    robust: bool = False,
     confidence: float | None = None,
     columns: Columns | None = None,
 ) -> Fit:
@@ -169,6 +170,7 @@ def fit(
         profile: parameter over which the error is computed with all others fitted again.
         compare: laws that are fitted too.
         contact_time: whether the column ``contact_time_s`` is fitted too.
+        robust: whether points far from the curve count little; their weights are in ``fit["measured"]["weight"]``.
         confidence: level of the intervals, 0.95 by default.
         columns: names of the columns by their meaning.
 
@@ -263,6 +265,7 @@ def calibrate(
     regularisation: float | None = None,
     uncertainty: float | None = None,
     model: Literal["condensed", "ting"] | None = None,
+    robust: bool = False,
     confidence: float | None = None,
     columns: Columns | None = None,
 ) -> Calibration:
@@ -278,6 +281,7 @@ def calibrate(
         regularisation: the error of a restitution that costs as much as a weight of 1.
         uncertainty: standard uncertainty of the restitutions if the data have none.
         model: the model that computes the collisions, ``"condensed"`` by default.
+        robust: whether points far from the curve count little; their weights are in ``curves["data"]["weight"]``.
         confidence: level of the ranges, 0.95 by default.
         columns: names of the columns by their meaning.
 

@@ -1,9 +1,9 @@
 //! The calibration: a Prony series of a material from measured restitutions.
 
-use crate::fit::FitError;
 use crate::fit::spectrum::{
     SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, root_mean_square, speed_exponent,
 };
+use crate::fit::{FitError, Robustness};
 use fem_case::Case;
 use fem_material::PronyTerm;
 use rayon::prelude::*;
@@ -88,7 +88,7 @@ pub struct Calibration {
 
 impl Calibration {
     /// Names of the columns of [`Calibration::residuals`].
-    pub const RESIDUAL_COLUMNS: [&'static str; 7] = [
+    pub const RESIDUAL_COLUMNS: [&'static str; 8] = [
         "diameter_1_m",
         "diameter_2_m",
         "speed_m_s",
@@ -96,6 +96,7 @@ impl Calibration {
         "restitution_uncertainty",
         "fitted_restitution",
         "residual",
+        "weight",
     ];
 
     /// Calibrates a material; the pairs of bodies are computed in parallel.
@@ -133,15 +134,16 @@ impl Calibration {
             uncertainties: uncertainties.as_deref(),
             times: &times,
             regularisation,
+            is_robust: settings.is_robust,
         };
         let fit = problem.fit(settings.confidence)?;
         let largest_rms = match misses(&fit) {
             true => LARGE_ERROR,
             false => (AS_GOOD * fit.rms).max(SMALL_ERROR),
         };
-        let flow = FlowFit::of(case, &measured)?;
+        let flow = FlowFit::of(case, &measured, settings.is_robust)?;
         let flow = flow.filter(|flow| flow.explains(LARGE_MISFIT, largest_rms));
-        let maxwell = Maxwell::of_mean(&of_terms, &wanted, contacts)?;
+        let maxwell = Maxwell::of_mean(&of_terms, &wanted, fit.robustness.as_ref(), contacts)?;
         let found = Self {
             target,
             model: settings.model,
@@ -176,9 +178,16 @@ impl Calibration {
         ends(self.experiments.iter().flat_map(|experiment| &experiment.contact_times))
     }
 
-    /// Returns the exponent p of 1 − e ∝ v^p of the data; `None` if each pair has one speed.
+    /// Returns the weight of a point in a robust fit, else 1.
+    pub fn weight(&self, point: usize) -> f64 {
+        self.fit.robustness.as_ref().map_or(1.0, |robustness| robustness.weights[point])
+    }
+
+    /// Returns the exponent p of 1 − e ∝ v^p of the data without those that a robust fit weights down; `None` if each pair
+    /// has one speed.
     pub fn loss_exponent(&self) -> Option<SpeedExponent> {
         let points = self.measured.data.points.iter().enumerate();
+        let points = points.filter(|(k, _)| self.weight(*k) >= Robustness::FEW);
         let points = points.map(|(k, point)| SpeedPoint {
             pair: self.measured.pair_of(k),
             speed: point.speed,
@@ -188,7 +197,7 @@ impl Calibration {
     }
 
     /// Returns data, restitutions of the best series and their differences, one row per point; SI.
-    pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
+    pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 8]> {
         let points = self.measured.data.points.iter().zip(&self.fit.restitutions).enumerate();
         points.map(|(k, (point, fitted))| {
             let [first, second] = self.experiments[self.measured.pair_of(k)].diameters;
@@ -200,6 +209,7 @@ impl Calibration {
                 point.restitution_uncertainty,
                 Some(*fitted),
                 Some(fitted - point.restitution),
+                Some(self.weight(k)),
             ]
         })
     }

@@ -6,6 +6,8 @@ use fem_laws::{HertzImpact, LawFamily};
 use super::fault::CalibrationFault;
 use crate::fit::FitError;
 use crate::fit::least_squares::minimise;
+use crate::fit::robust::{Fitted, reweight};
+use crate::fit::spectrum::MODEL_ERROR;
 use crate::fit::{Model, Point};
 use crate::laws::ChosenLaw;
 use crate::measured::MeasuredPairs;
@@ -38,7 +40,11 @@ impl FlowFit {
     ///
     /// # Errors
     /// The case with the sizes of the data is invalid, or a fit does not converge.
-    pub fn of(case: &Case, measured: &MeasuredPairs) -> Result<Option<Self>, CalibrationFault> {
+    pub fn of(
+        case: &Case,
+        measured: &MeasuredPairs,
+        is_robust: bool,
+    ) -> Result<Option<Self>, CalibrationFault> {
         if measured.data.points.len() < FEWEST {
             return Ok(None);
         }
@@ -86,16 +92,36 @@ impl FlowFit {
             return Ok(None);
         };
         let bounds = (start - 7.0, start + 7.0);
-        let (theta, squares) = match minimise(&residuals, &[start], &[bounds]) {
+        let fitted = |start: f64, weights: &[f64]| {
+            let weighted = |theta: &[f64]| {
+                let both = residuals(theta)?.into_iter().zip(weights);
+                Some(both.map(|(residual, weight)| residual * weight.sqrt()).collect())
+            };
+            let (theta, _) = minimise(&weighted, &[start], &[bounds])?;
+            let residuals = residuals(&theta).unwrap_or_default();
+            Ok(Fitted { found: theta[0], residuals, n_free: 1 })
+        };
+        let ones = vec![1.0; measured.data.points.len()];
+        let least_scale = if is_weighted { 1.0 } else { MODEL_ERROR };
+        let found = fitted(start, &ones).and_then(|first| match is_robust {
+            true => reweight(first, least_scale, |theta, weights| fitted(*theta, weights))
+                .map(|(theta, robustness)| (theta, robustness.weights)),
+            false => Ok((first.found, ones)),
+        });
+        let (theta, weights) = match found {
             Ok(found) => found,
             Err(FitError::NotConverged { .. }) => return Ok(None),
             Err(error) => return Err(error.into()),
         };
-        let Some(all) = errors(&theta) else { return Ok(None) };
-        let n = all.len() as f64;
-        let rms = (all.iter().map(|(error, _)| error * error).sum::<f64>() / n).sqrt();
-        let misfit = is_weighted.then(|| (squares / (n - 1.0)).sqrt());
-        Ok(Some(Self { yield_strength: theta[0].exp(), rms, misfit }))
+        let Some(all) = errors(&[theta]) else { return Ok(None) };
+        let sum = |of: &dyn Fn(&(f64, &Point)) -> f64| -> f64 {
+            all.iter().zip(&weights).map(|(one, weight)| weight * of(one)).sum()
+        };
+        let n: f64 = weights.iter().sum();
+        let rms = (sum(&|(error, _)| error * error) / n).sqrt();
+        let squares = sum(&|(error, point)| (error / scale(point).unwrap_or(1.0)).powi(2));
+        let misfit = is_weighted.then(|| (squares / (n - 1.0).max(1.0)).sqrt());
+        Ok(Some(Self { yield_strength: theta.exp(), rms, misfit }))
     }
 
     /// Whether flow explains data within their uncertainties, or else within an rms error.

@@ -2,8 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::fit::FitError;
-use crate::fit::spectrum::root_mean_square;
+use crate::fit::{FitError, Robustness};
 use fem_laws::bisection::falling_zero;
 use fem_material::PronyTerm;
 
@@ -52,21 +51,27 @@ type OfTerms<'a> = dyn Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError> + 'a;
 
 impl Maxwell {
     /// Searches from a fifth of the shortest contact time, and below as far as the model can be computed, to ten
-    /// thousand times the longest, s.
+    /// thousand times the longest, s. Means are those with the weights of a robust fit.
     ///
     /// # Errors
     /// A collision cannot be computed.
     pub fn of_mean(
         restitutions: &OfTerms<'_>,
         wanted: &[f64],
+        robustness: Option<&Robustness>,
         contacts: (f64, f64),
     ) -> Result<Self, FitError> {
+        let weights = robustness.map_or(vec![1.0; wanted.len()], |found| found.weights.clone());
+        let mean = |values: &[f64]| {
+            let sum: f64 = values.iter().zip(&weights).map(|(value, weight)| value * weight).sum();
+            sum / weights.iter().sum::<f64>()
+        };
         let differences = |time: f64| -> Result<Vec<f64>, FitError> {
             let found = restitutions(&[term(time)])?;
             Ok(wanted.iter().zip(found).map(|(wanted, e)| wanted - e).collect())
         };
         let lack = |time: f64| -> Result<f64, FitError> {
-            let mean = differences(time)?.iter().sum::<f64>() / wanted.len() as f64;
+            let mean = mean(&differences(time)?);
             // A difference of exactly 0 ends the search.
             Ok(if mean.abs() < SAME { 0.0 } else { mean })
         };
@@ -96,7 +101,8 @@ impl Maxwell {
         if let Some(error) = failure.into_inner() {
             return Err(error);
         }
-        Ok(Self { time, beyond, rms: root_mean_square(&differences(time)?) })
+        let squares = differences(time)?.iter().map(|one| one * one).collect::<Vec<f64>>();
+        Ok(Self { time, beyond, rms: mean(&squares).sqrt() })
     }
 
     /// Returns the Prony term of weight 1.

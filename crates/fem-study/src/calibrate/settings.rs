@@ -21,6 +21,8 @@ pub struct Settings {
     pub regularisation: Option<f64>,
     /// Confidence level of the ranges, in (0, 1).
     pub confidence: f64,
+    /// Whether data far from the curve count little ([`crate::fit::Robustness`]).
+    pub is_robust: bool,
 }
 
 impl Default for Settings {
@@ -34,6 +36,7 @@ impl Default for Settings {
             times: None,
             regularisation: None,
             confidence: 0.95,
+            is_robust: false,
         }
     }
 }

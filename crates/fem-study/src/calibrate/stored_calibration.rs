@@ -45,6 +45,7 @@ impl Calibration {
                 "beyond_search": self.maxwell.beyond.map(Beyond::word),
                 "rms": self.maxwell.rms,
             },
+            "robust": fit.robustness.as_ref().map(|found| found.numbers(&found.weights)),
             "pure_error": fit.pure_error.map(|pure| pure.error),
             "loss_exponent_of_speed": exponent.map(|exponent| {
                 json!({ "value": exponent.value, "standard_error": exponent.standard_error })
@@ -65,8 +66,9 @@ impl Calibration {
             let (xs, restitutions): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
             json!({ x: xs, "restitution": restitutions })
         };
-        let [data, best, maxwell] =
+        let [mut data, best, maxwell] =
             [&curves.data, &curves.best, &curves.maxwell].map(|points| columns(points));
+        data["weight"] = (0..curves.data.len()).map(|k| self.weight(k)).collect();
         Some(json!({ "over": x, "data": data, "best": best, "maxwell": maxwell }))
     }
 

@@ -1,5 +1,6 @@
 //! Warnings about a series.
 
+use crate::fit::Robustness;
 use crate::fit::spectrum::{SpectrumFit, SpeedExponent};
 use fem_case::engineering::show;
 
@@ -33,6 +34,7 @@ impl Calibration {
             )
         }));
         warnings.extend(self.measured.data.warnings());
+        warnings.extend(self.fit.robustness.as_ref().and_then(Robustness::warning));
         warnings.extend(self.misfit(names));
         warnings.extend(self.scatter(names));
         warnings.extend(self.undetermined());

@@ -10,7 +10,10 @@
 //!
 //! with t the quantile of Student's distribution (Seber & Wild, *Nonlinear Regression*, ch. 5). Data with
 //! uncertainties have s = 1 and the normal quantile: their residuals are known to be of order 1. An
-//! interval of a scale factor is symmetric in its logarithm. Limits: first order in the residuals'
+//! interval of a scale factor is symmetric in its logarithm. A robust fit has weights, and a variance of its own
+//! ([`crate::fit::Robustness`]) with Student's quantile.
+//!
+//! Limits: first order in the residuals'
 //! curvature ([`crate::fit::Profile`] is not); residuals independent of each other, which the misfit of
 //! a wrong law is not.
 
@@ -20,6 +23,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use crate::fit::error::FitError;
 use crate::fit::least_squares::jacobian;
 use crate::fit::problem::Problem;
+use crate::fit::robust::{Fitted, Robustness, reweight};
 
 /// A fitted law.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,11 +36,11 @@ pub struct Fit {
     pub correlation: Vec<Vec<f64>>,
     /// Covariance matrix of the free parameters' θ; `None` without degrees of freedom.
     pub covariance: Option<Vec<Vec<f64>>>,
-    /// Weighted residuals in the order of the data.
+    /// Weighted residuals in the order of the data, in a robust fit times the roots of its weights.
     pub residuals: Vec<f64>,
     /// Sum of the squared residuals, Σ r².
     pub sum_of_squares: f64,
-    /// Root mean square √(Σ r²/N) of the residuals, without uncertainties in units of e.
+    /// Root mean square √(Σ r²/N) of the residuals, √(Σ w r²/Σ w) in a robust fit; without uncertainties in units of e.
     pub rms: f64,
     /// Degrees of freedom, N − p.
     pub degrees_of_freedom: usize,
@@ -47,6 +51,8 @@ pub struct Fit {
     pub allowed_rise: Option<f64>,
     /// Condition number of the Jacobian with columns scaled to 1.
     pub condition: f64,
+    /// The weights of the residuals in a robust fit.
+    pub robustness: Option<Robustness>,
 }
 
 /// The estimate of a free parameter.
@@ -72,6 +78,9 @@ const WORST_CONDITION: f64 = 1e4;
 /// Smaller columns of the Jacobian are rounding.
 const INSENSITIVE: f64 = 1e-7;
 
+/// Smallest scale of the scatter of e in a robust fit: below it differences are those of the arithmetic.
+const LEAST_SCALE: f64 = 1e-6;
+
 impl Problem<'_> {
     /// Returns the best fit, with confidence intervals of this level (such as 0.95).
     ///
@@ -83,17 +92,52 @@ impl Problem<'_> {
             return Err(FitError::OutOfRange { quantity, value: confidence, allowed });
         }
         self.check_count()?;
-        let (values, sum_of_squares) = self.solve()?;
+        let (values, _) = self.solve()?;
+        if !self.is_robust {
+            return self.at_minimum(values, None, confidence);
+        }
+        let fitted = |values: Vec<f64>| {
+            let failed = || FitError::NotConverged { reason: "no residuals at the minimum".into() };
+            let residuals = self.residuals(&values).ok_or_else(failed)?;
+            Ok(Fitted { found: values, residuals, n_free: self.free.len() })
+        };
+        let next = |values: &Vec<f64>, weights: &[f64]| {
+            fitted(self.reweighted(weights, values).solve()?.0)
+        };
+        let (values, robustness) = reweight(fitted(values)?, self.least_scale(), next)?;
+        let weighted = self.reweighted(&robustness.weights, &values);
+        weighted.at_minimum(values, Some(robustness), confidence)
+    }
+
+    /// Returns the smallest scale of the scatter in units of the residuals.
+    fn least_scale(&self) -> f64 {
+        if self.has_uncertainties() { 1.0 } else { LEAST_SCALE }
+    }
+
+    /// Returns the fit with the values of a minimum.
+    fn at_minimum(
+        &self,
+        values: Vec<f64>,
+        robustness: Option<Robustness>,
+        confidence: f64,
+    ) -> Result<Fit, FitError> {
         let theta = self.theta_of(&values);
         let bounds = self.bounds();
-        let residuals_at = |theta: &[f64]| self.residuals(&self.values_at(theta));
+        let residuals_at = |theta: &[f64]| self.weighted_residuals(&self.values_at(theta));
         let failed = || FitError::NotConverged { reason: "no derivatives at the minimum".into() };
         let residuals = residuals_at(&theta).ok_or_else(failed)?;
         let jacobian = jacobian(&residuals_at, &theta, &bounds).ok_or_else(failed)?;
         let (inverse, condition) = self.inverse_of_normal(&jacobian)?;
         let n_values = residuals.len();
+        let sum_of_weights =
+            robustness.as_ref().map_or(1.0, Robustness::mean_weight) * n_values as f64;
+        let sum_of_squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
         let degrees_of_freedom = n_values - self.free.len();
-        let (variance, quantile) = self.spread(sum_of_squares, degrees_of_freedom, confidence);
+        let spread = |sum| self.spread(sum, degrees_of_freedom, confidence);
+        let (variance, quantile) = match &robustness {
+            None => spread(sum_of_squares),
+            Some(robustness) => self.robust_spread(robustness, degrees_of_freedom, confidence),
+        };
         let error = |j: usize| variance.map(|variance| (variance * inverse[(j, j)]).sqrt());
         let estimates = self.free.iter().enumerate().map(|(j, free)| {
             let value = values[free.index];
@@ -123,7 +167,7 @@ impl Problem<'_> {
             estimates: estimates.collect(),
             correlation: matrix(&correlation),
             covariance: variance.map(|variance| matrix(&|i, j| variance * inverse[(i, j)])),
-            rms: (sum_of_squares / n_values as f64).sqrt(),
+            rms: (sum_of_squares / sum_of_weights).sqrt(),
             allowed_rise: variance.zip(quantile).map(|(variance, q)| variance * q * q),
             values,
             residuals,
@@ -131,6 +175,7 @@ impl Problem<'_> {
             degrees_of_freedom,
             quantile,
             condition,
+            robustness,
         })
     }
 
@@ -199,6 +244,19 @@ impl Problem<'_> {
             }
         }
         Ok((inverse, condition))
+    }
+
+    /// Returns the variance of a weighted residual in a robust fit, and the quantile of the interval.
+    fn robust_spread(
+        &self,
+        robustness: &Robustness,
+        freedom: usize,
+        confidence: f64,
+    ) -> (Option<f64>, Option<f64>) {
+        let variance = robustness.variance(self.free.len(), self.least_scale());
+        let student = StudentsT::new(0.0, 1.0, freedom as f64).ok();
+        let quantile = student.map(|student| student.inverse_cdf(0.5 * (1.0 + confidence)));
+        (Some(variance).filter(|_| freedom > 0), quantile)
     }
 
     /// Returns s² and the quantile of the interval.

@@ -44,6 +44,7 @@ pub(crate) mod least_squares;
 mod model;
 mod problem;
 mod profile;
+pub(crate) mod robust;
 pub mod spectrum;
 
 pub use error::FitError;
@@ -52,3 +53,4 @@ pub use inverse::{Inversion, invert};
 pub use model::{Model, Outcome};
 pub use problem::{Free, Point, Problem};
 pub use profile::{Profile, ProfilePoint};
+pub use robust::Robustness;

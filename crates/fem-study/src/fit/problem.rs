@@ -51,6 +51,10 @@ pub struct Problem<'a> {
     pub values: Vec<f64>,
     /// The free parameters.
     pub free: Vec<Free>,
+    /// Whether data far from the curve count little ([`crate::fit::Robustness`]).
+    pub(crate) is_robust: bool,
+    /// Weights of the residuals.
+    pub(crate) weights: Option<Vec<f64>>,
 }
 
 /// Factor by which a logarithmic parameter may differ from its natural size.
@@ -65,7 +69,14 @@ impl<'a> Problem<'a> {
     /// The law does not have a key, or a speed has no Hertz impact.
     pub fn new(model: &'a Model, points: &'a [Point], free: &[&str]) -> Result<Self, FitError> {
         let parameters = model.family().parameters();
-        let mut problem = Self { model, points, values: Vec::new(), free: Vec::new() };
+        let mut problem = Self {
+            model,
+            points,
+            values: Vec::new(),
+            free: Vec::new(),
+            is_robust: false,
+            weights: None,
+        };
         let speed = problem.middle_speed();
         problem.values = parameters.iter().map(|parameter| parameter.guess(speed)).collect();
         for (index, parameter) in parameters.iter().enumerate() {
@@ -77,6 +88,11 @@ impl<'a> Problem<'a> {
             }
         }
         Ok(problem)
+    }
+
+    /// Returns this problem, in which data far from the curve count little if it is robust.
+    pub fn robust(self, is_robust: bool) -> Self {
+        Self { is_robust, ..self }
     }
 
     /// Returns the geometric mean of the speeds, m/s.
@@ -110,6 +126,25 @@ impl<'a> Problem<'a> {
             }
         }
         residuals.iter().all(|residual| residual.is_finite()).then_some(residuals)
+    }
+
+    /// Returns the residuals times the roots of their weights.
+    pub(crate) fn weighted_residuals(&self, values: &[f64]) -> Option<Vec<f64>> {
+        let mut residuals = self.residuals(values)?;
+        for (residual, weight) in residuals.iter_mut().zip(self.weights.iter().flatten()) {
+            *residual *= weight.sqrt();
+        }
+        Some(residuals)
+    }
+
+    /// Returns the problem with these weights of the residuals and a start for all parameters.
+    pub(crate) fn reweighted(&self, weights: &[f64], start: &[f64]) -> Self {
+        let mut reweighted = self.clone();
+        reweighted.weights = Some(weights.to_vec());
+        for free in &mut reweighted.free {
+            free.start = Some(start[free.index]);
+        }
+        reweighted
     }
 
     /// Returns the problem with one free parameter held at a value; the others begin at `start`.
@@ -149,7 +184,7 @@ impl<'a> Problem<'a> {
 
     /// Returns the values of all parameters at the least sum of squares, and that sum.
     pub(crate) fn solve(&self) -> Result<(Vec<f64>, f64), FitError> {
-        let residuals = |theta: &[f64]| self.residuals(&self.values_at(theta));
+        let residuals = |theta: &[f64]| self.weighted_residuals(&self.values_at(theta));
         if self.free.is_empty() {
             let sum = self.sum_of_squares(&self.values).ok_or_else(|| FitError::NotConverged {
                 reason: "the law cannot be computed".into(),
@@ -174,9 +209,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns Σ r²; `None` if the law cannot be computed.
+    /// Returns Σ w r²; `None` if the law cannot be computed.
     pub(crate) fn sum_of_squares(&self, values: &[f64]) -> Option<f64> {
-        Some(self.residuals(values)?.iter().map(|residual| residual * residual).sum())
+        Some(self.weighted_residuals(values)?.iter().map(|residual| residual * residual).sum())
     }
 
     /// Returns the starting points: the given one, or one for each of some values of the first free plain

@@ -7,6 +7,7 @@
 use fem_laws::bisection::falling_zero;
 
 use crate::fit::Fit;
+use crate::fit::Robustness;
 use crate::fit::error::FitError;
 use crate::fit::problem::{Free, Problem};
 
@@ -39,18 +40,21 @@ impl Problem<'_> {
     /// # Errors
     /// At some value the others cannot be fitted.
     pub fn profile(&self, fit: &Fit, free: &Free, grid: &[f64]) -> Result<Profile, FitError> {
-        let n_values = fit.residuals.len() as f64;
+        let n_values = fit.robustness.as_ref().map_or(1.0, Robustness::mean_weight)
+            * fit.residuals.len() as f64;
+        let mut weighted = self.clone();
+        weighted.weights = fit.robustness.as_ref().map(|robustness| robustness.weights.clone());
         let mut points = Vec::with_capacity(grid.len());
         let mut start = fit.values.clone();
         for &value in grid {
-            let (values, sum) = self.holding(free.index, value, &start).solve()?;
+            let (values, sum) = weighted.holding(free.index, value, &start).solve()?;
             start.clone_from(&values);
             points.push(ProfilePoint { value, rms: (sum / n_values).sqrt(), values });
         }
         let interval = fit.allowed_rise.map(|rise| {
             let level = fit.sum_of_squares + rise;
             let below = |value: f64| {
-                let solved = self.holding(free.index, value, &fit.values).solve();
+                let solved = weighted.holding(free.index, value, &fit.values).solve();
                 level - solved.map_or(f64::INFINITY, |(_, sum)| sum)
             };
             let error = fit.estimates.iter().find(|estimate| estimate.index == free.index);

@@ -1,6 +1,6 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
-use crate::fit::{Fit, FitError, Free, Model, Problem, Profile};
+use crate::fit::{Fit, FitError, Free, Model, Point, Problem, Profile, Robustness};
 use fem_case::engineering::number;
 use fem_case::schema::End;
 use fem_laws::{LawFamily, ParameterRole};
@@ -42,7 +42,7 @@ pub struct LawFit<'a> {
 
 impl<'a> LawFit<'a> {
     /// Names of the columns of [`LawFit::residuals`].
-    pub const RESIDUAL_COLUMNS: [&'static str; 7] = [
+    pub const RESIDUAL_COLUMNS: [&'static str; 8] = [
         "speed_m_s",
         "restitution",
         "restitution_uncertainty",
@@ -50,6 +50,7 @@ impl<'a> LawFit<'a> {
         "residual",
         "contact_time_s",
         "fitted_contact_time_s",
+        "weight",
     ];
 
     /// Fits a law to measured restitutions.
@@ -87,7 +88,8 @@ impl<'a> LawFit<'a> {
             let stiff = parameters.filter(|parameter| parameter.role == ParameterRole::Stiffness);
             free.extend(stiff.map(|parameter| parameter.key));
         }
-        let problem = Problem::new(&model, &self.data.points, &free)?;
+        let is_robust = self.problem.is_robust;
+        let problem = Problem::new(&model, &self.data.points, &free)?.robust(is_robust);
         let law = family.name();
         let fitted = |error: FitError| LawFault::Compared { law, error };
         let fit = problem.fit(self.confidence).map_err(fitted)?;
@@ -133,8 +135,8 @@ impl<'a> LawFit<'a> {
     }
 
     /// Returns data, fitted values and their differences, one row per point; SI.
-    pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
-        self.problem.points.iter().map(|point| {
+    pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 8]> {
+        self.problem.points.iter().zip(self.weights()).map(|(point, weight)| {
             let fitted = self.problem.model.outcome(&self.fit.values, point.speed).ok();
             let restitution = fitted.map(|fitted| fitted.restitution);
             [
@@ -145,15 +147,27 @@ impl<'a> LawFit<'a> {
                 restitution.map(|restitution| restitution - point.restitution),
                 point.contact_time,
                 fitted.and_then(|fitted| fitted.contact_time),
+                Some(weight),
             ]
         })
     }
 
-    /// Returns the root mean square of the residuals of e.
+    /// Returns the weight of each point, the least of its values: 1 if the fit is not robust.
+    pub fn weights(&self) -> Vec<f64> {
+        let robustness = self.fit.robustness.as_ref();
+        let mut weights = robustness.into_iter().flat_map(|robustness| &robustness.weights);
+        let of_point = |point: &Point| {
+            let n_values = 1 + usize::from(point.contact_time.is_some());
+            weights.by_ref().take(n_values).copied().fold(1.0, f64::min)
+        };
+        self.problem.points.iter().map(of_point).collect()
+    }
+
+    /// Returns the root mean square of the residuals of e, with their weights.
     pub fn scatter(&self) -> f64 {
-        let residuals = self.residuals().filter_map(|row| row[4]);
-        let (n, sum) = residuals.fold((0.0, 0.0), |(n, sum), r| (n + 1.0, sum + r * r));
-        f64::sqrt(sum / f64::max(n, 1.0))
+        let residuals = self.residuals().filter_map(|row| row[4].zip(row[7]));
+        let (n, sum) = residuals.fold((0.0, 0.0), |(n, sum), (r, w)| (n + w, sum + w * r * r));
+        f64::sqrt(sum / f64::max(n, f64::MIN_POSITIVE))
     }
 
     /// Returns the law as the table `[model]` of a case; `None` for Ting's, whose parameter is the material's relaxation.
@@ -188,7 +202,11 @@ impl<'a> LawFit<'a> {
                         not show whether it is right";
             warnings.push(what.to_string());
         }
-        let chi_square = fit.sum_of_squares / fit.degrees_of_freedom.max(1) as f64;
+        let chi_square = match &fit.robustness {
+            Some(robustness) => robustness.scale.powi(2),
+            None => fit.sum_of_squares / fit.degrees_of_freedom.max(1) as f64,
+        };
+        warnings.extend(fit.robustness.as_ref().and_then(Robustness::warning));
         let is_misfit = fit.degrees_of_freedom > 0 && chi_square > LARGE_CHI_SQUARE;
         if problem.has_uncertainties() && is_misfit {
             warnings.push(format!(

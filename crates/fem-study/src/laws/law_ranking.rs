@@ -9,7 +9,8 @@
 //! ```
 //!
 //! with −2 ln L = Σ r² and q = p if the data have uncertainties, and −2 ln L = N ln(Σ r²/N) and
-//! q = p + 1 otherwise, where the scatter counts as a parameter. Weights w are shares of the
+//! q = p + 1 otherwise, where the scatter counts as a parameter. Robust fits have the likelihood of their scatter
+//! ([`crate::fit::Robustness`]) and q = p + 1. Weights w are shares of the
 //! evidence among the laws that were fitted; none of them needs to be right.
 
 use crate::fit::{Fit, Model};
@@ -63,7 +64,7 @@ pub struct LawRanking {
 
 impl LawRanking {
     /// Fits every law that loses energy. Its damping is free and, if there are contact times, stiffnesses that no theory
-    /// gives; see [`ChosenLaw::problem`].
+    /// gives; see [`ChosenLaw::problem`]. Robust fits count data far from their curves little.
     ///
     /// # Errors
     /// No law can be fitted; the error is that of the last.
@@ -71,12 +72,13 @@ impl LawRanking {
         case: &Case,
         data: &Restitutions,
         end_rule: Option<EndRule>,
+        is_robust: bool,
     ) -> Result<Self, LawFault> {
         let mut found: Vec<(RankedLaw, Option<f64>)> = Vec::new();
         let (mut twins, mut others, mut last) = (Vec::new(), Vec::new(), None);
         let is_weighted = data.points.iter().all(|point| point.restitution_uncertainty.is_some());
         for (family, exponent) in candidates() {
-            match fitted(case, data, (family, exponent), end_rule) {
+            match fitted(case, data, (family, exponent), (end_rule, is_robust)) {
                 Ok(law) => {
                     let rms = law.fit.rms;
                     let twin = found.iter().find(|(other, _)| {
@@ -147,7 +149,7 @@ fn fitted(
     case: &Case,
     data: &Restitutions,
     (family, exponent): (LawFamily, Option<&'static str>),
-    end_rule: Option<EndRule>,
+    (end_rule, is_robust): (Option<EndRule>, bool),
 ) -> Result<RankedLaw, LawFault> {
     let end_rule = end_rule.filter(|_| family.end_rule().is_none());
     let law = ChosenLaw::of(case, family, &[], end_rule)?;
@@ -161,7 +163,7 @@ fn fitted(
         }
         None => Vec::new(),
     };
-    let problem = law.problem(&data.points, &free)?;
+    let problem = law.problem(&data.points, &free)?.robust(is_robust);
     let mut free: Vec<&'static str> =
         problem.free.iter().map(|free| problem.parameter(free.index).key).collect();
     // The damping comes first.
@@ -185,6 +187,9 @@ fn criterion(fit: &Fit, is_weighted: bool) -> Option<f64> {
     let n = fit.residuals.len() as f64;
     let p = fit.estimates.len() as f64;
     let (misfit, q) = match is_weighted {
+        _ if fit.robustness.is_some() => {
+            (fit.robustness.as_ref().map_or(0.0, |robustness| robustness.deviance), p + 1.0)
+        }
         true => (fit.sum_of_squares, p),
         // The misfit of an exact fit is limited by rounding.
         false => (n * (fit.sum_of_squares / n).max(f64::EPSILON.powi(2)).ln(), p + 1.0),

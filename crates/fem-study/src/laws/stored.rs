@@ -36,6 +36,7 @@ impl LawFit<'_> {
             "sum_of_squares": fit.sum_of_squares,
             "degrees_of_freedom": fit.degrees_of_freedom,
             "condition_number": fit.condition,
+            "robust": fit.robustness.as_ref().map(|robustness| robustness.numbers(&self.weights())),
             "profile": self.profile.as_ref().map(|profile| self.profile_numbers(profile)),
             "curves": self.curve_numbers(),
             "measured": self.measured_numbers(),
@@ -78,6 +79,7 @@ impl LawFit<'_> {
             "speed_m_s": column(|point| Some(point.speed)),
             "restitution": column(|point| Some(point.restitution)),
             "restitution_uncertainty": column(|point| point.restitution_uncertainty),
+            "weight": self.weights(),
         })
     }
 

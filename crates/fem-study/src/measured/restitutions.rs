@@ -84,6 +84,11 @@ impl Restitutions {
         Ok(())
     }
 
+    /// Whether each restitution has an uncertainty.
+    pub fn has_uncertainties(&self) -> bool {
+        self.points.iter().all(|point| point.restitution_uncertainty.is_some())
+    }
+
     /// Returns the slowest and the fastest speed, m/s.
     pub fn speeds(&self) -> (f64, f64) {
         let speeds = || self.points.iter().map(|point| point.speed);

@@ -56,7 +56,8 @@ fn restitutions(terms: &[PronyTerm]) -> Result<Vec<f64>, FitError> {
 
 #[test]
 fn the_term_has_the_measured_mean_or_an_end_of_the_search() {
-    let found = |wanted: [f64; 2]| Maxwell::of_mean(&restitutions, &wanted, (0.1, 0.1)).unwrap();
+    let found =
+        |wanted: [f64; 2]| Maxwell::of_mean(&restitutions, &wanted, None, (0.1, 0.1)).unwrap();
     let one = found([0.7, 0.9]);
     // Means within 1e-6 are the same, and dτ = (1 + τ)² de.
     assert!((one.time - 4.0).abs() < 1e-4 && one.beyond.is_none(), "{one:?}");
@@ -69,5 +70,5 @@ fn the_term_has_the_measured_mean_or_an_end_of_the_search() {
 fn a_failed_collision_is_an_error() {
     let failed = || FitError::Collision { reason: "none".to_string() };
     let never = |_: &[PronyTerm]| Err(failed());
-    assert_eq!(Maxwell::of_mean(&never, &[0.9], (0.1, 0.1)), Err(failed()));
+    assert_eq!(Maxwell::of_mean(&never, &[0.9], None, (0.1, 0.1)), Err(failed()));
 }

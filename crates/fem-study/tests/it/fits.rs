@@ -2,7 +2,7 @@
 
 use crate::common::{bridges, glass_model, ice_model};
 use fem_laws::{EndRule, HertzImpact, LawFamily};
-use fem_study::fit::{FitError, Model, Point, Problem};
+use fem_study::fit::{Fit, FitError, Model, Point, Problem};
 
 /// Returns restitutions and contact times that a model makes.
 fn made_by(model: &Model, values: &[f64], speeds: &[f64]) -> Vec<Point> {
@@ -282,5 +282,46 @@ fn the_stiffness_of_hertz_makes_his_contact_time() {
             let hertz = HertzImpact::new(model.pair(), speed).unwrap().contact_time();
             assert!((time / hertz - 1.0).abs() < 1e-8, "{family:?}: {time} {hertz}");
         }
+    }
+}
+
+/// Returns a draw from the normal distribution of deviation 1 (the sum of twelve uniform ones less 6).
+fn normal(random: &mut fastrand::Rng) -> f64 {
+    (0..12).map(|_| random.f64()).sum::<f64>() - 6.0
+}
+
+/// A tenth of the balls turn a third of their velocity into spin: a robust fit gives the parameter within its interval,
+/// least squares do not. The rest has no scatter, or one of 0.01.
+#[test]
+fn a_robust_fit_leaves_gross_errors_out() {
+    let model = glass_model(LawFamily::KuwabaraKono, None);
+    let a = 2e-6;
+    let speeds: Vec<f64> = (0..60).map(|k| 0.05 * 40f64.powf(f64::from(k) / 59.0)).collect();
+    let clean = without_times(&made_by(&model, &[a], &speeds));
+    let mut random = fastrand::Rng::with_seed(3);
+    for (scatter, precision) in [(0.0, 1e-4), (0.01, 0.05)] {
+        let mut points = clean.clone();
+        for (k, point) in points.iter_mut().enumerate() {
+            let share = if k % 10 == 4 { 0.67 } else { 1.0 };
+            point.restitution = share * point.restitution + scatter * normal(&mut random);
+        }
+        let least_squares = Problem::new(&model, &points, &["a"]).unwrap();
+        let robust = least_squares.clone().robust(true);
+        let holds = |fit: &Fit| {
+            let (low, high) = fit.estimates[0].interval.unwrap();
+            low < a && a < high
+        };
+        let (plain, fit) = (least_squares.fit(0.95).unwrap(), robust.fit(0.95).unwrap());
+        assert!(!holds(&plain) && holds(&fit), "{scatter}: {plain:?} {fit:?}");
+        assert_close(fit.values[0], a, precision);
+        let robustness = fit.robustness.as_ref().unwrap();
+        let far: Vec<usize> = robustness.outliers().collect();
+        assert_eq!(far, [4, 14, 24, 34, 44, 54], "{scatter}");
+        assert!(plain.robustness.is_none());
+        // The profile has the same weights, and its interval that of the first order.
+        let profile = robust.profile(&fit, &robust.free[0], &[a]).unwrap();
+        let (low, high) = fit.estimates[0].interval.unwrap();
+        let (profile_low, profile_high) = profile.interval.unwrap();
+        assert_close(profile_high.unwrap() / profile_low.unwrap(), high / low, 0.01);
     }
 }

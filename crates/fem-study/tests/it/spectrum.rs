@@ -45,6 +45,7 @@ fn fit(
         uncertainties,
         times,
         regularisation,
+        is_robust: false,
     };
     problem.fit(0.95)
 }
@@ -129,6 +130,7 @@ fn one_point_determines_one_combination() {
         uncertainties: None,
         times: &GRID[1..],
         regularisation,
+        is_robust: false,
     };
     assert!(matches!(
         problem(0.0).fit(0.95),
@@ -188,6 +190,7 @@ fn repeats_give_the_pure_error() {
             uncertainties: None,
             times: &[1e-4],
             regularisation: 0.0,
+            is_robust: false,
         }
         .fit(0.95)
         .unwrap()
@@ -211,4 +214,43 @@ fn powers_of_several_pairs_are_found() {
     let found = speed_exponent(&points).unwrap();
     assert!((found.value - 0.3).abs() < 1e-12 && found.is_above(SpeedExponent::LIMIT));
     assert_eq!(speed_exponent(&points[..1]), None);
+}
+
+/// Two of twenty restitutions are far too small: with robust weights the sum of the weights of the series is within its
+/// range, without them it is not.
+#[test]
+fn a_robust_series_leaves_gross_errors_out() {
+    let clean = restitutions(&TRUE).unwrap();
+    let mut measured: Vec<f64> = (0..18).map(|k| clean[k % SPEEDS.len()]).collect();
+    for (k, e) in measured.iter_mut().enumerate() {
+        // Scatter of 0.002 in both directions.
+        *e += 0.002 * [1.0, -1.0, 0.3, -0.6, 0.7, -0.4, 0.2][k % 7];
+    }
+    measured[5] -= 0.2;
+    measured[12] -= 0.15;
+    let time = TRUE[1].1;
+    let model = |weights: &[f64]| {
+        let once = restitutions(&[TRUE[0], (weights[0], time)])?;
+        Ok((0..18).map(|k| once[k % SPEEDS.len()]).collect())
+    };
+    let found = |is_robust: bool| {
+        let problem = SpectrumProblem {
+            restitutions: &model,
+            measured: &measured,
+            collisions: &(0..18).map(|k| k % SPEEDS.len()).collect::<Vec<_>>(),
+            uncertainties: None,
+            times: &[time],
+            regularisation: 0.0,
+            is_robust,
+        };
+        problem.fit(0.95).unwrap()
+    };
+    let (plain, robust) = (found(false), found(true));
+    let range = &robust.weight_ranges[0];
+    assert!(range.low < TRUE[1].0 && TRUE[1].0 < range.high, "{range:?}");
+    assert!((robust.weights[0] - TRUE[1].0).abs() < 0.01, "{}", robust.weights[0]);
+    assert!((plain.weights[0] - TRUE[1].0).abs() > 0.05, "{}", plain.weights[0]);
+    let far: Vec<usize> = robust.robustness.as_ref().unwrap().outliers().collect();
+    assert_eq!(far, [5, 12]);
+    assert!(robust.rms < 0.01 && plain.rms > 0.04, "{} {}", robust.rms, plain.rms);
 }

@@ -49,7 +49,7 @@ fn a_calibrated_series_reproduces_the_data() {
     let measured = restitutions(&series, &collisions);
     let found = Calibration::of(&pair(), measured.into(), &settings).unwrap();
     for row in found.residuals() {
-        let [_, _, _, _, _, _, residual] = row;
+        let [_, _, _, _, _, _, residual, _] = row;
         // Ten times the accuracy of the model, for other relaxation times than the series'.
         assert!(residual.unwrap().abs() < 1e-4, "{row:?}");
     }

@@ -60,6 +60,9 @@ pub struct Arguments {
     /// Model that computes the collisions
     #[arg(long, value_name = "MODEL", value_enum, default_value_t = ModelName::Condensed)]
     model: ModelName,
+    /// Fit robustly: points far from the curve count little, and are listed
+    #[arg(long)]
+    robust: bool,
     /// Confidence level of the ranges
     #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
         value_parser = parse_confidence)]
@@ -133,6 +136,7 @@ fn settings(arguments: &Arguments) -> Settings {
         times: arguments.times,
         regularisation: arguments.regularisation,
         confidence: arguments.confidence,
+        is_robust: arguments.robust,
     }
 }
 

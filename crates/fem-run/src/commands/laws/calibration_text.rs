@@ -5,6 +5,7 @@ use fem::fit::spectrum::Range;
 use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
 
+use super::fit_text::weighted_down;
 use crate::text::tables::{headed, show_value};
 
 pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
@@ -33,6 +34,9 @@ pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
             "1 - e is proportional to speed^{:.3}{error} (Prony series give powers from -0.2 to 0.2)\n",
             exponent.value
         );
+    }
+    if let Some(robustness) = &fit.robustness {
+        text += &weighted_down(&found.measured.data, robustness, &robustness.weights);
     }
     for warning in warnings {
         text += &format!("warning: {warning}\n");

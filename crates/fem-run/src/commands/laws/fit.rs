@@ -58,6 +58,9 @@ pub struct Arguments {
     /// Also fit the column contact_time_s
     #[arg(long)]
     contact_time: bool,
+    /// Fit robustly: points far from the curve count little, and are listed
+    #[arg(long)]
+    robust: bool,
     /// Confidence level of the intervals
     #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
         value_parser = parse_confidence)]
@@ -179,7 +182,7 @@ fn ranked(arguments: &Arguments, case: &Case, data: &Restitutions) -> Result<Law
         return Err(Failure::bad_input(format!("{option} applies to a single law, not to all"))
             .with_help("leave it out, or name the law, such as --law kuwabara_kono"));
     }
-    Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule))?)
+    Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule), arguments.robust)?)
 }
 
 fn problem<'a>(
@@ -192,7 +195,7 @@ fn problem<'a>(
         find_key(law.family(), key, "--free")?;
     }
     let free: Vec<&str> = free.iter().map(String::as_str).collect();
-    let mut problem = law.problem(&data.points, &free)?;
+    let mut problem = law.problem(&data.points, &free)?.robust(arguments.robust);
     for text in &arguments.bounds {
         bound(&mut problem, law.family(), text)?;
     }

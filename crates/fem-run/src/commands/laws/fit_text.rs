@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use fem::fit::{Estimate, Profile};
+use fem::fit::{Estimate, Profile, Robustness};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
+use fem::measured::Restitutions;
 use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::End;
 use fem_laws::LawFamily;
@@ -12,6 +13,9 @@ use fem_laws::LawFamily;
 use fem_report::law_figures::evidence;
 
 use crate::text::{headed, one_line, show_value, shown};
+
+/// Largest number of points that a text lists.
+const MOST_LISTED: usize = 12;
 
 /// Returns the first line of the text: the fitted parameters with their standard errors.
 pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
@@ -86,6 +90,9 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     let freedom = fit.degrees_of_freedom;
     let plural = if freedom == 1 { "degree" } else { "degrees" };
     text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);
+    if let Some(robustness) = &fit.robustness {
+        text += &weighted_down(fitted.data, robustness, &fitted.weights());
+    }
     let rates = model.decay_rates(fit.values[0]);
     let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
     if model.family() == LawFamily::Ting && others.count() > 0 {
@@ -105,6 +112,33 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         text += &format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", "));
     }
     text
+}
+
+/// Returns the points that a robust fit weights down.
+pub fn weighted_down(data: &Restitutions, robustness: &Robustness, weights: &[f64]) -> String {
+    let far = |k: &usize| weights[*k] < Robustness::FEW;
+    let far: Vec<usize> = (0..weights.len()).filter(far).collect();
+    let scale = number(robustness.scale, 3);
+    let unit = if data.has_uncertainties() { " times the uncertainties" } else { "" };
+    let mut text = format!(
+        "robust: the scatter has a scale of {scale}{unit}; {} of {} points count less than a quarter\n",
+        far.len(),
+        weights.len()
+    );
+    for k in far.iter().take(MOST_LISTED) {
+        let point = &data.points[*k];
+        let line = data.lines.get(*k).map_or(format!("point {k}"), |line| format!("line {line}"));
+        text += &format!(
+            "  {line}: e = {} at {}, weight {}\n",
+            number(point.restitution, 4),
+            show(point.speed, "m/s"),
+            number(weights[*k], 2)
+        );
+    }
+    match far.len().saturating_sub(MOST_LISTED) {
+        0 => text,
+        n => text + &format!("  and {n} more: see the column weight of residuals.csv\n"),
+    }
 }
 
 /// Returns the law as a case has it, and the command that writes it for other codes.

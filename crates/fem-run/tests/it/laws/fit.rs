@@ -376,6 +376,38 @@ fn a_fit_is_exported_and_is_a_model() {
     place.fails(2, "export case.toml --fit nowhere").tells("--fit nowhere");
 }
 
+/// A robust fit lists the point that is far from the curve, and so do a ranking and a calibration; the others make the
+/// parameter.
+#[test]
+fn a_robust_fit_lists_its_outliers() {
+    let place = Place::with(CASE);
+    let mut table = "speed_m_s,restitution\n".to_string();
+    for k in 0..12 {
+        let speed = 0.1 * f64::from(k + 1);
+        let e = 1.0 - 0.08 * speed.powf(0.2) + if k % 2 == 0 { 0.002 } else { -0.002 };
+        table += &format!("{speed},{}\n", if k == 7 { 0.5 } else { e });
+    }
+    place.write("e.csv", &table);
+    let fit = "fit case.toml --data e.csv --law kuwabara_kono --robust --out fit";
+    let far = "1 of 12 points count less than a quarter\n  line 9: e = 0.5 at 800.0 mm/s, weight ";
+    place.succeed(fit).prints(far);
+    let numbers = place.json("fit/fit.json");
+    assert_eq!(numbers["robust"]["weighted_down"], 1);
+    let weights = numbers["measured"]["weight"].as_array().unwrap();
+    assert!(weights[7].as_f64().unwrap() < 1e-3 && weights[6].as_f64().unwrap() > 0.4);
+    assert!(place.text("fit/residuals.csv").starts_with("speed_m_s,"));
+    place.succeed("fit case.toml --data e.csv --law kuwabara_kono --out plain");
+    assert!(place.json("plain/fit.json")["robust"].is_null());
+    let a = |folder: &str| {
+        place.json(&format!("{folder}/fit.json"))["parameters"][0]["value"].as_f64().unwrap()
+    };
+    assert!(a("plain") > 1.3 * a("fit"), "{} {}", a("plain"), a("fit"));
+    let calibrate = "calibrate case.toml --data e.csv --model ting --terms 1 --robust --out series";
+    place.succeed(calibrate).prints(far);
+    let series = place.json("series/calibrate.json");
+    assert!(series["curves"]["data"]["weight"][7].as_f64().unwrap() < 0.01);
+}
+
 /// A pair in a table gets the same input as the pair alone; a pair without relaxation loses nothing.
 #[test]
 fn export_makes_all_pairs_of_materials_and_sizes() {

@@ -33,6 +33,7 @@ pub use resolution::{Combination, Resolution};
 pub use speed_exponent::{SpeedExponent, SpeedPoint, speed_exponent};
 
 use super::error::FitError;
+use super::robust::Robustness;
 
 /// A function from weights to the restitutions of all data.
 pub type Restitutions<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;
@@ -51,6 +52,8 @@ pub struct SpectrumProblem<'a> {
     pub times: &'a [f64],
     /// λ, in units of e, ≥ 0.
     pub regularisation: f64,
+    /// Whether data far from the curve count little ([`crate::fit::Robustness`]).
+    pub is_robust: bool,
 }
 
 impl SpectrumProblem<'_> {
@@ -80,7 +83,7 @@ pub struct SpectrumFit {
     pub weights: Vec<f64>,
     /// Restitutions of the best series.
     pub restitutions: Vec<f64>,
-    /// Root mean square error, √(Σ (e − ê)²/N).
+    /// Root mean square error, √(Σ (e − ê)²/N), in a robust fit with its weights.
     pub rms: f64,
     /// Error of a restitution that the intervals assume: the rms uncertainty; without
     /// uncertainties the scatter, or [`MODEL_ERROR`] if that is larger.
@@ -103,4 +106,6 @@ pub struct SpectrumFit {
     pub moments: [Range; 3],
     /// Number of evaluations of all collisions.
     pub n_evaluations: usize,
+    /// The weights of the data in a robust fit.
+    pub robustness: Option<Robustness>,
 }

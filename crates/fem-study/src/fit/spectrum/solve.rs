@@ -9,8 +9,9 @@ use super::bounded::Linear;
 use super::ranges::{RangeSearch, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
-use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem, root_mean_square};
+use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem};
 use crate::fit::error::FitError;
+use crate::fit::robust::{Fitted, reweight};
 
 /// Step of the differences: weights are of order 1, and collisions are smooth to 1e-7.
 const STEP: f64 = 1e-3;
@@ -45,10 +46,13 @@ impl SpectrumProblem<'_> {
 
 struct Solver<'a> {
     problem: &'a SpectrumProblem<'a>,
+    /// Weights of the data.
+    data_weights: Vec<f64>,
     n_evaluations: Cell<usize>,
 }
 
 /// Weights and their restitutions.
+#[derive(Clone)]
 struct State {
     weights: Vec<f64>,
     restitutions: Vec<f64>,
@@ -56,25 +60,46 @@ struct State {
 
 impl<'a> Solver<'a> {
     fn new(problem: &'a SpectrumProblem<'a>) -> Self {
-        Self { problem, n_evaluations: Cell::new(0) }
+        Self {
+            problem,
+            data_weights: vec![1.0; problem.measured.len()],
+            n_evaluations: Cell::new(0),
+        }
     }
 
-    fn fit(&self, confidence: f64) -> Result<SpectrumFit, FitError> {
+    fn fit(mut self, confidence: f64) -> Result<SpectrumFit, FitError> {
         let problem = self.problem;
-        let (state, jacobian) = self.minimise()?;
+        let start = vec![0.0; problem.times.len()];
+        let start = State { restitutions: self.evaluate(&start)?, weights: start };
+        let (mut state, mut jacobian) = self.minimise(start)?;
+        let least_scale =
+            if problem.uncertainties.is_some() { problem.unit() } else { MODEL_ERROR };
+        let mut robustness = None;
+        if problem.is_robust {
+            let first = self.fitted((state, jacobian));
+            let next = |(last, _): &(State, _), weights: &[f64]| {
+                self.data_weights = weights.to_vec();
+                Ok(self.fitted(self.minimise(last.clone())?))
+            };
+            let (found, counted) = reweight(first, least_scale, next)?;
+            ((state, jacobian), robustness) = (found, Some(counted));
+        }
         let linear = self.linear(&state, &jacobian);
         let sum = self.misfit(&state.restitutions);
         let (n_values, n_collisions) = (problem.measured.len(), n_distinct(problem.collisions));
-        let n_free = state.weights.iter().filter(|weight| **weight > STANDS).count();
-        // Repeats determine no more weights than one measurement does: the rest is scatter.
-        let n_free = n_free.min(n_collisions);
+        let n_free = self.n_free(&state);
         let freedom = n_values - n_free;
         let pure_error = PureError::of(problem.measured, problem.collisions);
         let unit = problem.unit();
         let scatter = (sum / freedom.max(1) as f64).sqrt();
         let is_weighted = problem.uncertainties.is_some();
-        let error = if is_weighted { unit } else { scatter.max(MODEL_ERROR) };
-        let quantile = quantile(confidence, (!is_weighted).then_some(freedom));
+        let error = match &robustness {
+            Some(robustness) => robustness.variance(n_free, least_scale).sqrt(),
+            None if is_weighted => unit,
+            None => scatter.max(MODEL_ERROR),
+        };
+        let is_scatter = robustness.is_some() || !is_weighted;
+        let quantile = quantile(confidence, is_scatter.then_some(freedom.max(1)));
         let search = RangeSearch {
             restitutions: &|weights| self.evaluate(weights),
             linear: &|weights, restitutions| {
@@ -91,14 +116,18 @@ impl<'a> Solver<'a> {
             (0..n).map(|k| search.range(&single(k))).collect::<Result<Vec<_>, _>>()?;
         let [total, rate, time] = moments(problem.times);
         let moments = [search.range(&total)?, search.range(&rate)?, search.range(&time)?];
-        let residuals = state.restitutions.iter().zip(problem.measured).map(|(e, m)| e - m);
-        let residuals: Vec<f64> = residuals.collect();
+        let squares = state.restitutions.iter().zip(problem.measured).map(|(e, m)| (e - m).powi(2));
+        let squares: f64 = squares.zip(&self.data_weights).map(|(square, w)| square * w).sum();
         Ok(SpectrumFit {
-            rms: root_mean_square(&residuals),
+            rms: (squares / self.data_weights.iter().sum::<f64>()).sqrt(),
             resolution: Resolution::of(&linear.a, error, problem.regularisation, &state.weights),
-            misfit: match is_weighted {
-                true => Some(scatter / unit),
-                false => pure_error.and_then(|pure| pure.misfit(sum, n_collisions - n_free)),
+            misfit: match (is_weighted, &robustness) {
+                (true, Some(robustness)) => Some(robustness.scale / unit),
+                (true, None) => Some(scatter / unit),
+                (false, Some(_)) => None,
+                (false, None) => {
+                    pure_error.and_then(|pure| pure.misfit(sum, n_collisions - n_free))
+                }
             },
             pure_error,
             weights: state.weights,
@@ -109,7 +138,27 @@ impl<'a> Solver<'a> {
             weight_ranges,
             moments,
             n_evaluations: self.n_evaluations.get(),
+            robustness,
         })
+    }
+
+    /// Returns the number of weights that the data determine. Repeats determine no more than one measurement does: the rest
+    /// is scatter.
+    fn n_free(&self, state: &State) -> usize {
+        let n_free = state.weights.iter().filter(|weight| **weight > STANDS).count();
+        n_free.min(n_distinct(self.problem.collisions))
+    }
+
+    /// Returns a minimum with its residuals, without the weights of the data.
+    fn fitted(&self, found: (State, DMatrix<f64>)) -> Fitted<(State, DMatrix<f64>)> {
+        let both = found.0.restitutions.iter().zip(self.problem.measured).enumerate();
+        let residuals = both.map(|(i, (e, m))| (e - m) / self.problem.ratio(i)).collect();
+        Fitted { residuals, n_free: self.n_free(&found.0), found }
+    }
+
+    /// Returns the ratio ρ_i over the root of the weight of a datum.
+    fn ratio(&self, i: usize) -> f64 {
+        self.problem.ratio(i) / self.data_weights[i].sqrt()
     }
 
     fn evaluate(&self, weights: &[f64]) -> Result<Vec<f64>, FitError> {
@@ -120,18 +169,17 @@ impl<'a> Solver<'a> {
     /// Returns Σ ((e − ê)/ρ)².
     fn misfit(&self, restitutions: &[f64]) -> f64 {
         let measured = self.problem.measured.iter().zip(restitutions).enumerate();
-        measured.map(|(i, (m, e))| ((e - m) / self.problem.ratio(i)).powi(2)).sum()
+        measured.map(|(i, (m, e))| ((e - m) / self.ratio(i)).powi(2)).sum()
     }
 
-    /// Searches the minimum, beginning at a body that does not relax; returns its state and ∂e_i/∂w_k there.
-    fn minimise(&self) -> Result<(State, DMatrix<f64>), FitError> {
+    /// Searches the minimum from a start; returns its state and ∂e_i/∂w_k there.
+    fn minimise(&self, start: State) -> Result<(State, DMatrix<f64>), FitError> {
         let ridge = self.problem.regularisation;
         let cost = |state: &State| {
             let size: f64 = state.weights.iter().map(|weight| weight * weight).sum();
             self.misfit(&state.restitutions) + ridge * ridge * size
         };
-        let start = vec![0.0; self.problem.times.len()];
-        let mut state = State { restitutions: self.evaluate(&start)?, weights: start };
+        let mut state = start;
         for _ in 0..MAX_STEPS {
             let jacobian = self.jacobian(&state)?;
             let target = self.linear(&state, &jacobian).solve(ridge, None);
@@ -197,7 +245,7 @@ impl<'a> Solver<'a> {
     fn linear(&self, at: &State, jacobian: &DMatrix<f64>) -> Linear {
         let own = jacobian * DVector::from_row_slice(&at.weights);
         let n_values = self.problem.measured.len();
-        let ratio = |i: usize| self.problem.ratio(i);
+        let ratio = |i: usize| self.ratio(i);
         let wanted = |i: usize| (self.problem.measured[i] - at.restitutions[i] + own[i]) / ratio(i);
         Linear {
             a: DMatrix::from_fn(n_values, jacobian.ncols(), |i, k| jacobian[(i, k)] / ratio(i)),
