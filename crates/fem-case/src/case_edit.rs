@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::case::Case;
 use crate::error::CaseError;
+use crate::scene::UncertainInput;
 
 impl Case {
     /// Returns this case with another number, SI, at a dotted key. An uncertainty at the key is lost.
@@ -14,5 +15,29 @@ impl Case {
         let text = self.file().to_toml();
         let text = text.map_err(|error| CaseError::new("the case", error.to_string()))?;
         Case::parse("the case", &text, Path::new("."), &[format!("{key}={value:e}")])
+    }
+
+    /// Returns the changes of numbers y by an uncertain input x ± u (JCGM 100:2008, 5.1.2),
+    ///
+    /// ```math
+    /// \tfrac12 y(x+u) - \tfrac12 y(x-u),
+    /// ```
+    ///
+    /// or the change to one side if the other one is out of range. `changes` returns the changes of the numbers from those of this case
+    /// to those of another one; `None` if it does so to both sides.
+    pub fn change_by(
+        &self,
+        input: &UncertainInput,
+        changes: impl Fn(&Case) -> Option<Vec<f64>>,
+    ) -> Option<Vec<f64>> {
+        let at = |value: f64| changes(&self.with_number(&input.key, value).ok()?);
+        match [1.0, -1.0].map(|side| at(input.value + side * input.uncertainty)) {
+            [Some(above), Some(below)] => {
+                Some(above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect())
+            }
+            [Some(above), None] => Some(above),
+            [None, Some(below)] => Some(below.iter().map(|change| -change).collect()),
+            [None, None] => None,
+        }
     }
 }

@@ -273,7 +273,8 @@ fn weight_chart(found: &Calibration) -> Chart {
         chart = chart.with(Curve::dashed("contact times of the data", line).coloured(GREY));
     }
     let label = format!("{} % range, all others free", 100.0 * found.confidence);
-    for (time, range) in found.times.iter().zip(&found.fit.weight_ranges) {
+    for (k, time) in found.times.iter().enumerate() {
+        let range = found.weight_range(k);
         let line = vec![(x.scaled(*time), range.low), (x.scaled(*time), range.high)];
         chart = chart.with(Curve::line(label.clone(), line).coloured(COLOURS[3]));
     }

@@ -1,7 +1,7 @@
 //! Uncertainty of the results by the uncertain inputs of a case, `"70 ± 2 GPa"`.
 //!
-//! Each input x with the uncertainty u changes a result y by half of y(x + u) − y(x − u), and the changes of independent
-//! inputs are added as squares (JCGM 100:2008, *Guide to the expression of uncertainty in measurement*, 5.1.2),
+//! Each input x with the uncertainty u changes a result y by half of y(x + u) − y(x − u) ([`Case::change_by`]), and the changes
+//! of independent inputs are added as squares (JCGM 100:2008, *Guide to the expression of uncertainty in measurement*, 5.1.2),
 //!
 //! ```math
 //! u_y^2 = \sum_k \left[\tfrac12 y(x_k+u_k) - \tfrac12 y(x_k-u_k)\right]^2 .
@@ -12,7 +12,7 @@
 //! absolute. Waves that take energy from these impacts take it
 //! by the closed forms of [`PartnerWaves`].
 
-use fem_case::{Body, Case, ModelChoice, Scene, Switch, UncertainInput};
+use fem_case::{Body, Case, ModelChoice, Scene, Switch};
 use fem_collision::Collision;
 use fem_laws::{HertzImpact, Impact, ImpactQuantities};
 
@@ -40,28 +40,15 @@ pub(super) fn input_uncertainty(
         return None;
     }
     let own = impact_of(case.scene())?;
-    let changes: Vec<[f64; 6]> = inputs.iter().map(|input| change(&case, &own, input)).collect();
+    let from_own = |case: &Case| Some(impact_of(case.scene())?.change_from(&own).to_vec());
+    // Unknown changes are no numbers.
+    let change = |input| case.change_by(input, from_own).unwrap_or_else(|| vec![f64::NAN; 6]);
+    let changes: Vec<Vec<f64>> = inputs.iter().map(change).collect();
     let sum = |k: usize| changes.iter().map(|change| change[k].powi(2)).sum::<f64>().sqrt();
     let errors = QuantityErrors::from_fn(|quantity| {
         Some(sum(quantity as usize) * quantity.scale(numbers.number(quantity)?))
     });
     Some(errors.checked())
-}
-
-/// Returns the changes of the quantities by one input, NaN where they are unknown. An input at the edge of its range is
-/// changed to one side.
-fn change(case: &Case, own: &ImpactQuantities, input: &UncertainInput) -> [f64; 6] {
-    let at = |value: f64| impact_of(case.with_number(&input.key, value).ok()?.scene());
-    let [above, below] = [1.0, -1.0].map(|side| at(input.value + side * input.uncertainty));
-    let of = |impact: &ImpactQuantities| impact.change_from(own);
-    match (above, below) {
-        (Some(above), Some(below)) => {
-            let (above, below) = (of(&above), of(&below));
-            std::array::from_fn(|k| 0.5 * (above[k] - below[k]))
-        }
-        (Some(one), None) | (None, Some(one)) => of(&one),
-        (None, None) => [f64::NAN; 6],
-    }
 }
 
 /// Returns the closed-form impact of a scene.

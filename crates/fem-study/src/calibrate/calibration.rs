@@ -1,12 +1,14 @@
 //! The calibration: a Prony series of a material from measured restitutions.
 
 use crate::fit::spectrum::{
-    SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, root_mean_square, speed_exponent,
+    Range, SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, moments, root_mean_square,
+    speed_exponent,
 };
-use crate::fit::{FitError, Robustness};
+use crate::fit::{FitError, InputPart, Robustness};
 use fem_case::Case;
 use fem_material::PronyTerm;
 use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::experiment::Experiment;
 use super::fault::CalibrationFault;
@@ -76,8 +78,10 @@ pub struct Calibration {
     pub confidence: f64,
     /// Relaxation times of the terms, s.
     pub times: Vec<f64>,
-    /// Weights, their ranges, and which combinations are determined.
+    /// Weights, their ranges by the data alone, and which combinations are determined.
     pub fit: SpectrumFit,
+    /// Parts of uncertain inputs of the case in the errors of the weights and of the moments.
+    pub inputs: Vec<InputPart>,
     /// The single Maxwell term of weight 1 with the measured mean.
     pub maxwell: Maxwell,
     /// The yield strength that explains the data as well; `None` if none does.
@@ -115,10 +119,13 @@ impl Calibration {
             .regularisation
             .unwrap_or_else(|| uncertainties.as_deref().map_or(REGULARISATION, root_mean_square));
         check(&measured, settings, regularisation)?;
-        let pairs = measured.pairs.par_iter();
-        let experiments = pairs
-            .map(|pair| Experiment::new(case, &measured, pair, &target, settings.model))
-            .collect::<Result<Vec<_>, _>>()?;
+        let of_case = |case: &Case| {
+            let pairs = measured.pairs.par_iter();
+            let made =
+                pairs.map(|pair| Experiment::new(case, &measured, pair, &target, settings.model));
+            made.collect::<Result<Vec<_>, _>>()
+        };
+        let experiments = of_case(case)?;
         let contacts = ends(experiments.iter().flat_map(|experiment| &experiment.contact_times));
         let window = settings.times.unwrap_or((
             contacts.0 / RELAXATION_OVER_CONTACT_TIMES,
@@ -137,6 +144,19 @@ impl Calibration {
             is_robust: settings.is_robust,
         };
         let fit = problem.fit(settings.confidence)?;
+        let refit = |case: &Case| {
+            let experiments = of_case(case).ok()?;
+            let restitutions =
+                |weights: &[f64]| restitutions(&experiments, &terms(&times, weights), wanted.len());
+            let weights =
+                SpectrumProblem { restitutions: &restitutions, ..problem }.refit(&fit).ok()?;
+            let changes: Vec<f64> =
+                weights.iter().zip(&fit.weights).map(|(changed, own)| changed - own).collect();
+            let moment = |moment: &Vec<f64>| moment.iter().zip(&changes).map(|(c, w)| c * w).sum();
+            let moments = moments(&times).each_ref().map(moment);
+            Some([changes, moments.to_vec()].concat())
+        };
+        let inputs = InputPart::of(case, times.len() + 3, refit);
         let largest_rms = match misses(&fit) {
             true => LARGE_ERROR,
             false => (AS_GOOD * fit.rms).max(SMALL_ERROR),
@@ -151,6 +171,7 @@ impl Calibration {
             confidence: settings.confidence,
             unused_key: unused_key(case, settings.model),
             fit,
+            inputs,
             maxwell,
             times,
             flow,
@@ -176,6 +197,23 @@ impl Calibration {
     /// Returns the shortest and the longest contact time of the data without relaxation, s.
     pub fn contact_times(&self) -> (f64, f64) {
         ends(self.experiments.iter().flat_map(|experiment| &experiment.contact_times))
+    }
+
+    /// Returns the range of a weight with the uncertain inputs of the case.
+    pub fn weight_range(&self, k: usize) -> Range {
+        self.widened(&self.fit.weight_ranges[k], k, 1.0)
+    }
+
+    /// Returns the ranges of Σ w, Σ w/τ (1/s) and Σ w τ (s) with the uncertain inputs of the case.
+    pub fn moments(&self) -> [Range; 3] {
+        let limits = moments(&self.times).map(|all| all.into_iter().fold(0.0, f64::max));
+        let n = self.times.len();
+        std::array::from_fn(|i| self.widened(&self.fit.moments[i], n + i, limits[i]))
+    }
+
+    fn widened(&self, range: &Range, result: usize, most: f64) -> Range {
+        let quantile = Normal::standard().inverse_cdf(0.5 * (1.0 + self.confidence));
+        range.widened(quantile * InputPart::sum(&self.inputs, result), (0.0, most))
     }
 
     /// Returns the weight of a point in a robust fit, else 1.

@@ -10,12 +10,19 @@ use super::experiment::Experiment;
 use super::maxwell::Beyond;
 use crate::fit::spectrum::{Combination, Range};
 
+/// Names of the moments of the weights.
+const MOMENTS: [&str; 3] = ["weight_sum", "initial_decay_rate_1_s", "viscous_time_s"];
+
 impl Calibration {
     /// Returns the stored form of the calibration in SI units; `case` is the case's name, `warnings` are those of
     /// [`Calibration::warnings`].
     pub fn numbers(&self, case: &str, warnings: Vec<String>) -> Value {
         let fit = &self.fit;
-        let [total, rate, time] = &fit.moments;
+        let moments = self.moments();
+        let [total, rate, time] = [0, 1, 2].map(|i| range(&moments[i], &fit.moments[i]));
+        let names: Vec<String> = (1..=self.times.len()).map(|k| format!("g{k}")).collect();
+        let results = names.iter().map(String::as_str).chain(MOMENTS);
+        let results: Vec<(&str, f64)> = results.map(|name| (name, 1.0)).collect();
         let exponent = self.loss_exponent();
         let combinations = fit.resolution.combinations.iter().map(combination);
         json!({
@@ -30,9 +37,10 @@ impl Calibration {
             "regularisation": self.regularisation,
             "confidence": self.confidence,
             "terms": (0..self.times.len()).map(|k| self.term(k)).collect::<Value>(),
-            "weight_sum": range(total),
-            "initial_decay_rate_1_s": range(rate),
-            "viscous_time_s": range(time),
+            (MOMENTS[0]): total,
+            (MOMENTS[1]): rate,
+            (MOMENTS[2]): time,
+            "inputs": self.inputs.iter().map(|part| part.numbers(&results)).collect::<Value>(),
             "combinations": combinations.collect::<Value>(),
             "combinations_determined": fit.resolution.n_determined(),
             "rms": fit.rms,
@@ -73,11 +81,12 @@ impl Calibration {
     }
 
     fn term(&self, k: usize) -> Value {
-        let range = &self.fit.weight_ranges[k];
+        let (range, of_data) = (self.weight_range(k), &self.fit.weight_ranges[k]);
         json!({
             "relaxation_time_s": self.times[k],
             "weight": self.fit.weights[k],
             "range": [range.low, range.high],
+            "range_of_data": [of_data.low, of_data.high],
             "share_of_data": self.fit.resolution.shares[k],
         })
     }
@@ -92,8 +101,12 @@ fn pair(experiment: &Experiment) -> Value {
     })
 }
 
-fn range(range: &Range) -> Value {
-    json!({ "value": range.value, "range": [range.low, range.high] })
+fn range(whole: &Range, of_data: &Range) -> Value {
+    json!({
+        "value": whole.value,
+        "range": [whole.low, whole.high],
+        "range_of_data": [of_data.low, of_data.high],
+    })
 }
 
 fn combination(combination: &Combination) -> Value {

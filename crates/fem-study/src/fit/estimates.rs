@@ -66,10 +66,33 @@ pub struct Estimate {
     pub value: f64,
     /// Standard error to first order, SI; `None` without degrees of freedom.
     pub standard_error: Option<f64>,
+    /// The part of the data in the standard error, SI; the other part is that of uncertain inputs of the case.
+    pub error_of_data: Option<f64>,
     /// Confidence interval to first order, SI.
     pub interval: Option<(f64, f64)>,
     /// Whether the best value is a bound of the search, and not a minimum.
     pub is_at_bound: bool,
+}
+
+impl Estimate {
+    /// Adds the standard error of θ by other causes than the data. θ is the logarithm of a scale factor or a plain number.
+    pub(crate) fn widen(&mut self, error: f64, is_logarithmic: bool, confidence: f64) {
+        let quantile = Normal::standard().inverse_cdf(0.5 * (1.0 + confidence));
+        let value = self.value;
+        let scale = if is_logarithmic { value } else { 1.0 };
+        let whole = |part: f64, other: f64| Some(part.hypot(other)).filter(|sum| sum.is_finite());
+        self.standard_error = self.standard_error.and_then(|own| whole(own, scale * error));
+        self.interval = self.interval.and_then(|(_, high)| match is_logarithmic {
+            true => {
+                let reach = whole((high / value).ln(), quantile * error)?;
+                Some((value * (-reach).exp(), value * reach.exp()))
+            }
+            false => {
+                let reach = whole(high - value, quantile * error)?;
+                Some((value - reach, value + reach))
+            }
+        });
+    }
 }
 
 /// Largest condition number: above it the error of the differences, 1e-5 of a column, dominates.
@@ -149,6 +172,7 @@ impl Problem<'_> {
                 key: self.parameter(free.index).key,
                 value,
                 standard_error: error(j).map(|e| if is_logarithmic { e * value } else { e }),
+                error_of_data: error(j).map(|e| if is_logarithmic { e * value } else { e }),
                 interval: reach.map(|reach| match is_logarithmic {
                     true => (value * (-reach).exp(), value * reach.exp()),
                     false => (value - reach, value + reach),

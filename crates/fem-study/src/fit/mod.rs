@@ -39,6 +39,7 @@ pub mod cradle;
 pub mod dem;
 mod error;
 mod estimates;
+mod inputs;
 mod inverse;
 pub(crate) mod least_squares;
 mod model;
@@ -49,6 +50,7 @@ pub mod spectrum;
 
 pub use error::FitError;
 pub use estimates::{Estimate, Fit};
+pub use inputs::InputPart;
 pub use inverse::{Inversion, invert};
 pub use model::{Model, Outcome};
 pub use problem::{Free, Point, Problem};

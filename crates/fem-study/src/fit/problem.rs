@@ -2,6 +2,7 @@
 
 use fem_laws::{LawParameter, ParameterRole};
 
+use crate::fit::Fit;
 use crate::fit::error::FitError;
 use crate::fit::least_squares::minimise;
 use crate::fit::model::Model;
@@ -145,6 +146,16 @@ impl<'a> Problem<'a> {
             free.start = Some(start[free.index]);
         }
         reweighted
+    }
+
+    /// Returns this problem with bounds, starts and weights of a fit of the same data, for bodies that differ a little.
+    pub(crate) fn near(&self, other: &Problem<'_>, fit: &Fit) -> Self {
+        let mut near = self.clone();
+        near.weights = fit.robustness.as_ref().map(|robustness| robustness.weights.clone());
+        for (free, other) in near.free.iter_mut().zip(&other.free) {
+            (free.bounds, free.start) = (other.bounds, Some(fit.values[other.index]));
+        }
+        near
     }
 
     /// Returns the problem with one free parameter held at a value; the others begin at `start`.

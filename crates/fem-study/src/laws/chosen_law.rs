@@ -137,6 +137,21 @@ impl ChosenLaw {
         Ok(Self { model, known })
     }
 
+    /// Returns this law for the bodies of another case, with the same given values and end of contact.
+    ///
+    /// # Errors
+    /// Those of [`ChosenLaw::of`].
+    pub fn in_case(&self, case: &Case) -> Result<Self, LawFault> {
+        let both = self.family().parameters().iter().zip(&self.known);
+        let given = both.filter_map(|(parameter, known)| match known {
+            Known::Given(value) => Some((parameter.key, *value)),
+            _ => None,
+        });
+        let given: Vec<(&str, f64)> = given.collect();
+        let end_rule = self.family().end_rule().is_none().then(|| self.model.end_rule());
+        Self::of(case, self.family(), &given, end_rule)
+    }
+
     /// Returns the bodies under the law.
     pub fn model(&self) -> &Model {
         &self.model

@@ -1,10 +1,14 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
-use crate::fit::{Fit, FitError, Free, Model, Point, Problem, Profile, Robustness};
+use crate::fit::{
+    Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness,
+};
+use fem_case::Case;
 use fem_case::engineering::number;
 use fem_case::schema::End;
 use fem_laws::{LawFamily, ParameterRole};
 
+use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
 use super::law_ranking::LawRanking;
 use super::parameter::loss_parameter;
@@ -38,6 +42,9 @@ pub struct LawFit<'a> {
     pub compared: Vec<(Model, Fit)>,
     /// Confidence level of the intervals.
     pub confidence: f64,
+    /// Parts of uncertain inputs of the case in the errors of θ of the free parameters, which are logarithms of scale factors and plain
+    /// numbers.
+    pub inputs: Vec<InputPart>,
 }
 
 impl<'a> LawFit<'a> {
@@ -63,7 +70,34 @@ impl<'a> LawFit<'a> {
         confidence: f64,
     ) -> Result<Self, LawFault> {
         let fit = problem.fit(confidence)?;
-        Ok(Self { data, problem, fit, profile: None, compared: Vec::new(), confidence })
+        let (profile, compared, inputs) = (None, Vec::new(), Vec::new());
+        Ok(Self { data, problem, fit, profile, compared, confidence, inputs })
+    }
+
+    /// Adds the uncertain inputs of the case to standard errors and intervals, by fitting again with each; `law` is that of the problem.
+    pub fn with_inputs(mut self, case: &Case, law: &ChosenLaw) -> Self {
+        let problem = &self.problem;
+        let own = problem.theta_of(&self.fit.values);
+        let keys: Vec<&str> = self.fit.estimates.iter().map(|estimate| estimate.key).collect();
+        let refit = |case: &Case| {
+            let law = law.in_case(case).ok()?;
+            let near = law.problem(&self.data.points, &keys).ok()?.near(problem, &self.fit);
+            let theta = near.theta_of(&near.solve().ok()?.0);
+            Some(theta.iter().zip(&own).map(|(changed, own)| changed - own).collect())
+        };
+        self.inputs = InputPart::of(case, keys.len(), refit);
+        for (j, (estimate, free)) in self.fit.estimates.iter_mut().zip(&problem.free).enumerate() {
+            let error = InputPart::sum(&self.inputs, j);
+            estimate.widen(error, problem.is_logarithmic(free), self.confidence);
+        }
+        self
+    }
+
+    /// Returns the change of a free parameter, SI, for a small change of its θ.
+    pub fn scale_of(&self, estimate: &Estimate) -> f64 {
+        let free = self.problem.free.iter().find(|free| free.index == estimate.index);
+        let is_logarithmic = free.is_some_and(|free| self.problem.is_logarithmic(free));
+        if is_logarithmic { estimate.value } else { 1.0 }
     }
 
     /// Adds the profile of a free parameter.

@@ -17,6 +17,8 @@ impl LawFit<'_> {
         let family = problem.model.family();
         let compared = |(model, fit): &(Model, Fit)| json!({ "law": model.family().name(), "values": fit.values, "rms": fit.rms });
         let parameters = family.parameters().iter().enumerate();
+        let results: Vec<(&str, f64)> =
+            fit.estimates.iter().map(|one| (one.key, self.scale_of(one))).collect();
         json!({
             "case": case,
             "data": self.data.name,
@@ -30,6 +32,7 @@ impl LawFit<'_> {
             "weighted": problem.has_uncertainties(),
             "confidence": self.confidence,
             "parameters": parameters.map(|(k, one)| self.parameter(k, one)).collect::<Value>(),
+            "inputs": self.inputs.iter().map(|part| part.numbers(&results)).collect::<Value>(),
             "correlation": fit.correlation,
             "covariance": fit.covariance,
             "rms": fit.rms,
@@ -54,6 +57,7 @@ impl LawFit<'_> {
             "value": self.fit.values[index],
             "free": estimate.is_some(),
             "standard_error": estimate.and_then(|estimate| estimate.standard_error),
+            "standard_error_of_data": estimate.and_then(|estimate| estimate.error_of_data),
             "interval": estimate.and_then(|estimate| estimate.interval),
             "at_bound": estimate.is_some_and(|estimate| estimate.is_at_bound),
             "profile_interval": profile.and_then(|profile| profile.interval),

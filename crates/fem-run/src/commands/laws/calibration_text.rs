@@ -1,16 +1,21 @@
 //! The text of a calibration.
 
 use fem::calibrate::{Calibration, CalibrationModel};
+use fem::fit::InputPart;
 use fem::fit::spectrum::Range;
 use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
 
-use super::fit_text::weighted_down;
+use super::fit_text::{relative, weighted_down};
 use crate::text::tables::{headed, show_value};
+
+/// Smaller relative changes are rounding.
+const ROUNDING: f64 = 1e-9;
 
 pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     let mut text = heading(found);
     text += &weights(found);
+    text += &inputs(found);
     text += "\n";
     text += &combinations(found);
     text += "\n";
@@ -58,7 +63,7 @@ fn heading(found: &Calibration) -> String {
         ActsOn::All => "all moduli",
         ActsOn::Shear => "the shear modulus",
     };
-    let total = &found.fit.moments[0];
+    let [total, ..] = found.moments();
     let mut text = format!(
         "{} (between {} and {}) of {moduli} of {} relaxes; rms error of the restitution {}\n\n",
         number(total.value, 3),
@@ -102,11 +107,11 @@ fn weights(found: &Calibration) -> String {
             format!("g{}", k + 1),
             show(found.times[k], "s"),
             plain(fit.weights[k]),
-            span(&fit.weight_ranges[k], &plain),
+            span(&found.weight_range(k), &plain),
             format!("{:.0} %", 100.0 * fit.resolution.shares[k]),
         ]
     });
-    let [total, rate, time] = &fit.moments;
+    let [total, rate, time] = &found.moments();
     let rates = |value: f64| show_value(value, "1/s");
     let times = |value: f64| show(value, "s");
     let moment = |name: &str, range: &Range, shown: &dyn Fn(f64) -> String| {
@@ -118,6 +123,33 @@ fn weights(found: &Calibration) -> String {
         moment("Σ g τ", time, &times),
     ];
     headed(&header, terms.chain(moments))
+}
+
+/// Returns the ranges of the moments by the data alone and the standard errors by uncertain inputs; nothing without these.
+fn inputs(found: &Calibration) -> String {
+    if found.inputs.is_empty() {
+        return String::new();
+    }
+    let moments = &found.fit.moments;
+    let shown: [&dyn Fn(f64) -> String; 3] =
+        [&|value| format!("{value:.4}"), &|value| show_value(value, "1/s"), &|value| {
+            show(value, "s")
+        }];
+    let row = |label: String, cell: &dyn Fn(usize) -> String| [label, cell(0), cell(1), cell(2)];
+    let of_data =
+        |i: usize| format!("{} to {}", shown[i](moments[i].low), shown[i](moments[i].high));
+    let data = row("range by the data alone".to_string(), &of_data);
+    let n = found.times.len();
+    let of_input = |part: &InputPart| {
+        let change = |i: usize| match part.changes[n + i].abs() {
+            change if change <= ROUNDING * moments[i].value => "0".to_string(),
+            change if change.is_finite() => format!("± {}", shown[i](change)),
+            _ => "no fit".to_string(),
+        };
+        row(format!("by {}", relative(&part.input)), &change)
+    };
+    let rows = std::iter::once(data).chain(found.inputs.iter().map(of_input));
+    format!("\n{}", headed("uncertain inputs|>Σ g|>Σ g/τ|>Σ g τ", rows))
 }
 
 fn combinations(found: &Calibration) -> String {

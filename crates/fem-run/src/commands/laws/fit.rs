@@ -132,7 +132,7 @@ fn fitted<T>(
     let law = arguments.values.choose(case, family)?;
     let problem = problem(arguments, &law, &data, &free)?;
     let profiled = profiled(arguments, &problem)?.copied();
-    let mut fitted = LawFit::of(&data, problem, arguments.confidence)?;
+    let mut fitted = LawFit::of(&data, problem, arguments.confidence)?.with_inputs(case, &law);
     if let Some(free) = &profiled {
         fitted = fitted.with_profile(free)?;
     }

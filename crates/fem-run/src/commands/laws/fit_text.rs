@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use fem::fit::{Estimate, Profile, Robustness};
+use fem::fit::{Estimate, InputPart, Profile, Robustness};
 use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
 use fem::measured::Restitutions;
+use fem_case::UncertainInput;
 use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::End;
 use fem_laws::LawFamily;
@@ -80,6 +81,19 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     });
     text += &headed(&header, rows);
     text += "\n";
+    for (j, estimate) in fit.estimates.iter().enumerate().filter(|_| !fitted.inputs.is_empty()) {
+        let unit = model.family().parameters()[estimate.index].unit;
+        let shown = |value: f64| show_value(fitted.scale_of(estimate) * value, unit);
+        let data = estimate.error_of_data.map_or("?".to_string(), |it| show_value(it, unit));
+        let part = |part: &InputPart| match part.changes[j].abs() {
+            change if change.is_finite() => {
+                format!(", {} by {}", shown(change), relative(&part.input))
+            }
+            _ => format!(", no fit with {}", relative(&part.input)),
+        };
+        let parts: String = fitted.inputs.iter().map(part).collect();
+        text += &format!("standard error of {}: {data} by the data{parts}\n", estimate.key);
+    }
     for i in 0..fit.estimates.len() {
         for j in 0..i {
             let (first, second) = (fit.estimates[j].key, fit.estimates[i].key);
@@ -112,6 +126,12 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         text += &format!("{name}: rms error {:.4}{unit} with {}\n", fit.rms, values.join(", "));
     }
     text
+}
+
+/// Returns an input with its relative uncertainty, `body.1.plate.thickness ± 2 %`.
+pub fn relative(input: &UncertainInput) -> String {
+    let UncertainInput { key, value, uncertainty } = input;
+    format!("{key} ± {} %", number(100.0 * uncertainty / value.abs(), 2))
 }
 
 /// Returns the points that a robust fit weights down.

@@ -1,5 +1,7 @@
 //! `fem-run calibrate` on the command line.
 
+use serde_json::Value;
+
 use super::rejects_data;
 use crate::common::{CASE, Place, set};
 
@@ -12,7 +14,7 @@ const GLASS: &str = include_str!("../../../../../cases/glass_0.5ms.toml");
 /// One element size for all speeds, for the data and for the fit.
 const MESH: &str = "--set 'mesh={contact_element_size=4e-5, refined_radius=4e-4}'";
 
-fn number(value: &serde_json::Value) -> f64 {
+fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
@@ -290,11 +292,8 @@ fn calibrate_rejects_data_and_meshes_that_do_not_fit() {
     }
 }
 
-/// The loss of a ball on a plate is that of its material if the case has the plate, and far from it if the case has a
-/// half-space.
-#[test]
-fn calibrations_and_fits_take_the_plate_with_them() {
-    const RIG: &str = r#"
+/// A polymer ball on a steel plate.
+const RIG: &str = r#"
 [material.polymer]
 density = "1200 kg/m^3"
 youngs_modulus = "3 GPa"
@@ -318,6 +317,11 @@ approach_speed = "1 m/s"
 [model]
 ting = { finite_size = true }
 "#;
+
+/// The loss of a ball on a plate is that of its material if the case has the plate, and far from it if the case has a
+/// half-space.
+#[test]
+fn calibrations_and_fits_take_the_plate_with_them() {
     let place = Place::with(RIG);
     let speeds = "case = \"case.toml\"\n[vary]\n\"body.1.approach_speed\" = [0.1, 0.3, 1.0]\n";
     place.write("sweep.toml", speeds);
@@ -345,4 +349,67 @@ ting = { finite_size = true }
     place.fails(2, (calibrate, "--model ting", bonded)).tells("bonded below");
     let small = set(&["body.0.plate.diameter='2 cm'"]);
     place.fails(1, (calibrate, "--model ting", small)).tells("diameter of the plate");
+}
+
+/// Uncertain sizes and moduli of the rig are in the bars of a calibration and of a fit, part by part: half of the difference of
+/// the answers with either end. Data of a plate at the end of its tolerance are beyond the bar of the data alone, and
+/// inside the whole one.
+#[test]
+fn bars_have_the_uncertain_inputs_of_the_rig() {
+    let place = Place::with(RIG);
+    let speeds = "case = \"case.toml\"\n[vary]\n\"body.1.approach_speed\" = [0.1, 0.15, 0.3, 0.5, 0.8, 1.0]\n";
+    place.write("sweep.toml", speeds);
+    place.succeed((
+        "sweep sweep.toml --out drops --quiet",
+        set(&["body.0.plate.thickness='4.6 mm'"]),
+    ));
+    let calibrate = "calibrate case.toml --material polymer --data drops/sweep.csv --model ting --terms 1 \
+                     --times '100 us..100 us' --regularisation 0";
+    let fit = "fit case.toml --data drops/sweep.csv --law kuwabara_kono";
+    let numbers = |name: &str, values: &[&str]| -> (Value, Value) {
+        place.succeed((calibrate, "--out", &format!("{name}_c"), set(values)));
+        place.succeed((fit, "--out", &format!("{name}_f"), set(values)));
+        (
+            place.json(&format!("{name}_c/calibrate.json"))["terms"][0].clone(),
+            place.json(&format!("{name}_f/fit.json"))["parameters"][0].clone(),
+        )
+    };
+    let end = |name, end: &str| numbers(name, &[&format!("body.0.plate.thickness='{end}'")]);
+    let (thin, thick) = (end("thin", "4.6 mm"), end("thick", "5.4 mm"));
+    let rig = [
+        "body.0.plate.thickness='5.0 ± 0.4 mm'",
+        "body.1.sphere.diameter='10.0 ± 0.1 mm'",
+        "material.polymer.youngs_modulus='3.0 ± 0.1 GPa'",
+    ];
+    let (term, a) = numbers("rig", &rig);
+    let stored = place.json("rig_c/calibrate.json");
+    let parts = stored["inputs"].as_array().unwrap();
+    let keys: Vec<&str> = parts.iter().map(|part| part["key"].as_str().unwrap()).collect();
+    assert_eq!(keys.len(), 3, "{keys:?}");
+    let part = |stored: &Value, result: &str| {
+        let parts = stored["inputs"].as_array().unwrap();
+        let thickness = |part: &&Value| part["key"].as_str().unwrap().ends_with("thickness");
+        number(&parts.iter().find(thickness).unwrap()["changes"][result])
+    };
+    let half =
+        |thick: &Value, thin: &Value| 0.5 * (number(&thick["value"]) - number(&thin["value"]));
+    let half_weight = 0.5 * (number(&thick.0["weight"]) - number(&thin.0["weight"]));
+    assert!((part(&stored, "g1") / half_weight - 1.0).abs() < 1e-3, "{stored} {half_weight}");
+    let stored_fit = place.json("rig_f/fit.json");
+    // A change of ln A, not of A: second order of a tenth.
+    assert!((part(&stored_fit, "a") / half(&thick.1, &thin.1) - 1.0).abs() < 0.02, "{stored_fit}");
+
+    // Bars: the whole has the true weight, that of the data alone has not.
+    let within = |range: &Value| number(&range[0]) < 0.2 && 0.2 < number(&range[1]);
+    assert!(within(&term["range"]) && !within(&term["range_of_data"]), "{term}");
+    let squares = stored_fit["inputs"].as_array().unwrap().iter();
+    let squares: f64 = squares.map(|part| number(&part["changes"]["a"]).powi(2)).sum();
+    let whole = (squares + number(&a["standard_error_of_data"]).powi(2)).sqrt();
+    assert!((number(&a["standard_error"]) / whole - 1.0).abs() < 1e-9, "{a}");
+    let again = place.succeed((fit, "--out again", set(&rig)));
+    again.prints(
+        "by the data, |by body.0.plate.thickness ± 8 %|by material.polymer.youngs_modulus ± 3.3 %",
+    );
+    let again = place.succeed((calibrate, "--out again_c", set(&rig)));
+    again.prints("range by the data alone|by body.1.sphere.diameter ± 1 %");
 }

@@ -28,6 +28,7 @@ mod solve;
 mod speed_exponent;
 
 pub use ranges::Range;
+pub(crate) use ranges::moments;
 pub use repeats::PureError;
 pub use resolution::{Combination, Resolution};
 pub use speed_exponent::{SpeedExponent, SpeedPoint, speed_exponent};

@@ -25,9 +25,19 @@ pub struct Range {
 }
 
 /// Returns the coefficients of Σ w, Σ w/τ (1/s) and Σ w τ (s).
-pub(super) fn moments(times: &[f64]) -> [Vec<f64>; 3] {
+pub(crate) fn moments(times: &[f64]) -> [Vec<f64>; 3] {
     let of = |moment: fn(f64) -> f64| times.iter().map(|time| moment(*time)).collect();
     [of(|_| 1.0), of(f64::recip), of(|time| time)]
+}
+
+impl Range {
+    /// Returns this range with an error by other causes than the data added as squares, inside the limits of the value.
+    pub(crate) fn widened(&self, error: f64, (least, most): (f64, f64)) -> Self {
+        let reach = |end: f64| (end - self.value).hypot(error);
+        let low = (self.value - reach(self.low)).max(least.min(self.low));
+        let high = (self.value + reach(self.high)).min(most.max(self.high));
+        Self { low, high, ..*self }
+    }
 }
 
 type Evaluate<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;

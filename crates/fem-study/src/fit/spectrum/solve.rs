@@ -42,6 +42,20 @@ impl SpectrumProblem<'_> {
         }
         Solver::new(self).fit(confidence)
     }
+
+    /// Returns the best weights near those of a fit, with its weights of the data.
+    ///
+    /// # Errors
+    /// A collision cannot be computed.
+    pub(crate) fn refit(&self, fit: &SpectrumFit) -> Result<Vec<f64>, FitError> {
+        let mut solver = Solver::new(self);
+        if let Some(robustness) = &fit.robustness {
+            solver.data_weights.clone_from(&robustness.weights);
+        }
+        let weights = fit.weights.clone();
+        let start = State { restitutions: solver.evaluate(&weights)?, weights };
+        Ok(solver.minimise(start)?.0.weights)
+    }
 }
 
 struct Solver<'a> {
