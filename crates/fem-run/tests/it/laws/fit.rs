@@ -405,7 +405,9 @@ fn a_robust_fit_lists_its_outliers() {
     let calibrate = "calibrate case.toml --data e.csv --model ting --terms 1 --robust --out series";
     place.succeed(calibrate).prints(far);
     let series = place.json("series/calibrate.json");
-    assert!(series["curves"]["data"]["weight"][7].as_f64().unwrap() < 0.01);
+    let weight = series["curves"]["data"]["weight"][7].as_f64().unwrap();
+    // One term does not follow these data, so that their scatter is wider than that of the law.
+    assert!(weight < 0.05, "{weight}");
 }
 
 /// A pair in a table gets the same input as the pair alone; a pair without relaxation loses nothing.
