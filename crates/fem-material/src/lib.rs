@@ -31,5 +31,5 @@ pub use elastic::{ElasticModuli, ModuliInput};
 pub use error::MaterialError;
 pub use flow::{FlowPoint, FlowRule, Hardening, MAX_FLOW_ROWS, RateFactor};
 pub use material::Material;
-pub use prony::{ActsOn, PronySeries, PronyTerm, relaxation_at};
+pub use prony::{ActsOn, PronySeries, PronyTerm, maxwell_element, relaxation_at};
 pub use relaxation_step::RelaxationStep;

@@ -5,6 +5,14 @@
 //! \qquad G(t) = G_0\, g(t)
 //! ```
 //!
+//! Under a strain e^{iωt} the complex modulus is iω ∫ G(s) e^{−iωs} ds over s > 0, which is the sum of a spring and of
+//! Maxwell elements; its parts are the storage and the loss modulus
+//!
+//! ```math
+//! \frac{G'}{G_0} = g_\infty + \sum_k g_k \frac{\omega^2\tau_k^2}{1+\omega^2\tau_k^2},
+//! \qquad \frac{G''}{G_0} = \sum_k g_k \frac{\omega\tau_k}{1+\omega^2\tau_k^2}
+//! ```
+//!
 //! The weights g_k = G_k/G_0 refer to the instantaneous modulus. Non-negative weights and
 //! positive times make g completely monotonic, so no strain history gains energy.
 
@@ -108,6 +116,15 @@ impl PronySeries {
         relaxation_at(self.equilibrium_weight, &self.terms, time)
     }
 
+    /// Returns storage and loss modulus, both over G_0, at an angular frequency (rad/s), at least 0.
+    pub fn complex_modulus(&self, angular_frequency: f64) -> [f64; 2] {
+        self.terms.iter().fold([self.equilibrium_weight, 0.0], |[storage, loss], term| {
+            let [in_phase, out_of_phase] =
+                maxwell_element(angular_frequency * term.relaxation_time);
+            [storage + term.weight * in_phase, loss + term.weight * out_of_phase]
+        })
+    }
+
     /// Returns the equilibrium weight g∞, in 0 ..= 1.
     pub fn equilibrium_weight(&self) -> f64 {
         self.equilibrium_weight
@@ -135,4 +152,15 @@ pub fn relaxation_at(equilibrium_weight: f64, terms: &[PronyTerm], time: f64) ->
     let decaying: f64 =
         terms.iter().map(|term| term.weight * (-elapsed / term.relaxation_time).exp()).sum();
     equilibrium_weight + decaying
+}
+
+/// Returns storage and loss modulus of a Maxwell element over its modulus at x = ωτ: x²/(1 + x²) and x/(1 + x²).
+pub fn maxwell_element(x: f64) -> [f64; 2] {
+    // A quotient below 1 does not overflow.
+    if x > 1.0 {
+        let y = x.recip();
+        [(1.0 + y * y).recip(), y / (1.0 + y * y)]
+    } else {
+        [x * x / (1.0 + x * x), x / (1.0 + x * x)]
+    }
 }

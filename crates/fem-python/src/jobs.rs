@@ -77,6 +77,14 @@ pub fn measure(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<Str
     serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
 }
 
+/// Runs `fem-run relaxation`.
+#[pyfunction]
+pub fn relaxation(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
+    let (name, bytes) = data.unwrap_or_default();
+    let numbers = py.detach(|| fem_command::relaxation(&name, &bytes, &options)).or_raise(py)?;
+    serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
+}
+
 /// Returns the options of the jobs as JSON.
 #[pyfunction]
 pub fn options() -> String {

@@ -25,7 +25,7 @@ mod _native {
     #[pymodule_export]
     use crate::jobs::{
         calibrate, cradle, export, fit, invert, material_toml, materials, measure, options,
-        run_command,
+        relaxation, run_command,
     };
     #[pymodule_export]
     use crate::outcome::Outcome;

@@ -13,7 +13,7 @@ from fem_run._words import in_python
 
 from conftest import ROOT
 
-FUNCTIONS = {name: getattr(fem_run, name) for name in ("calibrate", "cradle", "export", "fit", "invert", "measure")}
+FUNCTIONS = {name: getattr(fem_run, name) for name in ("calibrate", "cradle", "export", "fit", "invert", "measure", "relaxation")}
 #: Options about the command's files and screen, and those of its case.
 OF_THE_COMMAND = {"at", "data", "force", "out", "quiet", "set"}
 #: Sources whose messages only the command prints.
@@ -82,8 +82,8 @@ def test_arguments_are_the_options_of_the_command(name):
     hints = get_type_hints(function)
     declared = set(inspect.signature(function).parameters) - {"case", "data"}
     assert declared == {_words._name(option) for option in options} - {"folder", *OF_THE_COMMAND}
-    # The record is the argument of `measure`.
-    assert ("data" in inspect.signature(function).parameters) == ("data" in options or name == "measure")
+    # The data are an argument of these commands.
+    assert ("data" in inspect.signature(function).parameters) == ("data" in options or name in ("measure", "relaxation"))
     for option, found in options.items():
         if option in OF_THE_COMMAND:
             continue

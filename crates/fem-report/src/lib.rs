@@ -6,11 +6,12 @@
 //! sweep's members ─ sweep ─────────┤
 //! fits, exports ── law_figures ────┤
 //! records ──────── record_figures ─┤
+//! moduli ───────── relaxation_figure
 //! accuracy study ─ accuracy ───────┘
 //! ```
 //!
 //! [`report`] makes the report page of one run and the comparison of several, [`sweep`] the figure of a sweep, [`answer`] the cells of its table,
-//! [`law_figures`] those of fits, calibrations and exports, [`record_figures`] those of measured records, [`accuracy`] the page, table and figure of an accuracy
+//! [`law_figures`] those of fits, calibrations and exports, [`record_figures`] those of measured records, [`relaxation_figure`] that of a Prony series from moduli, [`accuracy`] the page, table and figure of an accuracy
 //! study. [`section_view`] draws the axial stress in both
 //! bodies, for the report page, for a failed run and for the page in the browser. Nothing is computed
 //! here but Hertz' curves.
@@ -23,6 +24,8 @@ pub mod number_text;
 pub mod quantity_axis;
 #[cfg(feature = "files")]
 pub mod record_figures;
+#[cfg(feature = "files")]
+pub mod relaxation_figure;
 #[cfg(feature = "files")]
 pub mod report;
 pub mod section_view;

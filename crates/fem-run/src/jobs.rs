@@ -50,7 +50,7 @@ fn parsed<A: Args>(job: &'static str, before: &[&str], options: &[String]) -> Re
 /// the values that it may have, or `null` if they cannot be listed.
 pub fn options() -> Value {
     use commands::laws::{calibrate, cradle, export, fit, invert};
-    use commands::measure;
+    use commands::{measure, relaxation};
     json!({
         "calibrate": options_of::<calibrate::Arguments>(),
         "cradle": options_of::<cradle::Arguments>(),
@@ -58,6 +58,7 @@ pub fn options() -> Value {
         "fit": options_of::<fit::Arguments>(),
         "invert": options_of::<invert::Arguments>(),
         "measure": options_of::<measure::Arguments>(),
+        "relaxation": options_of::<relaxation::Arguments>(),
     })
 }
 
@@ -150,6 +151,15 @@ pub fn cradle(input: &JobInput, options: &[String]) -> Result<Value, Failure> {
 /// Options or a record that the command rejects, with its messages.
 pub fn measure(name: &str, bytes: &[u8], options: &[String]) -> Result<Value, Failure> {
     commands::measure::numbers(&parsed("measure", &[name], options)?, bytes)
+}
+
+/// Runs `fem-run relaxation` on the bytes of a table of moduli; messages refer to it by `name`. The key `svg` is the picture,
+/// `relaxation_toml` and `material_toml` are the tables to paste into a case.
+///
+/// # Errors
+/// Options or a table that the command rejects, with its messages.
+pub fn relaxation(name: &str, bytes: &[u8], options: &[String]) -> Result<Value, Failure> {
+    commands::relaxation::numbers(&parsed("relaxation", &[name], options)?, bytes)
 }
 
 /// Runs `fem-run check --resolved` and returns the resolved case with comments on the expected run.

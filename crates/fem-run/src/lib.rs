@@ -31,7 +31,8 @@ use std::ffi::OsString;
 use std::time::Instant;
 
 pub use jobs::{
-    JobInput, calibrate, check, cradle, export, fit, invert, material, measure, options, stopped,
+    JobInput, calibrate, check, cradle, export, fit, invert, material, measure, options,
+    relaxation, stopped,
 };
 pub use progress::stopwatch::{Stopwatch, Timed};
 pub use result_folder::run_files::save;

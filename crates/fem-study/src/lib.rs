@@ -8,6 +8,7 @@
 //! fit        least squares over contact laws, Prony series, DEM codes, Newton's cradle
 //! laws       contact laws by their parameters: fitted, inverted, exported
 //! calibrate  relaxation of a material from restitutions
+//! relaxation relaxation of a material from moduli over frequency or time
 //! accuracy   a scene computed in many ways: error against time
 //! ```
 
@@ -18,4 +19,6 @@ pub mod laws;
 pub mod measured;
 #[cfg(feature = "csv")]
 pub mod records;
+#[cfg(feature = "csv")]
+pub mod relaxation;
 pub mod sweep;

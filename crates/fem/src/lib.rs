@@ -24,10 +24,10 @@ pub use fem_simulation::{
     effects, error, method_of, model_of, restart_state_of, results, stop_advice, ting_impact,
     tolerance_of,
 };
-#[cfg(feature = "csv")]
-pub use fem_study::records;
 pub use fem_study::sweep::sweep;
 pub use fem_study::{accuracy, calibrate, fit, laws, measured, sweep};
+#[cfg(feature = "csv")]
+pub use fem_study::{records, relaxation};
 
 pub use fem_case::{
     Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, library, schema,

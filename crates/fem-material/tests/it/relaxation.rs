@@ -250,3 +250,40 @@ fn impossible_density_is_refused() {
         ));
     }
 }
+
+/// The complex modulus of one term, its limits, and its Fourier integral.
+#[test]
+fn complex_moduli_are_the_transform_of_the_relaxation() {
+    let one = series(&[(0.6, 0.01)], ActsOn::All).unwrap();
+    let [storage, loss] = one.complex_modulus(100.0);
+    assert!((storage - 0.7).abs() < 1e-15 && (loss - 0.3).abs() < 1e-15);
+    assert_eq!(one.complex_modulus(0.0), [0.4, 0.0]);
+    for frequency in [1e200, f64::INFINITY] {
+        let [storage, loss] = one.complex_modulus(frequency);
+        assert!((storage - 1.0).abs() < 1e-15 && loss < 1e-150);
+    }
+    // iω ∫ (g − g∞) e^{−iωs} ds + g∞, by Simpson's rule in ln s from where g changes by 1e-9 to where it is 1e-15.
+    let prony = three_terms();
+    for exponent in -4..=0 {
+        let frequency = 10f64.powi(exponent);
+        let (from, to, n) = (1e-14f64.ln(), 1100f64.ln(), 400_000);
+        let step = (to - from) / f64::from(n);
+        let mut sum = [prony.equilibrium_weight(), 0.0];
+        for k in 0..=n {
+            let time = (from + step * f64::from(k)).exp();
+            let weight = match k {
+                0 => 1.0,
+                _ if k == n => 1.0,
+                _ if k % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            let decaying = prony.relaxation(time) - prony.equilibrium_weight();
+            let part = weight * step / 3.0 * frequency * time * decaying;
+            let (sin, cos) = (frequency * time).sin_cos();
+            sum = [sum[0] + part * sin, sum[1] + part * cos];
+        }
+        let exact = prony.complex_modulus(frequency);
+        assert!((sum[0] - exact[0]).abs() < 1e-6, "{frequency}: {sum:?} {exact:?}");
+        assert!((sum[1] - exact[1]).abs() < 1e-6, "{frequency}: {sum:?} {exact:?}");
+    }
+}

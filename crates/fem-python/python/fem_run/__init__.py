@@ -14,7 +14,7 @@ message of the command.
 
 from ._case import Case
 from ._errors import Error, InputError, Interrupted, RunError
-from ._laws import calibrate, check, cradle, export, fit, invert, measure
+from ._laws import calibrate, check, cradle, export, fit, invert, measure, relaxation
 from ._materials import materials
 from ._result import Result, Snapshot
 from ._sweep import Table, sweep
@@ -46,5 +46,6 @@ __all__ = [
     "invert",
     "materials",
     "measure",
+    "relaxation",
     "sweep",
 ]

@@ -499,3 +499,43 @@ def _column(name: str, values: Any) -> np.ndarray[Any, Any]:
         found = f"an array of shape {shape}" if shape is not None else shown(values)
         raise bad_input(f"<data>: {name} is {found}", "a column is a list or an array of shape (n,)")
     return _array(list(values))
+
+
+class Relaxation(dict[str, Any]):
+    """The keys of ``relaxation.json``, SI; ``svg``, the picture; ``relaxation_toml`` and ``material_toml``, the tables of a case."""
+
+    def __repr__(self) -> str:
+        return f"<fem_run.Relaxation of {self['data']}: {len(self['terms'])} terms, rms {100 * self['rms']:.2g} %>"
+
+    def _repr_html_(self) -> str:
+        return f"{self['svg']}{_listed(self['warnings'])}"
+
+
+def relaxation(
+    data: Any,
+    *,
+    modulus: Literal["young", "shear"] | None = None,
+    bulk_modulus: Quantity | None = None,
+    terms_per_decade: Quantity | None = None,
+    density: Quantity | None = None,
+    poissons_ratio: Quantity | None = None,
+    columns: Columns | None = None,
+) -> Relaxation:
+    """Turns moduli over frequency or time into the Prony series of a material: ``relaxation("dma.csv")``.
+
+    Args:
+        data: frequency with storage and loss modulus or tan delta, or time with the modulus of a relaxation test.
+        modulus: the modulus that was measured; by default the columns decide.
+        bulk_modulus: elastic bulk modulus, so that only the shear modulus relaxes; by default Poisson's ratio is constant.
+        terms_per_decade: number of terms per decade of time; by default the data decide.
+        density: density of the material, for its table.
+        poissons_ratio: Poisson's ratio of the material, for its table.
+        columns: names of the columns by their meaning: ``{"storage_modulus": "E1"}``.
+
+    Returns:
+        The keys of ``relaxation.json``, the picture, and the tables to paste into a case.
+
+    Raises:
+        InputError: the options are invalid, or the data determine no relaxation.
+    """
+    return Relaxation(_found(_native.relaxation(_data({} if data is None else data), _words(locals()))))

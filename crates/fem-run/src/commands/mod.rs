@@ -7,6 +7,7 @@ pub mod materials;
 pub mod measure;
 pub mod mesh;
 pub mod new;
+pub mod relaxation;
 pub mod report;
 pub mod run;
 pub mod schema;
@@ -36,6 +37,7 @@ pub enum Command {
     Export(export::Arguments),
     Cradle(cradle::Arguments),
     Measure(measure::Arguments),
+    Relaxation(relaxation::Arguments),
     Schema(schema::Arguments),
     Report(report::ReportArguments),
     Plot(report::PlotArguments),
@@ -60,6 +62,7 @@ impl Command {
             Self::Export(arguments) => export::execute(&arguments),
             Self::Cradle(arguments) => cradle::execute(&arguments),
             Self::Measure(arguments) => measure::execute(&arguments),
+            Self::Relaxation(arguments) => relaxation::execute(&arguments),
             Self::Schema(arguments) => schema::execute(&arguments),
             Self::Report(arguments) => report::report(&arguments),
             Self::Plot(arguments) => report::plot(&arguments),

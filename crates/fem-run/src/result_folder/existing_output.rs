@@ -12,13 +12,14 @@ use fem::{CheckpointHead, checkpoint_head};
 use fem_report::report::REPORT_FILE;
 
 /// Files that identify a result folder: a run writes summary.json, the command of the same name each other file.
-const IDENTIFYING_FILES: [&str; 7] = [
+const IDENTIFYING_FILES: [&str; 8] = [
     SUMMARY_FILE,
     "fit.json",
     "calibrate.json",
     "export.json",
     "cradle.json",
     "measure.json",
+    "relaxation.json",
     "accuracy.json",
 ];
 /// The restart file in a result folder.

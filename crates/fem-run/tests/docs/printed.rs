@@ -217,8 +217,14 @@ fn pages_with_output_are_checked() {
         blocks.iter().any(is_command) && blocks.iter().any(|block| block.language == "text")
     };
     let pages: Vec<String> = Page::all().into_iter().filter(shows).map(|page| page.path).collect();
-    let expected =
-        ["README.md", "docs/calibrate.md", "docs/cradle.md", "docs/fits.md", "docs/measure.md"];
+    let expected = [
+        "README.md",
+        "docs/calibrate.md",
+        "docs/cradle.md",
+        "docs/dma.md",
+        "docs/fits.md",
+        "docs/measure.md",
+    ];
     assert_eq!(pages, expected);
 }
 
@@ -227,6 +233,7 @@ fn quick_output_on_pages_equals_printed_output() {
     check("docs/fits.md", Pace::Quick, Digits::All);
     check("docs/cradle.md", Pace::Quick, Digits::All);
     check("docs/measure.md", Pace::Quick, Digits::All);
+    check("docs/dma.md", Pace::Quick, Digits::All);
     check("docs/calibrate.md", Pace::Quick, Digits::ButLast);
 }
 

@@ -20,7 +20,7 @@ mod maxwell;
 mod pair_model;
 mod settings;
 mod speed_span;
-mod stored_calibration;
+pub(crate) mod stored_calibration;
 mod target;
 mod warnings;
 

@@ -19,7 +19,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 23] = [
+const ENDINGS: [UnitSuffix; 34] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_um_s", 1e-6, [1, 0, -1]),
@@ -28,12 +28,17 @@ const ENDINGS: [UnitSuffix; 23] = [
     ending("_in_s", 0.0254, [1, 0, -1]),
     ending("_mph", 0.44704, [1, 0, -1]),
     ending("_m_s", 1.0, [1, 0, -1]),
+    ending("_hz", 1.0, [0, 0, -1]),
+    // A rate of phase counts in cycles per second, like a frequency.
+    ending("_rad_s", 0.5 / PI, [0, 0, -1]),
+    ending("_per_s", 1.0, [0, 0, -1]),
     ending("_us", 1e-6, [0, 0, 1]),
     ending("_ms", 1e-3, [0, 0, 1]),
     ending("_ns", 1e-9, [0, 0, 1]),
     ending("_s", 1.0, [0, 0, 1]),
     ending("_deg", PI / 180.0, [0; 3]),
     ending("_mrad", 1e-3, [0; 3]),
+    ending("_khz", 1e3, [0, 0, -1]),
     ending("_rad", 1.0, [0; 3]),
     ending("_percent", 1e-2, [0; 3]),
     ending("_mm", 1e-3, [1, 0, 0]),
@@ -43,7 +48,44 @@ const ENDINGS: [UnitSuffix; 23] = [
     ending("_kn", 1e3, [1, 1, -2]),
     ending("_mn", 1e-3, [1, 1, -2]),
     ending("_n", 1.0, [1, 1, -2]),
+    ending("_pa", 1.0, PRESSURE),
+    ending("_kpa", 1e3, PRESSURE),
+    ending("_mpa", 1e6, PRESSURE),
+    ending("_gpa", 1e9, PRESSURE),
+    // Scales of temperature have an offset, which their reader adds.
+    ending("_degc", 1.0, [0; 3]),
+    ending("_degf", 1.0, [0; 3]),
+    ending("_kelvin", 1.0, [0; 3]),
 ];
+
+/// Exponents of a pressure.
+pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
+
+/// Names of units that the units of a case do not have, with their endings.
+const OTHER_UNITS: [(&str, &str); 17] = [
+    ("rad/s", "_rad_s"),
+    ("rad s^-1", "_rad_s"),
+    ("rad·s⁻¹", "_rad_s"),
+    ("1/s", "_per_s"),
+    ("s^-1", "_per_s"),
+    ("s⁻¹", "_per_s"),
+    ("deg", "_deg"),
+    ("°", "_deg"),
+    ("rad", "_rad"),
+    ("C", "_degc"),
+    ("°C", "_degc"),
+    ("º C", "_degc"),
+    ("ºC", "_degc"),
+    ("degC", "_degc"),
+    ("K", "_kelvin"),
+    ("°F", "_degf"),
+    ("degF", "_degf"),
+];
+
+/// Returns the ending of a unit of an angle, a rate of phase or a temperature.
+pub(super) fn other_ending(unit: &str) -> Option<&'static str> {
+    OTHER_UNITS.iter().find(|(name, _)| *name == unit).map(|(_, ending)| *ending)
+}
 
 /// Returns the unit in which a column's name ends.
 pub(super) fn ending_of(header: &str) -> Option<UnitSuffix> {
@@ -152,10 +194,76 @@ const ANGLES: [&str; 4] = ["alpha", "beta", "alpha_uncertainty", "beta_uncertain
 const RECORDS: [&str; 6] =
     ["time", "time_uncertainty", "height", "height_uncertainty", "force", "signal"];
 
+/// Names of a column of frequencies.
+pub(super) const FREQUENCIES: [&str; 5] = ["frequency", "f", "freq", "freq.", "ν"];
+/// Names of a column of angular frequencies, which are in rad/s without a unit.
+pub(super) const ANGULAR_FREQUENCIES: [&str; 7] =
+    ["angular_frequency", "omega", "ω", "w", "angular_freq", "ang._freq.", "ang._frequency"];
+/// Names of a column of times after the step of a relaxation test.
+pub(super) const TIMES: [&str; 3] = ["time", "t", "step_time"];
+/// Names of a column of temperatures, in °C without a unit.
+pub(super) const TEMPERATURES: [&str; 6] = ["temperature", "temp", "temp.", "t", "θ", "t_mean"];
+/// Names of temperatures that end in a unit of one letter, with the ending that it stands for.
+pub(super) const SHORT_TEMPERATURES: [(&str, &str); 9] = [
+    ("temperature_c", "_degc"),
+    ("temp_c", "_degc"),
+    ("t_c", "_degc"),
+    ("temperature_k", "_kelvin"),
+    ("temp_k", "_kelvin"),
+    ("t_k", "_kelvin"),
+    ("temperature_f", "_degf"),
+    ("temp_f", "_degf"),
+    ("t_f", "_degf"),
+];
+/// Names of moduli that may be of Young or of shear.
+pub(super) const STORAGE_MODULI: [&str; 4] =
+    ["storage_modulus", "storage", "stor._modulus", "storage_mod."];
+pub(super) const LOSS_MODULI: [&str; 3] = ["loss_modulus", "loss", "loss_mod."];
+pub(super) const COMPLEX_MODULI: [&str; 4] =
+    ["complex_modulus", "dynamic_modulus", "absolute_modulus", "modulus"];
+pub(super) const RELAXATION_MODULI: [&str; 4] =
+    ["relaxation_modulus", "modulus", "relaxation", "relax._modulus"];
+/// Ends of the names of moduli after `e` or `g`: `e'`, `g_stor`.
+pub(super) const STORAGE_ENDS: [&str; 8] = ["'", "′", "’", "_stor", "_storage", "_prime", "1", "`"];
+pub(super) const LOSS_ENDS: [&str; 10] =
+    ["''", "″", "\"", "′′", "’’", "”", "_loss", "_double_prime", "2", "``"];
+pub(super) const COMPLEX_ENDS: [&str; 5] = ["*", "_star", "_complex", "_comp", "_abs"];
+pub(super) const RELAXATION_ENDS: [&str; 3] = ["", "(t)", "_relax"];
+/// Names of a column of loss factors.
+pub(super) const LOSS_FACTORS: [&str; 10] = [
+    "tan_delta",
+    "tan_δ",
+    "tanδ",
+    "tandelta",
+    "tan(delta)",
+    "tan(δ)",
+    "tand",
+    "tan_del",
+    "loss_factor",
+    "damping_factor",
+];
+/// Names of a column of phase angles.
+pub(super) const PHASES: [&str; 6] =
+    ["phase", "phase_angle", "delta", "δ", "loss_angle", "phase_lag"];
+/// Names of columns of moduli as `--columns` writes them.
+const MODULI: [&str; 11] = [
+    "frequency",
+    "angular_frequency",
+    "temperature",
+    "storage_modulus",
+    "loss_modulus",
+    "complex_modulus",
+    "relaxation_modulus",
+    "tan_delta",
+    "phase",
+    "e",
+    "g",
+];
+
 /// Returns all names that a column may have, without units; among synonyms the preferred name comes first.
 pub(super) fn column_names() -> Vec<&'static str> {
     let diameters = DIAMETERS.map(|[name, _]| name);
-    let all: [&[&str]; 8] = [
+    let all: [&[&str]; 9] = [
         &SPEEDS,
         &RESTITUTIONS,
         &["restitution_uncertainty"],
@@ -164,6 +272,7 @@ pub(super) fn column_names() -> Vec<&'static str> {
         &diameters,
         &ANGLES,
         &RECORDS,
+        &MODULI,
     ];
     all.concat()
 }

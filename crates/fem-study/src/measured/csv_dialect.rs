@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use fem_case::parse_quantity;
 
-use super::column_roles::{SIGNS, bare, ending_like, ending_of, uncertainty_of};
+use super::column_roles::{SIGNS, bare, ending_like, ending_of, other_ending, uncertainty_of};
 
 /// Returns the text of a file: UTF-16, recognised by its byte order mark or its zeros, UTF-8, or else Latin-1.
 pub fn decode(bytes: &[u8]) -> String {
@@ -122,6 +122,9 @@ pub(super) fn is_unit(cell: &str) -> bool {
 
 /// Returns the ending of a name that stands for a unit.
 fn ending_of_unit(unit: &str) -> Option<&'static str> {
+    if let Some(ending) = other_ending(unit) {
+        return Some(ending);
+    }
     let (scale, dimension) = parse_quantity(&format!("1 {unit}")).ok()?;
     ending_like(scale, dimension.0).map(|ending| ending.text)
 }

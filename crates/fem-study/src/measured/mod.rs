@@ -6,6 +6,7 @@
 //!             │
 //!             └─ column_roles ─ table ─┬────── restitution_table
 //!                speed_cm_s     CSV    ├────── cradle_trials
+//!                                      ├────── moduli: storage and loss over frequency
 //!                                      └────── number_columns: long records
 //! ```
 //!
@@ -20,6 +21,8 @@ mod csv_dialect;
 mod data_error;
 #[cfg(feature = "csv")]
 mod library_data;
+#[cfg(feature = "csv")]
+mod moduli;
 #[cfg(feature = "csv")]
 mod number_columns;
 mod pairs;
@@ -39,6 +42,8 @@ pub use csv_dialect::decode;
 pub use data_error::DataError;
 #[cfg(feature = "csv")]
 pub use library_data::{is_of_library, library_table};
+#[cfg(feature = "csv")]
+pub use moduli::{Modulus, ModulusPoint, ModulusTable, TestKind};
 #[cfg(feature = "csv")]
 pub use number_columns::{NumberColumn, NumberColumns};
 pub use pairs::{MeasuredPair, MeasuredPairs};

@@ -64,7 +64,7 @@ fn is_number(cell: &str) -> bool {
 }
 
 /// Returns the text with the lines above the header made comments, so that all lines keep their numbers.
-fn without_preamble(text: &str) -> Cow<'_, str> {
+pub(super) fn without_preamble(text: &str) -> Cow<'_, str> {
     let lines: Vec<&str> = text.lines().take(SEARCHED).collect();
     let is_row = |line: &str| {
         let mut cells = Separator::of(line).cells(line).filter(|cell| !cell.is_empty()).peekable();
@@ -88,7 +88,8 @@ fn without_preamble(text: &str) -> Cow<'_, str> {
             && !is_row(lines[*k])
     };
     let Some(last) = first.checked_sub(1).filter(is_header) else { return text.into() };
-    let is_units = separator.cells(lines[last]).all(|cell| cell.is_empty() || is_unit(cell));
+    let is_units = separator.cells(lines[last]).any(is_unit)
+        && separator.cells(lines[last]).all(|cell| is_missing(cell) || is_unit(cell));
     let above = last.checked_sub(1).filter(|above| is_units && is_header(above));
     let header = above.unwrap_or(last);
     let is_comment = |line: &&str| line.starts_with('#') || line.trim().is_empty();

@@ -22,6 +22,8 @@ pub enum Kind {
     Speed,
     /// A density, kg/m³.
     Density,
+    /// A modulus of elasticity, Pa.
+    Modulus,
 }
 
 /// The reason why a text is no measured quantity.
@@ -53,6 +55,7 @@ impl Kind {
             Self::Time => [0, 0, 1, 0],
             Self::Speed => [1, 0, -1, 0],
             Self::Density => [-3, 1, 0, 0],
+            Self::Modulus => [-1, 1, -2, 0],
         }
     }
 
@@ -64,6 +67,7 @@ impl Kind {
             Self::Time => "a time, such as '50 us' or '50 us ± 5 us'",
             Self::Speed => "a speed, such as '2 m/s' or '2 m/s ± 1 cm/s'",
             Self::Density => "a density, such as '7800 kg/m^3'",
+            Self::Modulus => "a modulus, such as '5 GPa'",
             Self::Angle => "an angle, such as '20 deg', '20 ± 0.5 deg' or '0.35 rad'",
         }
     }

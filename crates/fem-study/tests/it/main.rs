@@ -9,4 +9,5 @@ mod fits;
 mod inverse;
 mod measured;
 mod records;
+mod relaxation;
 mod spectrum;

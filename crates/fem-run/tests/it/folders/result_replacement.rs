@@ -105,6 +105,8 @@ fn every_command_keeps_results_of_other_inputs() {
     place.write("b_trials.csv", "alpha_deg,beta_deg\n30,27\n20,18\n");
     place.write("a_bounces.csv", "time_s\n0.4\n1.0\n1.54\n");
     place.write("b_bounces.csv", "time_s\n0.4\n1.1\n1.64\n");
+    place.write("a_moduli.csv", "f [Hz],E' [MPa],E'' [MPa]\n1,2000,100\n10,2200,90\n");
+    place.write("b_moduli.csv", "f [Hz],E' [MPa],E'' [MPa]\n1,1000,100\n10,1200,90\n");
     place.write("a.toml", "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = [0.1, 0.2]\n");
     place.write(
         "b.toml",
@@ -125,6 +127,7 @@ fn every_command_keeps_results_of_other_inputs() {
         ("calibrate case.toml --terms 1 --model ting --data", ["a.csv", "b.csv"]),
         ("cradle --diameters 2cm,2cm --length 1m --data", ["a_trials.csv", "b_trials.csv"]),
         ("measure", ["a_bounces.csv", "b_bounces.csv"]),
+        ("relaxation", ["a_moduli.csv", "b_moduli.csv"]),
         ("accuracy case.toml --budget 0.01", [ting, smaller]),
     ] {
         let run = |input: &str, more: &str| place.run(&format!("{command} {input} -q {more}"));

@@ -4,6 +4,7 @@ mod calibrate;
 mod dents;
 mod fit;
 mod measure;
+mod relaxation;
 
 use crate::common::Place;
 

@@ -12,10 +12,10 @@ const HEAVY: f64 = 1e3;
 /// Ridge over that norm that makes every set of columns independent.
 const MIN_RIDGE: f64 = 1e-8;
 
-/// Residuals a w − b of restitutions, linear in the weights.
+/// Residuals a w − b, linear in the weights.
 #[derive(Debug, Clone)]
-pub(super) struct Linear {
-    /// Matrix a: ∂e_i/∂w_k / ρ_i.
+pub(crate) struct Linear {
+    /// Matrix a, for restitutions ∂e_i/∂w_k / ρ_i.
     pub a: DMatrix<f64>,
     /// Right-hand side b of the linear problem.
     pub b: DVector<f64>,
@@ -70,7 +70,7 @@ impl Linear {
 }
 
 /// Returns the x ≥ 0 with the least |a x − b|.
-fn non_negative(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
+pub(crate) fn non_negative(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     let n = a.ncols();
     let tolerance: Vec<f64> =
         a.column_iter().map(|column| 1e-14 * column.norm() * b.norm()).collect();

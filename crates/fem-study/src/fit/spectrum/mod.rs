@@ -20,7 +20,7 @@
 //! Limits: the relaxation times are not searched. Intervals approximate the nonlinear collision by chords, and
 //! assume independent normal errors.
 
-mod bounded;
+pub(crate) mod bounded;
 mod ranges;
 mod repeats;
 mod resolution;

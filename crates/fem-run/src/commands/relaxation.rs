@@ -1,0 +1,158 @@
+//! `fem-run relaxation DATA`: a Prony series from moduli over frequency or time.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use fem::fit::cradle::Measured;
+use fem::measured::{Kind, Modulus, ModulusTable, NotMeasured, TestKind, decode, parse_measured};
+use fem::relaxation::{FoundRelaxation, RelaxationSettings};
+use fem_case::engineering::{Unit, show};
+use fem_report::relaxation_figure::relaxation_figure;
+use serde_json::Value;
+
+use crate::arguments::case::stem_of;
+use crate::arguments::data::{ColumnArguments, read_bytes};
+use crate::arguments::law::parse_share;
+use crate::result_folder::command_output::OutputArguments;
+use crate::text::{Failure, headed, show_measured, standard_output};
+
+/// Turn moduli over frequency or time into the relaxation of a material
+///
+/// The data are a CSV file of dynamic mechanical analysis, frequency with storage and loss modulus or tan delta, or of a relaxation
+/// test, time with modulus. Writes NAME.relaxation.toml (the table relaxation of a material), relaxation.json, relaxation.csv and
+/// relaxation.svg, and prints the Prony series with the glassy and the rubbery modulus.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// The data: a CSV file with the columns frequency, E' and E'' (G' and G'' of shear; or tan_delta), or time and E(t)
+    #[arg(value_name = "DATA")]
+    file: PathBuf,
+    /// The modulus that was measured [default: by the columns]
+    #[arg(long, value_name = "MODULUS", value_parser = moduli())]
+    modulus: Option<Modulus>,
+    /// Elastic bulk modulus, so that only the shear modulus relaxes [default: Poisson's ratio is constant]
+    #[arg(long, value_name = "MODULUS", value_parser = of_kind(Kind::Modulus))]
+    bulk_modulus: Option<Measured>,
+    /// Terms of the series per decade of time [default: by the data]
+    #[arg(long, value_name = "NUMBER", value_parser = parse_density)]
+    terms_per_decade: Option<f64>,
+    /// Density of the material, for its table
+    #[arg(long, value_name = "DENSITY", value_parser = of_kind(Kind::Density))]
+    density: Option<Measured>,
+    /// Poisson's ratio of the material, for its table
+    #[arg(long, value_name = "NUMBER", value_parser = parse_share, conflicts_with = "bulk_modulus")]
+    poissons_ratio: Option<f64>,
+    #[command(flatten)]
+    columns: ColumnArguments,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
+    move |text| parse_measured(kind, text)
+}
+
+fn moduli() -> impl TypedValueParser<Value = Modulus> {
+    PossibleValuesParser::new(["young", "shear"]).map(|name| match name.as_str() {
+        "shear" => Modulus::Shear,
+        _ => Modulus::Young,
+    })
+}
+
+/// Parses a number of terms per decade; above 4 neighbouring terms cannot be told apart.
+fn parse_density(text: &str) -> Result<f64, String> {
+    let density = parse_share(text).ok().filter(|density| (0.1..=4.0).contains(density));
+    density.ok_or_else(|| "give a number from 0.1 to 4".to_string())
+}
+
+impl Arguments {
+    fn find(&self, bytes: &[u8]) -> Result<FoundRelaxation, Failure> {
+        let (name, names) = (self.file.display().to_string(), self.columns.names()?);
+        let table = ModulusTable::parse(&name, &decode(bytes), &names, self.modulus)?;
+        let bulk_modulus = self.bulk_modulus.map(|bulk| bulk.value);
+        let settings = RelaxationSettings { terms_per_decade: self.terms_per_decade, bulk_modulus };
+        Ok(FoundRelaxation::of(table, settings)?)
+    }
+
+    fn name(&self) -> String {
+        stem_of(&self.file)
+    }
+
+    fn material(&self, found: &FoundRelaxation) -> String {
+        let density = self.density.map(|density| density.value);
+        found.material_toml(&self.name(), density, self.poissons_ratio)
+    }
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let path = &arguments.file;
+    let found = arguments.find(&read_bytes(path)?)?;
+    let origin = arguments.columns.origin("relaxation", None, Some(path));
+    let mut output = arguments.output.claim(&arguments.name(), "relaxation", origin)?;
+    let rows = found.rows().map(|row| row.into_iter().map(Some).collect::<Vec<_>>());
+    output.write_table("relaxation.csv", found.columns(), rows)?;
+    let file = format!("{}.relaxation.toml", arguments.name());
+    output.write(&file, found.relaxation_toml())?;
+    output.write("relaxation.svg", relaxation_figure(&found))?;
+    standard_output::warn(found.warnings());
+    output.publish(&found.numbers(), || {
+        let material = arguments.material(&found);
+        let name = arguments.name();
+        let table = format!("\n{material}\n[material.{name}.relaxation]\n# the lines of {file}\n");
+        answer(&found) + &terms(&found) + &table
+    })
+}
+
+/// Fits moduli in memory and returns the numbers with the picture and the tables to paste.
+pub fn numbers(arguments: &Arguments, bytes: &[u8]) -> Result<Value, Failure> {
+    let found = arguments.find(bytes)?;
+    let mut numbers = found.numbers();
+    numbers["svg"] = relaxation_figure(&found).into();
+    numbers["relaxation_toml"] = found.relaxation_toml().into();
+    numbers["material_toml"] = arguments.material(&found).into();
+    Ok(numbers)
+}
+
+/// Returns the number of terms, the glassy and the rubbery modulus, and what the data are.
+fn answer(found: &FoundRelaxation) -> String {
+    let series = &found.series;
+    let modulus = |value: f64, uncertainty: f64| {
+        let unit = Unit::fitting(value.max(uncertainty), "Pa");
+        let [value, uncertainty] = [value, uncertainty].map(|it| unit.scaled(it));
+        show_measured(Measured { value, uncertainty }, unit.symbol())
+    };
+    let [from, to] = found.band();
+    let symbol = found.modulus().symbol();
+    let n = series.terms.len();
+    let terms = if n == 1 { "1 term".to_string() } else { format!("{n} terms") };
+    let constant = match found.bulk_modulus {
+        Some(_) => "elastic bulk modulus",
+        None => "constant Poisson's ratio",
+    };
+    let of_test = match found.table.kind {
+        TestKind::Oscillation => "",
+        TestKind::Relaxation => " (1/2πt)",
+    };
+    format!(
+        "{terms}, {constant}; the series misses {} moduli by {:.2} % (rms)\n\n\
+         glassy modulus {symbol}0: {}\nrubbery modulus {symbol}∞: {}\nmeasured band: {} to {}{of_test}\n",
+        found.table.points.len() * if found.table.kind == TestKind::Oscillation { 2 } else { 1 },
+        100.0 * series.rms,
+        modulus(series.instantaneous_modulus(), series.instantaneous_uncertainty),
+        modulus(series.equilibrium_modulus, series.equilibrium_uncertainty),
+        show(from, "Hz"),
+        show(to, "Hz"),
+    ) + &found
+        .temperature
+        .map_or(String::new(), |kelvin| format!("temperature: {:.1} °C\n", kelvin - 273.15))
+        + "\n"
+}
+
+/// Returns the table of terms.
+fn terms(found: &FoundRelaxation) -> String {
+    let whole = found.series.instantaneous_modulus();
+    let row = |term: &fem::relaxation::FittedTerm| {
+        let [value, uncertainty] = [term.modulus, term.uncertainty].map(|it| it / whole);
+        [show(term.relaxation_time, "s"), show_measured(Measured { value, uncertainty }, "")]
+    };
+    headed(">relaxation time|>weight", found.series.terms.iter().map(row))
+}

@@ -1,0 +1,66 @@
+//! `fem-run relaxation` on the command line.
+
+use std::time::{Duration, Instant};
+
+use crate::common::Place;
+
+const MODULI: &str = include_str!("../../../../../validation/data/dma_23_degc.csv");
+
+/// The data are made by a known series with 2 % noise.
+#[test]
+#[allow(clippy::disallowed_methods, reason = "the test measures the time of a command")]
+fn moduli_become_a_material_that_a_case_accepts() {
+    let place = Place::new();
+    place.write("pmma.csv", MODULI);
+    let begin = Instant::now();
+    let ran = place.succeed("relaxation pmma.csv --density '1180 kg/m^3' --poissons-ratio 0.38");
+    // Tests run side by side, and without optimisation.
+    assert!(begin.elapsed() < Duration::from_secs(10), "{:?}", begin.elapsed());
+    ran.prints(
+        "5 terms|glassy modulus E0: 2.4|rubbery modulus E∞: 38|10.00 mHz to 100.0 Hz|23.0 °C",
+    );
+    let files = ["pmma.relaxation.toml", "relaxation.csv", "relaxation.json", "relaxation.svg"];
+    assert_eq!(place.list("runs/pmma_relaxation"), files);
+    let numbers = place.json("runs/pmma_relaxation/relaxation.json");
+    let glassy = numbers["instantaneous_modulus_pa"].as_f64().unwrap();
+    let uncertainty = numbers["instantaneous_modulus_uncertainty_pa"].as_f64().unwrap();
+    assert!((glassy - 2.4e9).abs() < 2.0 * uncertainty, "{glassy} ± {uncertainty}");
+    assert_eq!((&numbers["test"], &numbers["warnings"]), (&"oscillation".into(), &[0; 0].into()));
+    let svg = place.text("runs/pmma_relaxation/relaxation.svg");
+    assert!(svg.starts_with("<svg") && svg.contains("loss modulus E″"));
+    // What is printed, with the lines of the file, is the material of a case.
+    let start = ran.stdout.find("[material.pmma]").unwrap();
+    let end = ran.stdout.find("# the lines of").unwrap();
+    let series = place.text("runs/pmma_relaxation/pmma.relaxation.toml");
+    let material = format!("{}{series}", &ran.stdout[start..end]);
+    let body =
+        |name| format!("[[body]]\nname = '{name}'\nsphere.diameter = '2 cm'\nmaterial = 'pmma'\n");
+    let [a, b] = ["a", "b"].map(body);
+    let case = format!("[model.ting]\n{a}{b}approach_speed = '1 m/s'\n{material}");
+    place.write("impact.toml", &case);
+    place.succeed("impact.toml --out e -q");
+    let e = place.json("e/summary.json")["restitution"].as_f64().unwrap();
+    assert!((0.5..1.0).contains(&e), "{e}");
+}
+
+#[test]
+fn options_of_moduli_are_checked() {
+    let place = Place::new();
+    place.write("pmma.csv", MODULI);
+    place.write("step.csv", "t [s],E [MPa]\n0.1,2000\n1,1500\n10,1000\n");
+    for (options, expected) in [
+        ("pmma.csv --terms-per-decade 9", "from 0.1 to 4"),
+        ("pmma.csv --modulus bulk", "possible values: young, shear"),
+        ("pmma.csv --modulus shear", "the columns are of the youngs modulus"),
+        ("pmma.csv --bulk-modulus '5 m'", "is not a modulus"),
+        ("pmma.csv --bulk-modulus '0.5 GPa'", "leaves Poisson's ratio below 0"),
+        ("pmma.csv --bulk-modulus '5 GPa' --poissons-ratio 0.3", "cannot be used with"),
+        ("step.csv --bulk-modulus '5 GPa'", "E(t) becomes G(t) only over frequency"),
+        ("none.csv", "there is no such file"),
+    ] {
+        place.fails(2, &format!("relaxation {options}")).tells(expected);
+    }
+    let ran = place.succeed("relaxation pmma.csv --bulk-modulus '5 GPa' --terms-per-decade 1");
+    ran.prints("elastic bulk modulus|glassy modulus G0|shear_modulus = |bulk_modulus = \"5000000000.0 Pa\"");
+    place.succeed("relaxation step.csv").prints("(1/2πt)");
+}

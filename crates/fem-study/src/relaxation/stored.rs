@@ -1,0 +1,123 @@
+//! The stored forms of a relaxation: `relaxation.json` and the tables of a case.
+
+use serde_json::{Value, json};
+
+use fem_material::engineering::{Unit, show};
+use fem_simulation::results::PROGRAM;
+
+use super::found::FoundRelaxation;
+use crate::calibrate::stored_calibration::toml_key;
+use crate::measured::{ModulusPoint, TestKind};
+
+impl FoundRelaxation {
+    /// Returns the columns of the residuals: frequency (Hz) or time (s), measured and fitted moduli (Pa).
+    pub fn columns(&self) -> &'static [&'static str] {
+        match self.table.kind {
+            TestKind::Oscillation => &[
+                "frequency_hz",
+                "storage_modulus_pa",
+                "loss_modulus_pa",
+                "fitted_storage_modulus_pa",
+                "fitted_loss_modulus_pa",
+            ],
+            TestKind::Relaxation => {
+                &["time_s", "relaxation_modulus_pa", "fitted_relaxation_modulus_pa"]
+            }
+        }
+    }
+
+    /// Returns the rows below [`FoundRelaxation::columns`].
+    pub fn rows(&self) -> impl Iterator<Item = Vec<f64>> {
+        self.table.points.iter().map(|point| {
+            let ModulusPoint { at, storage, loss, .. } = *point;
+            let [fitted_storage, fitted_loss] = self.series.moduli(self.table.kind, at);
+            match self.table.kind {
+                TestKind::Oscillation => {
+                    vec![at / std::f64::consts::TAU, storage, loss, fitted_storage, fitted_loss]
+                }
+                TestKind::Relaxation => vec![at, storage, fitted_storage],
+            }
+        })
+    }
+
+    /// Returns all numbers for JSON, SI.
+    pub fn numbers(&self) -> Value {
+        let series = &self.series;
+        let whole = series.instantaneous_modulus();
+        let terms = series.terms.iter().map(|term| {
+            json!({
+                "relaxation_time_s": term.relaxation_time,
+                "weight": term.modulus / whole,
+                "modulus_pa": term.modulus,
+                "modulus_uncertainty_pa": term.uncertainty,
+            })
+        });
+        json!({
+            "data": self.table.name,
+            "test": self.table.kind.word(),
+            "modulus": self.modulus().key(),
+            "acts_on": self.acts_on(),
+            "bulk_modulus_pa": self.bulk_modulus,
+            "points": self.table.points.len(),
+            "temperature_k": self.temperature,
+            "band_hz": self.band(),
+            "instantaneous_modulus_pa": whole,
+            "instantaneous_modulus_uncertainty_pa": series.instantaneous_uncertainty,
+            "equilibrium_modulus_pa": series.equilibrium_modulus,
+            "equilibrium_modulus_uncertainty_pa": series.equilibrium_uncertainty,
+            "terms": terms.collect::<Value>(),
+            "rms": series.rms,
+            "warnings": self.warnings(),
+        })
+    }
+
+    /// Returns the table `relaxation` of a material as text, without its header.
+    pub fn relaxation_toml(&self) -> String {
+        let [from, to] = self.band();
+        let whole = self.series.instantaneous_modulus();
+        let mut text = format!(
+            "# Prony series by {PROGRAM} from {}, measured from {} to {}; {} = \"{}\"\n",
+            self.table.name,
+            show(from, "Hz"),
+            show(to, "Hz"),
+            self.modulus().key(),
+            Unit::fitting(whole, "Pa").with_digits(6).show(whole),
+        );
+        text += &format!("acts_on = \"{}\"\nterms = [\n", self.acts_on().word());
+        for (weight, time) in self.weights() {
+            // Rounded down, so that the sum does not exceed 1.
+            let weight = (weight * 1e7).floor() * 1e-7;
+            text += &format!("    {{ weight = {weight:.7}, relaxation_time = {time:.5e} }},\n");
+        }
+        text + "]\n"
+    }
+
+    /// Returns the table of the material as text to paste into a case file, with `relaxation` from a file; density (kg/m³) and
+    /// Poisson's ratio are comments if they are not given.
+    pub fn material_toml(
+        &self,
+        name: &str,
+        density: Option<f64>,
+        poissons_ratio: Option<f64>,
+    ) -> String {
+        let whole = self.series.instantaneous_modulus();
+        let modulus = Unit::fitting(whole, "Pa").with_digits(6).show(whole);
+        let given = |key: &str, value: Option<String>, example: &str| match value {
+            Some(value) => format!("{key} = {value}\n"),
+            None => format!("# {key} = {example}\n"),
+        };
+        let density = density.map(|density| format!("\"{density:?} kg/m^3\""));
+        let other = match self.bulk_modulus {
+            Some(bulk) => given("bulk_modulus", Some(format!("\"{bulk:?} Pa\"")), ""),
+            None => {
+                given("poissons_ratio", poissons_ratio.map(|ratio| format!("{ratio:?}")), "0.35")
+            }
+        };
+        format!(
+            "[material.{}]\n{}{} = \"{modulus}\"\n{other}",
+            toml_key(name),
+            given("density", density, "\"1200 kg/m^3\""),
+            self.modulus().key(),
+        )
+    }
+}

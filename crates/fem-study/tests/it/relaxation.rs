@@ -1,0 +1,214 @@
+//! Prony series from tables of moduli.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use fem_material::{ActsOn, PronySeries, PronyTerm};
+use fem_study::measured::{DataError, Modulus, ModulusTable, TestKind};
+use fem_study::relaxation::{FoundRelaxation, RelaxationSettings};
+
+fn read(text: &str) -> Result<FoundRelaxation, DataError> {
+    let table = ModulusTable::parse("a.csv", text, &[], None)?;
+    FoundRelaxation::of(table, RelaxationSettings::default())
+}
+
+fn prony(terms: &[(f64, f64)]) -> PronySeries {
+    let term = |&(weight, relaxation_time)| PronyTerm { weight, relaxation_time };
+    PronySeries::new(terms.iter().map(term).collect(), ActsOn::All).unwrap()
+}
+
+/// A polymer near its glass transition with a term per decade.
+fn polymer() -> PronySeries {
+    prony(&[(0.1, 1e-3), (0.2, 1e-2), (0.3, 0.1), (0.2, 1.0), (0.1, 10.0)])
+}
+
+/// Returns a table over `n` frequencies from 10^`from` to 10^`to` Hz, with relative noise of both moduli.
+fn oscillation(
+    series: &PronySeries,
+    n: usize,
+    [from, to]: [f64; 2],
+    noise: f64,
+    seed: u64,
+) -> String {
+    let mut random = fastrand::Rng::with_seed(seed);
+    let mut normal = || {
+        let (a, b): (f64, f64) = (random.f64(), random.f64());
+        (-2.0 * (1.0 - a).ln()).sqrt() * (TAU * b).cos()
+    };
+    let mut text = "f [Hz], E' [Pa], E'' [Pa]\n".to_string();
+    for k in 0..n {
+        let frequency = 10f64.powf(from + (to - from) * k as f64 / (n - 1) as f64);
+        let moduli = series.complex_modulus(TAU * frequency);
+        let [storage, loss] = moduli.map(|modulus| 2e9 * modulus * (1.0 + noise * normal()));
+        writeln!(text, "{frequency:?}, {storage:?}, {loss:?}").unwrap();
+    }
+    text
+}
+
+#[test]
+fn exact_moduli_give_back_their_series() {
+    // The last one is a single term between the nodes of all grids.
+    for series in [polymer(), prony(&[(0.6, 0.0234)])] {
+        let found = read(&oscillation(&series, 40, [-2.5, 3.5], 0.0, 1)).unwrap();
+        assert!(found.series.rms < 1e-9, "{:?}", found.series);
+        let found = found.weights();
+        assert_eq!(found.len(), series.terms().len());
+        for ((weight, time), term) in found.iter().zip(series.terms()) {
+            assert!((weight - term.weight).abs() < 1e-6, "{found:?}");
+            assert!((time / term.relaxation_time - 1.0).abs() < 1e-6, "{found:?}");
+        }
+    }
+}
+
+/// Nine in ten weights of the series with five terms are within two standard uncertainties; the other series have one small
+/// term more.
+#[test]
+fn noisy_moduli_give_back_their_weights_within_their_uncertainty() {
+    let (mut n_inside, mut n_all, mut n_series) = (0, 0, 0);
+    for seed in 0..20 {
+        let text = oscillation(&polymer(), 40, [-2.5, 3.5], 0.02, seed);
+        let found = read(&text).unwrap();
+        assert!((0.01..0.03).contains(&found.series.rms), "{}", found.series.rms);
+        let glassy = found.series.instantaneous_modulus();
+        assert!((glassy / 2e9 - 1.0).abs() < 0.02, "{glassy}");
+        assert!((5..=6).contains(&found.series.terms.len()), "{:?}", found.series);
+        n_series += usize::from(found.series.terms.len() == 5);
+        if found.series.terms.len() != 5 {
+            continue;
+        }
+        for (term, known) in found.series.terms.iter().zip(polymer().terms()) {
+            let off = (term.modulus - 2e9 * known.weight).abs();
+            n_all += 1;
+            n_inside += usize::from(off < 2.0 * term.uncertainty);
+        }
+    }
+    assert!(n_series >= 14, "{n_series}");
+    assert!(n_inside * 10 >= n_all * 9, "{n_inside} of {n_all}");
+}
+
+#[test]
+fn fewer_decades_have_fewer_terms() {
+    // Half a decade far from all times: the modulus is a constant and the loss a line.
+    let found = read(&oscillation(&polymer(), 12, [3.5, 4.1], 0.0, 1)).unwrap();
+    assert!(found.series.terms.len() <= 2, "{:?}", found.series.terms);
+    let table =
+        ModulusTable::parse("a.csv", &oscillation(&polymer(), 40, [-2.5, 3.5], 0.0, 1), &[], None);
+    let settings = RelaxationSettings { terms_per_decade: Some(0.5), ..Default::default() };
+    let found = FoundRelaxation::of(table.unwrap(), settings).unwrap();
+    assert!(found.series.terms.len() <= 4 && found.series.rms > 0.01);
+}
+
+#[test]
+fn a_relaxation_test_gives_back_its_series() {
+    let series = polymer();
+    let mut text = "time_s;E(t) [MPa];T [K]\n".to_string();
+    for k in 0..50 {
+        let time = 10f64.powf(-4.0 + 6.0 * f64::from(k) / 49.0);
+        let row = format!("{time};{};293,15\n", 2000.0 * series.relaxation(time));
+        text += &row.replace('.', ",");
+    }
+    let found = read(&text).unwrap();
+    assert_eq!((found.table.kind, found.modulus()), (TestKind::Relaxation, Modulus::Young));
+    assert!((found.temperature.unwrap() - 293.15).abs() < 1e-9);
+    assert!((found.series.instantaneous_modulus() / 2e9 - 1.0).abs() < 1e-6);
+    assert!(found.series.rms < 1e-6, "{}", found.series.rms);
+}
+
+#[test]
+fn moduli_are_read_as_people_write_them() {
+    let same = |text: &str| {
+        let table = ModulusTable::parse("a.csv", text, &[], None).unwrap();
+        let point = table.points[0];
+        let [at, storage, loss] = [point.at / TAU, point.storage / 2e9, point.loss / 1e8];
+        assert!([at, storage, loss].iter().all(|it| (it - 1.0).abs() < 1e-9), "{text}: {point:?}");
+        table
+    };
+    let (omega, phase) = (TAU, 0.05f64.atan());
+    let absolute = 2000.0 * 1.0025f64.sqrt();
+    for text in [
+        "frequency_hz,storage_modulus_mpa,loss_modulus_mpa\n1,2000,100\n".to_string(),
+        "f,E_stor,E_loss,T,Set\nHz, MPa, MPa, C, -\n1,2000,100,23,0\n".to_string(),
+        format!("omega [rad/s]\tG' [Pa]\tG'' [Pa]\n{omega}\t2e9\t1e8\n"),
+        format!("ω (1/s);G′ (GPa);G″ (GPa)\n{};2,0;0,1\n", omega.to_string().replace('.', ",")),
+        "Frequency (Hz),E* (MPa),tan(delta)\n1,ABS,0.05\n".replace("ABS", &absolute.to_string()),
+        format!("freq,|E*| [MPa],phase [deg]\n1 Hz,{absolute},{}\n", phase.to_degrees()),
+        format!("f [kHz],E* [MPa],delta\n0.001,{absolute},{}\n", phase.to_degrees()),
+        "Operator: A\nDate 3\n\nf/Hz E'/MPa E''/MPa T/°C\n1 2000 100 23\n".to_string(),
+        "f [Hz],Storage Modulus,Loss Modulus [MPa]\n1,2 GPa,100\n".to_string(),
+        "f [Hz],storage modulus [MPa],loss factor [%],temp_f\n1,2000,5,73.4\n".to_string(),
+    ] {
+        let table = same(&text);
+        let temperature = table.points[0].temperature;
+        assert!(temperature.is_none_or(|it| (it - 296.15).abs() < 1e-9), "{temperature:?}");
+        let is_shear = text.contains('G') && !text.contains("GPa,");
+        assert_eq!(table.modulus == Modulus::Shear, is_shear, "{text}");
+    }
+}
+
+/// Each table has one clear answer: the place, what is wrong, and what to do.
+#[test]
+fn hostile_tables_have_one_clear_answer() {
+    let head = "f [Hz],E' [MPa],E'' [MPa]\n";
+    for (text, expected) in [
+        (
+            format!("{head}1,2000,100\n1,2010,101\n"),
+            "all rows are of one frequency, 1.000 Hz|factor of 3",
+        ),
+        (format!("{head}1,2000,100\n2,2010,101\n"), "span a factor of only 2.00"),
+        (
+            format!("{head}1,2000,100\n10,1500,101\n"),
+            "a.csv:3: E' is 2.000 GPa at 1.000 Hz and only 1.500 GPa at 10.00 Hz|passive solid",
+        ),
+        (
+            format!("{head}1,2000,100\n10,2100,100\n1,3000,9\n"),
+            "both at 1.000 Hz|different temperatures need a column",
+        ),
+        (format!("{head}1,100,2000\n10,200,2100\n"), "a.csv:2: e''_mpa is|exchanged"),
+        (format!("{head}1,2 GPa,100\n10,2100,100\n"), "the column's name has the unit already"),
+        (format!("{head}1,-2000,100\n10,2100,100\n"), "a modulus is above 0"),
+        (format!("{head}0,2000,100\n10,2100,100\n"), "it is above 0"),
+        (format!("{head}1,2000,\n,2100,100\n"), "no row has all its values"),
+        (format!("{head}1,2000,x\n10,2100,100\n"), "is \"x\", which is not a number"),
+        ("f [Hz],E',E''\n1,2000,100\n10,2100,110\n".into(), "name the unit in the header"),
+        (
+            "f [Hz],E' [MPa],tan_delta\n1,2000,12\n10,2100,0.1\n".into(),
+            "tan_delta is 12.0|phase_deg",
+        ),
+        ("f [Hz],E' [MPa],phase\n1,2000,95\n10,2100,5\n".into(), "phase is 95.0|84 degrees"),
+        (
+            "f [Hz],E' [MPa]\n1,2000\n10,2100\n".into(),
+            "there is no column of the loss modulus or of tan",
+        ),
+        (
+            "f [Hz],G' [MPa],E'' [MPa]\n1,2000,10\n10,2100,10\n".into(),
+            "one modulus is Young's and the other one of shear",
+        ),
+        ("f [Hz],E' [MPa],E' [GPa],E''\n1,2000,2,10\n".into(), "mean the same"),
+        ("E' [MPa],E'' [MPa]\n2000,100\n".into(), "no column of a frequency or a time"),
+        ("t [s],force\n1,2\n".into(), "there is no column of the relaxation modulus"),
+        (
+            "t [s],E [MPa]\n1,2000\n10,2500\n".into(),
+            "E(t) is 2.500 GPa at 10.00 s and only 2.000 GPa at 1.000 s",
+        ),
+        ("t [s],E [MPa]\n1,2000\n10,2000\n".into(), "the material is elastic"),
+        ("f [m],E' [MPa],E'' [MPa]\n1,2000,100\n".into(), "whose name ends in _m"),
+        (
+            "f [Hz],E' [MPa],E'' [MPa],T [°F]\n1,2000,100,73\n10,2100,100,103\n".into(),
+            "the temperatures go from 295.9 K to 312.6 K|rows of one temperature",
+        ),
+        (
+            "f [Hz],E' [MPa],E'' [MPa],T [K]\n1,2000,100,23\n".into(),
+            "temperatures are in °C unless",
+        ),
+        ("f;E' [MPa];E'' [MPa]\n0,1;2.000;100\n10;2.100;100\n".into(), "has a comma, and"),
+    ] {
+        let error = read(&text).expect_err(&text);
+        let answer = format!("{error}\n{}", error.help.as_deref().unwrap_or_default());
+        for part in expected.split('|') {
+            assert!(
+                answer.to_lowercase().contains(&part.to_lowercase()),
+                "{text}\n{answer}\nlacks {part}"
+            );
+        }
+    }
+}
