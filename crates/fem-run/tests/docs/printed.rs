@@ -8,7 +8,9 @@ use crate::pages::{Page, root};
 use crate::shell::{commands, words};
 
 /// Commands that take longer than two seconds, or read the output of such a command.
-const SLOW: [&str; 8] = [
+const SLOW: [&str; 10] = [
+    "calibrate cases/polymer_drop.toml",
+    "measure validation/data/plate_drops.csv",
     "calibrate cases/ice_2cm.toml",
     "--law all --out runs/ice_all",
     "export cases/",

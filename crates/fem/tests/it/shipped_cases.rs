@@ -16,7 +16,7 @@ const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"
 type Row = (&'static str, &'static str, &'static [&'static str], &'static [[&'static str; 2]]);
 
 const RELAXES: &str = "viscoelasticity";
-const ROWS: [Row; 16] = [
+const ROWS: [Row; 17] = [
     ("glass_0.5ms", "fem", &[RELAXES], &[["mirror symmetry", "differ"]]),
     ("glass_0.5ms_14um", "fem", &[], &[]),
     ("glass_0.5ms_elastic", "fem", &[], &[]),
@@ -57,6 +57,12 @@ const ROWS: [Row; 16] = [
         "fem",
         &["finite strain", "surface slip", "plastic flow", "partner waves"],
         &[["plastic flow", "pressure of first yield of block = 4.51"]],
+    ),
+    (
+        "polymer_drop",
+        "ting",
+        &[RELAXES, "finite size", "surface slip", "plate bending"],
+        &[["plate bending", "thicknesses of plate during the contact"]],
     ),
     ("three_bounces", "fem", &[RELAXES, "gravity"], &[]),
     // The speed ratio is 20 m/s over √(G/ρ) = √(1.154 MPa / 950 kg/m³) = 34.9 m/s.

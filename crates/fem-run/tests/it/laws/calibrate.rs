@@ -351,6 +351,29 @@ fn calibrations_and_fits_take_the_plate_with_them() {
     place.fails(1, (calibrate, "--model ting", small)).tells("diameter of the plate");
 }
 
+/// The record of a ball that bounces on a plate gives back the relaxation that it was made with, inside its range and within a tenth,
+/// if the case has the plate; without it the relaxation is off by 30 ranges.
+#[test]
+fn bounces_on_a_plate_give_the_relaxation_of_the_ball() {
+    let place = Place::with(include_str!("../../../../../cases/polymer_drop.toml"));
+    place.write("drops.csv", include_str!("../../../../../validation/data/plate_drops.csv"));
+    let air = ["--diameter", "20 mm", "--density", "1190 kg/m^3", "--contact-time", "200 ± 20 us"];
+    place.succeed(("measure drops.csv --out record", air));
+    let calibrate = "calibrate case.toml --data record/measure.csv --material polymer --model ting --terms 1 \
+                     --times 200us..200us --out";
+    let half_space = set(&["body.0={name='block',half_space={},material='plate-steel'}"]);
+    place.succeed((calibrate, "plate"));
+    place.succeed((calibrate, "block", half_space));
+    let sum = |folder: &str| {
+        let sum = place.json(format!("{folder}/calibrate.json").as_str())["weight_sum"].clone();
+        (number(&sum["value"]), number(&sum["range"][0]), number(&sum["range"][1]))
+    };
+    let (found, low, high) = sum("plate");
+    assert!(low < 0.2 && 0.2 < high && high - low < 0.04, "{found}: {low} to {high}");
+    let (found, low, high) = sum("block");
+    assert!(found - 0.2 > 15.0 * (high - low), "{found}: {low} to {high}");
+}
+
 /// Uncertain sizes and moduli of the rig are in the bars of a calibration and of a fit, part by part: half of the difference of
 /// the answers with either end. Data of a plate at the end of its tolerance are beyond the bar of the data alone, and
 /// inside the whole one.
