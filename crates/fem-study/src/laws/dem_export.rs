@@ -121,6 +121,7 @@ impl DemExport {
             springs,
             mdr,
             unknown_loss: curve.unknown_loss.clone(),
+            band: curve.band.as_ref().map(|band| (band.confidence, band.widest())),
         };
         Ok(Self { curve, export, laws })
     }

@@ -7,7 +7,7 @@ use fem_laws::{EndRule, HertzImpact, ImpactQuantities, LawFamily, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;
-use super::stored_fit::StoredFit;
+use super::stored_fit::{RestitutionBand, StoredFit};
 use crate::measured::{DataError, Restitutions};
 use fem_simulation::{Reduced, flowing_impact};
 
@@ -30,6 +30,8 @@ pub struct ImpactCurve {
     /// The deviation of e that is explained by the scatter of the data: three standard deviations of measured points, one
     /// of a law fitted to them, the error of the law that stands in for elements, 0 for other computed points.
     pub scatter: f64,
+    /// The confidence band of a law that was fitted to data.
+    pub band: Option<RestitutionBand>,
 }
 
 impl ImpactCurve {
@@ -63,7 +65,8 @@ impl ImpactCurve {
         let points = speeds_between(speeds.unwrap_or(fit.speeds)).map(point);
         let points = points.collect::<Result<_, FitError>>()?;
         let curve = Self::of(fit.model.pair(), points)?;
-        Ok(Self { law: Some(fit.family()), scatter: fit.scatter, ..curve })
+        let band = fit.band.clone();
+        Ok(Self { law: Some(fit.family()), scatter: fit.scatter, band, ..curve })
     }
 
     /// Computes the curve with the case's reduced model, or Ting's model for a case with elements and the mean-pressure law for
@@ -120,7 +123,8 @@ impl ImpactCurve {
             }
             point.restitution_uncertainty = None;
         }
-        Ok(Self { points, has_hertz_times, unknown_loss: Vec::new(), law: None, scatter: 0.0 })
+        let (unknown_loss, law, scatter, band) = (Vec::new(), None, 0.0, None);
+        Ok(Self { points, has_hertz_times, unknown_loss, law, scatter, band })
     }
 
     /// Returns the slowest and the fastest speed, m/s.

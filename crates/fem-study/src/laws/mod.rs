@@ -62,7 +62,7 @@ pub use law_inversion::{LawInversion, needs_more};
 pub use law_ranking::{LawRanking, RankedLaw};
 pub use pair_export::{FittedPair, PairExport, PairNumbers};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
-pub use stored_fit::StoredFit;
+pub use stored_fit::{RestitutionBand, StoredFit};
 
 pub use crate::fit::FitError;
 pub use fem_laws::{EndRule, LawFamily};

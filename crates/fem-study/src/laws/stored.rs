@@ -129,6 +129,10 @@ impl DemExport {
             "linear_contact_time_s": export.contact_time,
             "has_hertz_times": self.curve.has_hertz_times,
             "unknown_loss": export.unknown_loss,
+            "band": self.curve.band.as_ref().map(|band| json!({
+                "confidence": band.confidence,
+                "largest_half_width": band.widest(),
+            })),
             "data": points.iter().map(point).collect::<Value>(),
             "snippets": snippets.iter().map(|snippet| self.snippet(snippet)).collect::<Value>(),
         })

@@ -28,6 +28,35 @@ pub struct StoredFit {
     pub values: Vec<f64>,
     /// Warnings about the fit.
     pub warnings: Vec<String>,
+    /// The confidence band of the restitution; `None` without degrees of freedom.
+    pub band: Option<RestitutionBand>,
+}
+
+/// The confidence band of a fitted restitution over the speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestitutionBand {
+    /// Its confidence level, such as 0.95.
+    pub confidence: f64,
+    /// Rows of speed (m/s), restitution, and the lower and the upper end of the band.
+    pub rows: Vec<[f64; 4]>,
+}
+
+impl RestitutionBand {
+    /// Names of the columns of [`RestitutionBand::csv`].
+    pub const COLUMNS: [&'static str; 4] =
+        ["speed_m_s", "restitution", "restitution_low", "restitution_high"];
+
+    /// Returns the largest distance of an end of the band from the restitution.
+    pub fn widest(&self) -> f64 {
+        let widths = self.rows.iter().map(|[_, e, low, high]| (e - low).max(high - e));
+        widths.fold(0.0, f64::max)
+    }
+
+    /// Returns the band as a table.
+    pub fn csv(&self) -> String {
+        let rows = self.rows.iter().map(|row| row.map(|cell| format!("{cell:?}")).join(",") + "\n");
+        Self::COLUMNS.join(",") + "\n" + &rows.collect::<String>()
+    }
 }
 
 /// The keys of `fit.json` that are read.
@@ -41,6 +70,33 @@ struct Keys {
     parameters: Vec<ParameterKeys>,
     bodies: [f64; 3],
     warnings: Vec<String>,
+    confidence: f64,
+    curves: CurveKeys,
+}
+
+/// Restitutions of laws, the fitted one first, and the band of the fitted one at some speeds.
+#[derive(Deserialize)]
+struct CurveKeys {
+    speed_m_s: Vec<f64>,
+    laws: Vec<LawKeys>,
+    band: Vec<Option<(f64, f64)>>,
+}
+
+#[derive(Deserialize)]
+struct LawKeys {
+    restitution: Vec<Option<f64>>,
+}
+
+impl CurveKeys {
+    fn rows(&self) -> Vec<[f64; 4]> {
+        let fitted = self.laws.first().map_or(&[][..], |law| &law.restitution);
+        let all = self.speed_m_s.iter().zip(fitted).zip(&self.band);
+        all.filter_map(|((speed, e), band)| {
+            let (low, high) = (*band)?;
+            Some([*speed, (*e)?, low, high])
+        })
+        .collect()
+    }
 }
 
 #[derive(Deserialize)]
@@ -78,8 +134,10 @@ impl StoredFit {
             );
         }
         let values = keys.parameters.iter().map(|one| one.value).collect();
-        let Keys { data, speeds_m_s: speeds, scatter, warnings, .. } = keys;
-        Ok(Self { data, speeds, scatter, model, values, warnings })
+        let rows = keys.curves.rows();
+        let Keys { data, speeds_m_s: speeds, scatter, warnings, confidence, .. } = keys;
+        let band = (!rows.is_empty()).then_some(RestitutionBand { confidence, rows });
+        Ok(Self { data, speeds, scatter, model, values, warnings, band })
     }
 
     /// Returns the family of the law.

@@ -72,6 +72,8 @@ pub struct BounceTimes {
     pub source: TimeUncertaintySource,
     /// The impacts in the order of the record.
     pub impacts: Vec<Impact>,
+    /// The errors of their restitutions.
+    errors: Vec<Errors>,
     /// The instant at which the ball comes to rest if it bounces on as in its last bounces, s.
     pub predicted_rest: Option<f64>,
     /// The restitution by the time from the first bounce to rest, if that is given.
@@ -159,15 +161,16 @@ impl BounceTimes {
         let (uncertainties, source) = uncertainties(&instants, rig, found.as_ref());
         let mut warnings = left_out(&instants.values, &spans);
         let speeds = Speeds::of(&instants, &spans, &uncertainties, rig, &mut warnings);
-        let mut impacts: Vec<Impact> =
+        let mut found_impacts: Vec<(Impact, Errors)> =
             speeds.first(rig).into_iter().chain(speeds.others()).collect();
-        impacts.retain(|impact| match impact.impossible() {
+        found_impacts.retain(|(impact, _)| match impact.impossible() {
             Some(reason) => {
                 warnings.push(format!("the impact at {:.4} s is left out: {reason}", impact.time));
                 false
             }
             None => true,
         });
+        let (mut impacts, errors): (Vec<Impact>, Vec<Errors>) = found_impacts.into_iter().unzip();
         let restitution_to_rest = rig.rest.map(|rest| to_rest(&instants, &uncertainties, rest));
         let restitution_to_rest = restitution_to_rest.transpose()?;
         if impacts.is_empty()
@@ -199,6 +202,7 @@ impl BounceTimes {
             scatter: found,
             source,
             impacts,
+            errors,
             restitution_to_rest,
             warnings,
         };
@@ -233,9 +237,31 @@ impl BounceTimes {
         }
     }
 
+    /// Returns the variance of each restitution, and its covariance with the next one and with that after it. Neighbours share
+    /// the instants of a flight, with opposite signs; contact time and drag are common to all.
+    pub fn covariances(&self) -> Vec<[Option<f64>; 3]> {
+        let of = |k: usize, j: usize| Some(self.errors[k].covariance(self.errors.get(j)?));
+        (0..self.errors.len()).map(|k| [of(k, k), of(k, k + 1), of(k, k + 2)]).collect()
+    }
+
+    /// Returns the mean of the restitutions with its standard uncertainty, by the covariances of all; `None` without two.
+    pub fn mean_restitution(&self) -> Option<Measured> {
+        let n = self.errors.len() as f64;
+        let values = self.impacts.iter().map(|impact| impact.restitution.value);
+        let own =
+            |errors: &Errors| self.errors.iter().map(|other| errors.covariance(other)).sum::<f64>();
+        let variance = self.errors.iter().map(own).sum::<f64>().max(0.0) / (n * n);
+        let mean = Measured { value: values.sum::<f64>() / n, uncertainty: variance.sqrt() };
+        (n > 1.0).then_some(mean)
+    }
+
     /// Returns the numbers of the record for JSON, SI.
     pub(super) fn numbers(&self) -> Value {
+        let mean = self.mean_restitution();
         json!({
+            "restitution_covariances": self.covariances(),
+            "mean_restitution": mean.map(|e| e.value),
+            "mean_restitution_uncertainty": mean.map(|e| e.uncertainty),
             "instants_s": self.instants.values,
             "time_uncertainty_s": self.time_uncertainty,
             "time_uncertainty_from": self.source,
@@ -376,7 +402,9 @@ struct FlightSpeeds {
     slopes: [f64; 2],
     /// Their changes with the uncertainty of drag, m/s.
     drag: [f64; 2],
-    /// Uncertainties of the instants at the beginning and the end, s.
+    /// Indices of the instants at the beginning and the end.
+    instants: [usize; 2],
+    /// Their uncertainties, s.
     ends: [f64; 2],
     /// Uncertainty of the contact time, s.
     contact: f64,
@@ -394,21 +422,56 @@ impl FlightSpeeds {
         Measured { value: self.speeds[1], uncertainty }
     }
 
-    /// Returns the restitution of the bounce between this flight and the next one.
-    fn restitution(&self, next: &Self) -> Measured {
+    /// Returns the restitution of the bounce between this flight and the next one, with its errors.
+    fn restitution(&self, next: &Self) -> (f64, Errors) {
         let (landing, launch) = (self.speeds[1], next.speeds[0]);
         let e = launch / landing;
         // Slopes of e by the durations of the next flight and of this one.
         let [later, earlier] = [next.slopes[0] / landing, e * self.slopes[1] / landing];
         let by_drag = (launch + next.drag[0]) / (landing + self.drag[1]) - e;
-        let parts = [
-            later * next.ends[1],
-            (later + earlier) * self.ends[1],
-            earlier * self.ends[0],
-            (later - earlier) * self.contact,
-            by_drag,
-        ];
-        Measured { value: e, uncertainty: parts.iter().fold(0.0f64, |sum, part| sum.hypot(*part)) }
+        let errors = Errors {
+            instants: vec![
+                (next.instants[1], later * next.ends[1]),
+                (self.instants[1], -(later + earlier) * self.ends[1]),
+                (self.instants[0], earlier * self.ends[0]),
+            ],
+            contact: (earlier - later) * self.contact,
+            drag: by_drag,
+            drop: 0.0,
+        };
+        (e, errors)
+    }
+}
+
+/// Changes of a restitution by the standard uncertainty of each cause.
+#[derive(Clone, Debug, PartialEq)]
+struct Errors {
+    /// Those by instants, with their indices.
+    instants: Vec<(usize, f64)>,
+    /// That by the contact time.
+    contact: f64,
+    /// That by air drag.
+    drag: f64,
+    /// That by height and gravity of the drop.
+    drop: f64,
+}
+
+impl Errors {
+    /// Returns the covariance with another restitution of the same record.
+    fn covariance(&self, other: &Self) -> f64 {
+        let shared = self.instants.iter().flat_map(|(k, own)| {
+            let same = other.instants.iter().filter(move |(other, _)| other == k);
+            same.map(move |(_, its)| own * its)
+        });
+        shared.sum::<f64>()
+            + self.contact * other.contact
+            + self.drag * other.drag
+            + self.drop * other.drop
+    }
+
+    /// Returns a restitution with its standard uncertainty.
+    fn of(&self, restitution: f64) -> Measured {
+        Measured { value: restitution, uncertainty: self.covariance(self).sqrt() }
     }
 }
 
@@ -450,6 +513,7 @@ impl Speeds {
                 speeds: [own.launch, own.landing],
                 slopes: [own.launch_slope, own.landing_slope],
                 drag: [more.launch - own.launch, more.landing - own.landing],
+                instants: [from, to],
                 ends: [from, to].map(|k| uncertainties[k]),
                 contact: contact.uncertainty,
                 gravity: gravity.uncertainty / gravity.value,
@@ -462,33 +526,37 @@ impl Speeds {
     }
 
     /// Returns the impact after the drop from the height of the rig.
-    fn first(&self, rig: &Rig) -> Option<Impact> {
+    fn first(&self, rig: &Rig) -> Option<(Impact, Errors)> {
         let (height, flight) = (rig.drop_height?, (*self.by_span.first()?)?);
         let [landing, more] = self.flights.landing_after(height.value)?;
         let e = flight.speeds[0] / landing;
-        let of_time = flight.ends[0].hypot(flight.ends[1]).hypot(flight.contact);
-        let by_drag = (flight.speeds[0] + flight.drag[0]) / more - e;
+        let slope = flight.slopes[0] / landing;
         let [of_height, of_gravity] =
             [height.uncertainty / height.value, flight.gravity].map(|relative| 0.5 * relative);
-        let uncertainty = (flight.slopes[0] * of_time / landing)
-            .hypot(by_drag)
-            .hypot(e * of_height.hypot(of_gravity));
+        let errors = Errors {
+            instants: vec![
+                (flight.instants[0], -slope * flight.ends[0]),
+                (flight.instants[1], slope * flight.ends[1]),
+            ],
+            contact: -slope * flight.contact,
+            drag: (flight.speeds[0] + flight.drag[0]) / more - e,
+            drop: e * of_height.hypot(of_gravity),
+        };
         let speed = Measured {
             value: landing,
             uncertainty: (landing * of_height.hypot(of_gravity)).hypot(more - landing),
         };
         let time = self.start.value;
-        let restitution = Measured { value: e, uncertainty };
-        Some(Impact { time, speed, restitution, contact_time: None })
+        let restitution = errors.of(e);
+        Some((Impact { time, speed, restitution, contact_time: None }, errors))
     }
 
     /// Returns the impacts between two single flights.
-    fn others(&self) -> impl Iterator<Item = Impact> {
-        self.pairs().map(|(before, after)| Impact {
-            time: before.time,
-            speed: before.landing_speed(),
-            restitution: before.restitution(after),
-            contact_time: None,
+    fn others(&self) -> impl Iterator<Item = (Impact, Errors)> {
+        self.pairs().map(|(before, after)| {
+            let (e, errors) = before.restitution(after);
+            let (time, speed) = (before.time, before.landing_speed());
+            (Impact { time, speed, restitution: errors.of(e), contact_time: None }, errors)
         })
     }
 

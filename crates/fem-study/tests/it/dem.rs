@@ -37,6 +37,7 @@ fn export() -> Export {
         springs: None,
         mdr: None,
         unknown_loss: Vec::new(),
+        band: None,
     }
 }
 

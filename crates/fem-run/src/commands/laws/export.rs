@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use fem::fit::FitError;
-use fem::fit::dem::{Snippet, grain_snippets};
+use fem::fit::dem::{BAND_FILE, Snippet, grain_snippets};
 use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers, StoredFit};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
@@ -78,6 +78,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for snippet in &snippets {
         output.write(snippet.name, &snippet.text)?;
     }
+    if let Some(band) = &fitted.curve.band {
+        output.write(BAND_FILE, band.csv())?;
+    }
     output.write("export.svg", export_figure(&fitted))?;
     output.publish(&fitted.numbers(&arguments.input.name(), &snippets), || {
         let mut text = export_text(&fitted, &snippets);
@@ -111,6 +114,9 @@ pub fn numbers(
     let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
     numbers["texts"] =
         snippets.iter().map(|snippet| (snippet.name, snippet.text.clone())).collect();
+    if let Some(band) = &fitted.curve.band {
+        numbers["texts"][BAND_FILE] = band.csv().into();
+    }
     Ok(numbers)
 }
 

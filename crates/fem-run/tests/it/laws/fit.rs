@@ -341,6 +341,17 @@ fn a_fit_is_exported_and_is_a_model() {
     assert_eq!(export["fitted_law"], "kuwabara_kono");
     let tolerance = export["tolerance"].as_f64().unwrap();
     assert!((0.015..0.03).contains(&tolerance), "{tolerance}");
+    // The band of the fit, and its half-width in every file.
+    let half = export["band"]["largest_half_width"].as_f64().unwrap();
+    let band = place.text("runs/case_export/restitution_band.csv");
+    let row: Vec<f64> =
+        band.lines().nth(1).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert!(row[2] < row[1] && row[1] < row[3] && row[3] - row[1] <= half * 1.000_001, "{row:?}");
+    assert_eq!((band.lines().count(), &export["band"]["confidence"]), (81, &fit["confidence"]));
+    for file in ["lammps_viscoelastic.in", "mujoco_contact.xml"] {
+        let text = place.text(format!("runs/case_export/{file}"));
+        assert!(text.contains("The data know e(v) to") && text.contains("95 % band"), "{text}");
+    }
     let viscoelastic = &export["snippets"][1];
     assert!(viscoelastic["worst_error"].as_f64().unwrap() < 1e-6, "{viscoelastic}");
     assert_eq!(viscoelastic["valid_from_m_s"], fit["speeds_m_s"][0]);

@@ -28,6 +28,8 @@ use fem_material::engineering::number;
 
 /// The texts of all snippets, whose format stands at their beginning.
 const SNIPPETS: &str = include_str!("snippets.txt");
+/// Name of the table of the confidence band, beside the snippets.
+pub const BAND_FILE: &str = "restitution_band.csv";
 /// The comment for codes that use the entries of 1 and 2 for 1 with 1 and 2 with 2 too.
 const UNLIKE: &str = "# Fitted for contacts of 1 with 2 alone: 1 with 1 and 2 with 2 are other pairs, which want an\n\
                       # export each; all at once: fem-run export CASE --diameters D1,D2.\n";
@@ -98,6 +100,8 @@ pub struct Export {
     pub mdr: Option<([f64; 2], [f64; 3])>,
     /// Materials whose loss is taken as 0 because the library has none: e is too high.
     pub unknown_loss: Vec<String>,
+    /// Confidence level and largest half-width of the band of a fitted e(v).
+    pub band: Option<(f64, f64)>,
 }
 
 /// A file for a DEM code.
@@ -382,9 +386,16 @@ impl Export {
             [] => String::new(),
             materials => unknown_loss("e", materials),
         };
+        let band = self.band.map_or(String::new(), |(confidence, half)| {
+            format!(
+                "# The data know e(v) to {} or better ({} % band, {BAND_FILE}).\n",
+                number(half, 2),
+                number(100.0 * confidence, 3)
+            )
+        });
         format!(
             "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {} to {}; {range}\n\
-             # (largest error {worst:.4}).\n{warning}{notes}",
+             # (largest error {worst:.4}).\n{band}{warning}{notes}",
             self.title,
             speed(self.speeds.0),
             speed(self.speeds.1)
