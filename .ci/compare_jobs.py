@@ -123,8 +123,8 @@ CRADLE = ["cradle", "--length", "20 cm ± 1 mm", "--diameters", "22.2 mm,15.9 mm
 CLAIMS = ["condensed_explicit", "condensed_limits", "condensed_ting", "contact_patch",
           "critical_step", "default_settings", "invariance", "kratos", "paper_contours",
           "paper_restitution", "paper_velocities", "uniform_stress"]
-COMMANDS = ["check", "mesh", "sweep", "validate", "fit", "calibrate", "invert", "export", "cradle",
-            "completions"]
+COMMANDS = ["check", "mesh", "sweep", "validate", "measure", "fit", "calibrate", "invert", "export",
+            "cradle", "completions"]
 
 
 class Job(NamedTuple):
@@ -166,6 +166,12 @@ def short_commands(cases):
     yield ["invert", GLASS, "--restitution", "0.92"]
     yield ["invert", *on(GLASS, "model.law.tsuji={e=0.9}"), "--restitution", "0.5"]
     yield ["invert", GLASS, "--law", "hunt_crossley", "--restitution", "0.1"]
+    times = ["measure", f"{DATA}/bounce_times.csv"]
+    yield from (times, [*times, "--height", "50 cm ± 1 mm"])
+    yield [*times, "--diameter", "10 mm", "--density", "7800 kg/m^3", "--contact-time", "50 us"]
+    yield from ([*times, "--gravity", "0"], [*times, "--kind", "force"], [*times, "--rest", "2 s"])
+    yield from (["measure", f"{DATA}/ball_track.csv"], ["measure", f"{DATA}/ball_force.csv"])
+    yield ["measure", f"{DATA}/ball_force.csv", "--mass", "10 g ± 0.02 g", "--height", "3 cm ± 0.1 mm"]
     yield ["validate", "--list"]
     yield ["completions", "bash"]
     yield from ([*command, "--help"] for command in ([], *([name] for name in COMMANDS)))
@@ -178,7 +184,7 @@ def long_commands():
     pairings = ["calibrate", GLASS, "--data", f"{DATA}/synthetic_pairings.csv"]
     yield from (pairings, [*pairings, "--model", "ting"])
     fit = ["fit", *ice, "--law", "bordbar_hyppanen", "--compare", "kuwabara_kono", "--at", "1 cm/s"]
-    yield from ([*fit, "--free", "a,n"], [*fit, "--param", "n=0.65"])
+    yield from ([*fit, "--free", "a,n"], [*fit, "--param", "n=0.65"], [*fit, "--robust"])
     yield ["invert", ELASTIC_BULK, "--law", "ting", "--restitution", "0.92"]
     yield from (["export", GLASS], ["export", *on(GLASS, 'body.1={name="wall", wall={}}')])
     yield ["export", *on(GLASS, 'model.law.kuwabara_kono={a="1 us"}')]
