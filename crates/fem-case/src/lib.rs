@@ -64,6 +64,7 @@ mod validate;
 pub use case::{Case, text_at};
 pub use error::CaseError;
 pub use fem_material::engineering;
+pub use quantity::temperature::parse_temperature;
 pub use quantity::units::{Dimension, UnitError, parse_quantity};
 pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Length, Number, Quantity, QuantityError,

@@ -26,6 +26,7 @@ mod hooke;
 mod material;
 mod prony;
 mod relaxation_step;
+mod shift;
 
 pub use elastic::{ElasticModuli, ModuliInput};
 pub use error::MaterialError;
@@ -33,3 +34,4 @@ pub use flow::{FlowPoint, FlowRule, Hardening, MAX_FLOW_ROWS, RateFactor};
 pub use material::Material;
 pub use prony::{ActsOn, PronySeries, PronyTerm, maxwell_element, relaxation_at};
 pub use relaxation_step::RelaxationStep;
+pub use shift::ShiftLaw;

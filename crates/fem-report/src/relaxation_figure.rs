@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use fem::measured::{ModulusPoint, TestKind};
-use fem::relaxation::FoundRelaxation;
+use fem::relaxation::{FoundRelaxation, Superposition};
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
 use crate::quantity_axis::{QuantityAxis, chart_axes};
@@ -13,7 +13,9 @@ const POINTS_PER_DECADE: f64 = 12.0;
 
 /// Returns `relaxation.svg`: measured moduli with the series, relative residuals, and the weights of the terms.
 pub fn relaxation_figure(found: &FoundRelaxation) -> String {
-    fem_figure::svg(&[moduli(found), residuals(found), weights(found)]).unwrap_or_default()
+    let charts = [moduli(found), residuals(found), weights(found)].into_iter();
+    let charts = charts.chain(found.superposition.as_ref().map(shifts));
+    fem_figure::svg(&charts.collect::<Vec<_>>()).unwrap_or_default()
 }
 
 /// Returns the position of a point along the axis: frequency, Hz, or time, s.
@@ -22,7 +24,7 @@ fn position(found: &FoundRelaxation, at: f64) -> f64 {
 }
 
 fn abscissa(found: &FoundRelaxation) -> QuantityAxis {
-    let points = found.table.points.iter().map(|point| position(found, point.at));
+    let points = found.points.iter().map(|point| position(found, point.at));
     let (name, symbol) = match found.table.kind {
         TestKind::Oscillation => ("frequency", "Hz"),
         TestKind::Relaxation => ("time", "s"),
@@ -46,7 +48,7 @@ fn parts(found: &FoundRelaxation) -> Vec<(String, Part)> {
 }
 
 fn moduli(found: &FoundRelaxation) -> Chart {
-    let points = &found.table.points;
+    let points = &found.points;
     let (from, to) = points
         .iter()
         .fold((f64::INFINITY, 0.0f64), |(from, to), point| (from.min(point.at), to.max(point.at)));
@@ -74,14 +76,14 @@ fn residuals(found: &FoundRelaxation) -> Chart {
     let x = abscissa(found);
     let mut chart = Chart::new(x.axis(), Axis::new("measured less series [%]"));
     for (k, (name, part)) in parts(found).into_iter().enumerate() {
-        let off = found.table.points.iter().filter(|point| part(point) > 0.0).map(|point| {
+        let off = found.points.iter().filter(|point| part(point) > 0.0).map(|point| {
             let fitted = found.series.moduli(found.table.kind, point.at)[k];
             let share = (part(point) - fitted) / part(point);
             (x.scaled(position(found, point.at)), 100.0 * share)
         });
         chart = chart.with(Curve::points(name, off.collect()).coloured(COLOURS[k]));
     }
-    let ends = found.table.points.iter().map(|point| x.scaled(position(found, point.at)));
+    let ends = found.points.iter().map(|point| x.scaled(position(found, point.at)));
     let zero = ends.map(|x| (x, 0.0)).collect();
     chart.with(Curve::dashed("", zero).coloured(GREY))
 }
@@ -95,4 +97,28 @@ fn weights(found: &FoundRelaxation) -> Chart {
     let bars = terms.iter().map(|term| 2.0 * term.uncertainty / whole).collect();
     let points = Curve::points("weight ± 2 u", points.collect()).with_errors(bars);
     Chart::new(x.axis(), Axis::new("weight")).with(points.like_curve(2))
+}
+
+/// Shift factors over temperature with the laws that were fitted to them.
+fn shifts(found: &Superposition) -> Chart {
+    let log10 = |ln: f64| ln / std::f64::consts::LN_10;
+    let celsius = |kelvin: f64| kelvin - 273.15;
+    let points = found.blocks.iter().map(|it| (celsius(it.temperature), log10(it.ln_shift)));
+    let bars = found.blocks.iter().map(|it| 2.0 * log10(it.shift_uncertainty)).collect();
+    let measured = Curve::points("shift ± 2 u", points.collect()).with_errors(bars);
+    let mut chart = Chart::new(Axis::new("temperature [°C]"), Axis::new("log₁₀ a_T"));
+    let ends = [found.blocks.first(), found.blocks.last()];
+    let [from, to] = ends.map(|block| block.map_or(0.0, |block| block.temperature));
+    for (k, (name, law)) in
+        [("WLF", &found.wlf), ("Arrhenius", &found.arrhenius)].iter().enumerate()
+    {
+        let Some(fitted) = law else { continue };
+        let curve = (0..=60).filter_map(|i| {
+            let temperature = from + (to - from) * f64::from(i) / 60.0;
+            let reference = found.reference_temperature();
+            Some((celsius(temperature), fitted.law.log10_shift(temperature, reference)?))
+        });
+        chart = chart.with(Curve::line(*name, curve.collect()).coloured(COLOURS[k + 1]));
+    }
+    chart.with(measured.like_curve(0))
 }

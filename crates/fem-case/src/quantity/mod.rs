@@ -2,6 +2,7 @@
 //! kind is a type parameter only here; scenes use `f64`.
 
 pub(crate) mod range;
+pub(crate) mod temperature;
 mod uncertain;
 pub(crate) mod unit_table;
 pub(crate) mod units;

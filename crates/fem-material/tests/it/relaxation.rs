@@ -2,6 +2,7 @@
 
 use fem_material::{
     ActsOn, ElasticModuli, Material, MaterialError, PronySeries, PronyTerm, RelaxationStep,
+    ShiftLaw,
 };
 
 fn series(terms: &[(f64, f64)], acts_on: ActsOn) -> Result<PronySeries, MaterialError> {
@@ -286,4 +287,22 @@ fn complex_moduli_are_the_transform_of_the_relaxation() {
         assert!((sum[0] - exact[0]).abs() < 1e-6, "{frequency}: {sum:?} {exact:?}");
         assert!((sum[1] - exact[1]).abs() < 1e-6, "{frequency}: {sum:?} {exact:?}");
     }
+}
+
+#[test]
+fn shift_laws_have_their_values() {
+    // The universal constants of Williams, Landel & Ferry (1955), 50 K above the glass transition.
+    let wlf = ShiftLaw::Wlf { c1: 17.44, c2: 51.6 };
+    let shift = wlf.log10_shift(423.15, 373.15).unwrap();
+    assert!((shift + 17.44 * 50.0 / 101.6).abs() < 1e-12);
+    assert_eq!(wlf.log10_shift(373.15, 373.15), Some(0.0));
+    assert_eq!(wlf.log10_shift(373.15 - 51.6, 373.15), None);
+    let arrhenius = ShiftLaw::Arrhenius { activation_temperature: 10_000.0 };
+    let shift = arrhenius.log10_shift(250.0, 300.0).unwrap();
+    assert!((shift - 1e4 * (1.0 / 250.0 - 1.0 / 300.0) / 10f64.ln()).abs() < 1e-12);
+    let table = ShiftLaw::Table(vec![(280.0, 2.0), (300.0, 0.0), (310.0, -0.5)]);
+    let at = [279.0, 280.0, 285.0, 300.0, 305.0, 310.0, 311.0];
+    let found = at.map(|temperature| table.log10_shift(temperature, 300.0));
+    let known = [None, Some(2.0), Some(1.5), Some(0.0), Some(-0.25), Some(-0.5), None];
+    assert_eq!(found, known);
 }

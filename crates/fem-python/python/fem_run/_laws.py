@@ -517,6 +517,8 @@ def relaxation(
     modulus: Literal["young", "shear"] | None = None,
     bulk_modulus: Quantity | None = None,
     terms_per_decade: Quantity | None = None,
+    reference_temperature: str | None = None,
+    vertical_shift: bool = False,
     density: Quantity | None = None,
     poissons_ratio: Quantity | None = None,
     columns: Columns | None = None,
@@ -528,6 +530,9 @@ def relaxation(
         modulus: the modulus that was measured; by default the columns decide.
         bulk_modulus: elastic bulk modulus, so that only the shear modulus relaxes; by default Poisson's ratio is constant.
         terms_per_decade: number of terms per decade of time; by default the data decide.
+        reference_temperature: temperature to which the moduli of other temperatures are shifted, ``"23 degC"``; by default
+            that in the middle.
+        vertical_shift: scale the moduli of each temperature too.
         density: density of the material, for its table.
         poissons_ratio: Poisson's ratio of the material, for its table.
         columns: names of the columns by their meaning: ``{"storage_modulus": "E1"}``.

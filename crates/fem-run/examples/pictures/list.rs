@@ -54,7 +54,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 26] = [
+pub const PICTURES: [Picture; 27] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -76,6 +76,11 @@ pub const PICTURES: [Picture; 26] = [
         "measure.svg",
         &["measure validation/data/bounce_times.csv --height 50cm"],
         "runs/bounce_times_measure/measure.svg",
+    ),
+    figure(
+        "dma-temperatures.svg",
+        &["relaxation validation/data/dma_polymer.csv"],
+        "runs/dma_polymer_relaxation/relaxation.svg",
     ),
     figure(
         "dma.svg",

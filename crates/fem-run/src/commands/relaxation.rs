@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use fem::ShiftLaw;
 use fem::fit::cradle::Measured;
 use fem::measured::{Kind, Modulus, ModulusTable, NotMeasured, TestKind, decode, parse_measured};
-use fem::relaxation::{FoundRelaxation, RelaxationSettings};
+use fem::relaxation::{Block, FoundRelaxation, RelaxationSettings};
 use fem_case::engineering::{Unit, show};
 use fem_report::relaxation_figure::relaxation_figure;
 use serde_json::Value;
@@ -35,6 +36,12 @@ pub struct Arguments {
     /// Terms of the series per decade of time [default: by the data]
     #[arg(long, value_name = "NUMBER", value_parser = parse_density)]
     terms_per_decade: Option<f64>,
+    /// Temperature to which the moduli of other temperatures are shifted [default: that in the middle]
+    #[arg(long, value_name = "TEMPERATURE", value_parser = of_kind(Kind::Temperature))]
+    reference_temperature: Option<Measured>,
+    /// Scale the moduli of each temperature too
+    #[arg(long)]
+    vertical_shift: bool,
     /// Density of the material, for its table
     #[arg(long, value_name = "DENSITY", value_parser = of_kind(Kind::Density))]
     density: Option<Measured>,
@@ -69,7 +76,12 @@ impl Arguments {
         let (name, names) = (self.file.display().to_string(), self.columns.names()?);
         let table = ModulusTable::parse(&name, &decode(bytes), &names, self.modulus)?;
         let bulk_modulus = self.bulk_modulus.map(|bulk| bulk.value);
-        let settings = RelaxationSettings { terms_per_decade: self.terms_per_decade, bulk_modulus };
+        let settings = RelaxationSettings {
+            terms_per_decade: self.terms_per_decade,
+            bulk_modulus,
+            reference_temperature: self.reference_temperature.map(|it| it.value),
+            has_vertical_shift: self.vertical_shift,
+        };
         Ok(FoundRelaxation::of(table, settings)?)
     }
 
@@ -98,7 +110,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let material = arguments.material(&found);
         let name = arguments.name();
         let table = format!("\n{material}\n[material.{name}.relaxation]\n# the lines of {file}\n");
-        answer(&found) + &terms(&found) + &table
+        answer(&found) + &shifts(&found) + &terms(&found) + &table
     })
 }
 
@@ -145,6 +157,40 @@ fn answer(found: &FoundRelaxation) -> String {
         .temperature
         .map_or(String::new(), |kelvin| format!("temperature: {:.1} °C\n", kelvin - 273.15))
         + "\n"
+}
+
+/// Returns the table of shift factors, with the laws that were fitted to them.
+fn shifts(found: &FoundRelaxation) -> String {
+    let Some(superposition) = &found.superposition else { return String::new() };
+    let log10 = |ln: f64| ln / std::f64::consts::LN_10;
+    let row = |block: &Block| {
+        let [value, uncertainty] = [block.ln_shift, block.shift_uncertainty].map(log10);
+        let shift = match uncertainty > 0.0 {
+            true => show_measured(Measured { value, uncertainty }, ""),
+            false => "0".to_string(),
+        };
+        [format!("{:.1} °C", block.temperature - 273.15), shift]
+    };
+    let mut text = headed(">temperature|>log10 a_T", superposition.blocks.iter().map(row)) + "\n";
+    let measured = |value: f64, uncertainty: f64, unit: &str| {
+        show_measured(Measured { value, uncertainty }, unit)
+    };
+    for fitted in [&superposition.wlf, &superposition.arrhenius].into_iter().flatten() {
+        let u = &fitted.uncertainties;
+        text += &match &fitted.law {
+            ShiftLaw::Wlf { c1, c2 } => {
+                format!("WLF: C1 = {}, C2 = {}", measured(*c1, u[0], ""), measured(*c2, u[1], "K"))
+            }
+            ShiftLaw::Arrhenius { activation_temperature } => {
+                let energy = |kelvin: f64| 8.314_462_618e-3 * kelvin;
+                let energy = measured(energy(*activation_temperature), energy(u[0]), "kJ/mol");
+                format!("Arrhenius: activation energy {energy}")
+            }
+            ShiftLaw::Table(_) => String::new(),
+        };
+        text += &format!("; misses log10 a_T by up to {:.2}\n", fitted.largest_deviation);
+    }
+    text + "\n"
 }
 
 /// Returns the table of terms.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::fit::cradle::Measured;
-use fem_case::parse_quantity;
+use fem_case::{parse_quantity, parse_temperature};
 
 /// Kinds of quantity of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub enum Kind {
     Density,
     /// A modulus of elasticity, Pa.
     Modulus,
+    /// A temperature, K.
+    Temperature,
 }
 
 /// The reason why a text is no measured quantity.
@@ -56,6 +58,7 @@ impl Kind {
             Self::Speed => [1, 0, -1, 0],
             Self::Density => [-3, 1, 0, 0],
             Self::Modulus => [-1, 1, -2, 0],
+            Self::Temperature => [0; 4],
         }
     }
 
@@ -68,6 +71,7 @@ impl Kind {
             Self::Speed => "a speed, such as '2 m/s' or '2 m/s ± 1 cm/s'",
             Self::Density => "a density, such as '7800 kg/m^3'",
             Self::Modulus => "a modulus, such as '5 GPa'",
+            Self::Temperature => "a temperature, such as '23 degC'",
             Self::Angle => "an angle, such as '20 deg', '20 ± 0.5 deg' or '0.35 rad'",
         }
     }
@@ -125,6 +129,9 @@ pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
 
 fn parse(kind: Kind, text: &str) -> Result<f64, NotMeasured> {
     let text = text.trim();
+    if kind == Kind::Temperature {
+        return parse_temperature(text).ok_or_else(|| wrong(kind, text));
+    }
     if kind == Kind::Angle
         && let Some((number, scale)) =
             ANGLES.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, scale)))

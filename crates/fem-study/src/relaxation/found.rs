@@ -8,7 +8,10 @@ use fem_case::schema::ActsOn;
 use crate::measured::{DataError, Modulus, ModulusPoint, ModulusTable, TestKind};
 
 use super::series::{FittedSeries, fit_series};
+use super::superposition::{Block, Superposition};
 
+/// Kelvin at 0 °C.
+const ZERO_CELSIUS: f64 = 273.15;
 /// The least ratio of the largest to the smallest frequency or time.
 const MIN_SPAN: f64 = 3.0;
 /// The share by which a storage modulus may fall below one at a lower frequency, by scatter.
@@ -17,8 +20,14 @@ const MAX_FALL: f64 = 0.1;
 const MAX_CONTRADICTION: f64 = 0.2;
 /// Frequencies closer than this ratio are the same.
 const SAME: f64 = 1.0 + 1e-6;
-/// Temperatures of one block, K.
-const SAME_TEMPERATURE: f64 = 3.0;
+/// Temperatures that are closer are of one block, K.
+const SAME_TEMPERATURE: f64 = 1.0;
+/// Most that the temperatures of a block may differ, K.
+const MAX_DRIFT: f64 = 3.0;
+/// Ratio of the misfit of one series to that of a series for each temperature above which these do not superpose.
+const MIN_MISFIT_RATIO: f64 = 3.0;
+/// The least misfit of a series that is reported so.
+const LEAST_MISFIT: f64 = 0.05;
 /// Root mean square of relative residuals above which a warning is given.
 const LARGE_RMS: f64 = 0.1;
 
@@ -29,6 +38,10 @@ pub struct RelaxationSettings {
     pub terms_per_decade: Option<f64>,
     /// The bulk modulus, Pa, which then is elastic; without it Poisson's ratio is constant.
     pub bulk_modulus: Option<f64>,
+    /// The temperature, K, whose block is the reference; that in the middle without it.
+    pub reference_temperature: Option<f64>,
+    /// Whether moduli of other temperatures are scaled too.
+    pub has_vertical_shift: bool,
 }
 
 /// The relaxation that a table of moduli shows.
@@ -38,7 +51,13 @@ pub struct FoundRelaxation {
     pub table: ModulusTable,
     /// The series through them.
     pub series: FittedSeries,
-    /// Mean temperature of the rows, K, if the table has temperatures.
+    /// The points at the reference temperature, in the order of the table.
+    pub points: Vec<ModulusPoint>,
+    /// The shifts of a table of several temperatures.
+    pub superposition: Option<Superposition>,
+    /// Root mean square of relative residuals of a series for each temperature alone.
+    pub scatter: Option<f64>,
+    /// The reference temperature, K, if the table has temperatures.
     pub temperature: Option<f64>,
     /// The elastic bulk modulus, Pa; Poisson's ratio is constant without it.
     pub bulk_modulus: Option<f64>,
@@ -50,20 +69,35 @@ impl FoundRelaxation {
     /// # Errors
     /// The table spans too few frequencies or times, has several temperatures, or contradicts itself.
     pub fn of(table: ModulusTable, settings: RelaxationSettings) -> Result<Self, DataError> {
-        let temperature = one_temperature(&table)?;
         check_span(&table)?;
-        check_block(&table, &table.points)?;
+        let blocks = isothermal_blocks(&table)?;
+        for block in &blocks {
+            check_block(&table, block)?;
+        }
         let table = match settings.bulk_modulus {
             Some(bulk) => of_shear(table, bulk)?,
             None => table,
         };
-        let series = fit_series(table.kind, &table.points, settings.terms_per_decade);
+        let kind = table.kind;
+        let superposition =
+            (blocks.len() > 1).then(|| superposed(&table, blocks.clone(), settings));
+        let superposition = superposition.transpose()?;
+        let points = match &superposition {
+            Some(superposition) => superposition.reduced(kind, &table.points),
+            None => table.points.clone(),
+        };
+        let temperature = superposition.as_ref().map(Superposition::reference_temperature);
+        let is_known = table.points.iter().any(|point| point.temperature.is_some());
+        let temperature = temperature.or(is_known.then_some(blocks[0].temperature));
+        let scatter = superposition.as_ref().map(|_| scatter_of_blocks(&table, &blocks));
+        let series = fit_series(kind, &points, settings.terms_per_decade);
         if series.terms.is_empty() {
             let message = "no loss and no change of the modulus is found: the material is elastic";
             let error = DataError::new(&table.name, message);
             return Err(error.with_help("leave relaxation out of the material"));
         }
-        Ok(Self { table, series, temperature, bulk_modulus: settings.bulk_modulus })
+        let bulk_modulus = settings.bulk_modulus;
+        Ok(Self { table, series, points, superposition, scatter, temperature, bulk_modulus })
     }
 
     /// Returns the modulus that was measured.
@@ -76,9 +110,9 @@ impl FoundRelaxation {
         if self.bulk_modulus.is_some() { ActsOn::Shear } else { ActsOn::All }
     }
 
-    /// Returns the smallest and the largest measured frequency, Hz; of a relaxation test 1/(2πt).
+    /// Returns the smallest and the largest measured frequency at the reference temperature, Hz; of a relaxation test 1/(2πt).
     pub fn band(&self) -> [f64; 2] {
-        band(self.table.kind, &self.table.points)
+        band(self.table.kind, &self.points)
     }
 
     /// Returns the weights G_k/G_0 and the relaxation times (s).
@@ -100,7 +134,17 @@ impl FoundRelaxation {
                     .to_string(),
             );
         }
-        if self.series.rms > LARGE_RMS {
+        if let (Some(scatter), rms) = (self.scatter, self.series.rms)
+            && rms > LEAST_MISFIT
+            && rms > MIN_MISFIT_RATIO * scatter
+        {
+            warnings.push(format!(
+                "the temperatures do not superpose: one series misses the moduli by {:.1} % (rms), a series for each \
+                 temperature by {:.1} %; keep fewer temperatures, or try --vertical-shift",
+                100.0 * rms,
+                100.0 * scatter
+            ));
+        } else if self.series.rms > LARGE_RMS {
             warnings.push(format!(
                 "the series misses the moduli by {:.0} % (rms): check the columns, the units and the temperatures",
                 100.0 * self.series.rms
@@ -154,18 +198,102 @@ fn of_shear(mut table: ModulusTable, bulk: f64) -> Result<ModulusTable, DataErro
     Ok(table)
 }
 
-fn one_temperature(table: &ModulusTable) -> Result<Option<f64>, DataError> {
-    let known: Vec<f64> = table.points.iter().filter_map(|point| point.temperature).collect();
-    let (from, to) = known
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), t| (from.min(*t), to.max(*t)));
-    if to - from > SAME_TEMPERATURE {
-        let message = format!("the temperatures go from {from:.1} K to {to:.1} K");
-        let error = DataError::new(&table.name, message);
-        return Err(error.with_help("keep the rows of one temperature"));
+/// Returns the rows by temperature; one block without temperatures.
+fn isothermal_blocks(table: &ModulusTable) -> Result<Vec<Block>, DataError> {
+    let temperature = |k: &usize| table.points[*k].temperature.unwrap_or(0.0);
+    let mut order: Vec<usize> = (0..table.points.len()).collect();
+    order.sort_by(|a, b| temperature(a).total_cmp(&temperature(b)));
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for k in order {
+        match groups.last_mut() {
+            Some(group)
+                if group
+                    .last()
+                    .is_some_and(|last| temperature(&k) - temperature(last) < SAME_TEMPERATURE) =>
+            {
+                group.push(k);
+            }
+            _ => groups.push(vec![k]),
+        }
     }
-    let n = known.len() as f64;
-    Ok((!known.is_empty()).then(|| known.iter().sum::<f64>() / n))
+    let block = |mut points: Vec<usize>| {
+        let [from, to] = [points.first(), points.last()].map(|k| k.map_or(0.0, temperature));
+        if to - from > MAX_DRIFT {
+            let message = format!(
+                "the temperatures go from {} to {} without a step",
+                celsius(from),
+                celsius(to)
+            );
+            let help =
+                "superposition needs several frequencies at each of several constant temperatures";
+            return Err(DataError::new(&table.name, message).with_help(help));
+        }
+        let mean = points.iter().map(temperature).sum::<f64>() / points.len() as f64;
+        points.sort_unstable();
+        let at = |k: &usize| table.points[*k].at;
+        let first = points.first().map_or(0.0, at);
+        if points.iter().all(|k| (at(k) / first).max(first / at(k)) < SAME) {
+            let line = table.points[points[0]].line;
+            let message = format!("only one frequency or time is at {}", celsius(mean));
+            let help = "superposition needs several frequencies at each temperature";
+            return Err(DataError::new(&table.name, message).in_line(line).with_help(help));
+        }
+        let zero = 0.0;
+        Ok(Block {
+            temperature: mean,
+            points,
+            ln_shift: zero,
+            shift_uncertainty: zero,
+            ln_vertical: zero,
+        })
+    };
+    groups.into_iter().map(block).collect()
+}
+
+/// Returns a temperature (K) as text.
+fn celsius(kelvin: f64) -> String {
+    format!("{:.1} °C", kelvin - ZERO_CELSIUS)
+}
+
+/// Shifts blocks to the reference.
+fn superposed(
+    table: &ModulusTable,
+    blocks: Vec<Block>,
+    settings: RelaxationSettings,
+) -> Result<Superposition, DataError> {
+    let middle = blocks[blocks.len() / 2].temperature;
+    let wanted = settings.reference_temperature.unwrap_or(middle);
+    let far = |k: &usize| (blocks[*k].temperature - wanted).abs();
+    let reference = (0..blocks.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
+    if far(&reference) > MAX_DRIFT {
+        let temperatures = blocks.iter().map(|block| celsius(block.temperature));
+        let message = format!("no rows are at the reference temperature, {}", celsius(wanted));
+        let known = temperatures.collect::<Vec<_>>().join(", ");
+        return Err(DataError::new(&table.name, message).with_help(format!("there are {known}")));
+    }
+    let names: Vec<String> = blocks.iter().map(|block| celsius(block.temperature)).collect();
+    let has_vertical = settings.has_vertical_shift;
+    Superposition::of(table.kind, &table.points, blocks, reference, has_vertical).map_err(|k| {
+        let message = format!("the moduli at {} and {} do not overlap", names[k], names[k + 1]);
+        let help = "superposition needs steps of temperature so small that neighbouring blocks share moduli";
+        DataError::new(&table.name, message).with_help(help)
+    })
+}
+
+/// Returns the root mean square of the residuals of a series for each block, per degree of freedom.
+fn scatter_of_blocks(table: &ModulusTable, blocks: &[Block]) -> f64 {
+    let (mut sum, mut freedom) = (0.0, 0.0);
+    for block in blocks {
+        let points: Vec<ModulusPoint> = block.points.iter().map(|k| table.points[*k]).collect();
+        let series = fit_series(table.kind, &points, None);
+        let n = if table.kind == TestKind::Oscillation { 2 * points.len() } else { points.len() };
+        let n_parameters = 2 * series.terms.len() + 1;
+        if n > n_parameters {
+            sum += n as f64 * series.rms.powi(2);
+            freedom += (n - n_parameters) as f64;
+        }
+    }
+    if freedom > 0.0 { (sum / freedom).sqrt() } else { f64::NAN }
 }
 
 fn check_span(table: &ModulusTable) -> Result<(), DataError> {
@@ -190,8 +318,8 @@ fn check_span(table: &ModulusTable) -> Result<(), DataError> {
 }
 
 /// Checks the rows of one temperature: a storage modulus rises with frequency, a relaxation modulus falls with time.
-fn check_block(table: &ModulusTable, points: &[ModulusPoint]) -> Result<(), DataError> {
-    let mut sorted: Vec<&ModulusPoint> = points.iter().collect();
+fn check_block(table: &ModulusTable, block: &Block) -> Result<(), DataError> {
+    let mut sorted: Vec<&ModulusPoint> = block.points.iter().map(|k| &table.points[*k]).collect();
     sorted.sort_by(|a, b| a.at.total_cmp(&b.at));
     let name = format!(
         "{}{}",

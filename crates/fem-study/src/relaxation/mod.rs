@@ -1,13 +1,16 @@
 //! Relaxation of a material from a data sheet: moduli over frequency or time become a Prony series.
 //!
 //! ```text
-//! crate::measured::ModulusTable ─ found ─┬─ series: non-negative least squares
+//! crate::measured::ModulusTable ─ found ─┬─ superposition: blocks of temperatures to a master curve
+//!                                        ├─ series: non-negative least squares
 //!                                        └─ stored: relaxation.json and the table of a case
 //! ```
 
 mod found;
 mod series;
 mod stored;
+mod superposition;
 
 pub use found::{FoundRelaxation, RelaxationSettings};
 pub use series::{FittedSeries, FittedTerm, fit_series};
+pub use superposition::{Block, FittedShift, Superposition};

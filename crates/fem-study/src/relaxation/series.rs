@@ -125,13 +125,13 @@ impl Candidate {
     }
 }
 
-struct Observations {
+pub(super) struct Observations {
     kind: TestKind,
     rows: Vec<Row>,
 }
 
 impl Observations {
-    fn of(kind: TestKind, points: &[ModulusPoint]) -> Self {
+    pub fn of(kind: TestKind, points: &[ModulusPoint]) -> Self {
         let rows = points.iter().flat_map(|point| {
             let ModulusPoint { at, storage, loss, .. } = *point;
             let storage_row = Row { at, part: 0, value: storage, scale: storage };
@@ -143,13 +143,21 @@ impl Observations {
         Self { kind, rows: rows.flatten().collect() }
     }
 
+    /// Returns the observations of the storage modulus alone.
+    pub fn of_storage(kind: TestKind, points: &[ModulusPoint]) -> Self {
+        let mut all = Self::of(kind, points);
+        all.rows.retain(|row| row.part == 0);
+        all
+    }
+
     /// Returns the criterion of a sum of squares.
     fn criterion(&self, misfit: f64, n_parameters: usize) -> f64 {
         let n = self.rows.len() as f64;
         n * (misfit / n + ROUNDING * ROUNDING).ln() + n_parameters as f64 * n.ln()
     }
 
-    fn linear(&self, times: &[f64]) -> Linear {
+    /// Returns the linear problem of the moduli of terms at these times and of equilibrium.
+    pub fn linear_of_all(&self, times: &[f64]) -> Linear {
         let k = times.len();
         let entry = |i: usize, j: usize| {
             let row = &self.rows[i];
@@ -161,7 +169,11 @@ impl Observations {
         };
         let a = DMatrix::from_fn(self.rows.len(), k + 1, entry);
         let b = DVector::from_iterator(a.nrows(), self.rows.iter().map(|r| r.value / r.scale));
-        Linear { a, b }.compressed()
+        Linear { a, b }
+    }
+
+    fn linear(&self, times: &[f64]) -> Linear {
+        self.linear_of_all(times).compressed()
     }
 
     /// Returns the moduli of terms at these times, without terms that have none.
@@ -285,9 +297,13 @@ impl Observations {
     }
 }
 
-/// Returns the series that the points determine. `density` is the number of terms per decade; by default the data choose it.
-pub fn fit_series(kind: TestKind, points: &[ModulusPoint], density: Option<f64>) -> FittedSeries {
-    let observations = Observations::of(kind, points);
+/// Returns relaxation times over the span of points, so many per decade, shifted by a share of their spacing.
+pub(super) fn grid(
+    kind: TestKind,
+    points: &[ModulusPoint],
+    density: f64,
+    position: f64,
+) -> Vec<f64> {
     let times = points.iter().map(|point| match kind {
         TestKind::Oscillation => point.at.recip(),
         TestKind::Relaxation => point.at,
@@ -296,13 +312,17 @@ pub fn fit_series(kind: TestKind, points: &[ModulusPoint], density: Option<f64>)
         (first.min(time), last.max(time))
     });
     let (first, last) = ((first / MARGIN).ln(), (last * MARGIN).ln());
-    let grid = |density: f64, position: f64| -> Vec<f64> {
-        let spacing = std::f64::consts::LN_10 / density;
-        let n = ((last - first) / spacing - position).floor().max(0.0) as usize + 1;
-        (0..n).map(|k| (first + (k as f64 + position) * spacing).exp()).collect()
-    };
+    let spacing = std::f64::consts::LN_10 / density;
+    let n = ((last - first) / spacing - position).floor().max(0.0) as usize + 1;
+    (0..n).map(|k| (first + (k as f64 + position) * spacing).exp()).collect()
+}
+
+/// Returns the series that the points determine. `density` is the number of terms per decade; by default the data choose it.
+pub fn fit_series(kind: TestKind, points: &[ModulusPoint], density: Option<f64>) -> FittedSeries {
+    let observations = Observations::of(kind, points);
     let densities = density.map_or(DENSITIES.to_vec(), |density| vec![density]);
-    let grids = densities.iter().flat_map(|d| POSITIONS.map(|position| grid(*d, position)));
+    let grids =
+        densities.iter().flat_map(|d| POSITIONS.map(|position| grid(kind, points, *d, position)));
     let candidates = grids.map(|times| observations.solve(&times, 1));
     let mut best: Option<Candidate> = None;
     for candidate in candidates {

@@ -2,15 +2,60 @@
 
 use serde_json::{Value, json};
 
+use fem_material::ShiftLaw;
 use fem_material::engineering::{Unit, show};
 use fem_simulation::results::PROGRAM;
 
 use super::found::FoundRelaxation;
+use super::superposition::{FittedShift, Superposition};
 use crate::calibrate::stored_calibration::toml_key;
 use crate::measured::{ModulusPoint, TestKind};
 
+/// The gas constant, J/(mol K), exact by the SI of 2019.
+const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
+
+/// Returns the numbers of shifts for JSON.
+fn superposition(found: &Superposition) -> Value {
+    let log10 = |ln: f64| ln / std::f64::consts::LN_10;
+    let blocks = found.blocks.iter().map(|block| {
+        json!({
+            "temperature_k": block.temperature,
+            "points": block.points.len(),
+            "log10_shift": log10(block.ln_shift),
+            "log10_shift_uncertainty": log10(block.shift_uncertainty),
+            "log10_vertical_shift": log10(block.ln_vertical),
+        })
+    });
+    let law = |fitted: &FittedShift| {
+        let mut numbers = match &fitted.law {
+            ShiftLaw::Wlf { c1, c2 } => json!({
+                "c1": c1,
+                "c1_uncertainty": fitted.uncertainties[0],
+                "c2_k": c2,
+                "c2_uncertainty_k": fitted.uncertainties[1],
+            }),
+            ShiftLaw::Arrhenius { activation_temperature } => json!({
+                "activation_temperature_k": activation_temperature,
+                "activation_temperature_uncertainty_k": fitted.uncertainties[0],
+                "activation_energy_j_mol": GAS_CONSTANT * activation_temperature,
+            }),
+            ShiftLaw::Table(_) => json!({}),
+        };
+        numbers["misfit"] = json!(fitted.misfit);
+        numbers["largest_deviation_log10"] = json!(fitted.largest_deviation);
+        numbers
+    };
+    json!({
+        "reference_temperature_k": found.reference_temperature(),
+        "shifted_by": if found.has_loss { "both moduli" } else { "storage modulus" },
+        "blocks": blocks.collect::<Value>(),
+        "wlf": found.wlf.as_ref().map(law),
+        "arrhenius": found.arrhenius.as_ref().map(law),
+    })
+}
+
 impl FoundRelaxation {
-    /// Returns the columns of the residuals: frequency (Hz) or time (s), measured and fitted moduli (Pa).
+    /// Returns the columns of the residuals at the reference temperature: frequency (Hz) or time (s), measured and fitted moduli (Pa).
     pub fn columns(&self) -> &'static [&'static str] {
         match self.table.kind {
             TestKind::Oscillation => &[
@@ -28,7 +73,7 @@ impl FoundRelaxation {
 
     /// Returns the rows below [`FoundRelaxation::columns`].
     pub fn rows(&self) -> impl Iterator<Item = Vec<f64>> {
-        self.table.points.iter().map(|point| {
+        self.points.iter().map(|point| {
             let ModulusPoint { at, storage, loss, .. } = *point;
             let [fitted_storage, fitted_loss] = self.series.moduli(self.table.kind, at);
             match self.table.kind {
@@ -67,6 +112,8 @@ impl FoundRelaxation {
             "equilibrium_modulus_uncertainty_pa": series.equilibrium_uncertainty,
             "terms": terms.collect::<Value>(),
             "rms": series.rms,
+            "scatter": self.scatter,
+            "superposition": self.superposition.as_ref().map(superposition),
             "warnings": self.warnings(),
         })
     }

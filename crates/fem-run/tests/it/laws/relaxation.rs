@@ -64,3 +64,30 @@ fn options_of_moduli_are_checked() {
     ran.prints("elastic bulk modulus|glassy modulus G0|shear_modulus = |bulk_modulus = \"5000000000.0 Pa\"");
     place.succeed("relaxation step.csv").prints("(1/2πt)");
 }
+
+/// The data are made with C1 = 12 and C2 = 120 K at 20 °C.
+#[test]
+fn temperatures_become_a_master_curve() {
+    let place = Place::new();
+    place.write("polymer.csv", include_str!("../../../../../validation/data/dma_polymer.csv"));
+    let ran = place.succeed("relaxation polymer.csv");
+    ran.prints("WLF: C1 = 12|Arrhenius: activation energy|-10.0 °C   4.0|1.150 MHz");
+    let numbers = place.json("runs/polymer_relaxation/relaxation.json");
+    let wlf = &numbers["superposition"]["wlf"];
+    let of = |key: &str| wlf[key].as_f64().unwrap();
+    assert!((of("c1") - 12.0).abs() < 2.0 * of("c1_uncertainty"), "{wlf}");
+    assert!((of("c2_k") - 120.0).abs() < 2.0 * of("c2_uncertainty_k"), "{wlf}");
+    assert!(place.text("runs/polymer_relaxation/relaxation.svg").contains("Arrhenius"));
+    let options =
+        "relaxation polymer.csv --reference-temperature '30 degC' --vertical-shift --out warm";
+    place.succeed(options).prints("temperature: 30.0 °C");
+    for (options, expected) in [
+        (
+            "--reference-temperature '70 degC'",
+            "no rows are at the reference temperature, 70.0 °C|there are -10.0",
+        ),
+        ("--reference-temperature 20", "is not a temperature, such as '23 degC'"),
+    ] {
+        place.fails(2, &format!("relaxation polymer.csv {options}")).tells(expected);
+    }
+}

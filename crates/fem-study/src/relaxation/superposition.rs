@@ -1,0 +1,404 @@
+//! Time–temperature superposition: isothermal blocks of moduli become one master curve.
+//!
+//! The shift of a block against its neighbour is the one with which a single series meets both best, by the residuals of
+//! `series`: by those of both moduli, or by those of the storage modulus alone if all blocks then superpose better, since resonances and
+//! friction of an instrument show most in the loss modulus and stay at their frequency. It is found by a scan about the area between their curves over the moduli that both have (the closed form of Gergesova,
+//! Zupančič, Saprunov & Emri, *J. Rheol.* 55 (2011) 1) and by golden section; the curvature of the sum of squares gives its
+//! uncertainty. The shifts add up from the reference, and the laws of [`fem_material::ShiftLaw`] are fitted to them by least squares
+//! with the covariance of these sums.
+//!
+//! A vertical factor b_T of both moduli may be found with each shift.
+//!
+//! Limits: neighbouring shifts share a block and are taken as independent, which makes the uncertainty of their sums somewhat too
+//! large. Where moduli hardly depend on the frequency a shift is uncertain, and so are those of all blocks behind it.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use fem_material::ShiftLaw;
+
+use crate::fit::least_squares::{jacobian, minimise};
+use crate::fit::spectrum::bounded::non_negative;
+use crate::measured::{ModulusPoint, TestKind};
+
+use super::series::{Observations, grid};
+
+/// Terms per decade of the series of two blocks.
+const DENSITY: f64 = 3.0;
+/// Terms per decade of the series of all blocks by which ways to shift are compared.
+const MASTER_DENSITY: f64 = 2.0;
+/// Decades of the scan on either side of the first estimate.
+const REACH: f64 = 1.5;
+/// Values of the scan.
+const N_SCANNED: usize = 16;
+/// Accuracy of a shift, ln.
+const TOLERANCE: f64 = 1e-4;
+/// Rounds that find a vertical factor, and the share of its change that a round takes: a series follows a factor that is not taken
+/// out in part.
+const VERTICAL_ROUNDS: usize = 8;
+const VERTICAL_GAIN: f64 = 1.0;
+/// Step of ln a_T for the curvature of the sum of squares.
+const CURVATURE_STEP: f64 = 0.05;
+
+/// The moduli at one temperature.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Mean temperature, K.
+    pub temperature: f64,
+    /// Indices of its points.
+    pub points: Vec<usize>,
+    /// Natural logarithm of the shift factor a_T.
+    pub ln_shift: f64,
+    /// Standard uncertainty of ln a_T; 0 for the reference.
+    pub shift_uncertainty: f64,
+    /// ln b_T, the factor of both moduli; 0 unless it is asked for.
+    pub ln_vertical: f64,
+}
+
+/// A shift law that was fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FittedShift {
+    /// The law with its constants.
+    pub law: ShiftLaw,
+    /// Standard uncertainties of its constants, in their order.
+    pub uncertainties: Vec<f64>,
+    /// Root mean square of the deviations over their uncertainties, per degree of freedom.
+    pub misfit: f64,
+    /// Largest deviation of log₁₀ a_T.
+    pub largest_deviation: f64,
+}
+
+/// Isothermal blocks with their shifts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Superposition {
+    /// Blocks by rising temperature.
+    pub blocks: Vec<Block>,
+    /// Index of the reference.
+    pub reference: usize,
+    /// Whether the shifts are by both moduli, or by the storage modulus alone.
+    pub has_loss: bool,
+    /// The law of Williams, Landel and Ferry, if there are at least three blocks and it fits.
+    pub wlf: Option<FittedShift>,
+    /// Arrhenius' law through the shifts.
+    pub arrhenius: Option<FittedShift>,
+}
+
+/// Returns a point at the reference temperature.
+fn reduced(kind: TestKind, point: &ModulusPoint, ln_shift: f64, ln_vertical: f64) -> ModulusPoint {
+    let factor = match kind {
+        TestKind::Oscillation => ln_shift.exp(),
+        TestKind::Relaxation => (-ln_shift).exp(),
+    };
+    let vertical = (-ln_vertical).exp();
+    let [storage, loss] = [point.storage, point.loss].map(|modulus| modulus * vertical);
+    ModulusPoint { at: factor * point.at, storage, loss, ..*point }
+}
+
+impl Superposition {
+    /// Finds the shifts of blocks of points (by rising temperature) to one of them.
+    ///
+    /// # Errors
+    /// The index of two neighbouring blocks whose moduli do not overlap.
+    pub(super) fn of(
+        kind: TestKind,
+        points: &[ModulusPoint],
+        blocks: Vec<Block>,
+        reference: usize,
+        has_vertical: bool,
+    ) -> Result<Self, usize> {
+        let with = |has_loss: bool| {
+            Self::with(kind, points, blocks.clone(), reference, (has_vertical, has_loss))
+        };
+        let (both, storage) = (with(true)?, with(false)?);
+        let misfit = |found: &Self| {
+            let all = found.reduced(kind, points);
+            let times = grid(kind, &all, MASTER_DENSITY, 0.0);
+            let linear = Observations::of(kind, &all).linear_of_all(&times).compressed();
+            linear.misfit(non_negative(&linear.a, &linear.b).as_slice())
+        };
+        Ok(if misfit(&both) <= misfit(&storage) { both } else { storage })
+    }
+
+    /// Finds the shifts with or without vertical factors, by both moduli or by the storage modulus.
+    fn with(
+        kind: TestKind,
+        points: &[ModulusPoint],
+        blocks: Vec<Block>,
+        reference: usize,
+        (has_vertical, has_loss): (bool, bool),
+    ) -> Result<Self, usize> {
+        let mut found = Self { blocks, reference, has_loss, wlf: None, arrhenius: None };
+        let steps = found.steps(kind, points, has_vertical)?;
+        let add = |from: &Block, to: &mut Block, step: &Step, sign: f64| {
+            to.ln_shift = from.ln_shift + sign * step.ln_shift;
+            to.ln_vertical = from.ln_vertical + sign * step.ln_vertical;
+            to.shift_uncertainty = from.shift_uncertainty.hypot(step.uncertainty);
+        };
+        for k in reference + 1..found.blocks.len() {
+            let (below, above) = found.blocks.split_at_mut(k);
+            add(&below[k - 1], &mut above[0], &steps[k - 1], 1.0);
+        }
+        for k in (0..reference).rev() {
+            let (below, above) = found.blocks.split_at_mut(k + 1);
+            add(&above[0], &mut below[k], &steps[k], -1.0);
+        }
+        found.fit_laws(&steps);
+        Ok(found)
+    }
+
+    /// Returns the points at the reference temperature, in their order.
+    pub fn reduced(&self, kind: TestKind, points: &[ModulusPoint]) -> Vec<ModulusPoint> {
+        let mut all = points.to_vec();
+        for block in &self.blocks {
+            for k in &block.points {
+                all[*k] = reduced(kind, &points[*k], block.ln_shift, block.ln_vertical);
+            }
+        }
+        all
+    }
+
+    /// Returns the temperature of the reference, K.
+    pub fn reference_temperature(&self) -> f64 {
+        self.blocks[self.reference].temperature
+    }
+
+    /// Returns the step from each block to the next warmer one.
+    fn steps(
+        &self,
+        kind: TestKind,
+        points: &[ModulusPoint],
+        has_vertical: bool,
+    ) -> Result<Vec<Step>, usize> {
+        let of = |block: &Block| -> Vec<ModulusPoint> {
+            block.points.iter().map(|k| points[*k]).collect()
+        };
+        let pairs = self.blocks.windows(2).enumerate();
+        pairs
+            .map(|(k, pair)| {
+                let (first, second) = (of(&pair[0]), of(&pair[1]));
+                let start = area_shift(&rising_curve(kind, &first), &rising_curve(kind, &second));
+                let has_loss = self.has_loss;
+                let pair = BlockPair { kind, first, second, has_vertical, has_loss };
+                Ok(pair.step(start.ok_or(k)?.min(0.0)))
+            })
+            .collect()
+    }
+
+    fn fit_laws(&mut self, steps: &[Step]) {
+        let reference = self.reference_temperature();
+        let moving: Vec<usize> =
+            (0..self.blocks.len()).filter(|block| *block != self.reference).collect();
+        // The steps from the reference to a block, which two blocks on one side share in part.
+        let between = |block: usize| block.min(self.reference)..block.max(self.reference);
+        let covariance = DMatrix::from_fn(moving.len(), moving.len(), |i, j| {
+            let (a, b) = (between(moving[i]), between(moving[j]));
+            let shared = a.start.max(b.start)..a.end.min(b.end);
+            shared.map(|step| steps[step].uncertainty.powi(2)).sum::<f64>()
+        });
+        let blocks: Vec<(f64, f64)> = moving
+            .iter()
+            .map(|k| (self.blocks[*k].temperature, self.blocks[*k].ln_shift))
+            .collect();
+        // A floor, since exact data have no scatter.
+        let floor = 1e-9 * covariance.diagonal().max().max(1e-12);
+        let covariance =
+            covariance + DMatrix::identity(moving.len(), moving.len()) * floor.max(1e-16);
+        let Some(factor) = Cholesky::new(covariance) else { return };
+        let fit = |start: &[f64], bounds: &[(f64, f64)], of: &dyn Fn(&[f64]) -> ShiftLaw| {
+            let residuals = |constants: &[f64]| -> Option<Vec<f64>> {
+                let law = of(constants);
+                let off = blocks.iter().map(|(temperature, ln_shift)| {
+                    let predicted = law.log10_shift(*temperature, reference)?;
+                    Some(ln_shift - predicted * std::f64::consts::LN_10)
+                });
+                let off = DVector::from_vec(off.collect::<Option<Vec<f64>>>()?);
+                Some(factor.l().solve_lower_triangular(&off)?.as_slice().to_vec())
+            };
+            let (found, sum) = minimise(&residuals, start, bounds).ok()?;
+            let slopes = jacobian(&residuals, &found, bounds)?;
+            // Shifts that scatter more about the law than they should make its constants more uncertain (Birge's ratio).
+            let freedom = blocks.len().saturating_sub(found.len()).max(1) as f64;
+            let ratio = (sum / freedom).max(1.0);
+            let variance = (slopes.transpose() * slopes).pseudo_inverse(1e-14).ok()? * ratio;
+            let law = of(&found);
+            let deviation = blocks.iter().map(|(temperature, ln_shift)| {
+                let predicted = law.log10_shift(*temperature, reference).unwrap_or(f64::NAN);
+                (ln_shift / std::f64::consts::LN_10 - predicted).abs()
+            });
+            let fitted = FittedShift {
+                largest_deviation: deviation.fold(0.0, f64::max),
+                law,
+                uncertainties: Vec::new(),
+                misfit: (sum / freedom).sqrt(),
+            };
+            Some((fitted, found, variance))
+        };
+        let (coldest, hottest) =
+            (self.blocks[0].temperature, self.blocks.last().map_or(0.0, |b| b.temperature));
+        // log₁₀ a = −s ΔT/(1 + κ ΔT) has no pole in the range of the data: s = C₁/C₂, κ = 1/C₂.
+        let ends = [reference - coldest, hottest - reference];
+        let bounds =
+            [(0.0, f64::INFINITY), (-0.999 / ends[1].max(1e-3), 0.999 / ends[0].max(1e-3))];
+        let wlf_of = |c: &[f64]| {
+            // An infinite C₂ is a straight line; a large one is as good.
+            let kappa = if c[1].abs() < 1e-9 { 1e-9 } else { c[1] };
+            ShiftLaw::Wlf { c1: c[0] / kappa, c2: kappa.recip() }
+        };
+        if moving.len() >= 2 {
+            self.wlf = fit(&[0.1, 0.25 * bounds[1].1.min(0.02)], &bounds, &wlf_of).map(
+                |(fitted, found, variance)| {
+                    let [s, kappa] = [found[0], found[1]];
+                    let of = |a: f64, b: f64| {
+                        let squares = a * a * variance[(0, 0)]
+                            + b * b * variance[(1, 1)]
+                            + 2.0 * a * b * variance[(0, 1)];
+                        squares.max(0.0).sqrt()
+                    };
+                    let c1 = of(kappa.recip(), -s / kappa / kappa);
+                    let c2 = of(0.0, kappa.powi(-2));
+                    FittedShift { uncertainties: vec![c1, c2], ..fitted }
+                },
+            );
+        }
+        let arrhenius_of = |c: &[f64]| ShiftLaw::Arrhenius { activation_temperature: 1e4 * c[0] };
+        self.arrhenius =
+            fit(&[1.0], &[(0.0, f64::INFINITY)], &arrhenius_of).map(|(fitted, _, variance)| {
+                FittedShift {
+                    uncertainties: vec![1e4 * variance[(0, 0)].max(0.0).sqrt()],
+                    ..fitted
+                }
+            });
+    }
+}
+
+/// The shift from one block to the next.
+struct Step {
+    ln_shift: f64,
+    uncertainty: f64,
+    ln_vertical: f64,
+}
+
+/// Two blocks of neighbouring temperatures.
+struct BlockPair {
+    kind: TestKind,
+    first: Vec<ModulusPoint>,
+    second: Vec<ModulusPoint>,
+    has_vertical: bool,
+    has_loss: bool,
+}
+
+impl BlockPair {
+    /// Returns the sum of squares of a single series through both blocks, ln of the vertical factor, and the number of terms.
+    fn misfit(&self, ln_shift: f64) -> (f64, f64, usize) {
+        let mut ln_vertical = 0.0;
+        let n_rounds = if self.has_vertical { VERTICAL_ROUNDS } else { 0 };
+        for round in 0..=n_rounds {
+            let second = self.second.iter().map(|it| reduced(self.kind, it, ln_shift, ln_vertical));
+            let both: Vec<ModulusPoint> = self.first.iter().copied().chain(second).collect();
+            let observations = match self.has_loss {
+                true => Observations::of(self.kind, &both),
+                false => Observations::of_storage(self.kind, &both),
+            };
+            let times = grid(self.kind, &both, DENSITY, 0.0);
+            let whole = observations.linear_of_all(&times);
+            let linear = whole.compressed();
+            let moduli = non_negative(&linear.a, &linear.b);
+            if round == n_rounds {
+                let n_terms = moduli.iter().filter(|modulus| **modulus > 0.0).count();
+                return (linear.misfit(moduli.as_slice()), ln_vertical, n_terms);
+            }
+            // The factor of the second block that meets the series best.
+            let fitted = &whole.a * &moduli;
+            let n_first = whole.b.len() * self.first.len() / both.len();
+            let rows = n_first..whole.b.len();
+            let product: f64 = rows.clone().map(|i| fitted[i] * whole.b[i]).sum();
+            let square: f64 = rows.map(|i| fitted[i] * fitted[i]).sum();
+            ln_vertical += VERTICAL_GAIN * (product / square).ln();
+        }
+        (f64::NAN, ln_vertical, 0)
+    }
+
+    /// Finds the shift about a first estimate.
+    fn step(&self, start: f64) -> Step {
+        let of = |ln_shift: f64| self.misfit(ln_shift).0;
+        let width = 2.0 * REACH * std::f64::consts::LN_10 / N_SCANNED as f64;
+        let from = start - 0.5 * width * N_SCANNED as f64;
+        // A warmer block is faster.
+        let scanned = (0..=N_SCANNED).map(|k| (from + width * k as f64).min(0.0));
+        let best = scanned.map(|at| (of(at), at)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let best = best.map_or(start, |best| best.1);
+        let ln_shift = golden_section(&of, best - width, (best + width).min(0.0));
+        let (least, ln_vertical, n_terms) = self.misfit(ln_shift);
+        let sides = [1.0, -1.0].map(|side| of(ln_shift + side * CURVATURE_STEP) - least);
+        let curvature = (sides[0] + sides[1]) / CURVATURE_STEP.powi(2);
+        let is_double = self.has_loss && self.kind == TestKind::Oscillation;
+        let n_rows = if is_double { 2.0 } else { 1.0 };
+        let n_rows = n_rows * (self.first.len() + self.second.len()) as f64;
+        let freedom = (n_rows - n_terms as f64 - 1.0).max(1.0);
+        // A sum of squares that does not rise determines no shift: as uncertain as the scan is wide.
+        let widest = REACH * std::f64::consts::LN_10;
+        let uncertainty = match curvature > 0.0 {
+            true => (2.0 * least / freedom / curvature).sqrt().min(widest),
+            false => widest,
+        };
+        Step { ln_shift, uncertainty, ln_vertical }
+    }
+}
+
+/// Returns the minimum of a function between two ends.
+fn golden_section(of: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let share = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut a, mut b) = (high - share * (high - low), low + share * (high - low));
+    let (mut of_a, mut of_b) = (of(a), of(b));
+    while high - low > TOLERANCE {
+        if of_a < of_b {
+            (high, b, of_b) = (b, a, of_a);
+            a = high - share * (high - low);
+            of_a = of(a);
+        } else {
+            (low, a, of_a) = (a, b, of_b);
+            b = low + share * (high - low);
+            of_b = of(b);
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Returns ln of frequency (or of the inverse of time) and ln of the storage modulus, which scatter does not make fall.
+fn rising_curve(kind: TestKind, points: &[ModulusPoint]) -> Vec<(f64, f64)> {
+    let sign = if kind == TestKind::Oscillation { 1.0 } else { -1.0 };
+    let mut curve: Vec<(f64, f64)> =
+        points.iter().map(|point| (sign * point.at.ln(), point.storage.ln())).collect();
+    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut highest = f64::NEG_INFINITY;
+    for point in &mut curve {
+        highest = highest.max(point.1);
+        point.1 = highest;
+    }
+    curve
+}
+
+/// Returns ln a of the second curve less that of the first: the mean distance of the curves over the moduli that both have.
+fn area_shift(first: &[(f64, f64)], second: &[(f64, f64)]) -> Option<f64> {
+    let ends = |curve: &[(f64, f64)]| Some((curve.first()?.1, curve.last()?.1));
+    let (first_ends, second_ends) = (ends(first)?, ends(second)?);
+    let (low, high) = (first_ends.0.max(second_ends.0), first_ends.1.min(second_ends.1));
+    if high <= low {
+        return None;
+    }
+    let [first, second] = [first, second].map(|curve| area(curve, low, high));
+    Some((first - second) / (high - low))
+}
+
+/// Returns ∫ x dy of a rising polygon between two heights.
+fn area(curve: &[(f64, f64)], low: f64, high: f64) -> f64 {
+    let of_piece = |pair: &[(f64, f64)]| {
+        let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+        let (from, to) = (y0.max(low), y1.min(high));
+        if to <= from {
+            return 0.0;
+        }
+        let at = |y: f64| x0 + (x1 - x0) * (y - y0) / (y1 - y0);
+        0.5 * (at(from) + at(to)) * (to - from)
+    };
+    curve.windows(2).map(of_piece).sum()
+}
