@@ -14,7 +14,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use crate::quantity::{Quantity, QuantityKind};
-use crate::schema::{CaseFile, MaterialTable, TermTable};
+use crate::schema::{CaseFile, FlowPoints, JohnsonCookTable, MaterialTable, RateTable, TermTable};
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::shift;
 
@@ -138,6 +138,23 @@ pub fn table_text(name: &str) -> Option<String> {
     line("yield_strength", table.yield_strength.as_ref().map(written));
     line("surface_energy", table.surface_energy.as_ref().map(written));
     line("hyperelastic", table.hyperelastic.map(|law| format!("{:?}", law.word())));
+    if let Some(flow) = &table.flow {
+        text += &format!("\n[material.{name}.flow]\n");
+        if let Some(FlowPoints::Rows(rows)) =
+            flow.hardening.as_ref().and_then(|it| it.table.as_ref())
+        {
+            text += "hardening.table = [\n";
+            let row = |strain, stress| format!("    [{}, {}],\n", written(strain), written(stress));
+            text.extend(rows.iter().map(|(strain, stress)| row(strain, stress)));
+            text += "]\n";
+        }
+        if let Some(RateTable { johnson_cook: JohnsonCookTable { c, reference_rate } }) = &flow.rate
+        {
+            let [c, reference_rate] = [written(c), written(reference_rate)];
+            text +=
+                &format!("rate.johnson_cook = {{ c = {c}, reference_rate = {reference_rate} }}\n");
+        }
+    }
     if let Some(relaxation) = &table.relaxation {
         let acts_on = relaxation.acts_on.word();
         text += &format!("\n[material.{name}.relaxation]\nacts_on = \"{acts_on}\"\nterms = [\n");

@@ -108,7 +108,7 @@ fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Fail
     let table = materials::one(material)?;
     let flow =
         if table.contains("yield_strength") { "\n".to_string() + FLOW } else { String::new() };
-    let relaxation = match table.contains("relaxation") {
+    let relaxation = match table.contains("relaxation") || table.contains(".flow]") {
         true => String::new(),
         false => "\n".to_string() + RELAXATION,
     };
