@@ -188,6 +188,28 @@ impl<'a> NumberColumns<'a> {
         })
     }
 
+    /// Checks that the time of a row follows the last time, s.
+    ///
+    /// # Errors
+    /// It does not; `help` says what to do.
+    pub fn check_increase(
+        &self,
+        row: usize,
+        last: Option<&f64>,
+        time: f64,
+        help: &str,
+    ) -> Result<(), DataError> {
+        if last.is_none_or(|last| time > *last) {
+            return Ok(());
+        }
+        let message = format!("the time {time} s does not increase");
+        let error = DataError::new(self.name(), message).with_help(help);
+        Err(match self.lines().get(row) {
+            Some(line) => error.in_line(*line),
+            None => error,
+        })
+    }
+
     /// Returns the line of each row in the text.
     pub fn lines(&self) -> Vec<u64> {
         self.rows().map(|(line, _)| line).collect()

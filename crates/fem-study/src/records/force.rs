@@ -118,14 +118,8 @@ impl Samples {
         let mut samples =
             Self { name: columns.name().to_string(), times: Vec::new(), forces: Vec::new() };
         for (k, (time, force)) in known {
-            if samples.times.last().is_some_and(|last| time <= *last) {
-                let message = format!("the time {time} s does not increase");
-                let error = DataError::new(&samples.name, message);
-                let line = columns.lines().get(k).copied().unwrap_or(0);
-                return Err(error.in_line(line).with_help(
-                    "the samples of one record are in order; an oscilloscope must write all digits of the time",
-                ));
-            }
+            let help = "the samples of one record are in order; an oscilloscope must write all digits of the time";
+            columns.check_increase(k, samples.times.last(), time, help)?;
             samples.times.push(time);
             samples.forces.push(force);
         }
