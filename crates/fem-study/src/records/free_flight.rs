@@ -24,6 +24,8 @@ const AIR_DENSITY: f64 = 1.204;
 const AIR_VISCOSITY: f64 = 1.81e-5;
 /// Intervals of the integrals over the speed (Simpson's rule).
 const INTERVALS: usize = 48;
+/// Step of [`Departure`], s: the midpoint rule is accurate to 1e-7 of the height.
+const STEP: f64 = 5e-4;
 /// Largest landing speed over the terminal speed; beyond it the time of flight says little of the landing speed.
 const NEAR_TERMINAL: f64 = 0.98;
 
@@ -41,6 +43,24 @@ struct Air {
     drag: f64,
     /// Reynolds number over speed, s/m.
     reynolds: f64,
+}
+
+/// The departure of flights in air from parabolas with the same apex, over the time from the apex.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Departure {
+    /// Height (m) and upward velocity (m/s) at multiples of [`STEP`] before and after the apex.
+    sides: [Vec<[f64; 2]>; 2],
+}
+
+impl Departure {
+    /// Returns height (m) and upward velocity (m/s) at a time from the apex, s, by linear interpolation.
+    pub fn at(&self, time: f64) -> [f64; 2] {
+        let side = &self.sides[usize::from(time > 0.0)];
+        let place = (time.abs() / STEP).min((side.len() - 2) as f64);
+        let k = place as usize;
+        let share = time.abs() / STEP - k as f64;
+        std::array::from_fn(|i| side[k][i] + share * (side[k + 1][i] - side[k][i]))
+    }
 }
 
 /// One flight from the floor to the floor.
@@ -70,6 +90,33 @@ impl FreeFlight {
         let drag = 0.75 * drag_factor * ratio / (inertia * diameter);
         let reynolds = AIR_DENSITY * diameter / AIR_VISCOSITY;
         Self { gravity: gravity * (1.0 - ratio) / inertia, air: Some(Air { drag, reynolds }) }
+    }
+
+    /// Returns the acceleration of free fall with buoyancy and added mass, m/s².
+    pub(super) fn gravity(&self) -> f64 {
+        self.gravity
+    }
+
+    /// Returns the departure from parabolas up to a time from the apex, s; `None` in vacuum.
+    pub(super) fn departure(&self, longest: f64) -> Option<Departure> {
+        self.air?;
+        let n = (longest / STEP).ceil() as usize + 2;
+        // A rise is followed back from its apex, where drag adds to gravity.
+        let side = |sign: f64| {
+            let acceleration = |speed: f64| self.gravity - sign * self.deceleration(speed);
+            let (mut speed, mut path) = (0.0, 0.0);
+            let row = |k: usize| {
+                let time = k as f64 * STEP;
+                let vacuum = [0.5 * self.gravity * time * time, self.gravity * time];
+                let own = [vacuum[0] - path, sign * (vacuum[1] - speed)];
+                let middle = speed + 0.5 * STEP * acceleration(speed);
+                path += STEP * middle;
+                speed += STEP * acceleration(middle);
+                own
+            };
+            (0..n).map(row).collect()
+        };
+        Some(Departure { sides: [side(-1.0), side(1.0)] })
     }
 
     /// Returns the deceleration by drag at a speed (m/s), m/s².

@@ -3,7 +3,7 @@
 use crate::fit::cradle::{Measured, STANDARD_GRAVITY};
 use crate::measured::DataError;
 
-use super::free_flight::{Flight, FreeFlight};
+use super::free_flight::{Departure, Flight, FreeFlight};
 
 /// Relative standard uncertainty of the drag coefficient of a smooth sphere at rest in its wake.
 const DRAG_UNCERTAINTY: f64 = 0.1;
@@ -118,6 +118,16 @@ impl Rig {
 }
 
 impl Flights {
+    /// Returns the acceleration of free fall with buoyancy and added mass, m/s².
+    pub fn gravity(&self) -> f64 {
+        self.flight.gravity()
+    }
+
+    /// Returns the departures from parabolas up to a time from the apex (s) and those with more drag; `None` in vacuum.
+    pub fn departures(&self, longest: f64) -> Option<[Departure; 2]> {
+        Some([self.flight.departure(longest)?, self.more_drag?.departure(longest)?])
+    }
+
     /// Returns the flight of a time (s), and that with more drag; `None` if the ball lands at nearly its terminal speed.
     pub fn lasting(&self, time: f64) -> Option<[Flight; 2]> {
         let own = self.flight.lasting(time)?;

@@ -2,6 +2,7 @@
 
 use crate::fit::cradle::Measured;
 use crate::measured::DataError;
+use crate::records::free_flight::Departure;
 use crate::records::impact::Impact;
 use crate::records::rig::Rig;
 use crate::records::series::widened;
@@ -19,9 +20,14 @@ const MOST_CORRELATION: f64 = 0.9;
 /// Smallest drift that is taken out, m/s: a tenth of a millimetre per second changes no restitution.
 const LEAST_DRIFT: f64 = 1e-4;
 
+/// Rounds in which apexes and bounces in air settle: each is by the share of drag nearer.
+const AIR_ROUNDS: usize = 4;
+/// Longest time from an apex, s; a longer one is of a flight that is no parabola.
+const LONGEST: f64 = 20.0;
+
 /// The parabolas of all flights.
 pub(super) struct Fit<'a> {
-    flights: Vec<Option<TrackFlight>>,
+    pub flights: Vec<Option<TrackFlight>>,
     minima: &'a [usize],
     times: Vec<f64>,
     pub gravity: Measured,
@@ -34,6 +40,10 @@ pub(super) struct Fit<'a> {
     pub correlation: f64,
     /// Factor from the noise of independent frames to standard uncertainties.
     widening: f64,
+    /// Departure of the flights from their parabolas in air.
+    pub air: Option<Departure>,
+    /// The fit with more drag.
+    more: Option<Box<Self>>,
 }
 
 /// Instant and speeds of a bounce.
@@ -46,12 +56,55 @@ struct Bounce {
 }
 
 impl<'a> Fit<'a> {
+    /// Fits the flights, in air if the rig has the size and the density of the ball.
     pub fn of(
         frames: &Frames,
         flights: &[Option<TrackFlight>],
         minima: &'a [usize],
         rig: &Rig,
-    ) -> Result<Self, DataError> {
+    ) -> Self {
+        let fit = Self::of_parabolas(frames, flights, minima, rig);
+        let times = |flight: &TrackFlight| {
+            let apex = flight.parabola(fit.gravity.value).apex();
+            let time = |k: Option<&usize>| k.map_or(0.0, |k| (frames.times[*k] - apex).abs());
+            time(flight.frames.first()).max(time(flight.frames.last()))
+        };
+        let longest = flights.iter().flatten().map(times).fold(0.0, f64::max);
+        match rig.flights().departures(longest.min(LONGEST)) {
+            Some([air, more]) => {
+                let more = fit.in_air(frames, rig, more);
+                Self { more: Some(Box::new(more)), ..fit.in_air(frames, rig, air) }
+            }
+            None => fit,
+        }
+    }
+
+    /// Returns the fit of the heights less the departure from the parabolas, which depends on their apexes.
+    fn in_air(&self, frames: &Frames, rig: &Rig, air: Departure) -> Self {
+        let mut flights = self.flights.clone();
+        let mut fit = Self::of_parabolas(frames, &flights, self.minima, rig);
+        for _ in 0..AIR_ROUNDS {
+            let mut level = frames.clone();
+            for flight in flights.iter().flatten() {
+                let apex = flight.parabola(fit.gravity.value).apex();
+                for k in &flight.frames {
+                    level.heights[*k] -= air.at(frames.times[*k] - apex)[0];
+                }
+            }
+            for flight in flights.iter_mut().flatten() {
+                *flight = TrackFlight::of(&level, std::mem::take(&mut flight.frames));
+            }
+            fit = Self::of_parabolas(&level, &flights, self.minima, rig);
+        }
+        Self { air: Some(air), ..fit }
+    }
+
+    fn of_parabolas(
+        frames: &Frames,
+        flights: &[Option<TrackFlight>],
+        minima: &'a [usize],
+        rig: &Rig,
+    ) -> Self {
         let used: Vec<&TrackFlight> = flights.iter().flatten().collect();
         let n_frames: usize = used.iter().map(|flight| flight.frames.len()).sum();
         let (along, across) = used.iter().fold((0.0, 0.0), |sum, flight| {
@@ -82,7 +135,7 @@ impl<'a> Fit<'a> {
             ((squares / freedom.max(1.0)).sqrt(), freedom, rough + bias)
         };
         let given = rig.gravity;
-        let mut gravity = rig.gravity();
+        let mut gravity = Measured { value: rig.flights().gravity(), ..rig.gravity() };
         let (noise, freedom, correlation) =
             summary(if across > 0.0 { along / across } else { 0.0 }, 1);
         let correlation_of = |found: f64| {
@@ -110,7 +163,7 @@ impl<'a> Fit<'a> {
             false => summary(gravity.value, 0),
         };
         let correlation = correlation_of(correlation);
-        Ok(Self {
+        Self {
             flights: flights.to_vec(),
             minima,
             times: frames.times.clone(),
@@ -121,7 +174,9 @@ impl<'a> Fit<'a> {
             noise,
             correlation,
             widening: factor(correlation, freedom),
-        })
+            air: None,
+            more: None,
+        }
     }
 
     /// Returns the relative uncertainty of the scale of the heights, and warns if the fitted g shows an error of it.
@@ -139,7 +194,7 @@ impl<'a> Fit<'a> {
             return Ok(0.0);
         }
         let Measured { value, uncertainty } = self.gravity;
-        let ratio = value / rig.gravity().value;
+        let ratio = value / rig.flights().gravity();
         if (ratio - 1.0).abs() > WRONG_SCALE + 3.0 * uncertainty / value.abs() {
             let message = format!("the parabolas fall with {value:.3} m/s², not with 9.81 m/s²");
             let help = "name the columns with their units, such as y_cm and t_ms, calibrate the scale and the \
@@ -163,17 +218,21 @@ impl<'a> Fit<'a> {
 
     /// Returns the bounce of two parabolas, near a time.
     fn bounce(&self, [before, after]: [Parabola; 2], near: f64, contact: f64) -> Bounce {
-        // With one g the parabolas differ by a line.
-        let difference = before.at(near) - after.at(near);
-        let closing = after.velocity_at(near) - before.velocity_at(near);
-        let time = near + difference / closing;
-        let change = 0.5 * before.gravity * contact;
-        Bounce {
-            time,
-            level: before.at(time),
-            before: -before.velocity_at(time) - change,
-            after: after.velocity_at(time) + change,
+        let at = |parabola: &Parabola, time: f64| {
+            let air = self.air.as_ref().map(|air| air.at(time - parabola.apex()));
+            let [height, velocity] = air.unwrap_or([0.0, 0.0]);
+            [parabola.at(time) + height, parabola.velocity_at(time) + velocity]
+        };
+        let mut time = near;
+        // With one g the parabolas differ by a line; in air the difference is nearly one.
+        for _ in 0..if self.air.is_some() { AIR_ROUNDS } else { 1 } {
+            let [falling, rising] = [at(&before, time), at(&after, time)];
+            time += (falling[0] - rising[0]) / (rising[1] - falling[1]);
         }
+        let change = 0.5 * before.gravity * contact;
+        let [level, falling] = at(&before, time);
+        let [_, rising] = at(&after, time);
+        Bounce { time, level, before: -falling - change, after: rising + change }
     }
 
     /// Removes frames that are on the other side of a bounce than their flight, and returns whether there are any: noise makes the
@@ -232,7 +291,10 @@ impl<'a> Fit<'a> {
 
     /// Returns the impact of a bounce; `scale` is the relative uncertainty of speeds.
     pub fn impact(&self, k: usize, scale: f64) -> Option<Impact> {
-        let spread = self.spread(k)?;
+        let mut spread = self.spread(k)?;
+        if let Some(more) = &self.more {
+            spread.changed.push(more.spread(k)?.own);
+        }
         let speed = spread.of(|bounce| bounce.before);
         Some(Impact {
             time: spread.own.time,

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Two successive parabolas intersect at the bounce; their slopes there, corrected by gτ/2 for a contact time τ, are the speeds
-//! before and after. The fitted g is free unless it is given: compared with that of the Earth it checks the scale of the picture and
+//! before and after. In air the departure of each flight from the parabola with its apex, by [`FreeFlight`](super::FreeFlight), is taken from the
+//! heights and added to the slopes. The fitted g is free unless it is given: compared with that of the Earth it checks the scale of the picture and
 //! the frame rate, which cancel in the restitution. Uncertainties come from the scatter of the frames about the parabolas, with the
 //! correlation of neighbouring frames (an autoregressive process of first order), and propagate in first order.
 
@@ -22,6 +23,7 @@ use serde_json::{Value, json};
 use crate::fit::cradle::Measured;
 use crate::measured::DataError;
 
+use super::free_flight::Departure;
 use super::impact::Impact;
 use super::rig::Rig;
 use fit::Fit;
@@ -54,6 +56,7 @@ pub struct Track {
     pub impacts: Vec<Impact>,
     /// Numbers of flights and frames that are left out, and other warnings.
     pub warnings: Vec<String>,
+    air: Option<Departure>,
 }
 
 impl Track {
@@ -74,9 +77,9 @@ impl Track {
             n => warnings.push(format!("{n} frames far off their parabolas are left out")),
         }
         let mut drift = 0.0;
-        let mut fit = Fit::of(&frames, &flights, &minima, rig)?;
+        let mut fit = Fit::of(&frames, &flights, &minima, rig);
         if fit.leave_wrong_sides_out(&frames, &mut flights) {
-            fit = Fit::of(&frames, &flights, &minima, rig)?;
+            fit = Fit::of(&frames, &flights, &minima, rig);
         }
         if let Some(velocity) = fit.drift() {
             drift = velocity.value;
@@ -87,7 +90,7 @@ impl Track {
             for flight in flights.iter_mut().flatten() {
                 *flight = TrackFlight::of(&frames, std::mem::take(&mut flight.frames));
             }
-            fit = Fit::of(&frames, &flights, &minima, rig)?;
+            fit = Fit::of(&frames, &flights, &minima, rig);
             fit.drift_uncertainty = velocity.uncertainty;
             warnings.push(format!(
                 "the plate moves in the picture by {:.2} mm/s: this drift is taken out",
@@ -113,7 +116,7 @@ impl Track {
             }
             return Err(DataError::new(&frames.name, message).with_help(help));
         }
-        let Fit { gravity, has_fitted_gravity, noise, correlation, .. } = fit;
+        let Fit { flights, gravity, has_fitted_gravity, noise, correlation, air, .. } = fit;
         let flights = flights.into_iter().flatten().collect();
         Ok(Self {
             frames,
@@ -125,12 +128,15 @@ impl Track {
             drift,
             impacts,
             warnings,
+            air,
         })
     }
 
     /// Returns the height of a flight at a time (s), m.
     pub fn height(&self, flight: &TrackFlight, time: f64) -> f64 {
-        flight.parabola(self.gravity.value).at(time)
+        let parabola = flight.parabola(self.gravity.value);
+        let air = self.air.as_ref().map_or(0.0, |air| air.at(time - parabola.apex())[0]);
+        parabola.at(time) + air
     }
 
     /// Returns the numbers of the record for JSON, SI.
@@ -147,6 +153,7 @@ impl Track {
             "noise_m": self.noise,
             "correlation": self.correlation,
             "drift_m_s": self.drift,
+            "has_air_drag": self.air.is_some(),
         })
     }
 }

@@ -37,6 +37,11 @@ impl Parabola {
         self.height + (self.velocity - 0.5 * self.gravity * tau) * tau
     }
 
+    /// Returns the time at which the velocity is 0, s.
+    pub fn apex(&self) -> f64 {
+        self.centre + self.velocity / self.gravity
+    }
+
     pub fn velocity_at(&self, time: f64) -> f64 {
         self.velocity - self.gravity * (time - self.centre)
     }
