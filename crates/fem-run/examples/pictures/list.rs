@@ -54,7 +54,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 27] = [
+pub const PICTURES: [Picture; 30] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -81,6 +81,21 @@ pub const PICTURES: [Picture; 27] = [
         "dma-temperatures.svg",
         &["relaxation validation/data/dma_polymer.csv"],
         "runs/dma_polymer_relaxation/relaxation.svg",
+    ),
+    figure(
+        "measure-sound.svg",
+        &["measure validation/data/bounce_sound.wav"],
+        "runs/bounce_sound_measure/measure.svg",
+    ),
+    figure(
+        "measure-track.svg",
+        &["measure validation/data/ball_track.csv"],
+        "runs/ball_track_measure/measure.svg",
+    ),
+    figure(
+        "measure-force.svg",
+        &["measure validation/data/ball_force.csv --mass 10g --height 3cm"],
+        "runs/ball_force_measure/measure.svg",
     ),
     figure(
         "dma.svg",

@@ -191,6 +191,10 @@ fn details(record: &Record, rig: &Rig) -> String {
     }
 }
 
+/// What a record without size and density of the ball leaves out.
+const DRAG_NEGLECTED: &str =
+    "air drag neglected: --diameter and --density of the ball include it\n";
+
 fn of_track(track: &Track, rig: &Rig) -> String {
     let gravity = match track.has_fitted_gravity {
         true => format!("fitted g: {}", show_measured(track.gravity, "m/s²")),
@@ -204,6 +208,9 @@ fn of_track(track: &Track, rig: &Rig) -> String {
     );
     if rig.contact_time.is_none() {
         text += "contact time neglected: --contact-time includes it\n";
+    }
+    if rig.diameter.is_none() {
+        text += DRAG_NEGLECTED;
     }
     text
 }
@@ -244,7 +251,7 @@ fn of_bounces(bounces: &BounceTimes, rig: &Rig) -> String {
         );
     }
     if rig.diameter.is_none() {
-        text += "air drag neglected: --diameter and --density of the ball include it\n";
+        text += DRAG_NEGLECTED;
     }
     if let Some(rest) = bounces.predicted_rest {
         text += &format!(

@@ -24,6 +24,12 @@ const OVER_NOISE: f64 = 25.0;
 const OVER_BEFORE: f64 = 8.0;
 /// Time after an onset in which there is no other, s.
 const DEAD_TIME: f64 = 4e-3;
+/// Longest time after a bounce in which its echo comes, s: the way to a wall 5 m away and back.
+const ECHO_TIME: f64 = 0.03;
+/// Largest peak of an echo over that of its bounce. A bounce that is so much quieter than the last one has e < 0.5 and does not follow so soon.
+const ECHO_SHARE: f64 = 0.5;
+/// Onsets with which another one is compared: more do not fit into the time of echoes.
+const MOST_ECHOES: usize = 8;
 /// Share of the peak of a burst at its instant.
 const SHARE_OF_PEAK: f64 = 0.2;
 /// Share of the frames that are noise.
@@ -118,7 +124,7 @@ impl Signal {
         // Digital silence has no noise.
         let noise = noise.max(1e-10 * largest);
         let n_dead = ((DEAD_TIME * self.rate) as usize / size).max(1);
-        let (mut instants, mut next) = (Vec::new(), 1);
+        let (mut onsets, mut next): (Vec<(f64, f64)>, usize) = (Vec::new(), 1);
         for k in 1..energies.len() {
             let before = &energies[k.saturating_sub(BEFORE + 1)..k.max(2) - 1];
             let mean = before.iter().sum::<f64>() / before.len().max(1) as f64;
@@ -130,10 +136,16 @@ impl Signal {
             let (from, to) = ((k - 1) * size, ((k + 8) * size).min(signal.len()));
             let peak = signal[from..to].iter().fold(0.0f64, |most, x| most.max(x.abs()));
             let first = signal[from..to].iter().position(|x| x.abs() >= SHARE_OF_PEAK * peak);
-            instants.push(self.time(from + first.unwrap_or(0)));
+            let instant = self.time(from + first.unwrap_or(0));
             next = k + n_dead;
+            let is_echo = |(other, louder): &(f64, f64)| {
+                instant - other < ECHO_TIME && peak < ECHO_SHARE * louder
+            };
+            if !onsets.iter().rev().take(MOST_ECHOES).any(is_echo) {
+                onsets.push((instant, peak));
+            }
         }
-        (noise.sqrt(), instants)
+        (noise.sqrt(), onsets.into_iter().map(|(instant, _)| instant).collect())
     }
 }
 

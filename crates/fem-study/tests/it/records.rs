@@ -689,15 +689,15 @@ fn tracks_without_a_bounce_say_why() {
     assert_eq!(track(&format!("time_s,y_m\n{}", whole(1.0)), &Rig::default()).drift, 0.0);
 }
 
-/// Bursts of 1 to 5 kHz that decay in milliseconds, with noise, hum and a room's echo, at 22 kHz.
+/// Bursts of 1 to 5 kHz that decay in milliseconds, with noise, hum and a room's echo, at 11 to 44 kHz.
 #[test]
 fn sounds_give_back_the_restitution_within_its_uncertainty() {
     let mut noise = Noise::seeded(6);
-    let mut coverage = Coverage::default();
-    for draw in 0..100 {
+    let mut coverages = [Coverage::default(), Coverage::default(), Coverage::default()];
+    for draw in 0..300 {
         let ball = Ball { height: noise.between(0.1, 0.4), ..Ball::random(&mut noise) };
         let true_bounces = ball.bounces(4 + noise.0.usize(0..6));
-        let rate = 22_050.0;
+        let rate = [11_025.0, 22_050.0, 44_100.0][draw % 3];
         let (tone, decay) = (noise.between(1e3, 5e3), noise.between(1e-3, 4e-3));
         let (jitter, echo) = (10f64.powf(noise.between(-4.0, -2.5)), noise.between(0.0, 0.3));
         let n = ((true_bounces[true_bounces.len() - 1].0 + 0.1) * rate) as usize;
@@ -724,8 +724,14 @@ fn sounds_give_back_the_restitution_within_its_uncertainty() {
         // Quieter bounces are in the noise.
         let n_loud = true_bounces.iter().filter(|bounce| 0.2 * bounce.1 > 20.0 * jitter).count();
         assert!(found.impacts.len() + 3 >= n_loud, "{draw}: {n_loud}, {:?}", found.warnings);
-        coverage.count(&found.impacts, |impact| true_restitution(&ball, &true_bounces, impact));
+        let e = |impact: &Impact| true_restitution(&ball, &true_bounces, impact);
+        coverages[draw % 3].count(&found.impacts, e);
     }
-    assert!(coverage.n > 400, "{coverage:?}");
-    coverage.check();
+    for coverage in coverages {
+        let share = |k: usize| coverage.within[k] as f64 / coverage.n as f64;
+        assert!(coverage.n > 400, "{coverage:?}");
+        // An onset errs by less than a sample and a quarter of the tone, and not as a normal number: more than two of three are within one
+        // standard uncertainty.
+        assert!(share(1) >= 0.98 && share(0) <= 0.97, "{coverage:?}");
+    }
 }
