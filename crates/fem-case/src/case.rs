@@ -20,6 +20,7 @@ use crate::source::error_recovery::{KeyRepair, read_repaired};
 use crate::source::explain::{explain, listed};
 use crate::source::overrides;
 use crate::validate::flow::read_flow_tables;
+use crate::validate::relaxation::read_relaxation_files;
 use crate::validate::validate;
 
 /// The largest size of a case file, bytes: more than any case needs.
@@ -213,6 +214,7 @@ impl Case {
         changes: Vec<Change>,
     ) -> Result<Case, CaseError> {
         read_flow_tables(&document, &mut file, &defaults.folder)?;
+        read_relaxation_files(&document, &mut file, &defaults.folder)?;
         let scene = validate(&document, &file, &defaults.title, &defaults.folder)?;
         fill_in(&mut file, &scene);
         Ok(Case { file, scene, document, defaults, changes })

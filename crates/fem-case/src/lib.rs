@@ -70,7 +70,7 @@ pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Length, Number, Quantity, QuantityError,
     QuantityInfo, QuantityKind, Rate, Speed, Stiffness, Stress, SurfaceEnergy, Time, Viscosity,
 };
-pub use scene::body::{Body, Plate, Shape};
+pub use scene::body::{Body, MeasuredBand, Plate, Shape};
 pub use scene::defaults;
 pub use scene::model::{CondensedOptions, ModelChoice};
 pub use scene::{

@@ -22,6 +22,6 @@ pub(super) fn with_relaxation(
 pub(super) fn with_term(case: &Case, material: &str, term: TermTable) -> Result<Case, StudyError> {
     let own = case.file().material.get(material).and_then(|table| table.relaxation.as_ref());
     let missing = || StudyError::parameters(format!("the case has no `{material}` that relaxes"));
-    let acts_on = own.ok_or_else(missing)?.acts_on;
-    with_relaxation(case, material, RelaxationTable { acts_on, terms: vec![term] })
+    let acts_on = own.ok_or_else(missing)?.acts_on.ok_or_else(missing)?;
+    with_relaxation(case, material, RelaxationTable::new(acts_on, [term]))
 }

@@ -83,8 +83,11 @@ fn members(parameters: &Parameters, base: &Case, time: f64) -> Result<Vec<Member
     let mut members = Vec::new();
     for acts_on in [ActsOn::All, ActsOn::Shear] {
         let mut add = |group, x, terms: &[(f64, f64)], speed: Option<f64>| {
-            let terms = terms.iter().map(term).collect();
-            let case = with_relaxation(base, material, RelaxationTable { acts_on, terms })?;
+            let case = with_relaxation(
+                base,
+                material,
+                RelaxationTable::new(acts_on, terms.iter().map(term)),
+            )?;
             let case = case.edited(|file| {
                 file.output.get_or_insert_default().snapshots = Some(SnapshotsValue::none());
                 if let Some(speed) = speed {

@@ -15,7 +15,7 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
-use crate::json_schema::quantity_pattern::pattern;
+use crate::json_schema::quantity_pattern::{pattern, temperature_pattern};
 use crate::quantity::{Number, Quantity, QuantityInfo, QuantityKind, Time};
 use crate::schema::accuracy_table::{ToleranceTable, ToleranceValue};
 use crate::schema::{
@@ -95,7 +95,7 @@ impl<K: QuantityKind> JsonSchema for Quantity<K> {
             "" => format!("{name}, such as {example}"),
             si => format!("{name}: a number in {si}, or a string with its unit, {example}"),
         };
-        let pattern = pattern(K::INFO.dimension.0);
+        let pattern = if si == "K" { temperature_pattern() } else { pattern(K::INFO.dimension.0) };
         let part = json!({ "type": ["number", "string"] });
         json_schema!({
             "description": bare,

@@ -50,6 +50,12 @@ pub(crate) fn pattern(dimension: [i32; 4]) -> String {
     format!(r"^({NUMBER}{unit}|{uncertain})\s*$")
 }
 
+/// Returns the regular expression for temperatures as strings.
+pub(crate) fn temperature_pattern() -> String {
+    let scale = r"\s*(degC|°C|ºC|C|degF|°F|F|K)";
+    format!(r"^{NUMBER}({scale}|({scale})?\s*(±|\+/?-){NUMBER}{scale})\s*$")
+}
+
 /// Returns the expression of a power after a symbol.
 fn power(digit: &str) -> String {
     let raised = if digit == "2" { "²" } else { "³" };

@@ -26,6 +26,9 @@ const RANGES: &[(&str, &[&str], Range)] = &[
     ("MaterialTable", &["poissons_ratio"], Range::POISSONS_RATIO),
     ("TermTable", &["decay_rate", "relaxation_time"], Range::POSITIVE),
     ("TermTable", &["weight"], Range::RELAXATION_WEIGHT),
+    ("RelaxationTable", &["reference_temperature"], Range::POSITIVE),
+    ("BandTable", &["from", "to"], Range::POSITIVE),
+    ("ArrheniusTable", &["activation_temperature"], Range::NOT_NEGATIVE),
     ("FlowTable", &["yield_strength"], Range::POSITIVE),
     ("HardeningTable", &["modulus"], Range::NOT_NEGATIVE),
     ("SwiftTable", &["strain"], Range::POSITIVE),
@@ -62,6 +65,7 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
             add(schema, &format!("/definitions/{table}/properties/{key}"), [rule(*range)]);
         }
     }
+    add(schema, "/properties/temperature", [rule(Range::POSITIVE)]);
     add(schema, "/definitions/MaterialTable", [two_of(&MODULI)]);
     let needs_material = json!({
         "if": { "required": ["wall"] },
@@ -77,7 +81,13 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
     });
     add(schema, "/definitions/BodyTable/properties/material", [of_library]);
     add(schema, "/definitions/TermTable", [one_of(&["decay_rate", "relaxation_time"])]);
-    for choice in ["ModelTable", "HardeningTable"] {
+    let of_file = json!({
+        "if": { "required": ["file"] },
+        "then": { "maxProperties": 1 },
+        "else": { "required": ["acts_on", "terms"] },
+    });
+    add(schema, "/definitions/RelaxationTable", [of_file]);
+    for choice in ["ModelTable", "HardeningTable", "ShiftTable"] {
         let rule = json!({ "minProperties": 1, "maxProperties": 1 });
         add(schema, &format!("/definitions/{choice}"), [rule]);
     }

@@ -14,7 +14,9 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use crate::quantity::{Quantity, QuantityKind};
-use crate::schema::{CaseFile, FlowPoints, JohnsonCookTable, MaterialTable, RateTable, TermTable};
+use crate::schema::{
+    ActsOn, CaseFile, FlowPoints, JohnsonCookTable, MaterialTable, RateTable, TermTable,
+};
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::shift;
 
@@ -156,7 +158,7 @@ pub fn table_text(name: &str) -> Option<String> {
         }
     }
     if let Some(relaxation) = &table.relaxation {
-        let acts_on = relaxation.acts_on.word();
+        let acts_on = relaxation.acts_on.map_or("", ActsOn::word);
         text += &format!("\n[material.{name}.relaxation]\nacts_on = \"{acts_on}\"\nterms = [\n");
         for TermTable { weight, decay_rate, relaxation_time } in &relaxation.terms {
             text += &format!("    {{ weight = {}", written(weight));

@@ -82,6 +82,7 @@ kinds! {
     Viscosity, "a viscosity", [-1, 1, -1, 0], "Pa s", "\"1e4 Pa s\"";
     Rate, "a rate", [0, 0, -1, 0], "1/s", "\"2708 1/s\"";
     Bytes, "an amount of memory", [0, 0, 0, 1], "bytes", "\"8 GB\"";
+    Temperature, "a temperature", [0, 0, 0, 0], "K", "\"23 degC\"";
 }
 
 /// Marks a whole number, such as 12.
@@ -170,6 +171,12 @@ impl<K: QuantityKind> Quantity<K> {
         match &self.written {
             Written::Si(value) if value.is_finite() => Ok((*value, None)),
             Written::Si(value) => Err(QuantityError::NotFinite(*value)),
+            // A scale of temperature has an offset.
+            Written::Text(text) if K::INFO.si == "K" => temperature::parse_uncertain(text)
+                .ok_or_else(|| {
+                    let message = "its scale is degC, K or degF, above absolute zero";
+                    QuantityError::Unit(UnitError::Malformed(message.to_string()))
+                }),
             Written::Text(text) => match uncertain::parse(text) {
                 Ok((value, uncertainty, found)) if found == K::INFO.dimension => {
                     Ok((value, uncertainty))

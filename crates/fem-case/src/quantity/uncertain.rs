@@ -4,7 +4,7 @@
 use crate::quantity::units::{Dimension, UnitError, parse_quantity, unit_of};
 
 /// Signs between a value and its uncertainty.
-const SIGNS: [&str; 3] = ["±", "+/-", "+-"];
+pub(super) const SIGNS: [&str; 3] = ["±", "+/-", "+-"];
 /// The unit of a relative uncertainty.
 const RELATIVE: &str = "%";
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use fem_laws::{Partner, YieldingBody};
-use fem_material::Material;
+use fem_material::{Material, ShiftLaw};
 
 use crate::schema::PlateSupport;
 
@@ -17,6 +17,20 @@ pub struct Body {
     pub(crate) yield_strength: Option<f64>,
     pub(crate) surface_energy: Option<f64>,
     pub(crate) library_material: Option<&'static str>,
+    pub(crate) measured: Option<MeasuredBand>,
+}
+
+/// What is known of the data from which a relaxation comes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeasuredBand {
+    /// Temperature at which the relaxation times of the case hold, K.
+    pub reference_temperature: Option<f64>,
+    /// Temperature of the body, K, if the times are shifted to it.
+    pub temperature: Option<f64>,
+    /// The law of that shift.
+    pub shift: Option<ShiftLaw>,
+    /// The lowest and the highest frequency at the temperature of the body at which the moduli are measured, Hz.
+    pub frequencies: Option<[f64; 2]>,
 }
 
 impl Body {
@@ -48,6 +62,11 @@ impl Body {
     /// Returns the surface energy of the material, J/m², > 0, if the case gives one.
     pub fn surface_energy(&self) -> Option<f64> {
         self.surface_energy
+    }
+
+    /// Returns what is known of the data of the material's relaxation; `None` without a relaxation.
+    pub fn measured(&self) -> Option<&MeasuredBand> {
+        self.measured.as_ref()
     }
 
     /// Returns the name of the material, without `lib:`, if it is one of the library.

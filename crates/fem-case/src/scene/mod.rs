@@ -20,6 +20,7 @@ use crate::schema::{ContactMethod, EffectsTable, Field, SnapshotLabel, Spot};
 pub struct Scene {
     pub(crate) title: String,
     pub(crate) bodies: [Body; 2],
+    pub(crate) temperature: Option<f64>,
     pub(crate) gap: Option<f64>,
     pub(crate) gravity: Option<Gravity>,
     pub(crate) mesh: MeshSettings,
@@ -50,6 +51,11 @@ impl Scene {
     /// least one is a sphere.
     pub fn bodies(&self) -> &[Body; 2] {
         &self.bodies
+    }
+
+    /// Returns the temperature of the bodies, K, if the case gives it.
+    pub fn temperature(&self) -> Option<f64> {
+        self.temperature
     }
 
     /// Returns the distance of the surfaces on the axis at time 0, m, ≥ 0.

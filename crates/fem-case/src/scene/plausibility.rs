@@ -99,6 +99,22 @@ impl Scene {
         })
     }
 
+    /// Returns a note that relaxations hold at their reference temperatures, since the case gives no temperature.
+    pub fn reference_temperatures(&self) -> Option<String> {
+        let known = self.bodies.iter().filter_map(|body| {
+            let reference = body.measured()?.reference_temperature?;
+            Some(format!("{:.1} degC", reference - 273.15))
+        });
+        let mut known: Vec<String> = known.filter(|_| self.temperature.is_none()).collect();
+        known.dedup();
+        (!known.is_empty()).then(|| {
+            format!(
+                "relaxation at its reference temperature, {} (no temperature is given)",
+                known.join(" and ")
+            )
+        })
+    }
+
     /// Returns a note on the sizes and the unit of spheres that are all one metre or larger, which may be intended;
     /// `None` if one of them is [implausible](Self::implausible_numbers).
     pub fn large_spheres(&self) -> Option<String> {

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::{Density, Number, Quantity, Rate, Stress, SurfaceEnergy, Time};
+use crate::quantity::{Density, Number, Quantity, Rate, Stress, SurfaceEnergy, Temperature, Time};
 use crate::schema::flow_table::FlowTable;
-use crate::schema::macros::keywords;
+use crate::schema::macros::{keywords, optional_keys};
 
 /// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation or plastic flow.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -71,8 +71,7 @@ impl MaterialTable {
 
     /// Returns this material with this Prony series; the moduli are instantaneous.
     pub fn relaxing(self, acts_on: ActsOn, terms: impl IntoIterator<Item = TermTable>) -> Self {
-        let terms = terms.into_iter().collect();
-        Self { relaxation: Some(RelaxationTable { acts_on, terms }), ..self }
+        Self { relaxation: Some(RelaxationTable::new(acts_on, terms)), ..self }
     }
 
     fn without_moduli(density: Quantity<Density>) -> Self {
@@ -121,10 +120,82 @@ impl From<HyperelasticLaw> for fem_material::finite::HyperelasticLaw {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [material.glass.relaxation]")]
 pub struct RelaxationTable {
-    /// The moduli that relax.
-    pub acts_on: ActsOn,
-    /// One table per Prony term.
+    /// Path of a TOML file with the other keys of this table, relative to the case; a case that was read has these keys
+    /// instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// The moduli that relax; required without `file`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub acts_on: Option<ActsOn>,
+    /// One table per Prony term; required without `file`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub terms: Vec<TermTable>,
+    /// Temperature at which the relaxation times hold, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference_temperature: Option<Quantity<Temperature>>,
+    /// How the relaxation times depend on the temperature; not at all if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shift: Option<ShiftTable>,
+    /// Frequencies at which the moduli are measured, at the reference temperature.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band: Option<BandTable>,
+}
+
+impl RelaxationTable {
+    /// Creates a table of terms without a dependence on temperature.
+    pub fn new(acts_on: ActsOn, terms: impl IntoIterator<Item = TermTable>) -> Self {
+        Self {
+            file: None,
+            acts_on: Some(acts_on),
+            terms: terms.into_iter().collect(),
+            reference_temperature: None,
+            shift: None,
+            band: None,
+        }
+    }
+}
+
+optional_keys! {
+    /// `shift = { … }`: exactly one key.
+    ShiftTable, "a table such as { wlf = { c1 = 17.4, c2 = 51.6 } }" {
+        /// The law of Williams, Landel and Ferry.
+        wlf: WlfTable,
+        /// The law of Arrhenius.
+        arrhenius: ArrheniusTable,
+        /// Temperatures, rising, with log10 a_T, between which it is interpolated linearly.
+        table: Vec<(Quantity<Temperature>, Quantity<Number>)>,
+    }
+}
+
+/// `wlf = { … }`: log10 a_T = −C1 ΔT/(C2 + ΔT).
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { c1 = 17.4, c2 = 51.6 }")]
+pub struct WlfTable {
+    /// The first constant, C1.
+    pub c1: Quantity<Number>,
+    /// The second constant, C2, in kelvin, not 0.
+    pub c2: Quantity<Number>,
+}
+
+/// `arrhenius = { … }`: ln a_T = Θ (1/T − 1/T_r).
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { activation_temperature = 12000 }")]
+pub struct ArrheniusTable {
+    /// Activation energy over the gas constant, Θ, in kelvin, ≥ 0.
+    pub activation_temperature: Quantity<Number>,
+}
+
+/// `band = { … }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, expecting = "a table such as { from = \"0.1 Hz\", to = \"100 Hz\" }")]
+pub struct BandTable {
+    /// The lowest frequency, > 0.
+    pub from: Quantity<Rate>,
+    /// The highest frequency, above the lowest.
+    pub to: Quantity<Rate>,
 }
 
 keywords! {

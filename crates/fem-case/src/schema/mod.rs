@@ -16,7 +16,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{
-    Acceleration, Bytes, Count, Length, Number, Quantity, QuantityKind, SurfaceEnergy, Time,
+    Acceleration, Bytes, Count, Length, Number, Quantity, QuantityKind, SurfaceEnergy, Temperature,
+    Time,
 };
 use crate::schema::macros::{keywords, optional_keys};
 
@@ -34,6 +35,10 @@ pub struct CaseFile {
     /// Title of the case; the file's stem if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
+    /// Temperature of the bodies, > 0, which shifts the relaxation times of materials with a law `shift`; the reference temperature of each
+    /// if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Quantity<Temperature>>,
     /// The tables `[material.NAME]`, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     // A table `[material."lib:NAME"]` may have any keys, since the library gives the others.
@@ -441,6 +446,8 @@ optional_keys! {
 /// `sphere = ["22.2 mm"]` as its fields in order.
 pub(crate) fn is_list(path: &str) -> bool {
     let is_of_material = path.starts_with("material.")
-        && (path.ends_with(".relaxation.terms") || path.contains(".flow.hardening.table"));
+        && (path.ends_with(".relaxation.terms")
+            || path.contains(".relaxation.shift.table")
+            || path.contains(".flow.hardening.table"));
     is_of_material || matches!(path, "body" | "output.snapshots" | "output.fields" | "output.probe")
 }

@@ -90,6 +90,7 @@ impl Check<'_> {
                 yield_strength: material.and_then(|material| material.yield_strength),
                 surface_energy: material.and_then(|material| material.surface_energy),
                 library_material: library_material(file, table),
+                measured: material.and_then(|material| material.measured.clone()),
             }
         };
         Ok([body(lower), body(upper)])

@@ -1,12 +1,12 @@
 //! `[material.NAME]`: fem-material decides whether a material is possible; here its errors are given a position.
 
-use fem_material::{
-    ElasticModuli, FlowRule, Material, MaterialError, ModuliInput, PronySeries, PronyTerm,
-};
+use fem_material::{ElasticModuli, FlowRule, Material, MaterialError, ModuliInput, PronyTerm};
 
 use super::Check;
+use super::relaxation::series;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
+use crate::scene::body::MeasuredBand;
 use crate::schema::{MaterialTable, RelaxationTable};
 use crate::source::toml_syntax::join;
 
@@ -17,6 +17,8 @@ pub(super) struct CheckedMaterial {
     pub yield_strength: Option<f64>,
     /// Surface energy, J/m².
     pub surface_energy: Option<f64>,
+    /// What is known of the data of the relaxation.
+    pub measured: Option<MeasuredBand>,
 }
 
 impl Check<'_> {
@@ -51,10 +53,13 @@ impl Check<'_> {
         let n_terms = table.relaxation.as_ref().map_or(0, |relaxation| relaxation.terms.len());
         let place = |error| self.material_error(path, &error, n_terms);
         let elastic = ElasticModuli::from_two(input).map_err(place)?;
+        let mut measured = None;
         let relaxation = match &table.relaxation {
             Some(relaxation) => {
-                let terms = self.relaxation_terms(path, relaxation)?;
-                Some(PronySeries::new(terms, relaxation.acts_on.into()).map_err(place)?)
+                let checked = self.relaxation(path, relaxation)?;
+                let series = series(&checked).map_err(place)?;
+                measured = Some(checked.measured);
+                Some(series)
             }
             None => None,
         };
@@ -77,10 +82,11 @@ impl Check<'_> {
             material,
             yield_strength,
             surface_energy: self.optional(&at("surface_energy"), energy, Range::POSITIVE)?,
+            measured,
         })
     }
 
-    fn relaxation_terms(
+    pub(super) fn relaxation_terms(
         &self,
         path: &str,
         table: &RelaxationTable,

@@ -8,10 +8,12 @@ pub(crate) mod gravity;
 mod materials;
 mod models;
 mod output;
+pub(crate) mod relaxation;
 
 use std::cell::RefCell;
 use std::path::Path;
 
+use self::relaxation::check_temperature;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
 use crate::quantity::{Quantity, QuantityKind};
@@ -28,7 +30,10 @@ pub(crate) fn validate(
     stem: &str,
     folder: &Path,
 ) -> Result<Scene, CaseError> {
-    let check = Check { document, folder, inputs: RefCell::default() };
+    let mut check = Check { document, folder, temperature: None, inputs: RefCell::default() };
+    let temperature = file.temperature.as_ref();
+    check.temperature = check.optional("temperature", temperature, Range::POSITIVE)?;
+    check_temperature(&check, file)?;
     let start = file.start.clone().unwrap_or_default();
     let mesh = file.mesh.clone().unwrap_or_default();
     let contact = file.contact.clone().unwrap_or_default();
@@ -52,6 +57,7 @@ pub(crate) fn validate(
     let scene = Scene {
         title: file.title.clone().unwrap_or_else(|| stem.to_string()),
         bodies,
+        temperature: check.temperature,
         gap,
         gravity,
         mesh: MeshSettings {
@@ -98,13 +104,16 @@ pub(crate) fn validate(
 /// Returns whether a key is that of a measured input.
 fn is_measured(key: &str) -> bool {
     const TABLES: [&str; 5] = ["material.", "body.", "start.", "gravity.", "model.law."];
-    key == "contact.work_of_adhesion" || TABLES.iter().any(|table| key.starts_with(table))
+    ["contact.work_of_adhesion", "temperature"].contains(&key)
+        || TABLES.iter().any(|table| key.starts_with(table))
 }
 
 /// Checks the tables of a case; `folder` is that of relative mesh files.
 pub(crate) struct Check<'a> {
     document: &'a Document,
     folder: &'a Path,
+    /// The temperature of the case, K.
+    temperature: Option<f64>,
     /// The numbers with an uncertainty so far.
     inputs: RefCell<Vec<UncertainInput>>,
 }

@@ -5,5 +5,6 @@ mod flow;
 mod in_code;
 mod library;
 mod overrides;
+mod relaxation_file;
 mod round_trip;
 mod sweep_faults;

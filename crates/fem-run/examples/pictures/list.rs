@@ -54,7 +54,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 30] = [
+pub const PICTURES: [Picture; 31] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -96,6 +96,11 @@ pub const PICTURES: [Picture; 30] = [
         "measure-force.svg",
         &["measure validation/data/ball_force.csv --mass 10g --height 3cm"],
         "runs/ball_force_measure/measure.svg",
+    ),
+    figure(
+        "dma-sweep.svg",
+        &["sweep validation/data/polymer_sweep.toml"],
+        "runs/polymer_sweep/sweep.svg",
     ),
     figure(
         "dma.svg",

@@ -73,8 +73,9 @@ impl Checked {
             .refine_before_run(simulation, || begin.elapsed() < PATIENCE_WITH_REFERENCE_RUNS);
         let setup = begin.elapsed().as_secs_f64();
         let forecast = Forecast::of(&simulation, &mut estimator, making, is_open);
-        let large = simulation.case().scene().large_spheres();
-        let large = large.map_or(String::new(), |spheres| format!(", with {spheres}"));
+        let scene = simulation.case().scene();
+        let notes = [scene.large_spheres(), scene.reference_temperatures()].into_iter().flatten();
+        let large: String = notes.map(|note| format!(", with {note}")).collect();
         let (warnings, none) = match simulation.warnings_before() {
             none if none.is_empty() => (String::new(), ", without warnings"),
             some => (run_report::warnings(&some) + "\n", ""),

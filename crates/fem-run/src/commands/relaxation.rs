@@ -15,7 +15,7 @@ use crate::arguments::case::stem_of;
 use crate::arguments::data::{ColumnArguments, read_bytes};
 use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
-use crate::text::{Failure, headed, show_measured, standard_output};
+use crate::text::{Failure, headed, show_measured, shown, standard_output};
 
 /// Turn moduli over frequency or time into the relaxation of a material
 ///
@@ -105,11 +105,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let file = format!("{}.relaxation.toml", arguments.name());
     output.write(&file, found.relaxation_toml())?;
     output.write("relaxation.svg", relaxation_figure(&found))?;
+    let place = shown(&output.place().join(&file)).replace('\\', "/");
     standard_output::warn(found.warnings());
     output.publish(&found.numbers(), || {
         let material = arguments.material(&found);
-        let name = arguments.name();
-        let table = format!("\n{material}\n[material.{name}.relaxation]\n# the lines of {file}\n");
+        let table = format!("\n{material}relaxation = {{ file = \"{place}\" }}\n");
         answer(&found) + &shifts(&found) + &terms(&found) + &table
     })
 }

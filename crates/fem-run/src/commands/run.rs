@@ -228,8 +228,9 @@ impl Announced<'_> {
     /// soon has them on the same screen.
     fn print(&self, case: &str, place: &ResultPath, started: Instant, detail: Detail) {
         let Self { simulation, forecast, .. } = self;
-        let large = simulation.case().scene().large_spheres();
-        let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
+        let scene = simulation.case().scene();
+        let notes = [scene.large_spheres(), scene.reference_temperatures()];
+        let large: String = notes.into_iter().flatten().map(|note| format!("{note}; ")).collect();
         let cost = self.cost(started.elapsed().as_secs_f64(), detail);
         let mut line = format!("{case}: {large}{cost}");
         // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.

@@ -9,6 +9,7 @@
 //! | keys without effect, a tolerance out of reach | `plan/mod.rs`, `plan/contact_method.rs`, `models/condensed/effects.rs`, `models/reduced/effects.rs` |
 //! | missed tolerances, too coarse meshes | `error/tolerance_warnings.rs` |
 //! | a model's own run ([`Collision::warnings`]) | `fem-explicit/src/run/outcome.rs`, `fem-explicit/src/run/material_stability.rs`, `models/bouncing/report.rs` |
+//! | frequencies at which moduli are not measured | `results/relaxation_band.rs` |
 //! | snapshots that are left out | `results/snapshots.rs` |
 //! | likely causes of an early stop | `results/stop_advice.rs` |
 
@@ -28,6 +29,7 @@ use crate::models::method::{Cost, ElementSetup};
 use crate::models::{ModelCandidate, SelectedModel};
 use crate::plan::Plan;
 use crate::plan::penalty_compliance::softness;
+use crate::results::relaxation_band::band_warnings;
 use crate::simulation::Simulation;
 
 /// Safety factor on the advised stiffness of springs.
@@ -47,6 +49,7 @@ impl Simulation {
             .chain(self.shear_waves_warning())
             .chain(self.choice_warning())
             .chain(self.setup().warnings())
+            .chain(band_warnings(scene, self.setup().estimate.contact_time))
             .chain(self.mesh_warning())
             .chain(self.springs_warning())
             .chain(self.cheaper_model_hint())
@@ -63,6 +66,7 @@ impl Simulation {
             .chain(self.setup().unread_key_warnings.iter().cloned())
             .chain(diagnose(self, collision, errors))
             .chain(decisions.warnings_of_result.iter().cloned())
+            .chain(band_warnings(scene, self.setup().estimate.contact_time))
             .chain(collision.warnings.iter().cloned())
             .collect()
     }

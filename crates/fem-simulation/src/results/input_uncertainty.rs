@@ -7,6 +7,8 @@
 //! u_y^2 = \sum_k \left[\tfrac12 y(x_k+u_k) - \tfrac12 y(x_k-u_k)\right]^2 .
 //! ```
 //!
+//! What may lie outside the measured band of a relaxation is one more input (`relaxation_band`).
+//!
 //! A material of both bodies is one input. The changes are those of the case's contact law, or of Hertz' or Ting's impact
 //! between half-spaces, or of the elastic–plastic impact of a body that flows, relative to it; that of the restitution is
 //! absolute. Waves that take energy from these impacts take it
@@ -16,6 +18,7 @@ use fem_case::{Body, Case, ModelChoice, Scene, Switch};
 use fem_collision::Collision;
 use fem_laws::{HertzImpact, Impact, ImpactQuantities};
 
+use super::relaxation_band::with_tail;
 use super::summary::Quantities;
 use crate::effects::{PartnerWaves, SimplifiedScene};
 use crate::estimate::Estimate;
@@ -36,14 +39,25 @@ pub(super) fn input_uncertainty(
     let file = simulation.case().file().clone();
     let case = Case::of(simulation.with_approach(file, &collision.approach)).ok()?;
     let inputs = case.scene().uncertain_inputs();
-    if inputs.is_empty() {
+    let bodies = case.scene().bodies();
+    let has_band = |body: &Body| body.measured().is_some_and(|it| it.frequencies.is_some());
+    if inputs.is_empty() && !bodies.iter().any(has_band) {
         return None;
     }
     let own = impact_of(case.scene())?;
     let from_own = |case: &Case| Some(impact_of(case.scene())?.change_from(&own).to_vec());
     // Unknown changes are no numbers.
     let change = |input| case.change_by(input, from_own).unwrap_or_else(|| vec![f64::NAN; 6]);
-    let changes: Vec<Vec<f64>> = inputs.iter().map(change).collect();
+    let mut changes: Vec<Vec<f64>> = inputs.iter().map(change).collect();
+    let is_one = bodies[0].material() == bodies[1].material();
+    for side in 0..if is_one { 1 } else { 2 } {
+        let Some(other) = with_tail(&case, side, own.contact_time) else { continue };
+        let change = from_own(&other).unwrap_or_else(|| vec![f64::NAN; 6]);
+        changes.push(change.into_iter().map(|change| change / 3f64.sqrt()).collect());
+    }
+    if changes.is_empty() {
+        return None;
+    }
     let sum = |k: usize| changes.iter().map(|change| change[k].powi(2)).sum::<f64>().sqrt();
     let errors = QuantityErrors::from_fn(|quantity| {
         Some(sum(quantity as usize) * quantity.scale(numbers.number(quantity)?))

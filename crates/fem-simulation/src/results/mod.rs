@@ -4,6 +4,7 @@ pub(crate) mod diagnostics;
 pub(crate) mod grouped_warnings;
 mod input_uncertainty;
 mod measured;
+mod relaxation_band;
 pub(crate) mod stop_advice;
 pub(crate) mod stress;
 mod uncertainty;

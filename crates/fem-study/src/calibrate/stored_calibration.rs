@@ -126,7 +126,7 @@ impl Calibration {
         let terms =
             terms.map(|term| TermTable::with_relaxation_time(term.weight, term.relaxation_time));
         let terms: Vec<TermTable> = terms.collect();
-        (!terms.is_empty()).then(|| RelaxationTable { acts_on: self.acts_on(), terms })
+        (!terms.is_empty()).then(|| RelaxationTable::new(self.acts_on(), terms))
     }
 
     /// Returns the moduli that relax.

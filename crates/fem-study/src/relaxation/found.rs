@@ -1,9 +1,10 @@
 //! The relaxation of a material from a table of moduli, with the checks of the data.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{LN_10, TAU};
 
 use fem_case::engineering::show;
 use fem_case::schema::ActsOn;
+use fem_material::ShiftLaw;
 
 use crate::measured::{DataError, Modulus, ModulusPoint, ModulusTable, TestKind};
 
@@ -26,6 +27,8 @@ const SAME_TEMPERATURE: f64 = 1.0;
 const MAX_DRIFT: f64 = 3.0;
 /// Ratio of the misfit of one series to that of a series for each temperature above which these do not superpose.
 const MIN_MISFIT_RATIO: f64 = 3.0;
+/// Deviation of log10 a_T from a law above which the shifts are tabulated.
+const MAX_SHIFT_DEVIATION: f64 = 0.3;
 /// The least misfit of a series that is reported so.
 const LEAST_MISFIT: f64 = 0.05;
 /// Root mean square of relative residuals above which a warning is given.
@@ -103,6 +106,22 @@ impl FoundRelaxation {
     /// Returns the modulus that was measured.
     pub fn modulus(&self) -> Modulus {
         self.table.modulus
+    }
+
+    /// Returns the law by which a case shifts the series to its temperature: the one that fits better, or a table of the shifts if none
+    /// of them is near all of them.
+    pub fn shift_law(&self) -> Option<ShiftLaw> {
+        let found = self.superposition.as_ref()?;
+        let laws = [&found.wlf, &found.arrhenius].into_iter().flatten();
+        let best = laws.min_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        let near = best.filter(|law| law.largest_deviation < MAX_SHIFT_DEVIATION);
+        Some(near.map_or_else(
+            || {
+                let row = |block: &Block| (block.temperature, block.ln_shift / LN_10);
+                ShiftLaw::Table(found.blocks.iter().map(row).collect())
+            },
+            |law| law.law.clone(),
+        ))
     }
 
     /// Returns the moduli that relax.

@@ -14,6 +14,21 @@ use crate::measured::{ModulusPoint, TestKind};
 /// The gas constant, J/(mol K), exact by the SI of 2019.
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
+/// Returns a shift law as TOML.
+fn shift_toml(law: &ShiftLaw) -> String {
+    match law {
+        ShiftLaw::Wlf { c1, c2 } => format!("{{ wlf = {{ c1 = {c1:.5}, c2 = {c2:.4} }} }}"),
+        ShiftLaw::Arrhenius { activation_temperature } => {
+            format!("{{ arrhenius = {{ activation_temperature = {activation_temperature:.1} }} }}")
+        }
+        ShiftLaw::Table(rows) => {
+            let rows =
+                rows.iter().map(|(temperature, log10)| format!("[{temperature:.2}, {log10:.4}]"));
+            format!("{{ table = [{}] }}", rows.collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
 /// Returns the numbers of shifts for JSON.
 fn superposition(found: &Superposition) -> Value {
     let log10 = |ln: f64| ln / std::f64::consts::LN_10;
@@ -113,6 +128,11 @@ impl FoundRelaxation {
             "terms": terms.collect::<Value>(),
             "rms": series.rms,
             "scatter": self.scatter,
+            "shift_law": self.shift_law().map(|law| match law {
+                ShiftLaw::Wlf { .. } => "wlf",
+                ShiftLaw::Arrhenius { .. } => "arrhenius",
+                ShiftLaw::Table(_) => "table",
+            }),
             "superposition": self.superposition.as_ref().map(superposition),
             "warnings": self.warnings(),
         })
@@ -130,7 +150,16 @@ impl FoundRelaxation {
             self.modulus().key(),
             Unit::fitting(whole, "Pa").with_digits(6).show(whole),
         );
-        text += &format!("acts_on = \"{}\"\nterms = [\n", self.acts_on().word());
+        text += &format!("acts_on = \"{}\"\n", self.acts_on().word());
+        text += &format!("band = {{ from = {from:?}, to = {to:?} }} # Hz\n");
+        if let Some(temperature) = self.temperature {
+            let celsius = temperature - 273.15;
+            text += &format!("reference_temperature = {temperature:.2} # K, {celsius:.1} degC\n");
+        }
+        text += &self
+            .shift_law()
+            .map_or(String::new(), |law| format!("shift = {}\n", shift_toml(&law)));
+        text += "terms = [\n";
         for (weight, time) in self.weights() {
             // Rounded down, so that the sum does not exceed 1.
             let weight = (weight * 1e7).floor() * 1e-7;
@@ -139,7 +168,7 @@ impl FoundRelaxation {
         text + "]\n"
     }
 
-    /// Returns the table of the material as text to paste into a case file, with `relaxation` from a file; density (kg/m³) and
+    /// Returns the table of the material as text to paste into a case file, without `relaxation`; density (kg/m³) and
     /// Poisson's ratio are comments if they are not given.
     pub fn material_toml(
         &self,

@@ -77,7 +77,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 fn reading(run: &Run) -> String {
     use fem_case::schema::ActsOn;
     let relaxation = run.case.file().material.values().find_map(|m| m.relaxation.as_ref());
-    match relaxation.map(|relaxation| relaxation.acts_on) {
+    match relaxation.and_then(|relaxation| relaxation.acts_on) {
         None => "nothing",
         Some(ActsOn::All) => "shear and bulk (constant ν)",
         Some(ActsOn::Shear) => "shear (elastic bulk)",

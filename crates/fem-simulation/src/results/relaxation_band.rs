@@ -1,0 +1,147 @@
+//! The frequencies of a contact beside those at which the moduli of its bodies are measured.
+//!
+//! A contact of duration T is like half a period of the frequency 1/(2T), and a term changes the loss up to about a decade on either
+//! side of it. Where the measured band ends within that range, the series may go on: between not at all and by the mean weight per
+//! decade of the last two measured decades. The restitution is computed for both ends. Values that are evenly spread between
+//! them have the root mean square distance |Δ|/√3 from the first, which is the series of the case (JCGM 100:2008, 4.3.7); that is
+//! its uncertainty by what is not measured.
+//!
+//! Faster terms add to the instantaneous modulus; slower ones are part of the equilibrium modulus.
+
+use std::f64::consts::TAU;
+
+use fem_case::engineering::show;
+use fem_case::schema::TermTable;
+use fem_case::{Body, Case, MeasuredBand, Scene};
+use fem_material::{ActsOn, Material};
+
+/// Decades on either side of the frequency of a contact within which a term matters.
+const REACH: f64 = 10.0;
+/// Most terms that are added.
+const MAX_TERMS: usize = 16;
+/// Measured decades that say how a series may go on.
+const LAST_DECADES: i32 = 2;
+
+/// Returns the frequencies that matter to a contact (s), Hz.
+pub(super) fn frequencies_of(contact_time: f64) -> [f64; 2] {
+    let middle = 0.5 / contact_time;
+    [middle / REACH, middle * REACH]
+}
+
+/// Terms beyond the measured band, with weights over the instantaneous modulus.
+struct Tail {
+    faster: Vec<(f64, f64)>,
+    slower: Vec<(f64, f64)>,
+}
+
+impl Tail {
+    /// Returns the terms by which a series may go on within the frequencies of the contact.
+    fn of(material: &Material, [from, to]: [f64; 2], [lowest, highest]: [f64; 2]) -> Option<Self> {
+        let series = material.relaxation()?;
+        let per_decade = |is_last: &dyn Fn(f64) -> bool| {
+            let terms = series.terms().iter().filter(|term| is_last(term.relaxation_time));
+            terms.map(|term| term.weight).sum::<f64>() / f64::from(LAST_DECADES)
+        };
+        let width = 10f64.powi(LAST_DECADES);
+        let count = |ratio: f64| (ratio.log10().ceil().max(0.0) as usize).min(MAX_TERMS);
+        let at = |k: usize| 10f64.powf(k as f64 + 0.5);
+        let fast = per_decade(&|time| time < width / (TAU * to));
+        let faster = (0..count(highest / to)).map(|k| (fast, 1.0 / (TAU * to * at(k)))).collect();
+        let n_slow = count(from / lowest);
+        let slow = per_decade(&|time| time > 1.0 / (TAU * from * width));
+        let slow = slow.min(series.equilibrium_weight() / n_slow.max(1) as f64);
+        let slower = (0..n_slow).map(|k| (slow, at(k) / (TAU * from))).collect();
+        Some(Self { faster, slower })
+    }
+
+    fn is_empty(&self) -> bool {
+        self.faster.iter().chain(&self.slower).all(|term| term.0 <= 0.0)
+    }
+}
+
+/// Returns the case with the series of a body's material going on beyond the measured band; `None` if the band covers the
+/// contact.
+pub(super) fn with_tail(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
+    let body = &case.scene().bodies()[side];
+    let (material, measured) = (body.material()?, body.measured()?);
+    let tail = Tail::of(material, measured.frequencies?, frequencies_of(contact_time))?;
+    if tail.is_empty() {
+        return None;
+    }
+    let series = material.relaxation()?;
+    // The times of the case hold at its reference temperature.
+    let factor = 10f64.powf(log10_shift(measured));
+    let whole = 1.0 + tail.faster.iter().map(|term| term.0).sum::<f64>();
+    let own = series.terms().iter().map(|term| (term.weight, term.relaxation_time));
+    let terms = own
+        .chain(tail.faster)
+        .chain(tail.slower)
+        .map(|(weight, time)| TermTable::with_relaxation_time(weight / whole, time / factor));
+    let terms: Vec<TermTable> = terms.collect();
+    let moduli = material.instantaneous();
+    let shear = whole * moduli.shear_modulus();
+    let bulk = match series.acts_on() {
+        ActsOn::All => whole * moduli.bulk_modulus(),
+        ActsOn::Shear => moduli.bulk_modulus(),
+    };
+    let name = case.file().body.get(side)?.material.clone()?;
+    let edited = case.edited(|file| {
+        let Some(table) = file.material.get_mut(&name) else { return };
+        (table.youngs_modulus, table.poissons_ratio) = (None, None);
+        (table.shear_modulus, table.bulk_modulus) = (Some(shear.into()), Some(bulk.into()));
+        if let Some(relaxation) = &mut table.relaxation {
+            relaxation.terms = terms;
+        }
+    });
+    edited.ok()
+}
+
+fn log10_shift(measured: &MeasuredBand) -> f64 {
+    let shift = || {
+        let (temperature, reference) = (measured.temperature?, measured.reference_temperature?);
+        measured.shift.as_ref()?.log10_shift(temperature, reference)
+    };
+    shift().unwrap_or(0.0)
+}
+
+/// Returns one warning per material whose moduli are not measured at all frequencies of the contact.
+pub(super) fn band_warnings(scene: &Scene, contact_time: f64) -> Vec<String> {
+    let contact = frequencies_of(contact_time);
+    let mut warnings: Vec<String> = scene
+        .bodies()
+        .iter()
+        .filter_map(|body| band_warning(body, contact, contact_time))
+        .collect();
+    warnings.dedup();
+    warnings
+}
+
+fn band_warning(body: &Body, [lowest, highest]: [f64; 2], contact_time: f64) -> Option<String> {
+    let measured = body.measured()?;
+    let [from, to] = measured.frequencies?;
+    if from <= lowest && to >= highest {
+        return None;
+    }
+    let decades = |from: f64, to: f64| (to / from).log10().max(0.0);
+    let inside = decades(from.max(lowest), to.min(highest));
+    let celsius = |kelvin: f64| format!("{:.0} degC", kelvin - 273.15);
+    let kelvin = measured.temperature.or(measured.reference_temperature);
+    let at = kelvin.map_or(String::new(), |kelvin| format!(" at {}", celsius(kelvin)));
+    let is_fast = to < highest;
+    let wanted = if is_fast {
+        format!("up to {}, or at lower temperatures", show(highest, "Hz"))
+    } else {
+        format!("from {}, or at higher temperatures", show(lowest, "Hz"))
+    };
+    Some(format!(
+        "the contact of {} asks for moduli from {} to {}, and those of {} are measured from {} to {}{at}: {inside:.1} of {:.1} \
+         decades; ± input has what may lie outside; measure {wanted}",
+        show(contact_time, "s"),
+        show(lowest, "Hz"),
+        show(highest, "Hz"),
+        body.name(),
+        show(from, "Hz"),
+        show(to, "Hz"),
+        decades(lowest, highest),
+    ))
+}
