@@ -191,7 +191,7 @@ fn details(record: &Record, rig: &Rig) -> String {
     }
 }
 
-/// What a record without size and density of the ball leaves out.
+/// The line about air drag of a record without size and density of the ball.
 const DRAG_NEGLECTED: &str =
     "air drag neglected: --diameter and --density of the ball include it\n";
 
