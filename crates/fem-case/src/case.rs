@@ -25,6 +25,8 @@ use crate::validate::validate;
 
 /// The largest size of a case file, bytes: more than any case needs.
 const MAX_FILE: u64 = 16 << 20;
+/// Most bytes of a table, a record or a mesh.
+const MAX_DATA_FILE: u64 = 1 << 30;
 
 /// A valid case: as written, as a scene, and with the origins of its keys.
 #[derive(Clone, Debug)]
@@ -294,10 +296,26 @@ pub fn text_at(path: &Path, name: &str) -> Result<String, CaseError> {
 
 /// Reads the bytes of a file that a sweep names.
 pub(crate) fn bytes_at(path: &Path, name: &str) -> Result<Vec<u8>, CaseError> {
+    let read = read_at_most(MAX_DATA_FILE, open(path, name)?);
+    read.map_err(|error| unreadable(name, &error))
+}
+
+/// Reads a file of data: a table, a record or a mesh.
+///
+/// # Errors
+/// The file cannot be read, or has no end: it is larger than 1 GiB.
+pub fn read_data_file(path: &Path) -> std::io::Result<Vec<u8>> {
+    read_at_most(MAX_DATA_FILE, fs::File::open(path)?)
+}
+
+/// Reads all of a source of at most so many bytes; a device may have no end.
+fn read_at_most(most: u64, source: impl Read) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let read = open(path, name)?.read_to_end(&mut bytes);
-    read.map_err(|error| unreadable(name, &error))?;
-    Ok(bytes)
+    source.take(most + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > most {
+        true => Err(ErrorKind::FileTooLarge.into()),
+        false => Ok(bytes),
+    }
 }
 
 fn open(path: &Path, name: &str) -> Result<fs::File, CaseError> {
@@ -316,12 +334,10 @@ fn open(path: &Path, name: &str) -> Result<fs::File, CaseError> {
 
 fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {
     let fail = |message: &str| CaseError::new(name, message);
-    let mut bytes = Vec::new();
-    let read = source.take(MAX_FILE + 1).read_to_end(&mut bytes);
-    read.map_err(|error| unreadable(name, &error))?;
-    if bytes.len() as u64 > MAX_FILE {
-        return Err(fail("this file is larger than 16 MiB, the limit for a case"));
-    }
+    let bytes = read_at_most(MAX_FILE, source).map_err(|error| match error.kind() {
+        ErrorKind::FileTooLarge => fail("this file is larger than 16 MiB, the limit for a case"),
+        _ => unreadable(name, &error),
+    })?;
     String::from_utf8(bytes).map_err(|error| {
         let start = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(error.as_bytes());

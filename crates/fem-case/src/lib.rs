@@ -61,7 +61,7 @@ mod source;
 mod sweep;
 mod validate;
 
-pub use case::{Case, text_at};
+pub use case::{Case, read_data_file, text_at};
 pub use error::CaseError;
 pub use fem_material::engineering;
 pub use quantity::temperature::parse_temperature;

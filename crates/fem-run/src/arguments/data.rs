@@ -78,7 +78,7 @@ impl ColumnArguments {
 
 /// Reads a file of data.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| {
+    fem_case::read_data_file(path).map_err(|error| {
         let name = one_line(&path.display().to_string());
         let found = match error.kind() {
             ErrorKind::NotFound => "there is no such file".to_string(),

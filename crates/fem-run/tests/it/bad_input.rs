@@ -245,3 +245,18 @@ fn unwritable_output_folders_are_rejected_before_the_run() {
     refused(&place, &["case.toml", "--out", &format!("a/b/{}", "x".repeat(300))]);
     refused(&place, &[&long, "--out", "a/b/c"]);
 }
+
+/// A mesh or a table without end is refused before memory is full.
+#[cfg(target_os = "linux")]
+#[test]
+fn files_without_end_are_refused() {
+    let place = Place::new();
+    let mesh = "body.1.sphere={ diameter='22.2 mm', mesh='/dev/zero' }";
+    for arguments in
+        [&["case.toml", "--set", mesh][..], &["fit", "case.toml", "--data", "/dev/zero"]]
+    {
+        let message = refused(&place, arguments);
+        assert!(message.contains("/dev/zero"), "{message}");
+        assert!(message.contains("too large"), "{message}");
+    }
+}

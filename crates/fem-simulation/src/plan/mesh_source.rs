@@ -7,6 +7,9 @@ use fem_case::{Plate, PlateSupport};
 use fem_material::Material;
 use fem_mesh::{GradedPlate, HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
 
+#[cfg(feature = "files")]
+use fem_vtk::VtuFile;
+
 use crate::plan::{Plan, divided_radius};
 use crate::rejection::Rejection;
 
@@ -143,8 +146,10 @@ pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh,
 /// Reads the mesh, or describes the fault of the file.
 #[cfg(feature = "files")]
 fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
-    let mesh = fem_vtk::read_quad_mesh(path).map_err(|error| error.to_string())?;
     let fault = |fault: String| format!("{}: {fault}", path.display());
+    let bytes = fem_case::read_data_file(path).map_err(|error| fault(error.to_string()))?;
+    let file = VtuFile::from_bytes(path, bytes);
+    let mesh = file.and_then(|file| file.quad_mesh()).map_err(|error| error.to_string())?;
     if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
         return Err(fault(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
     }

@@ -115,7 +115,7 @@ fn mesh_files(case: &Case) -> Result<Vec<Vec<u8>>, CaseError> {
 
 #[cfg(feature = "files")]
 fn read(path: &Path) -> Result<Vec<u8>, std::io::Error> {
-    std::fs::read(path)
+    fem_case::read_data_file(path)
 }
 
 #[cfg(not(feature = "files"))]

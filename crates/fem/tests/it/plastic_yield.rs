@@ -68,6 +68,30 @@ fn the_estimate_leads_but_for_contact_laws() {
     }
 }
 
+/// The strength that is asked for first is that of the softer body; a harder or rubber-like one, and one with a strength, is
+/// not asked for.
+#[test]
+fn the_softer_body_is_asked_for_its_strength_first() {
+    let lead =
+        "material.lead={ density='11340 kg/m^3', youngs_modulus='16 GPa', poissons_ratio=0.44 }";
+    let strength = "material.steel.yield_strength='1 GPa'";
+    let warnings = |set: &[&str]| {
+        let set = [&[lead, strength, "model.hertz={}", "body.1.material='lead'"][..], set].concat();
+        decision_on(STEEL, &set).1
+    };
+    let question = "upper is softer than lower and has no strength: set its material.NAME.yield_strength first";
+    let asked = warnings(&["body.0.approach_speed='20 m/s'"]);
+    assert!(asked.contains(question) && asked.contains("lower yields from"), "{asked}");
+    for set in [
+        "material.lead.yield_strength='12 MPa'",
+        "material.lead.youngs_modulus='300 GPa'",
+        "material.lead.youngs_modulus='50 MPa'",
+    ] {
+        let other = warnings(&["body.0.approach_speed='20 m/s'", set]);
+        assert!(!other.contains("is softer than"), "{set}: {other}");
+    }
+}
+
 #[test]
 fn a_yield_strength_gives_the_speed_and_an_estimate() {
     for model in MODELS {

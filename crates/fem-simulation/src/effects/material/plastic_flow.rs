@@ -178,9 +178,18 @@ fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estima
     let is_needed = ratio > 1.0;
     let ends = first.range(scene.strength_uncertainty(body)).map(|impact| impact.restitution);
     let by_law = format!("closed forms give a restitution of {}", range(ends, ""));
+    let unknown = scene.bodies().iter().find(|other| is_softer_without_strength(other, body));
+    let ask = unknown.map(|other| {
+        format!(
+            "{} is softer than {name} and has no strength: set its material.NAME.yield_strength first, for it may yield \
+             sooner and lose more. ",
+            other.name()
+        )
+    });
+    let ask = ask.unwrap_or_default();
     let warning = is_needed.then(|| {
         format!(
-            "{name} yields from {} on, and the impact is at {}: {by_law}; {}",
+            "{ask}{name} yields from {} on, and the impact is at {}: {by_law}; {}",
             show(first.speed, "m/s"),
             show(estimate.hertz.approach_speed(), "m/s"),
             match body.material().and_then(Material::flow) {
@@ -202,6 +211,13 @@ fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estima
 fn may_yield(material: &Material) -> bool {
     material.named_law().is_none()
         && material.instantaneous().youngs_modulus() >= MAX_MODULUS_OF_ELASTOMERS
+}
+
+/// Returns whether a body can yield, is softer than another and has no yield strength.
+fn is_softer_without_strength(body: &Body, other: &Body) -> bool {
+    let modulus = |body: &Body| body.material().map(|it| it.instantaneous().plane_strain_modulus());
+    let is_softer = modulus(body).zip(modulus(other)).is_some_and(|(own, other)| own < other);
+    is_softer && body.yielding().is_none() && body.material().is_some_and(may_yield)
 }
 
 fn without_strength(scene: &Scene, estimate: &Estimate) -> Relevance {
