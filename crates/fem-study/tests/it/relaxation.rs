@@ -213,6 +213,32 @@ fn hostile_tables_have_one_clear_answer() {
     }
 }
 
+/// E* of a known G* and an elastic K, by E = 9KG/(3K + G), gives back the series of G.
+#[test]
+fn youngs_moduli_with_an_elastic_bulk_modulus_give_the_series_of_shear() {
+    let (shear, bulk) = (1e9, 3e9);
+    let mut text = "f [Hz],E' [Pa],E'' [Pa]\n".to_string();
+    for k in 0..40 {
+        let frequency = 10f64.powf(-2.5 + 6.0 * f64::from(k) / 39.0);
+        let [real, imaginary] = polymer().complex_modulus(TAU * frequency).map(|it| shear * it);
+        // 9 K G (3 K + Ḡ)/|3 K + G|²
+        let norm = (3.0 * bulk + real).powi(2) + imaginary * imaginary;
+        let storage = 9.0 * bulk * (real * (3.0 * bulk + real) + imaginary * imaginary) / norm;
+        let loss = 9.0 * bulk * 3.0 * bulk * imaginary / norm;
+        writeln!(text, "{frequency:?},{storage:?},{loss:?}").unwrap();
+    }
+    let table = ModulusTable::parse("a.csv", &text, &[], None).unwrap();
+    let settings = RelaxationSettings { bulk_modulus: Some(bulk), ..Default::default() };
+    let found = FoundRelaxation::of(table, settings).unwrap();
+    assert_eq!(found.modulus(), Modulus::Shear);
+    assert!((found.series.instantaneous_modulus() / shear - 1.0).abs() < 1e-6);
+    for ((weight, time), term) in found.weights().iter().zip(polymer().terms()) {
+        assert!(
+            (weight - term.weight).abs() < 1e-6 && (time / term.relaxation_time - 1.0).abs() < 1e-6
+        );
+    }
+}
+
 /// A polymer with a broad glass transition.
 fn broad() -> PronySeries {
     let weight = |k: i32| (-(f64::from(k) / 4.0).powi(2)).exp();
