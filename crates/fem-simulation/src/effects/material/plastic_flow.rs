@@ -26,6 +26,9 @@ const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
 /// modulus and strength).
 const MAX_MODULUS_OF_ELASTOMERS: f64 = 0.1e9;
 
+/// Ratio of moduli below which a body of unknown strength is expected to yield before its partner.
+const SOFTER: f64 = 0.5;
+
 /// Contact radius over R* up to which the mean-pressure law is compared with elements, with some room.
 const MAX_SIZE: f64 = 0.6;
 
@@ -179,23 +182,19 @@ fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estima
     let ends = first.range(scene.strength_uncertainty(body)).map(|impact| impact.restitution);
     let by_law = format!("closed forms give a restitution of {}", range(ends, ""));
     let unknown = scene.bodies().iter().find(|other| is_softer_without_strength(other, body));
-    let ask = unknown.map(|other| {
-        format!(
-            "{} is softer than {name} and has no strength: set its material.NAME.yield_strength first, for it may yield \
-             sooner and lose more. ",
-            other.name()
-        )
-    });
-    let ask = ask.unwrap_or_default();
     let warning = is_needed.then(|| {
+        let computed = match (unknown, body.material().and_then(Material::flow)) {
+            (Some(other), _) => format!(
+                "for plastic flow give {}, which is softer, its material.NAME.yield_strength first",
+                other.name()
+            ),
+            (None, Some(_)) => "model fem computes plastic flow".to_string(),
+            (None, None) => "[material.NAME.flow] with model fem computes plastic flow".to_string(),
+        };
         format!(
-            "{ask}{name} yields from {} on, and the impact is at {}: {by_law}; {}",
+            "{name} yields from {} on, and the impact is at {}: {by_law}; {computed}",
             show(first.speed, "m/s"),
             show(estimate.hertz.approach_speed(), "m/s"),
-            match body.material().and_then(Material::flow) {
-                Some(_) => "model fem computes plastic flow",
-                None => "[material.NAME.flow] with model fem computes plastic flow",
-            }
         )
     });
     Relevance {
@@ -213,10 +212,11 @@ fn may_yield(material: &Material) -> bool {
         && material.instantaneous().youngs_modulus() >= MAX_MODULUS_OF_ELASTOMERS
 }
 
-/// Returns whether a body can yield, is softer than another and has no yield strength.
+/// Returns whether a body can yield, is far softer than another and has no yield strength.
 fn is_softer_without_strength(body: &Body, other: &Body) -> bool {
     let modulus = |body: &Body| body.material().map(|it| it.instantaneous().plane_strain_modulus());
-    let is_softer = modulus(body).zip(modulus(other)).is_some_and(|(own, other)| own < other);
+    let are_known = modulus(body).zip(modulus(other));
+    let is_softer = are_known.is_some_and(|(own, other)| own < SOFTER * other);
     is_softer && body.yielding().is_none() && body.material().is_some_and(may_yield)
 }
 
