@@ -15,8 +15,11 @@ use super::superposition::{Block, Superposition};
 const ZERO_CELSIUS: f64 = 273.15;
 /// The least ratio of the largest to the smallest frequency or time.
 const MIN_SPAN: f64 = 3.0;
-/// The share by which a storage modulus may fall below one at a lower frequency, by scatter.
+/// The share by which a storage modulus may fall below one at a lower frequency, by scatter. Of many points, running medians are
+/// compared, since the extremes of many are far apart.
 const MAX_FALL: f64 = 0.1;
+/// Points of a table over those of a running median.
+const PER_MEDIAN: usize = 20;
 /// The share by which two values at one frequency may differ.
 const MAX_CONTRADICTION: f64 = 0.2;
 /// Frequencies closer than this ratio are the same.
@@ -371,17 +374,24 @@ fn check_block(table: &ModulusTable, block: &Block) -> Result<(), DataError> {
     if table.kind == TestKind::Relaxation {
         sorted.reverse();
     }
-    let mut highest = sorted[0];
-    for point in sorted {
+    let half = sorted.len() / PER_MEDIAN / 2;
+    let median = |k: usize| {
+        let around = &sorted[k.saturating_sub(half)..(k + half + 1).min(sorted.len())];
+        let mut around: Vec<f64> = around.iter().map(|point| point.storage).collect();
+        around.sort_by(f64::total_cmp);
+        ModulusPoint { storage: around[around.len() / 2], ..*sorted[k] }
+    };
+    let mut highest = median(0);
+    for point in (0..sorted.len()).map(median) {
         if point.storage > highest.storage {
             highest = point;
         } else if point.storage < (1.0 - MAX_FALL) * highest.storage {
             let message = format!(
                 "{name} is {} at {} and only {} at {}",
                 show(highest.storage, "Pa"),
-                at(highest),
+                at(&highest),
                 show(point.storage, "Pa"),
-                at(point)
+                at(&point)
             );
             let help = "at one temperature the modulus of every passive solid rises with frequency and falls with time: \
                         check columns, units and resonances of the instrument";

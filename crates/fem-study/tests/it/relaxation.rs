@@ -86,6 +86,16 @@ fn noisy_moduli_give_back_their_weights_within_their_uncertainty() {
     assert!(n_inside * 10 >= n_all * 9, "{n_inside} of {n_all}");
 }
 
+/// A thousand points with 3 % noise differ from their neighbours by more than a tenth somewhere.
+#[test]
+fn many_noisy_points_are_no_fault() {
+    for seed in 0..2 {
+        let found = read(&oscillation(&polymer(), 1000, [-2.5, 3.5], 0.03, seed)).unwrap();
+        assert!((0.025..0.035).contains(&found.series.rms), "{}", found.series.rms);
+        assert!((found.series.instantaneous_modulus() / 2e9 - 1.0).abs() < 0.01);
+    }
+}
+
 #[test]
 fn fewer_decades_have_fewer_terms() {
     // Half a decade far from all times: the modulus is a constant and the loss a line.
