@@ -4,6 +4,7 @@
 //! expression cannot check the dimension of products, negative powers and parentheses, so any of known symbols are
 //! accepted. There is no look-around, which some validators lack.
 
+use crate::quantity::temperature::SCALES;
 use crate::quantity::unit_table::symbols;
 
 /// A number, with an ASCII or a Unicode minus sign.
@@ -52,7 +53,7 @@ pub(crate) fn pattern(dimension: [i32; 4]) -> String {
 
 /// Returns the regular expression for temperatures as strings.
 pub(crate) fn temperature_pattern() -> String {
-    let scale = r"\s*(degC|°C|ºC|C|degF|°F|F|K)";
+    let scale = format!(r"\s*({})", SCALES.map(|scale| scale.0).join("|"));
     format!(r"^{NUMBER}({scale}|({scale})?\s*(±|\+/?-){NUMBER}{scale})\s*$")
 }
 

@@ -3,7 +3,7 @@
 use crate::quantity::uncertain::SIGNS;
 
 /// Scales of temperature: name, kelvin per degree, and kelvin at its zero.
-const SCALES: [(&str, f64, f64); 8] = [
+pub(crate) const SCALES: [(&str, f64, f64); 8] = [
     ("degC", 1.0, 273.15),
     ("°C", 1.0, 273.15),
     ("ºC", 1.0, 273.15),

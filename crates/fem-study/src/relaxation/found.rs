@@ -260,13 +260,12 @@ fn isothermal_blocks(table: &ModulusTable) -> Result<Vec<Block>, DataError> {
             let help = "superposition needs several frequencies at each temperature";
             return Err(DataError::new(&table.name, message).in_line(line).with_help(help));
         }
-        let zero = 0.0;
         Ok(Block {
             temperature: mean,
             points,
-            ln_shift: zero,
-            shift_uncertainty: zero,
-            ln_vertical: zero,
+            ln_shift: 0.0,
+            shift_uncertainty: 0.0,
+            ln_vertical: 0.0,
         })
     };
     groups.into_iter().map(block).collect()
@@ -287,13 +286,12 @@ fn superposed(
     let wanted = settings.reference_temperature.unwrap_or(middle);
     let far = |k: &usize| (blocks[*k].temperature - wanted).abs();
     let reference = (0..blocks.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
-    if far(&reference) > MAX_DRIFT {
-        let temperatures = blocks.iter().map(|block| celsius(block.temperature));
-        let message = format!("no rows are at the reference temperature, {}", celsius(wanted));
-        let known = temperatures.collect::<Vec<_>>().join(", ");
-        return Err(DataError::new(&table.name, message).with_help(format!("there are {known}")));
-    }
     let names: Vec<String> = blocks.iter().map(|block| celsius(block.temperature)).collect();
+    if far(&reference) > MAX_DRIFT {
+        let message = format!("no rows are at the reference temperature, {}", celsius(wanted));
+        let help = format!("there are {}", names.join(", "));
+        return Err(DataError::new(&table.name, message).with_help(help));
+    }
     let has_vertical = settings.has_vertical_shift;
     Superposition::of(table.kind, &table.points, blocks, reference, has_vertical).map_err(|k| {
         let message = format!("the moduli at {} and {} do not overlap", names[k], names[k + 1]);

@@ -32,10 +32,8 @@ const REACH: f64 = 1.5;
 const N_SCANNED: usize = 16;
 /// Accuracy of a shift, ln.
 const TOLERANCE: f64 = 1e-4;
-/// Rounds that find a vertical factor, and the share of its change that a round takes: a series follows a factor that is not taken
-/// out in part.
+/// Rounds that find a vertical factor: a series follows in part a factor that is not taken out.
 const VERTICAL_ROUNDS: usize = 8;
-const VERTICAL_GAIN: f64 = 1.0;
 /// Step of ln a_T for the curvature of the sum of squares.
 const CURVATURE_STEP: f64 = 0.05;
 
@@ -312,7 +310,7 @@ impl BlockPair {
             let rows = n_first..whole.b.len();
             let product: f64 = rows.clone().map(|i| fitted[i] * whole.b[i]).sum();
             let square: f64 = rows.map(|i| fitted[i] * fitted[i]).sum();
-            ln_vertical += VERTICAL_GAIN * (product / square).ln();
+            ln_vertical += (product / square).ln();
         }
         (f64::NAN, ln_vertical, 0)
     }
