@@ -20,7 +20,7 @@
 //! one per contact node. With a relaxing shear modulus and an elastic bulk modulus a Galerkin basis has two per node
 //! (`shear`). Modes of free vibration add the inertia that the quasi-static body lacks (`vibration`). For a body so
 //! large that its waves do not return within the contact, such as a half-space, a separate element models the radiated
-//! energy (`radiation`).
+//! energy (`radiation`), and another the bending waves of a plate (`plate`).
 //!
 //! A rigid sphere has no compliance; its curvature enters the gap, its mass the reduced mass. A wall has neither.
 //!

@@ -16,6 +16,7 @@ use fem_material::{ActsOn, PronySeries};
 use crate::contact::disc_contact::{ContactDisc, DiscContactSolver};
 use crate::error::CondensedError;
 use crate::operators::body_operator::BodyOperator;
+use crate::operators::plate::PlateDashpot;
 use crate::operators::radiation::WaveRadiation;
 use crate::operators::viscoelastic_modes::{BETA, ViscoelasticModes, ViscoelasticState};
 use crate::pair::CondensedPair;
@@ -56,6 +57,8 @@ pub(crate) struct ImpactMotion<'a> {
     pub missed_slope: f64,
     /// Radiated waves of the bodies, if included.
     waves: Option<WaveRadiation>,
+    /// A plate that bends, if included.
+    plate: Option<PlateDashpot>,
     solver: DiscContactSolver,
     /// Largest number of closed points with which the contact certainly ends before the last point.
     most_closed: usize,
@@ -109,10 +112,13 @@ impl<'a> ImpactMotion<'a> {
             }
         }
         let waves = WaveRadiation::new(damping.radiation, pair.curve.punch_stiffness(), time_step);
-        if let Some(waves) = &waves {
+        let plate = damping.plate_mobility.map(|mobility| PlateDashpot::new(mobility, time_step));
+        let of_waves = waves.as_ref().map(WaveRadiation::compliance);
+        let of_plate = plate.as_ref().map(PlateDashpot::compliance);
+        for added in of_waves.into_iter().chain(of_plate) {
             for i in 0..n_points {
                 for j in 0..n_points {
-                    compliance[(i, j)] += waves.compliance();
+                    compliance[(i, j)] += added;
                 }
             }
         }
@@ -123,6 +129,7 @@ impl<'a> ImpactMotion<'a> {
             momentum_of_joining: 0.0,
             missed_slope: 0.0,
             waves,
+            plate,
             time_step,
             step: 0,
             approach: 0.0,
@@ -170,7 +177,8 @@ impl<'a> ImpactMotion<'a> {
             return 0.0;
         }
         let of_waves = self.waves.as_ref().map_or(0.0, WaveRadiation::displacement);
-        let approach = self.approach - of_waves;
+        let of_plate = self.plate.as_ref().map_or(0.0, PlateDashpot::displacement);
+        let approach = self.approach - of_waves - of_plate;
         let elastic = self.pair.curve.force(approach);
         let lasting = if elastic > self.force { self.force / elastic } else { 1.0 };
         lasting * self.pair.curve.force_oscillation(approach)
@@ -205,8 +213,9 @@ impl<'a> ImpactMotion<'a> {
                 chain.subtract_past(&mut self.overlap);
             }
         }
-        if let Some(waves) = &self.waves {
-            let displacement = waves.past_displacement();
+        let of_waves = self.waves.as_ref().map(WaveRadiation::past_displacement);
+        let of_plate = self.plate.as_ref().map(PlateDashpot::past_displacement);
+        for displacement in of_waves.into_iter().chain(of_plate) {
             self.overlap.iter_mut().for_each(|overlap| *overlap -= displacement);
         }
         let none = Stop::NoContactState { time: (self.step + 1) as f64 * dt };
@@ -228,6 +237,9 @@ impl<'a> ImpactMotion<'a> {
         self.force = self.forces.iter().sum();
         if let Some(waves) = &mut self.waves {
             waves.advance(self.force);
+        }
+        if let Some(plate) = &mut self.plate {
+            plate.advance(self.force);
         }
         let acceleration = self.gravity - self.force / self.pair.reduced_mass;
         self.approach = predicted + BETA * dt * dt * acceleration;
@@ -291,6 +303,7 @@ impl<'a> ImpactMotion<'a> {
             energies.stored += waves.stored();
             energies.radiated_power = Some(waves.power());
         }
+        energies.plate_power = self.plate.as_ref().map(PlateDashpot::power);
         energies.contact = forces
             .iter()
             .zip(&self.pair.spring_compliance)
@@ -309,6 +322,8 @@ pub(crate) struct MotionEnergies {
     pub vibration: [f64; 2],
     /// Power that waves radiate from each body, W, if included.
     pub radiated_power: Option<[f64; 2]>,
+    /// Power that goes into a plate that bends, W, if included.
+    pub plate_power: Option<f64>,
 }
 
 impl BodyState {

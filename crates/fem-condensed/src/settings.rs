@@ -66,6 +66,8 @@ pub struct Damping<'a> {
     /// Radiation coefficient γ = C(ν)/(μ c_s) of each body whose waves do not return within the contact, s m/N;
     /// `None` for other bodies. The radiated power is γ Ḟ².
     pub radiation: [Option<f64>; 2],
+    /// Mobility β of a plate that bends, m/(N s), if one of the bodies is such a plate; the body itself is a half-space.
+    pub plate_mobility: Option<f64>,
 }
 
 impl<'a> From<[Option<&'a PronySeries>; 2]> for Damping<'a> {
@@ -76,12 +78,15 @@ impl<'a> From<[Option<&'a PronySeries>; 2]> for Damping<'a> {
 
 impl Damping<'_> {
     pub(crate) fn check(&self) -> Result<(), CondensedError> {
-        let is_wrong = |value: &f64| !(*value >= 0.0 && value.is_finite());
-        match self.radiation.into_iter().flatten().find(is_wrong) {
-            Some(value) => {
-                let (name, allowed) = ("radiation of a body", "at least 0 s m/N, and finite");
-                Err(CondensedError::Setting { name, value, allowed })
-            }
+        let radiation = self.radiation.into_iter().flatten();
+        let radiation =
+            radiation.map(|value| ("radiation of a body", value, "at least 0 s m/N, and finite"));
+        let plate = self
+            .plate_mobility
+            .map(|value| ("mobility of a plate", value, "at least 0 m/(N s), and finite"));
+        let is_wrong = |(_, value, _): &(_, f64, _)| !(*value >= 0.0 && value.is_finite());
+        match radiation.chain(plate).find(is_wrong) {
+            Some((name, value, allowed)) => Err(CondensedError::Setting { name, value, allowed }),
             None => Ok(()),
         }
     }

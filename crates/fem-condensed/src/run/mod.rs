@@ -50,6 +50,8 @@ pub(crate) struct ImpactRun<'a> {
     dissipated: f64,
     /// Energy radiated from each body, J, if included.
     radiated: Option<[f64; 2]>,
+    /// Energy that has gone into a plate, J, if included.
+    plate: Option<f64>,
     impulse: f64,
     /// Impulse of the force without its oscillation ([`crate::motion::ImpactMotion::force_oscillation`]), N s.
     even_impulse: f64,
@@ -114,6 +116,7 @@ impl<'a> ImpactRun<'a> {
             has_receded: false,
             dissipated: 0.0,
             radiated: None,
+            plate: None,
             impulse: 0.0,
             even_impulse: 0.0,
             missed_slope: 0.0,
@@ -310,7 +313,7 @@ impl<'a> ImpactRun<'a> {
     /// Returns the sample of a step, with the losses of the previous one.
     fn sample(&mut self, touches: bool) -> MotionSample {
         let motion = &self.motion;
-        let MotionEnergies { stored, contact, power, vibration, radiated_power } =
+        let MotionEnergies { stored, contact, power, vibration, radiated_power, plate_power } =
             motion.energies();
         let (contact_radius, centre_pressure) = self.pair.radius_and_pressure(
             &motion.contact,
@@ -333,6 +336,8 @@ impl<'a> ImpactRun<'a> {
             dissipated: self.dissipated,
             radiated_power,
             radiated: None,
+            plate_power,
+            plate: None,
             residual: 0.0,
             vibration,
         }
@@ -340,7 +345,7 @@ impl<'a> ImpactRun<'a> {
 
     /// Observes the residuals of energy and momentum, and the spurious energy growth.
     fn observe_balance(&mut self, sample: &MotionSample) {
-        let lost = sample.dissipated + sample.radiated.unwrap_or(0.0);
+        let lost = sample.lost();
         let energy_scale = self.frame.energy_scale(self.approach.highest);
         let residual = sample.residual;
         self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / energy_scale);
@@ -412,11 +417,13 @@ impl<'a> ImpactRun<'a> {
         let mut bodies = self.pair.bodies_before(frame);
         for (side, body) in bodies.iter_mut().enumerate() {
             body.velocity_after = velocity_after.map(|both| both[side]);
-            // The vibration energy of a half-space is the radiated energy; a wall has neither this nor a mass.
+            // The vibration energy of a half-space is the energy of its waves; a wall has neither this nor a mass.
             let input = &self.pair.inputs()[side];
             let is_wall = frame.masses[side].is_none() && input.mesh().is_none();
-            let radiated = self.radiated.filter(|_| input.is_half_space());
-            let in_waves = radiated.map_or(0.0, |both| both[side]);
+            let in_waves = match input.is_half_space() {
+                true => self.radiated.map_or(0.0, |both| both[side]) + self.plate.unwrap_or(0.0),
+                false => 0.0,
+            };
             body.vibration_energy =
                 vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
         }

@@ -31,6 +31,10 @@ pub(crate) struct MotionSample {
     pub radiated_power: Option<[f64; 2]>,
     /// Radiated energy, J.
     pub radiated: Option<f64>,
+    /// Power that goes into a plate, W, if included.
+    pub plate_power: Option<f64>,
+    /// Energy that has gone into a plate, J.
+    pub plate: Option<f64>,
     /// Residual of the energy balance, J.
     pub residual: f64,
     /// Kinetic energy of each body relative to its mass centre, J.
@@ -54,7 +58,7 @@ impl MotionSample {
             Some(_) => 0.0,
             None => at(get),
         };
-        // Nothing is radiated before first touch.
+        // Nothing is radiated, and no plate bends, before first touch.
         let of_waves = |get: &dyn Fn(&Self) -> Option<f64>| {
             let end = get(end)?;
             Some(StepParabola::new(before.and_then(get), get(begin).unwrap_or(0.0), end).at(theta))
@@ -75,9 +79,16 @@ impl MotionSample {
             dissipated: at(|sample| sample.dissipated),
             radiated_power: power_of(0).zip(power_of(1)).map(|(lower, upper)| [lower, upper]),
             radiated: of_waves(&|sample| sample.radiated),
+            plate_power: of_waves(&|sample| sample.plate_power),
+            plate: of_waves(&|sample| sample.plate),
             vibration: [at(|sample| sample.vibration[0]), at(|sample| sample.vibration[1])],
             residual: at(|sample| sample.residual),
         }
+    }
+
+    /// Returns the energy that is lost to relaxation, waves and a plate, J.
+    pub fn lost(&self) -> f64 {
+        self.dissipated + self.radiated.unwrap_or(0.0) + self.plate.unwrap_or(0.0)
     }
 
     /// Returns the energy in each account, J.
@@ -91,6 +102,7 @@ impl MotionSample {
             .with(Account::WallWork, frame.wall_work(self.rate));
         let of_effects = [
             (Account::Radiated, self.radiated),
+            (Account::Plate, self.plate),
             (Account::Potential, frame.potential(self.approach)),
         ];
         for (account, energy) in of_effects {

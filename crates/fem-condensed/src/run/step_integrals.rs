@@ -17,6 +17,9 @@ impl ImpactRun<'_> {
         if end.radiated_power.is_some() {
             self.radiated.get_or_insert([0.0; 2]);
         }
+        if end.plate_power.is_some() {
+            self.plate.get_or_insert(0.0);
+        }
         let mut rate = end.rate;
         if let Some(begin) = begin {
             let over = |get: &dyn Fn(&MotionSample) -> f64| {
@@ -25,6 +28,9 @@ impl ImpactRun<'_> {
             self.dissipated += over(&|sample| sample.power);
             for (side, gone) in self.radiated.iter_mut().flatten().enumerate() {
                 *gone += over(&|sample| sample.radiated_power.map_or(0.0, |both| both[side]));
+            }
+            if let Some(plate) = &mut self.plate {
+                *plate += over(&|sample| sample.plate_power.unwrap_or(0.0));
             }
             // The impulse of the integrated motion, which changes its momentum.
             self.impulse += 0.5 * time_step * (begin.contact_force + end.contact_force);
@@ -35,7 +41,8 @@ impl ImpactRun<'_> {
         }
         self.missed_slope = self.motion.missed_slope;
         let radiated = self.radiated.map(|[lower, upper]| lower + upper);
-        self.with_residual(MotionSample { rate, dissipated: self.dissipated, radiated, ..end })
+        let (dissipated, plate) = (self.dissipated, self.plate);
+        self.with_residual(MotionSample { rate, dissipated, radiated, plate, ..end })
     }
 
     /// Returns the correction of Newmark's rate with γ = 1/2, the trapezoidal rule, to third order: Δt Ḟ Δt/12 m*, m/s.
@@ -89,10 +96,9 @@ impl ImpactRun<'_> {
 
     /// Returns the sample with its energy residual.
     pub(super) fn with_residual(&self, sample: MotionSample) -> MotionSample {
-        let MotionSample { rate, vibration: [lower, upper], strain, contact, dissipated, .. } =
-            sample;
+        let MotionSample { rate, vibration: [lower, upper], strain, contact, .. } = sample;
         let kinetic = 0.5 * self.pair.reduced_mass * rate * rate + lower + upper;
-        let lost = dissipated + sample.radiated.unwrap_or(0.0);
+        let lost = sample.lost();
         let potential = self.frame.potential(sample.approach).unwrap_or(0.0);
         let residual = kinetic + strain + contact + lost + potential - self.initial_energy;
         MotionSample { residual, ..sample }

@@ -9,7 +9,8 @@ use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSe
 use fem_contact::ContactError;
 use fem_explicit::{ExplicitBodies, Settings};
 use fem_laws::{
-    HertzImpact, Pair, PairRelaxation, Partner, Ting, radiated_share, radiation_coefficient,
+    FiniteSize, HertzImpact, Pair, PairRelaxation, Partner, Ting, plate_lambda, radiated_share,
+    radiation_coefficient,
 };
 use fem_material::{ActsOn, Material};
 use fem_mesh::{HalfDisc, QuarterDisc, Side};
@@ -292,6 +293,42 @@ fn half_space_fields_vanish_far_away_and_poles_stay_together() {
     assert_eq!(run.bodies[0].velocity_after, Some(3.0));
 }
 
+/// A plate of no mobility changes no bit. One of λ = 0.1 takes what Zener's equation says, with an error of second order in the
+/// step.
+#[test]
+fn a_plate_takes_its_share_of_the_energy() {
+    let ball = Ball::of_glass(1.0);
+    let pair = ball.condensed();
+    let run = |mobility: Option<f64>, steps| {
+        let damping = Damping { plate_mobility: mobility, ..Damping::default() };
+        pair.impact(1.0, damping, steps).unwrap()
+    };
+    let [without, still] = [None, Some(0.0)].map(|mobility| run(mobility, 200));
+    assert_eq!(without.restitution, still.restitution);
+    assert_eq!(without.history, still.history);
+    let hertz = ball.hertz();
+    let mobility = 0.1 / plate_lambda(&hertz, 1.0);
+    let relaxation = PairRelaxation::new(Some(&ball.block), Some(&ball.ball)).unwrap();
+    let size = FiniteSize::new(None, Some((RADIUS, &ball.ball))).unwrap();
+    let closed = Ting::new(hertz.pair(), relaxation).with_finite_size(size);
+    let closed = closed.with_plate(mobility).unwrap().impact(1.0).unwrap();
+    let found = run(Some(mobility), 200);
+    // Eight elements across the contact.
+    let restitution = found.restitution.unwrap();
+    assert!(
+        (restitution - closed.restitution).abs() < 3e-4,
+        "{restitution} {}",
+        closed.restitution
+    );
+    let plate = found.energies.get(Account::Plate).unwrap() / ball.initial_energy();
+    assert!((plate + restitution.powi(2) - 1.0).abs() < 2e-5, "{plate}");
+    let at = |steps| run(Some(mobility), steps).restitution.unwrap();
+    let fine = at(1600);
+    let error = |steps| at(steps) - fine;
+    let order = (error(50) / error(100)).log2();
+    assert!((1.7..2.3).contains(&order), "{order}");
+}
+
 #[test]
 fn half_space_rejects_a_plane_partner_and_invalid_damping() {
     let ball = Ball::of_glass(1.0);
@@ -305,5 +342,7 @@ fn half_space_rejects_a_plane_partner_and_invalid_damping() {
         let refused = pair.impact(1.0, damping, 200).unwrap_err();
         assert!(matches!(refused, CondensedError::Setting { .. }), "{refused:?}");
         assert!(pair.collide_until(1.0, damping, 1e-5).is_err());
+        let damping = Damping { plate_mobility: Some(wrong), ..Damping::default() };
+        assert!(pair.impact(1.0, damping, 200).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! The sources of the bodies (mesh source and material) before their meshes are built, the built meshes, and the probes in
 //! them.
 
-use fem_case::{Body, Scene, Shape};
+use fem_case::{Body, ModelChoice, Scene, Shape};
 use fem_collision::{BodyInput, ProbeRequest, Probes};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
@@ -30,6 +30,7 @@ impl BodySource {
     /// # Errors
     /// Meshes that cannot be made or read, or are too large.
     pub fn of_scene(scene: &Scene, plan: &Plan) -> Result<[Self; 2], Rejection> {
+        let scene = &meshed(scene);
         check_size(scene, plan)?;
         let [lower, upper] = scene.bodies();
         Ok([Self::of(lower, 0, plan)?, Self::of(upper, 1, plan)?])
@@ -97,6 +98,16 @@ impl BodySource {
             Self::Rigid { radius, mass } => BodyInput::Rigid { radius: *radius, mass: *mass },
             Self::Wall => BodyInput::Wall,
         })
+    }
+}
+
+/// Returns a scene with the bodies that its model meshes: condensed bodies have a half-space in place of a plate, whose bending
+/// is a dashpot.
+pub(crate) fn meshed(scene: &Scene) -> Scene {
+    let is_condensed = matches!(scene.model(), ModelChoice::Condensed(_));
+    match scene.bodies().iter().position(|body| body.plate().is_some()) {
+        Some(side) if is_condensed => scene.with_half_space(side),
+        _ => scene.clone(),
     }
 }
 

@@ -27,6 +27,7 @@ use fem_laws::ImpactQuantities;
 use crate::effects::{PlateBending, percent};
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
+use crate::plan::body_source::meshed;
 use crate::plan::contact_method::contact_method;
 use crate::plan::element_size::{MeshRule, touches_at_nodes};
 use crate::plan::mesh_offset::{finer_body, is_generated, staggered};
@@ -145,7 +146,7 @@ impl Plan {
             ));
         }
         let makes_meshes = scene.bodies().iter().any(is_generated);
-        let far_radius = far_radius(scene, &estimate, refined_radius, candidate_radius);
+        let far_radius = far_radius(&meshed(scene), &estimate, refined_radius, candidate_radius);
         let mut warnings = unread_keys(scene, makes_meshes, far_radius.is_some());
         let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
         let out_of_reach = rule.error_on_finest_mesh.filter(|_| is_chosen);

@@ -230,7 +230,9 @@ fn plate_energy(simulation: &Simulation, collision: &Collision) -> Option<f64> {
     let is_plate = |side: &usize| simulation.case().scene().bodies()[*side].plate().is_some();
     let side = [0, 1].into_iter().find(is_plate)?;
     let (plate, ball) = (&collision.bodies[side], &collision.bodies[1 - side]);
-    plate.elements?;
+    if plate.elements.is_none() || collision.energies.get(Account::Plate).is_some() {
+        return None;
+    }
     let energy = |account| collision.energies.get(account).unwrap_or(0.0);
     let whole =
         [Account::Kinetic, Account::Strain, Account::Contact].map(energy).iter().sum::<f64>();

@@ -1,5 +1,5 @@
-//! A plate bends under the impact, and its bending waves carry energy away. Closed forms and contact laws have a thin plate as a
-//! dashpot in series.
+//! A plate bends under the impact, and its bending waves carry energy away. Closed forms, contact laws and condensed bodies have
+//! the plate as a dashpot in series.
 //!
 //! Decided by the waves that return from the far face and the edge within the contact ([`PlateImpact`]). While none does, the
 //! plate is a half-space, exactly, and is computed as one.
@@ -60,7 +60,7 @@ impl PlateBending {
     /// Checks that the model of a scene, which effects have transformed, computes its plate.
     ///
     /// # Errors
-    /// Condensed bodies; a bonded plate in a model without elements.
+    /// A bonded plate in a model other than explicit elements.
     pub(crate) fn check(scene: &Scene) -> Result<(), Rejection> {
         let mut bodies = scene.bodies().iter().enumerate();
         let Some((side, plate)) = bodies.find_map(|(k, body)| Some((k, body.plate()?))) else {
@@ -69,14 +69,11 @@ impl PlateBending {
         let model = scene.model().name();
         match scene.model() {
             ModelChoice::Fem => Ok(()),
-            ModelChoice::Condensed(_) => {
-                let message = format!("model {model} cannot compute a plate that bends");
-                Err(Rejection::new("model", message)
-                    .with_help("use model fem, ting or hertz, or a law"))
-            }
             _ if plate.support == PlateSupport::Bonded => {
-                let message = format!("model {model} cannot compute a plate that is bonded");
-                let help = "use model fem";
+                let message = format!(
+                    "model {model} cannot compute a plate that is bonded: a rigid base gives its waves back within the contact"
+                );
+                let help = "use model fem, or auto, which chooses it";
                 Err(Rejection::new(format!("body.{side}.plate.support"), message).with_help(help))
             }
             _ => Ok(()),
@@ -112,7 +109,7 @@ impl Effect for PlateBending {
             )),
             (_, PlateRegime::Between) if !has_thickness(scene) => Some(format!(
                 "{name} is neither thin nor a half-space to this impact: waves travel {thicknesses} thicknesses, and \
-                 thin-plate theory holds from {THIN}; finite_size = true of models ting and hertz, or model fem, has the thickness"
+                 thin-plate theory holds from {THIN}; model fem or condensed, or finite_size = true of ting and hertz, has the thickness"
             )),
             _ => None,
         };
@@ -212,6 +209,7 @@ fn has_thickness(scene: &Scene) -> bool {
     matches!(
         scene.model(),
         ModelChoice::Fem
+            | ModelChoice::Condensed(_)
             | ModelChoice::Hertz { finite_size: true }
             | ModelChoice::Ting { finite_size: true, .. }
     )

@@ -1,5 +1,5 @@
 //! Linear finite elements condensed to their contact nodes, with the meshes and materials of the explicit model. A
-//! collision takes milliseconds instead of seconds.
+//! collision takes milliseconds instead of seconds. A plate that bends is meshed as a half-space and bends as a dashpot.
 
 pub(crate) mod cost;
 
@@ -25,6 +25,7 @@ use super::mirrored::{Mirrored, plan_of_half};
 use crate::effects::{Effect, MirrorSymmetry, PartnerWaves, Support, Vibration, decide};
 use crate::estimate::Estimate;
 use crate::estimate::approach::{approach_of, frame_of};
+use crate::estimate::plate_impact::free_plate;
 use crate::estimate::quasi_static::surfaces_slip;
 use crate::estimate::viscous_flow::slower;
 use crate::models::method::{
@@ -201,11 +202,10 @@ impl Condensed {
         request: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        let radiation = match self.radiation(approach.speed()) {
-            Ok(radiation) => radiation,
+        let damping = match self.damping(approach.speed(), relaxations) {
+            Ok(damping) => damping,
             Err(stop) => return Collision::stopped(*approach, stop),
         };
-        let damping = Damping { relaxations, radiation };
         let mut collide = |pair: &CondensedPair| {
             let frame = frame_of(&self.scene, approach, pair.reduced_mass());
             match pair.collide(&frame, damping, n_steps, request, &mut *monitor) {
@@ -239,11 +239,18 @@ impl Condensed {
         }
     }
 
-    /// Returns the radiation compliance of each body at a speed (m/s), in s m/N.
-    fn radiation(&self, speed: f64) -> Result<[Option<f64>; 2], Stop> {
+    /// Returns the dissipation at a speed (m/s) with these relaxations: that of waves and of a plate depends on the speed.
+    fn damping<'a>(
+        &self,
+        speed: f64,
+        relaxations: [Option<&'a PronySeries>; 2],
+    ) -> Result<Damping<'a>, Stop> {
         let estimate = estimate_at(&self.scene, speed)?;
         let radiating = PartnerWaves::radiating_at_rest(&self.scene, &estimate);
-        Ok(radiating.map(|material| Some(radiation_damping(&material?))))
+        let radiation = radiating.map(|material| Some(radiation_damping(&material?)));
+        let plate = free_plate(&self.scene);
+        let plate_mobility = plate.map(|plate| plate.mobility(&estimate.hertz));
+        Ok(Damping { relaxations, radiation, plate_mobility })
     }
 
     /// Returns the bodies with the condensed region that an approach needs at first.
