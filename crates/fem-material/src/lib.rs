@@ -34,4 +34,4 @@ pub use flow::{FlowPoint, FlowRule, Hardening, MAX_FLOW_ROWS, RateFactor};
 pub use material::Material;
 pub use prony::{ActsOn, PronySeries, PronyTerm, maxwell_element, relaxation_at};
 pub use relaxation_step::RelaxationStep;
-pub use shift::ShiftLaw;
+pub use shift::{ShiftLaw, ZERO_CELSIUS};

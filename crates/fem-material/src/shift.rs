@@ -13,6 +13,9 @@
 //! Limits: the first law has a pole at T_r − C_2, below which it has no value. A table is interpolated linearly and has no value
 //! outside.
 
+/// The temperature of 0 °C, K.
+pub const ZERO_CELSIUS: f64 = 273.15;
+
 /// How relaxation times depend on temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShiftLaw {
@@ -59,5 +62,50 @@ impl ShiftLaw {
             }
         };
         value.is_finite().then_some(value)
+    }
+
+    /// Returns the temperature (K) at which log₁₀ a_T has a value; `None` if there is no such temperature above 0 K.
+    pub fn temperature(&self, log10_shift: f64, reference: f64) -> Option<f64> {
+        let temperature = match self {
+            Self::Wlf { c1, c2 } => reference - c2 * log10_shift / (c1 + log10_shift),
+            Self::Arrhenius { activation_temperature } => {
+                let inverse = log10_shift * std::f64::consts::LN_10 / activation_temperature;
+                (reference.recip() + inverse).recip()
+            }
+            Self::Table(rows) => rows.windows(2).find_map(|pair| {
+                let share = (log10_shift - pair[0].1) / (pair[1].1 - pair[0].1);
+                let is_inside = (0.0..=1.0).contains(&share);
+                is_inside.then(|| pair[0].0 + share * (pair[1].0 - pair[0].0))
+            })?,
+        };
+        // Beyond the pole, or the plateau far above it, the law takes no such value.
+        let again = self.log10_shift(temperature, reference)?;
+        let is_sound =
+            temperature > 0.0 && (again - log10_shift).abs() < 1e-6 * (1.0 + again.abs());
+        is_sound.then_some(temperature)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_temperature_of_a_shift_is_its_inverse() {
+        let table = ShiftLaw::Table(vec![(260.0, 3.0), (280.0, 1.0), (300.0, -1.0)]);
+        for law in [
+            ShiftLaw::Wlf { c1: 17.44, c2: 51.6 },
+            ShiftLaw::Arrhenius { activation_temperature: 2e4 },
+            table,
+        ] {
+            for temperature in [265.0, 280.0, 299.0] {
+                let log10 = law.log10_shift(temperature, 290.0).unwrap();
+                let again = law.temperature(log10, 290.0).unwrap();
+                assert!((again - temperature).abs() < 1e-9, "{law:?}: {again}");
+            }
+        }
+        // Far above the reference the law of Williams, Landel and Ferry tends to −C1.
+        assert_eq!(ShiftLaw::Wlf { c1: 10.0, c2: 50.0 }.temperature(-11.0, 290.0), None);
+        assert_eq!(ShiftLaw::Table(vec![(260.0, 3.0), (280.0, 1.0)]).temperature(5.0, 270.0), None);
     }
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use fem::ZERO_CELSIUS;
 use fem::measured::{ModulusPoint, TestKind};
 use fem::relaxation::{FoundRelaxation, Superposition};
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
@@ -102,7 +103,7 @@ fn weights(found: &FoundRelaxation) -> Chart {
 /// Shift factors over temperature with the laws that were fitted to them.
 fn shifts(found: &Superposition) -> Chart {
     let log10 = |ln: f64| ln / std::f64::consts::LN_10;
-    let celsius = |kelvin: f64| kelvin - 273.15;
+    let celsius = |kelvin: f64| kelvin - ZERO_CELSIUS;
     let points = found.blocks.iter().map(|it| (celsius(it.temperature), log10(it.ln_shift)));
     let bars = found.blocks.iter().map(|it| 2.0 * log10(it.shift_uncertainty)).collect();
     let measured = Curve::points("shift ± 2 u", points.collect()).with_errors(bars);

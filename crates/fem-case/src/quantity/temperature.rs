@@ -1,13 +1,15 @@
 //! Temperatures: numbers on a scale with an offset, `23 degC`.
 
+use fem_material::ZERO_CELSIUS;
+
 use crate::quantity::uncertain::SIGNS;
 
 /// Scales of temperature: name, kelvin per degree, and kelvin at its zero.
 pub(crate) const SCALES: [(&str, f64, f64); 8] = [
-    ("degC", 1.0, 273.15),
-    ("°C", 1.0, 273.15),
-    ("ºC", 1.0, 273.15),
-    ("C", 1.0, 273.15),
+    ("degC", 1.0, ZERO_CELSIUS),
+    ("°C", 1.0, ZERO_CELSIUS),
+    ("ºC", 1.0, ZERO_CELSIUS),
+    ("C", 1.0, ZERO_CELSIUS),
     ("degF", 5.0 / 9.0, 459.67 * 5.0 / 9.0),
     ("°F", 5.0 / 9.0, 459.67 * 5.0 / 9.0),
     ("F", 5.0 / 9.0, 459.67 * 5.0 / 9.0),

@@ -103,7 +103,7 @@ impl Scene {
     pub fn reference_temperatures(&self) -> Option<String> {
         let known = self.bodies.iter().filter_map(|body| {
             let reference = body.measured()?.reference_temperature?;
-            Some(format!("{:.1} degC", reference - 273.15))
+            Some(format!("{:.1} degC", reference - fem_material::ZERO_CELSIUS))
         });
         let mut known: Vec<String> = known.filter(|_| self.temperature.is_none()).collect();
         known.dedup();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_material::{PronySeries, PronyTerm, ShiftLaw};
+use fem_material::{PronySeries, PronyTerm, ShiftLaw, ZERO_CELSIUS};
 use serde::Deserialize;
 
 use super::Check;
@@ -110,7 +110,7 @@ impl Check<'_> {
             let Some(log10) = law.log10_shift(temperature, reference) else {
                 let message = format!(
                     "{path}.relaxation.shift has no value at the temperature {:.1} degC",
-                    temperature - 273.15
+                    temperature - ZERO_CELSIUS
                 );
                 let help = "a table holds between its temperatures, and the law of Williams, Landel and Ferry on one side of its \
                             pole at reference_temperature - c2";

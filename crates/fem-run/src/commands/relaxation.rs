@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use fem::ShiftLaw;
 use fem::fit::cradle::Measured;
 use fem::measured::{Kind, Modulus, ModulusTable, NotMeasured, TestKind, decode, parse_measured};
 use fem::relaxation::{Block, FoundRelaxation, RelaxationSettings};
+use fem::{ShiftLaw, ZERO_CELSIUS};
 use fem_case::engineering::{Unit, show};
 use fem_report::relaxation_figure::relaxation_figure;
 use serde_json::Value;
@@ -155,7 +155,7 @@ fn answer(found: &FoundRelaxation) -> String {
         show(to, "Hz"),
     ) + &found
         .temperature
-        .map_or(String::new(), |kelvin| format!("temperature: {:.1} °C\n", kelvin - 273.15))
+        .map_or(String::new(), |kelvin| format!("temperature: {:.1} °C\n", kelvin - ZERO_CELSIUS))
         + "\n"
 }
 
@@ -169,7 +169,7 @@ fn shifts(found: &FoundRelaxation) -> String {
             true => show_measured(Measured { value, uncertainty }, ""),
             false => "0".to_string(),
         };
-        [format!("{:.1} °C", block.temperature - 273.15), shift]
+        [format!("{:.1} °C", block.temperature - ZERO_CELSIUS), shift]
     };
     let mut text = headed(">temperature|>log10 a_T", superposition.blocks.iter().map(row)) + "\n";
     let measured = |value: f64, uncertainty: f64, unit: &str| {

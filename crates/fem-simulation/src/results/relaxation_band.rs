@@ -13,12 +13,14 @@ use std::f64::consts::TAU;
 use fem_case::engineering::show;
 use fem_case::schema::TermTable;
 use fem_case::{Body, Case, MeasuredBand, Scene};
-use fem_material::{ActsOn, Material};
+use fem_material::{ActsOn, Material, ZERO_CELSIUS};
 
 /// Decades on either side of the frequency of a contact within which a term matters.
 const REACH: f64 = 10.0;
 /// Most terms that are added.
 const MAX_TERMS: usize = 16;
+/// A frequency that instruments have, Hz.
+const INSTRUMENT_FREQUENCY: f64 = 10.0;
 /// Measured decades that say how a series may go on.
 const LAST_DECADES: i32 = 2;
 
@@ -124,18 +126,24 @@ fn band_warning(body: &Body, [lowest, highest]: [f64; 2], contact_time: f64) -> 
     }
     let decades = |from: f64, to: f64| (to / from).log10().max(0.0);
     let inside = decades(from.max(lowest), to.min(highest));
-    let celsius = |kelvin: f64| format!("{:.0} degC", kelvin - 273.15);
+    let celsius = |kelvin: f64| format!("{:.0} degC", kelvin - ZERO_CELSIUS);
     let kelvin = measured.temperature.or(measured.reference_temperature);
     let at = kelvin.map_or(String::new(), |kelvin| format!(" at {}", celsius(kelvin)));
     let is_fast = to < highest;
-    let wanted = if is_fast {
-        format!("up to {}, or at lower temperatures", show(highest, "Hz"))
-    } else {
-        format!("from {}, or at higher temperatures", show(lowest, "Hz"))
+    let (side, wanted) = if is_fast { ("up to", highest) } else { ("from", lowest) };
+    // An instrument's frequency at this temperature is the wanted one at that of the body.
+    let temperature_for = |wanted: f64| {
+        let log10 = log10_shift(measured) + (wanted / INSTRUMENT_FREQUENCY).log10();
+        measured.shift.as_ref()?.temperature(log10, measured.reference_temperature?)
     };
+    let or = match temperature_for(wanted) {
+        Some(kelvin) => format!("{INSTRUMENT_FREQUENCY} Hz at {}", celsius(kelvin)),
+        None => format!("at {} temperatures", if is_fast { "lower" } else { "higher" }),
+    };
+    let wanted = format!("{side} {}, or {or}", show(wanted, "Hz"));
     Some(format!(
-        "the contact of {} asks for moduli from {} to {}, and those of {} are measured from {} to {}{at}: {inside:.1} of {:.1} \
-         decades; ± input has what may lie outside; measure {wanted}",
+        "the contact of {} asks for moduli from {} to {}; those of {} are measured from {} to {}{at}: {inside:.1} of {:.1} \
+         decades, ± input has the rest; measure {wanted}",
         show(contact_time, "s"),
         show(lowest, "Hz"),
         show(highest, "Hz"),

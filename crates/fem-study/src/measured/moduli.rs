@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use fem_material::ZERO_CELSIUS;
+
 use super::column_roles::{
     ANGULAR_FREQUENCIES, COMPLEX_ENDS, COMPLEX_MODULI, FREQUENCIES, LOSS_ENDS, LOSS_FACTORS,
     LOSS_MODULI, PHASES, PRESSURE, RELAXATION_ENDS, RELAXATION_MODULI, SHORT_TEMPERATURES,
@@ -11,8 +13,6 @@ use super::data_error::DataError;
 use super::number_columns::without_preamble;
 use super::table::Table;
 
-/// Kelvin at 0 °C.
-const ZERO_CELSIUS: f64 = 273.15;
 /// Temperatures of measurements, K.
 const SENSIBLE_TEMPERATURES: std::ops::RangeInclusive<f64> = 50.0..=1500.0;
 /// The largest bare modulus, Pa, that is taken for one in another unit: gels have more.

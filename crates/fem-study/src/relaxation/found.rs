@@ -4,20 +4,18 @@ use std::f64::consts::{LN_10, TAU};
 
 use fem_case::engineering::show;
 use fem_case::schema::ActsOn;
-use fem_material::ShiftLaw;
+use fem_material::{ShiftLaw, ZERO_CELSIUS};
 
 use crate::measured::{DataError, Modulus, ModulusPoint, ModulusTable, TestKind};
 
 use super::series::{FittedSeries, fit_series};
 use super::superposition::{Block, Superposition};
 
-/// Kelvin at 0 °C.
-const ZERO_CELSIUS: f64 = 273.15;
 /// The least ratio of the largest to the smallest frequency or time.
 const MIN_SPAN: f64 = 3.0;
-/// The share by which a storage modulus may fall below one at a lower frequency, by scatter. Of many points, running medians are
-/// compared, since the extremes of many are far apart.
-const MAX_FALL: f64 = 0.1;
+/// The share by which a storage modulus may fall below one at a lower frequency, by scatter: 4.2 standard deviations of the difference
+/// of two moduli with 3 % noise. Among many points running medians are compared, since the extremes of many are far apart.
+const MAX_FALL: f64 = 0.18;
 /// Points of a table over those of a running median.
 const PER_MEDIAN: usize = 20;
 /// The share by which two values at one frequency may differ.

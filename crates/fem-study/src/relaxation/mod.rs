@@ -1,12 +1,13 @@
 //! Relaxation of a material from a data sheet: moduli over frequency or time become a Prony series.
 //!
 //! ```text
-//! crate::measured::ModulusTable ─ found ─┬─ superposition: blocks of temperatures to a master curve
+//! crate::measured::ModulusTable ─ found ─┬─ superposition: blocks of temperatures to a master curve, by joint least squares
 //!                                        ├─ series: non-negative least squares
 //!                                        └─ stored: relaxation.json and the table of a case
 //! ```
 
 mod found;
+mod joint;
 mod series;
 mod stored;
 mod superposition;

@@ -36,7 +36,7 @@ const DENSITIES: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
 /// Positions of a grid, in shares of its spacing.
 const POSITIONS: [f64; 2] = [0.0, 0.5];
 /// The least rms of relative residuals that counts: rounding of printed numbers.
-const ROUNDING: f64 = 1e-8;
+pub(super) const ROUNDING: f64 = 1e-8;
 /// Terms whose times differ by a smaller factor are one.
 const MIN_RATIO: f64 = 1.3;
 /// Most products of residuals and terms for which the times are varied.
@@ -143,11 +143,19 @@ impl Observations {
         Self { kind, rows: rows.flatten().collect() }
     }
 
-    /// Returns the observations of the storage modulus alone.
-    pub fn of_storage(kind: TestKind, points: &[ModulusPoint]) -> Self {
-        let mut all = Self::of(kind, points);
-        all.rows.retain(|row| row.part == 0);
-        all
+    /// Returns the measured modulus of a row over its scale.
+    pub fn relative(&self, row: usize) -> f64 {
+        self.rows[row].value / self.rows[row].scale
+    }
+
+    /// Returns the derivatives of the modulus of a row over its scale by ln τ of each term.
+    pub fn relative_slopes(&self, row: usize, times: &[f64], moduli: &[f64]) -> Vec<f64> {
+        let row = &self.rows[row];
+        let of_term = |(time, modulus): (&f64, &f64)| match *modulus > 0.0 {
+            true => modulus * slope(self.kind, row.at, *time)[row.part] / row.scale,
+            false => 0.0,
+        };
+        times.iter().zip(moduli).map(of_term).collect()
     }
 
     /// Returns the criterion of a sum of squares.
@@ -271,22 +279,7 @@ impl Observations {
             Some(self.rows.iter().map(of_row).collect())
         };
         let Ok((found, _)) = minimise(&residuals, &start, &bounds) else { return best };
-        let mut times: Vec<(f64, f64)> =
-            (0..n).map(|k| (found[k].exp(), found[n + k])).filter(|it| it.1 > 0.0).collect();
-        times.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // Two terms on either side of one that is between the nodes of the grid come together.
-        let mut joined: Vec<(f64, f64)> = Vec::new();
-        for (time, modulus) in times {
-            match joined.last_mut() {
-                Some(last) if time < MIN_RATIO * last.0 => {
-                    let sum = last.1 + modulus;
-                    let log = (last.1 * last.0.ln() + modulus * time.ln()) / sum;
-                    *last = (log.exp(), sum);
-                }
-                _ => joined.push((time, modulus)),
-            }
-        }
-        let times: Vec<f64> = joined.into_iter().map(|it| it.0).collect();
+        let times = joined((0..n).map(|k| (found[k].exp(), found[n + k])));
         let varied = self.pruned(self.solve(&times, 2));
         let varied = if varied.times.len() < n { self.varied(varied) } else { varied };
         // A grid of the best position has times that were chosen too.
@@ -295,6 +288,25 @@ impl Observations {
         let criterion = best.criterion + n_more * (self.rows.len() as f64).ln();
         if varied.criterion < criterion { varied } else { best }
     }
+}
+
+/// Returns the rising times of terms with a modulus > 0. Terms that are close to each other become one, as those on either side of a
+/// term that is between the nodes of a grid do.
+pub(super) fn joined(terms: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
+    let mut times: Vec<(f64, f64)> = terms.filter(|it| it.1 > 0.0).collect();
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut joined: Vec<(f64, f64)> = Vec::new();
+    for (time, modulus) in times {
+        match joined.last_mut() {
+            Some(last) if time < MIN_RATIO * last.0 => {
+                let sum = last.1 + modulus;
+                let log = (last.1 * last.0.ln() + modulus * time.ln()) / sum;
+                *last = (log.exp(), sum);
+            }
+            _ => joined.push((time, modulus)),
+        }
+    }
+    joined.into_iter().map(|it| it.0).collect()
 }
 
 /// Returns relaxation times over the span of points, so many per decade, shifted by a share of their spacing.

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use fem_material::ShiftLaw;
 use fem_material::engineering::{Unit, show};
+use fem_material::{ShiftLaw, ZERO_CELSIUS};
 use fem_simulation::results::PROGRAM;
 
 use super::found::FoundRelaxation;
@@ -62,7 +62,6 @@ fn superposition(found: &Superposition) -> Value {
     };
     json!({
         "reference_temperature_k": found.reference_temperature(),
-        "shifted_by": if found.has_loss { "both moduli" } else { "storage modulus" },
         "blocks": blocks.collect::<Value>(),
         "wlf": found.wlf.as_ref().map(law),
         "arrhenius": found.arrhenius.as_ref().map(law),
@@ -153,7 +152,7 @@ impl FoundRelaxation {
         text += &format!("acts_on = \"{}\"\n", self.acts_on().word());
         text += &format!("band = {{ from = {from:?}, to = {to:?} }} # Hz\n");
         if let Some(temperature) = self.temperature {
-            let celsius = temperature - 273.15;
+            let celsius = temperature - ZERO_CELSIUS;
             text += &format!("reference_temperature = {temperature:.2} # K, {celsius:.1} degC\n");
         }
         text += &self

@@ -1,16 +1,13 @@
 //! Time–temperature superposition: isothermal blocks of moduli become one master curve.
 //!
-//! The shift of a block against its neighbour is the one with which a single series meets both best, by the residuals of
-//! `series`: by those of both moduli, or by those of the storage modulus alone if all blocks then superpose better, since resonances and
-//! friction of an instrument show most in the loss modulus and stay at their frequency. It is found by a scan about the area between their curves over the moduli that both have (the closed form of Gergesova,
-//! Zupančič, Saprunov & Emri, *J. Rheol.* 55 (2011) 1) and by golden section; the curvature of the sum of squares gives its
-//! uncertainty. The shifts add up from the reference, and the laws of [`fem_material::ShiftLaw`] are fitted to them by least squares
-//! with the covariance of these sums.
+//! The shifts are those with which a single series meets all blocks best (`joint`). They start from the shift of each block against its
+//! neighbour: the best of a scan about the area between their curves over the moduli that both have (the closed form of Gergesova,
+//! Zupančič, Saprunov & Emri, *J. Rheol.* 55 (2011) 1). The laws of [`fem_material::ShiftLaw`] are fitted to them by generalised least
+//! squares with their covariance.
 //!
 //! A vertical factor b_T of both moduli may be found with each shift.
 //!
-//! Limits: neighbouring shifts share a block and are taken as independent, which makes the uncertainty of their sums somewhat too
-//! large. Where moduli hardly depend on the frequency a shift is uncertain, and so are those of all blocks behind it.
+//! Limits: where moduli hardly depend on the frequency a shift is uncertain, and so are those of all blocks behind it.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -20,22 +17,17 @@ use crate::fit::least_squares::{jacobian, minimise};
 use crate::fit::spectrum::bounded::non_negative;
 use crate::measured::{ModulusPoint, TestKind};
 
+use super::joint::Joint;
 use super::series::{Observations, grid};
 
 /// Terms per decade of the series of two blocks.
 const DENSITY: f64 = 3.0;
-/// Terms per decade of the series of all blocks by which ways to shift are compared.
-const MASTER_DENSITY: f64 = 2.0;
 /// Decades of the scan on either side of the first estimate.
 const REACH: f64 = 1.5;
 /// Values of the scan.
 const N_SCANNED: usize = 16;
-/// Accuracy of a shift, ln.
-const TOLERANCE: f64 = 1e-4;
-/// Rounds that find a vertical factor: a series follows in part a factor that is not taken out.
-const VERTICAL_ROUNDS: usize = 8;
-/// Step of ln a_T for the curvature of the sum of squares.
-const CURVATURE_STEP: f64 = 0.05;
+/// Difference of ln of the moduli of two blocks that is no gap but scatter.
+const MAX_GAP: f64 = 0.1;
 
 /// The moduli at one temperature.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,8 +64,6 @@ pub struct Superposition {
     pub blocks: Vec<Block>,
     /// Index of the reference.
     pub reference: usize,
-    /// Whether the shifts are by both moduli, or by the storage modulus alone.
-    pub has_loss: bool,
     /// The law of Williams, Landel and Ferry, if there are at least three blocks and it fits.
     pub wlf: Option<FittedShift>,
     /// Arrhenius' law through the shifts.
@@ -81,7 +71,12 @@ pub struct Superposition {
 }
 
 /// Returns a point at the reference temperature.
-fn reduced(kind: TestKind, point: &ModulusPoint, ln_shift: f64, ln_vertical: f64) -> ModulusPoint {
+pub(super) fn reduced(
+    kind: TestKind,
+    point: &ModulusPoint,
+    ln_shift: f64,
+    ln_vertical: f64,
+) -> ModulusPoint {
     let factor = match kind {
         TestKind::Oscillation => ln_shift.exp(),
         TestKind::Relaxation => (-ln_shift).exp(),
@@ -103,43 +98,21 @@ impl Superposition {
         reference: usize,
         has_vertical: bool,
     ) -> Result<Self, usize> {
-        let with = |has_loss: bool| {
-            Self::with(kind, points, blocks.clone(), reference, (has_vertical, has_loss))
-        };
-        let (both, storage) = (with(true)?, with(false)?);
-        let misfit = |found: &Self| {
-            let all = found.reduced(kind, points);
-            let times = grid(kind, &all, MASTER_DENSITY, 0.0);
-            let linear = Observations::of(kind, &all).linear_of_all(&times).compressed();
-            linear.misfit(non_negative(&linear.a, &linear.b).as_slice())
-        };
-        Ok(if misfit(&both) <= misfit(&storage) { both } else { storage })
-    }
-
-    /// Finds the shifts with or without vertical factors, by both moduli or by the storage modulus.
-    fn with(
-        kind: TestKind,
-        points: &[ModulusPoint],
-        blocks: Vec<Block>,
-        reference: usize,
-        (has_vertical, has_loss): (bool, bool),
-    ) -> Result<Self, usize> {
-        let mut found = Self { blocks, reference, has_loss, wlf: None, arrhenius: None };
-        let steps = found.steps(kind, points, has_vertical)?;
-        let add = |from: &Block, to: &mut Block, step: &Step, sign: f64| {
-            to.ln_shift = from.ln_shift + sign * step.ln_shift;
-            to.ln_vertical = from.ln_vertical + sign * step.ln_vertical;
-            to.shift_uncertainty = from.shift_uncertainty.hypot(step.uncertainty);
-        };
+        let mut found = Self { blocks, reference, wlf: None, arrhenius: None };
+        let steps = found.steps(kind, points)?;
         for k in reference + 1..found.blocks.len() {
-            let (below, above) = found.blocks.split_at_mut(k);
-            add(&below[k - 1], &mut above[0], &steps[k - 1], 1.0);
+            found.blocks[k].ln_shift = found.blocks[k - 1].ln_shift + steps[k - 1];
         }
         for k in (0..reference).rev() {
-            let (below, above) = found.blocks.split_at_mut(k + 1);
-            add(&above[0], &mut below[k], &steps[k], -1.0);
+            found.blocks[k].ln_shift = found.blocks[k + 1].ln_shift - steps[k];
         }
-        found.fit_laws(&steps);
+        let covariance =
+            Joint::new(kind, points, &mut found.blocks, reference, has_vertical).refine();
+        let moving = (0..found.blocks.len()).filter(|block| *block != reference);
+        for (k, block) in moving.enumerate() {
+            found.blocks[block].shift_uncertainty = covariance[(k, k)].sqrt();
+        }
+        found.fit_laws(covariance);
         Ok(found)
     }
 
@@ -159,13 +132,8 @@ impl Superposition {
         self.blocks[self.reference].temperature
     }
 
-    /// Returns the step from each block to the next warmer one.
-    fn steps(
-        &self,
-        kind: TestKind,
-        points: &[ModulusPoint],
-        has_vertical: bool,
-    ) -> Result<Vec<Step>, usize> {
+    /// Returns a first estimate of the shift from each block to the next warmer one.
+    fn steps(&self, kind: TestKind, points: &[ModulusPoint]) -> Result<Vec<f64>, usize> {
         let of = |block: &Block| -> Vec<ModulusPoint> {
             block.points.iter().map(|k| points[*k]).collect()
         };
@@ -174,24 +142,15 @@ impl Superposition {
             .map(|(k, pair)| {
                 let (first, second) = (of(&pair[0]), of(&pair[1]));
                 let start = area_shift(&rising_curve(kind, &first), &rising_curve(kind, &second));
-                let has_loss = self.has_loss;
-                let pair = BlockPair { kind, first, second, has_vertical, has_loss };
-                Ok(pair.step(start.ok_or(k)?.min(0.0)))
+                Ok(scanned_shift(kind, &first, &second, start.ok_or(k)?.min(0.0)))
             })
             .collect()
     }
 
-    fn fit_laws(&mut self, steps: &[Step]) {
+    fn fit_laws(&mut self, covariance: DMatrix<f64>) {
         let reference = self.reference_temperature();
         let moving: Vec<usize> =
             (0..self.blocks.len()).filter(|block| *block != self.reference).collect();
-        // The steps from the reference to a block, which two blocks on one side share in part.
-        let between = |block: usize| block.min(self.reference)..block.max(self.reference);
-        let covariance = DMatrix::from_fn(moving.len(), moving.len(), |i, j| {
-            let (a, b) = (between(moving[i]), between(moving[j]));
-            let shared = a.start.max(b.start)..a.end.min(b.end);
-            shared.map(|step| steps[step].uncertainty.powi(2)).sum::<f64>()
-        });
         let blocks: Vec<(f64, f64)> = moving
             .iter()
             .map(|k| (self.blocks[*k].temperature, self.blocks[*k].ln_shift))
@@ -268,97 +227,26 @@ impl Superposition {
     }
 }
 
-/// The shift from one block to the next.
-struct Step {
-    ln_shift: f64,
-    uncertainty: f64,
-    ln_vertical: f64,
-}
-
-/// Two blocks of neighbouring temperatures.
-struct BlockPair {
+/// Returns the shift of the second block against the first with which a single series meets both best, of those about a first estimate.
+fn scanned_shift(
     kind: TestKind,
-    first: Vec<ModulusPoint>,
-    second: Vec<ModulusPoint>,
-    has_vertical: bool,
-    has_loss: bool,
-}
-
-impl BlockPair {
-    /// Returns the sum of squares of a single series through both blocks, ln of the vertical factor, and the number of terms.
-    fn misfit(&self, ln_shift: f64) -> (f64, f64, usize) {
-        let mut ln_vertical = 0.0;
-        let n_rounds = if self.has_vertical { VERTICAL_ROUNDS } else { 0 };
-        for round in 0..=n_rounds {
-            let second = self.second.iter().map(|it| reduced(self.kind, it, ln_shift, ln_vertical));
-            let both: Vec<ModulusPoint> = self.first.iter().copied().chain(second).collect();
-            let observations = match self.has_loss {
-                true => Observations::of(self.kind, &both),
-                false => Observations::of_storage(self.kind, &both),
-            };
-            let times = grid(self.kind, &both, DENSITY, 0.0);
-            let whole = observations.linear_of_all(&times);
-            let linear = whole.compressed();
-            let moduli = non_negative(&linear.a, &linear.b);
-            if round == n_rounds {
-                let n_terms = moduli.iter().filter(|modulus| **modulus > 0.0).count();
-                return (linear.misfit(moduli.as_slice()), ln_vertical, n_terms);
-            }
-            // The factor of the second block that meets the series best.
-            let fitted = &whole.a * &moduli;
-            let n_first = whole.b.len() * self.first.len() / both.len();
-            let rows = n_first..whole.b.len();
-            let product: f64 = rows.clone().map(|i| fitted[i] * whole.b[i]).sum();
-            let square: f64 = rows.map(|i| fitted[i] * fitted[i]).sum();
-            ln_vertical += (product / square).ln();
-        }
-        (f64::NAN, ln_vertical, 0)
-    }
-
-    /// Finds the shift about a first estimate.
-    fn step(&self, start: f64) -> Step {
-        let of = |ln_shift: f64| self.misfit(ln_shift).0;
-        let width = 2.0 * REACH * std::f64::consts::LN_10 / N_SCANNED as f64;
-        let from = start - 0.5 * width * N_SCANNED as f64;
-        // A warmer block is faster.
-        let scanned = (0..=N_SCANNED).map(|k| (from + width * k as f64).min(0.0));
-        let best = scanned.map(|at| (of(at), at)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let best = best.map_or(start, |best| best.1);
-        let ln_shift = golden_section(&of, best - width, (best + width).min(0.0));
-        let (least, ln_vertical, n_terms) = self.misfit(ln_shift);
-        let sides = [1.0, -1.0].map(|side| of(ln_shift + side * CURVATURE_STEP) - least);
-        let curvature = (sides[0] + sides[1]) / CURVATURE_STEP.powi(2);
-        let is_double = self.has_loss && self.kind == TestKind::Oscillation;
-        let n_rows = if is_double { 2.0 } else { 1.0 };
-        let n_rows = n_rows * (self.first.len() + self.second.len()) as f64;
-        let freedom = (n_rows - n_terms as f64 - 1.0).max(1.0);
-        // A sum of squares that does not rise determines no shift: as uncertain as the scan is wide.
-        let widest = REACH * std::f64::consts::LN_10;
-        let uncertainty = match curvature > 0.0 {
-            true => (2.0 * least / freedom / curvature).sqrt().min(widest),
-            false => widest,
-        };
-        Step { ln_shift, uncertainty, ln_vertical }
-    }
-}
-
-/// Returns the minimum of a function between two ends.
-fn golden_section(of: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let share = 0.5 * (5f64.sqrt() - 1.0);
-    let (mut a, mut b) = (high - share * (high - low), low + share * (high - low));
-    let (mut of_a, mut of_b) = (of(a), of(b));
-    while high - low > TOLERANCE {
-        if of_a < of_b {
-            (high, b, of_b) = (b, a, of_a);
-            a = high - share * (high - low);
-            of_a = of(a);
-        } else {
-            (low, a, of_a) = (a, b, of_b);
-            b = low + share * (high - low);
-            of_b = of(b);
-        }
-    }
-    0.5 * (low + high)
+    first: &[ModulusPoint],
+    second: &[ModulusPoint],
+    start: f64,
+) -> f64 {
+    let misfit = |ln_shift: f64| {
+        let second = second.iter().map(|point| reduced(kind, point, ln_shift, 0.0));
+        let both: Vec<ModulusPoint> = first.iter().copied().chain(second).collect();
+        let times = grid(kind, &both, DENSITY, 0.0);
+        let linear = Observations::of(kind, &both).linear_of_all(&times).compressed();
+        linear.misfit(non_negative(&linear.a, &linear.b).as_slice())
+    };
+    let width = 2.0 * REACH * std::f64::consts::LN_10 / N_SCANNED as f64;
+    let from = start - 0.5 * width * N_SCANNED as f64;
+    // A warmer block is faster.
+    let scanned = (0..=N_SCANNED).map(|k| (from + width * k as f64).min(0.0));
+    let best = scanned.map(|at| (misfit(at), at)).min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(start, |best| best.1)
 }
 
 /// Returns ln of frequency (or of the inverse of time) and ln of the storage modulus, which scatter does not make fall.
@@ -381,7 +269,8 @@ fn area_shift(first: &[(f64, f64)], second: &[(f64, f64)]) -> Option<f64> {
     let (first_ends, second_ends) = (ends(first)?, ends(second)?);
     let (low, high) = (first_ends.0.max(second_ends.0), first_ends.1.min(second_ends.1));
     if high <= low {
-        return None;
+        // Scatter may part two blocks of a plateau.
+        return (low - high < MAX_GAP).then_some(0.0);
     }
     let [first, second] = [first, second].map(|curve| area(curve, low, high));
     Some((first - second) / (high - low))

@@ -297,23 +297,44 @@ fn constants(found: &FoundRelaxation) -> [[f64; 2]; 2] {
     [[c1, fitted.uncertainties[0]], [c2, fitted.uncertainties[1]]]
 }
 
-/// C1 and C2 are within two standard uncertainties in at least nine of ten draws with 1 to 3 % noise.
+/// Returns the number of draws in which C1 and C2 are within two standard uncertainties, and the mean of their deviations over these, for
+/// noise that rises from 1 to 3 %.
+fn coverage(n: u64) -> [(u64, f64); 2] {
+    let mut found = [(0, 0.0); 2];
+    for seed in 0..n {
+        let noise = 0.01 + 0.02 * seed as f64 / n as f64;
+        let read = read(&at_temperatures(&SEVEN, [12.0, 120.0], noise, seed, 1.0)).unwrap();
+        assert!(read.warnings().is_empty(), "{:?}", read.warnings());
+        for ((n_inside, mean), ([value, uncertainty], known)) in
+            found.iter_mut().zip(constants(&read).iter().zip([12.0, 120.0]))
+        {
+            let off = (value - known) / uncertainty;
+            *n_inside += u64::from(off.abs() < 2.0);
+            *mean += off / n as f64;
+        }
+    }
+    found
+}
+
+/// If 95 in 100 draws are inside, 15 or fewer of 20 are in one of 400 runs; a mean of 20 deviations of variance 1 is above 0.7 as seldom.
 #[test]
 fn seven_temperatures_give_back_the_shift_law() {
     let exact = read(&at_temperatures(&SEVEN, [12.0, 120.0], 0.0, 0, 1.0)).unwrap();
     let [[c1, _], [c2, _]] = constants(&exact);
-    assert!((c1 - 12.0).abs() < 0.24 && (c2 - 120.0).abs() < 2.4, "{c1} {c2}");
+    assert!((c1 - 12.0).abs() < 1e-3 && (c2 - 120.0).abs() < 1e-2, "{c1} {c2}");
     assert!((exact.temperature.unwrap() - 293.15).abs() < 1e-9);
-    let mut n_inside = 0;
-    for seed in 0..20 {
-        let noise = 0.01 + 0.001 * seed as f64;
-        let found = read(&at_temperatures(&SEVEN, [12.0, 120.0], noise, seed, 1.0)).unwrap();
-        let [[c1, u1], [c2, u2]] = constants(&found);
-        n_inside += usize::from((c1 - 12.0).abs() < 2.0 * u1);
-        n_inside += usize::from((c2 - 120.0).abs() < 2.0 * u2);
-        assert!(u1 < 4.0 && found.warnings().is_empty(), "{u1} {:?}", found.warnings());
+    for (n_inside, mean) in coverage(20) {
+        assert!(n_inside >= 16 && mean.abs() < 0.7, "{n_inside} of 20, {mean}");
     }
-    assert!(n_inside >= 36, "{n_inside} of 40");
+}
+
+/// Two standard uncertainties hold in 95 ± 2 % of draws, and the deviations have no bias.
+#[test]
+#[ignore = "400 draws take minutes without optimisation"]
+fn constants_of_shift_laws_are_within_two_uncertainties_in_95_of_100_draws() {
+    for (n_inside, mean) in coverage(400) {
+        assert!((372..=388).contains(&n_inside) && mean.abs() < 0.2, "{n_inside} of 400, {mean}");
+    }
 }
 
 #[test]
