@@ -92,13 +92,13 @@ check('Ting’s model has the command’s numbers at any speed and on any partne
   const { page } = await open(browser, address);
   await settled(page);
   let worst = 0;
-  for (const shape of ['sphere', 'wall', 'half_space']) {
+  for (const shape of ['sphere', 'wall', 'half_space', 'plate']) {
     for (const speed of [0.05, 0.61, 1.9]) {
       const own = await ran(page, () => page.evaluate((words) => { location.hash = words; }, `model=ting&partner.shape=${shape}&speed=${speed}&relaxation.kind=term&relaxation.time=30&relaxation.weight=0.6`));
       worst = Math.max(worst, difference(own.summary, native(own.text)));
     }
   }
-  say(`  ting, nine scenes: ${worst.toExponential(1)}`);
+  say(`  ting, twelve scenes: ${worst.toExponential(1)}`);
   // A chain of arithmetic and of functions with the same bits: what is left is Hertz' powers.
   assert.ok(worst < 1e-13, worst);
   await page.context().close();
@@ -126,12 +126,31 @@ check('every model can be chosen, and says what it has', async () => {
     assert.equal(/Auto has chosen ting/.test(made), model === 'auto', made);
     assert.doesNotMatch(await page.locator('#effects-on').innerText(), /contact search/);
   }
-  for (const shape of ['wall', 'half_space']) {
+  for (const shape of ['wall', 'half_space', 'plate']) {
     await page.selectOption('[data-key="model"]', 'condensed');
     const own = await ran(page, () => page.selectOption('[data-key="partner.shape"]', shape));
     await settled(page);
     assert.ok(difference((await collision(page)).summary, native((await collision(page)).text)) < SAME, own.text);
   }
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
+check('a plate has its thickness, edge and support, and its energy in the ledger', async () => {
+  const { page, complaints } = await open(browser, `${address}#partner.shape=plate&striker.diameter=10&striker.material=steel&partner.material=steel&speed=1`);
+  const free = await settled(page);
+  assert.match(free.text, /plate = \{ thickness = "5 mm" \}/);
+  assert.ok(await page.locator('#slider-plate-thickness').isVisible() && !await page.locator('#slider-plate-diameter').isVisible());
+  assert.ok(difference(free.summary, native(free.text)) < SAME);
+  const [, taken] = free.sharing.parts.find(([name]) => name === 'plate');
+  assert.ok(Math.abs(taken / free.sharing.relative_j - (1 - free.summary.restitution ** 2)) < 1e-3);
+  const wide = await ran(page, () => page.selectOption('[data-key="plate.edge"]', 'diameter'));
+  assert.match(wide.text, /diameter = "200 mm"/);
+  assert.equal(wide.summary.restitution, free.summary.restitution);
+  await page.selectOption('[data-key="model"]', 'fem');
+  const bonded = await ran(page, () => page.selectOption('[data-key="plate.support"]', 'bonded'));
+  assert.match(bonded.text, /support = "bonded"/);
+  assert.ok(difference(bonded.summary, native(bonded.text)) < SAME && bonded.summary.restitution > 0.99);
   assert.deepEqual(complaints, []);
   await page.context().close();
 });

@@ -31,13 +31,19 @@ impl Case {
         changes: impl Fn(&Case) -> Option<Vec<f64>>,
     ) -> Option<Vec<f64>> {
         let at = |value: f64| changes(&self.with_number(&input.key, value).ok()?);
-        match [1.0, -1.0].map(|side| at(input.value + side * input.uncertainty)) {
-            [Some(above), Some(below)] => {
-                Some(above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect())
-            }
-            [Some(above), None] => Some(above),
-            [None, Some(below)] => Some(below.iter().map(|change| -change).collect()),
-            [None, None] => None,
+        central_change(|side| at(input.value + side * input.uncertainty))
+    }
+}
+
+/// Returns half of the difference of numbers at side 1 and at side −1, or the change to one side if there is none at the other;
+/// `None` if there is none at either.
+pub fn central_change(changes: impl Fn(f64) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+    match [1.0, -1.0].map(changes) {
+        [Some(above), Some(below)] => {
+            Some(above.iter().zip(below).map(|(above, below)| 0.5 * (above - below)).collect())
         }
+        [Some(above), None] => Some(above),
+        [None, Some(below)] => Some(below.iter().map(|change| -change).collect()),
+        [None, None] => None,
     }
 }

@@ -62,6 +62,7 @@ mod sweep;
 mod validate;
 
 pub use case::{Case, read_data_file, text_at};
+pub use case_edit::central_change;
 pub use error::CaseError;
 pub use fem_material::engineering;
 pub use quantity::temperature::parse_temperature;

@@ -5,6 +5,8 @@ import { materialNames, materialTable } from './materials.js';
 export const SLIDERS = {
   'striker.diameter': { from: 0.01, to: 200, unit: 'mm', isLogarithmic: true },
   'partner.diameter': { from: 0.01, to: 200, unit: 'mm', isLogarithmic: true },
+  'plate.thickness': { from: 0.1, to: 200, unit: 'mm', isLogarithmic: true },
+  'plate.diameter': { from: 1, to: 2000, unit: 'mm', isLogarithmic: true },
   'speed': { from: 0.001, to: 10, unit: 'm/s', isLogarithmic: true },
   'relaxation.time': { from: 1, to: 100000, unit: 'µs', isLogarithmic: true },
   'relaxation.weight': { from: 0, to: 1, unit: '', isLogarithmic: false },
@@ -14,7 +16,9 @@ export const SLIDERS = {
 };
 
 export const CHOICES = {
-  'partner.shape': ['sphere', 'wall', 'half_space'],
+  'partner.shape': ['sphere', 'wall', 'half_space', 'plate'],
+  'plate.edge': ['none', 'diameter'],
+  'plate.support': ['free', 'bonded'],
   'relaxation.kind': ['library', 'none', 'term'],
   'relaxation.acts_on': ['all', 'shear'],
   'adhesion.kind': ['none', 'work'],
@@ -29,6 +33,10 @@ export const LABELS = {
   'partner.shape': 'Shape of the partner',
   'partner.diameter': 'Diameter of the partner',
   'partner.material': 'Material of the partner',
+  'plate.thickness': 'Thickness of the plate',
+  'plate.edge': 'Edge of the plate',
+  'plate.diameter': 'Diameter of the plate',
+  'plate.support': 'Support of the plate',
   'speed': 'Approach speed',
   'relaxation.kind': 'Relaxation',
   'relaxation.time': 'Relaxation time',
@@ -49,6 +57,10 @@ export const FIRST = {
   'partner.shape': 'sphere',
   'partner.diameter': 15.9,
   'partner.material': 'glass',
+  'plate.thickness': 5,
+  'plate.edge': 'none',
+  'plate.diameter': 200,
+  'plate.support': 'free',
   'speed': 0.5,
   'relaxation.kind': 'library',
   'relaxation.time': 369,
@@ -79,6 +91,8 @@ export function sound(given) {
 export function isMeant(key, state) {
   if (key === 'partner.diameter') return state['partner.shape'] === 'sphere';
   if (key === 'partner.material') return state['partner.shape'] !== 'wall';
+  if (key === 'plate.diameter') return state['partner.shape'] === 'plate' && state['plate.edge'] === 'diameter';
+  if (key.startsWith('plate.')) return state['partner.shape'] === 'plate';
   if (['relaxation.time', 'relaxation.weight', 'relaxation.acts_on'].includes(key)) return state['relaxation.kind'] === 'term';
   if (key === 'adhesion.work') return state['adhesion.kind'] === 'work';
   if (key === 'law.kind') return state.model === 'law';
@@ -109,6 +123,8 @@ name = "striker"
 sphere = { diameter = "${state['striker.diameter']} mm" }
 material = "${state['striker.material']}"
 approach_speed = "${state.speed} m/s"`;
+  const edge = isMeant('plate.diameter', state) ? `, diameter = "${state['plate.diameter']} mm"` : '';
+  const support = state['plate.support'] === 'free' ? '' : `, support = "${state['plate.support']}"`;
   const partners = {
     sphere: `[[body]]
 name = "target"
@@ -120,6 +136,10 @@ wall = {}`,
     half_space: `[[body]]
 name = "block"
 half_space = {}
+material = "${state['partner.material']}"`,
+    plate: `[[body]]
+name = "plate"
+plate = { thickness = "${state['plate.thickness']} mm"${edge}${support} }
 material = "${state['partner.material']}"`,
   };
   const bodies = shape === 'sphere' ? [striker, partners.sphere] : [partners[shape], striker];
@@ -139,6 +159,7 @@ function titleOf(state) {
     sphere: `${state['partner.diameter']} mm of ${state['partner.material']}`,
     wall: 'a rigid wall',
     half_space: `a block of ${state['partner.material']}`,
+    plate: `${state['plate.thickness']} mm of ${state['partner.material']}`,
   };
   return `${state['striker.diameter']} mm of ${state['striker.material']} on ${other[state['partner.shape']]} at ${state.speed} m/s`;
 }

@@ -197,7 +197,7 @@ def invert(
 
     Args:
         case: the two bodies.
-        restitution: between 0 and 1.
+        restitution: between 0 and 1; with an uncertainty, ``"0.92 ± 0.01"``, so has the parameter.
         law: the law; by default that of the case's model, or else all.
         find: the parameter; by default the damping.
         param: values of other parameters.
@@ -205,8 +205,9 @@ def invert(
         speed: the approach speed; by default that of the case.
 
     Returns:
-        ``solutions``, each with ``law``, ``parameter``, ``value`` and ``contact_time_s``, SI, and ``unsolved``: laws
-        with the reason.
+        ``solutions``, each with ``law``, ``parameter``, ``value``, ``standard_error`` by the restitution and uncertain
+        inputs of the case (else None), ``inputs``, its parts, and ``contact_time_s``, SI, and ``unsolved``: laws with
+        the reason.
     """
     return _found(_native.invert(_native_of(case), None, _words(locals())))
 

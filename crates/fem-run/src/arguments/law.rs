@@ -1,6 +1,8 @@
 //! A contact law on the command line: `--law bordbar_hyppanen --param n=0.65 --end zero_overlap`.
 
+use fem::fit::cradle::Measured;
 use fem::laws::{ChosenLaw, ParameterError, find_parameter, parse_value};
+use fem::measured::NotMeasured;
 use fem_case::{Case, nearest, parse_quantity};
 use fem_laws::{EndRule, LawFamily};
 
@@ -93,6 +95,17 @@ pub fn parse_share(text: &str) -> Result<f64, String> {
     match parse_quantity(text) {
         Ok((value, dimension)) if dimension.0 == [0; 4] => Ok(value),
         _ => Err("this is not a number, such as 0.9 or '90 %'".to_string()),
+    }
+}
+
+/// Parses a number with or without an uncertainty, `0.92 ± 0.01` or `92 % ± 1 %`.
+pub fn parse_measured_share(text: &str) -> Result<Measured, String> {
+    let parts = ["±", "+/-", "+-"].iter().find_map(|sign| text.split_once(sign));
+    let Some((value, uncertainty)) = parts else { return parse_share(text).map(Measured::exact) };
+    let (value, uncertainty) = (parse_share(value.trim())?, parse_share(uncertainty.trim())?);
+    match uncertainty >= 0.0 && uncertainty.is_finite() {
+        true => Ok(Measured { value, uncertainty }),
+        false => Err(NotMeasured::NegativeUncertainty.to_string()),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::fit::spectrum::{
     Range, SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, moments, root_mean_square,
     speed_exponent,
 };
-use crate::fit::{FitError, InputPart, Robustness};
+use crate::fit::{FitError, InputPart, Robustness, SPEED};
 use fem_case::Case;
 use fem_material::PronyTerm;
 use rayon::prelude::*;
@@ -156,7 +156,7 @@ impl Calibration {
             let moments = moments(&times).each_ref().map(moment);
             Some([changes, moments.to_vec()].concat())
         };
-        let inputs = InputPart::of(case, times.len() + 3, refit);
+        let inputs = InputPart::of(case, times.len() + 3, &[SPEED], refit);
         let largest_rms = match misses(&fit) {
             true => LARGE_ERROR,
             false => (AS_GOOD * fit.rms).max(SMALL_ERROR),

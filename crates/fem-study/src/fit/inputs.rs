@@ -7,8 +7,10 @@
 use fem_case::{Case, UncertainInput};
 use serde_json::{Value, json};
 
-/// Keys that data replace or a fit does not use.
-const REPLACED: [&str; 3] = [".approach_speed", "start.", "gravity."];
+/// Key of the speed, which data replace.
+pub(crate) const SPEED: &str = ".approach_speed";
+/// Keys that closed forms of a single contact do not use.
+const UNUSED: [&str; 2] = ["start.", "gravity."];
 
 /// The part of one uncertain input in the errors of a fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,13 +23,14 @@ pub struct InputPart {
 
 impl InputPart {
     /// Returns the parts of all uncertain inputs of a case. `refit` returns the changes of n results from those of
-    /// the case to those of another one.
+    /// the case to those of another one. Inputs whose keys contain one of `replaced` have no part.
     pub(crate) fn of(
         case: &Case,
         n: usize,
+        replaced: &[&str],
         refit: impl Fn(&Case) -> Option<Vec<f64>>,
     ) -> Vec<Self> {
-        let is_replaced = |key: &str| REPLACED.iter().any(|part| key.contains(part));
+        let is_replaced = |key: &str| replaced.iter().chain(&UNUSED).any(|part| key.contains(part));
         let inputs = case.scene().uncertain_inputs().iter();
         let part = |input: &UncertainInput| {
             let changes = case.change_by(input, &refit).unwrap_or_else(|| vec![f64::NAN; n]);

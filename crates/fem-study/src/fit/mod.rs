@@ -51,6 +51,7 @@ pub mod spectrum;
 pub use error::FitError;
 pub use estimates::{Estimate, Fit};
 pub use inputs::InputPart;
+pub(crate) use inputs::SPEED;
 pub use inverse::{Inversion, invert};
 pub use model::{Model, Outcome};
 pub use problem::{Free, Point, Problem};

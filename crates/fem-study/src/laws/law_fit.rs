@@ -1,7 +1,7 @@
 //! A law that is fitted to restitutions, and how well the data determine it.
 
 use crate::fit::{
-    Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness,
+    Estimate, Fit, FitError, Free, InputPart, Model, Point, Problem, Profile, Robustness, SPEED,
 };
 use fem_case::Case;
 use fem_case::engineering::number;
@@ -85,7 +85,7 @@ impl<'a> LawFit<'a> {
             let theta = near.theta_of(&near.solve().ok()?.0);
             Some(theta.iter().zip(&own).map(|(changed, own)| changed - own).collect())
         };
-        self.inputs = InputPart::of(case, keys.len(), refit);
+        self.inputs = InputPart::of(case, keys.len(), &[SPEED], refit);
         for (j, (estimate, free)) in self.fit.estimates.iter_mut().zip(&problem.free).enumerate() {
             let error = InputPart::sum(&self.inputs, j);
             estimate.widen(error, problem.is_logarithmic(free), self.confidence);

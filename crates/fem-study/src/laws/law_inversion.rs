@@ -1,7 +1,10 @@
 //! The parameter of a law that gives a wanted restitution at one speed.
 
-use crate::fit::{Inversion, Model, Point, Problem, invert};
+use crate::fit::cradle::Measured;
+use crate::fit::{InputPart, Inversion, Model, Point, Problem, SPEED, invert};
+use fem_case::{Case, UncertainInput, central_change};
 use fem_laws::{LawFamily, LawParameter, ParameterRole};
+use serde_json::{Value, json};
 
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
@@ -20,6 +23,8 @@ pub struct LawInversion {
     pub speed: f64,
     /// Values of all parameters; that of the wanted one is only a guess.
     values: Vec<f64>,
+    /// Changes of each value, SI, by the uncertainty of the restitution and of the inputs of the case.
+    pub inputs: Vec<InputPart>,
 }
 
 impl LawInversion {
@@ -50,7 +55,54 @@ impl LawInversion {
         let values = law.values(&Problem::new(law.model(), &at_speed, &[])?.values);
         let model = law.model().clone();
         let inversion = invert(&model, index, &values, speed, restitution)?;
-        Ok(Self { model, index, inversion, speed, values })
+        Ok(Self { model, index, inversion, speed, values, inputs: Vec::new() })
+    }
+
+    /// Adds the uncertainties of the restitution and of the inputs of the case, by solving again with each. `law` is that of the
+    /// inversion; the speed is that of the case unless one is `given`.
+    pub fn with_inputs(
+        mut self,
+        case: &Case,
+        law: &ChosenLaw,
+        restitution: Measured,
+        given: Option<f64>,
+    ) -> Self {
+        let key = self.parameter().key;
+        let own = &self.inversion.solutions;
+        let changes = |law: &ChosenLaw, speed: f64, restitution: f64| -> Option<Vec<f64>> {
+            let others = Self::of(law, Some(key), speed, restitution).ok()?.inversion.solutions;
+            let pairs = own.iter().zip(&others);
+            (others.len() == own.len()).then(|| pairs.map(|(own, other)| other - own).collect())
+        };
+        let replaced: &[&str] = if given.is_some() { &[SPEED] } else { &[] };
+        let mut inputs = InputPart::of(case, own.len(), replaced, |case: &Case| {
+            let speed = given.unwrap_or_else(|| case.scene().approach_speed());
+            changes(&law.in_case(case).ok()?, speed, restitution.value)
+        });
+        let Measured { value, uncertainty } = restitution;
+        if uncertainty > 0.0 {
+            let at = |sign: f64| changes(law, self.speed, value + sign * uncertainty);
+            let changes = central_change(at).unwrap_or_else(|| vec![f64::NAN; own.len()]);
+            let input = UncertainInput { key: "restitution".to_string(), value, uncertainty };
+            inputs.insert(0, InputPart { input, changes });
+        }
+        self.inputs = inputs;
+        self
+    }
+
+    /// Returns the stored form of the parts of its standard error, SI.
+    pub fn input_numbers(&self, solution: usize) -> Value {
+        let part = |InputPart { input, changes }: &InputPart| {
+            let UncertainInput { key, value, uncertainty } = input;
+            json!({ "key": key, "value": value, "uncertainty": uncertainty, "change": changes[solution] })
+        };
+        self.inputs.iter().map(part).collect()
+    }
+
+    /// Returns the standard error of a solution, SI; `None` if nothing is uncertain or there is no solution with an input.
+    pub fn standard_error(&self, solution: usize) -> Option<f64> {
+        let error = InputPart::sum(&self.inputs, solution);
+        (!self.inputs.is_empty() && error.is_finite()).then_some(error)
     }
 
     /// Returns the parameter that is found.

@@ -23,16 +23,8 @@ pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     let family = fitted.problem.model.family();
     let fitted = fitted.fit.estimates.iter().map(|estimate| {
         let unit = family.parameters()[estimate.index].unit;
-        let (unit, scale) = match ["s", "m/s"].contains(&unit) {
-            true => {
-                let fitting = Unit::fitting(estimate.value, unit);
-                (fitting.symbol().to_string(), fitting.scaled(1.0))
-            }
-            false => (unit.to_string(), 1.0),
-        };
-        let shown = |value: f64| number(scale * value, 3);
-        let error = estimate.standard_error.map_or(String::new(), |it| format!(" ± {}", shown(it)));
-        format!("{} = {}{error} {unit}", estimate.key, shown(estimate.value)).trim_end().to_string()
+        let shown = with_error(estimate.value, estimate.standard_error, unit);
+        format!("{} = {shown}", estimate.key)
     });
     let fitted: Vec<String> = fitted.collect();
     let best = match ranking {
@@ -42,6 +34,20 @@ pub fn answer(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
         _ => String::new(),
     };
     format!("{} ({}{best})\n\n", fitted.join(", "), family.name())
+}
+
+/// Returns a value with its standard error in one unit, `569 ± 197 µs`.
+pub fn with_error(value: f64, error: Option<f64>, unit: &str) -> String {
+    let (unit, scale) = match ["s", "m/s"].contains(&unit) {
+        true => {
+            let fitting = Unit::fitting(value, unit);
+            (fitting.symbol().to_string(), fitting.scaled(1.0))
+        }
+        false => (unit.to_string(), 1.0),
+    };
+    let shown = |value: f64| number(scale * value, 3);
+    let error = error.map_or(String::new(), |error| format!(" ± {}", shown(error)));
+    format!("{}{error} {unit}", shown(value)).trim_end().to_string()
 }
 
 pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {

@@ -1,14 +1,18 @@
 //! `fem-run invert CASE --restitution 0.92`: the parameter of a law that gives a restitution.
 
-use fem::fit::FitError;
+use fem::fit::cradle::Measured;
+use fem::fit::{FitError, InputPart};
 use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
 use fem_case::engineering::{number, show};
 use fem_laws::LawFamily;
 use serde_json::{Value, json};
 
+use super::fit_text::{relative, with_error};
 use crate::arguments::case::CaseArguments;
-use crate::arguments::law::{LawArguments, find_key, parse_family, parse_share, parse_speed};
+use crate::arguments::law::{
+    LawArguments, find_key, parse_family, parse_measured_share, parse_speed,
+};
 use crate::text::standard_output;
 use crate::text::{Failure, headed, show_value};
 
@@ -21,9 +25,10 @@ use crate::text::{Failure, headed, show_value};
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
-    /// The restitution, between 0 and 1, or in %
-    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = parse_share)]
-    restitution: f64,
+    /// The restitution, between 0 and 1, or in %; with its standard uncertainty, '0.92 ± 0.01', the
+    /// parameter has one too
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = parse_measured_share)]
+    restitution: Measured,
     /// The law [default: that of the case's model, or else all]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
     law: Option<LawFamily>,
@@ -49,19 +54,28 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.quiet {
         return Ok(());
     }
-    let mut rows = Vec::new();
+    let (mut rows, mut parts) = (Vec::new(), Vec::new());
     for (family, answer) in &answers {
         match answer {
-            Ok(solved) => rows.extend(lines(solved)),
+            Ok(solved) => {
+                rows.extend(lines(solved));
+                parts.extend(parts_of(solved));
+            }
             Err(reason) => {
                 let [none, dash] = [String::new(), "-".into()];
                 rows.push([family.name().into(), none.clone(), dash, reason.clone(), none]);
             }
         }
     }
+    let parts = match parts.is_empty() {
+        true => String::new(),
+        false => {
+            "\n".to_string() + &headed("uncertain input|law|parameter|>by its uncertainty", parts)
+        }
+    };
     standard_output::print(&format!(
-        "restitution {} at {}\n\n{}",
-        arguments.restitution,
+        "restitution {} at {}\n\n{}{parts}",
+        arguments.restitution.value,
         show(speed, "m/s"),
         headed("law|parameter|>value|>SI|>contact time", rows)
     ))
@@ -73,20 +87,25 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
     let mut unsolved = serde_json::Map::new();
     for (family, answer) in answers {
         match answer {
-            Ok(solved) => solutions.extend(solved.solutions().into_iter().map(|solution| {
-                json!({
-                    "law": family.name(),
-                    "parameter": solved.parameter().key,
-                    "value": solution.0,
-                    "contact_time_s": solution.1,
-                })
-            })),
+            Ok(solved) => {
+                let all = solved.solutions().into_iter().enumerate();
+                solutions.extend(all.map(|(k, (value, contact_time))| {
+                    json!({
+                        "law": family.name(),
+                        "parameter": solved.parameter().key,
+                        "value": value,
+                        "standard_error": solved.standard_error(k),
+                        "inputs": solved.input_numbers(k),
+                        "contact_time_s": contact_time,
+                    })
+                }));
+            }
             Err(reason) => {
                 unsolved.insert(family.name().to_string(), reason.into());
             }
         }
     }
-    let wanted = arguments.restitution;
+    let wanted = arguments.restitution.value;
     Ok(
         json!({ "restitution": wanted, "speed_m_s": speed, "solutions": solutions, "unsolved": unsolved }),
     )
@@ -94,7 +113,7 @@ pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
 
 fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Failure> {
     let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
-    let wanted = arguments.restitution;
+    let wanted = arguments.restitution.value;
     if !(wanted > 0.0 && wanted < 1.0) {
         let message =
             format!("--restitution must be greater than 0 and less than 1, found {wanted}");
@@ -144,25 +163,46 @@ fn solve(
         find_key(family, key, "--find")?;
     }
     let key = arguments.find.as_deref();
-    LawInversion::of(&law, key, speed, arguments.restitution).map_err(|fault| match fault {
+    let solved = LawInversion::of(&law, key, speed, arguments.restitution.value);
+    let solved = solved.map_err(|fault| match fault {
         LawFault::Fit(error @ FitError::NoSolution { .. }) if family == LawFamily::HuntCrossley => {
             Failure::bad_input(error.to_string())
                 .with_help("its coefficient holds for small losses only; choose another law")
         }
         fault => fault.into(),
-    })
+    });
+    Ok(solved?.with_inputs(case, &law, arguments.restitution, arguments.speed))
 }
 
 fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
     let parameter = solved.parameter();
-    let line = |(value, time): (f64, Option<f64>)| {
+    let line = |(k, (value, time)): (usize, (f64, Option<f64>))| {
+        let shown = match solved.standard_error(k) {
+            error @ Some(_) => with_error(value, error, parameter.unit),
+            None => show_value(value, parameter.unit),
+        };
         [
             solved.model.family().name().to_string(),
             parameter.key.to_string(),
-            show_value(value, parameter.unit),
+            shown,
             number(value, 7),
             time.map_or("-".to_string(), |time| show(time, "s")),
         ]
     };
-    solved.solutions().into_iter().map(line).collect()
+    solved.solutions().into_iter().enumerate().map(line).collect()
+}
+
+/// Returns the part of each uncertain input in the error of each value.
+fn parts_of(solved: &LawInversion) -> Vec<[String; 4]> {
+    let parameter = solved.parameter();
+    let row = |part: &InputPart| {
+        let shown = |change: &f64| match change.abs() {
+            change if change.is_finite() => show_value(change, parameter.unit),
+            _ => "no solution".to_string(),
+        };
+        let changes: Vec<String> = part.changes.iter().map(shown).collect();
+        let law = solved.model.family().name().to_string();
+        [relative(&part.input), law, parameter.key.to_string(), changes.join(", ")]
+    };
+    solved.inputs.iter().map(row).collect()
 }

@@ -436,3 +436,33 @@ fn bars_have_the_uncertain_inputs_of_the_rig() {
     let again = place.succeed((calibrate, "--out again_c", set(&rig)));
     again.prints("range by the data alone|by body.1.sphere.diameter ± 1 %");
 }
+
+/// `invert` solves again with the restitution and each input at both ends, and adds the changes as squares.
+#[test]
+fn an_inversion_has_the_uncertain_inputs_of_the_rig() {
+    let place = Place::with(RIG);
+    let invert = "invert case.toml --law kuwabara_kono --restitution";
+    // kuwabara_kono  a  6.7 µs  6.7e-6  102 µs
+    let value = |restitution: &str, thickness: &str| {
+        let thickness = format!("body.0.plate.thickness='{thickness}'");
+        let ran = place.succeed((invert, [restitution], set(&[&thickness])));
+        let last = ran.stdout.lines().last().unwrap();
+        last.split_whitespace().nth(4).unwrap().parse::<f64>().unwrap()
+    };
+    let half = |upper: f64, lower: f64| 0.5 * (upper - lower).abs();
+    let of_data = half(value("0.66", "5 mm"), value("0.64", "5 mm"));
+    let of_plate = half(value("0.65", "5.1 mm"), value("0.65", "4.9 mm"));
+    let set =
+        set(&["body.0.plate.thickness='5.0 ± 0.1 mm'", "gravity.acceleration='9.81 ± 0.01 m/s^2'"]);
+    let ran = place.succeed((invert, ["0.65 ± 0.01"], set));
+    let whole = of_data.hypot(of_plate);
+    let line = ran.stdout.lines().find(|line| line.starts_with("kuwabara_kono")).unwrap();
+    let (_, error) = line.split_once(" ± ").unwrap();
+    let error: f64 = error.split_whitespace().next().unwrap().parse().unwrap();
+    // Three digits are printed.
+    assert!((error / (1e6 * whole) - 1.0).abs() < 5e-3, "{line} {whole}");
+    ran.prints("uncertain input|restitution ± 1.5 %|body.0.plate.thickness ± 2 %");
+    assert!(!ran.stdout.contains("gravity"), "{}", ran.stdout);
+    place.fails(2, (invert, ["0.65 ± -0.01"])).tells("an uncertainty is at least 0");
+    place.fails(2, (invert, ["0.65 ± x"])).tells("such as 0.9 or '90 %'");
+}
