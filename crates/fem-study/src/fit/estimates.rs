@@ -211,12 +211,21 @@ impl Problem<'_> {
     ///
     /// `None` without degrees of freedom, or if the law cannot be computed there.
     pub fn band(&self, fit: &Fit, speed: f64) -> Option<f64> {
-        let (covariance, quantile) = (fit.covariance.as_ref()?, fit.quantile?);
+        self.band_of(&fit.values, (fit.covariance.as_ref()?, fit.quantile?), speed)
+    }
+
+    /// Returns the same for values of all parameters, a covariance of θ and a quantile.
+    pub(crate) fn band_of(
+        &self,
+        values: &[f64],
+        (covariance, quantile): (&[Vec<f64>], f64),
+        speed: f64,
+    ) -> Option<f64> {
         let at = |theta: &[f64]| {
             let outcome = self.model.outcome(&self.values_at(theta), speed).ok();
             Some(vec![outcome?.restitution])
         };
-        let gradient = jacobian(&at, &self.theta_of(&fit.values), &self.bounds())?;
+        let gradient = jacobian(&at, &self.theta_of(values), &self.bounds())?;
         let each = gradient.iter().zip(covariance).map(|(own, row)| {
             own * gradient.iter().zip(row).map(|(other, element)| other * element).sum::<f64>()
         });

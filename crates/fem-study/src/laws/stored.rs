@@ -35,6 +35,7 @@ impl LawFit<'_> {
             "inputs": self.inputs.iter().map(|part| part.numbers(&results)).collect::<Value>(),
             "correlation": fit.correlation,
             "covariance": fit.covariance,
+            "quantile": fit.quantile,
             "rms": fit.rms,
             "sum_of_squares": fit.sum_of_squares,
             "degrees_of_freedom": fit.degrees_of_freedom,

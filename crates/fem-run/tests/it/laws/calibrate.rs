@@ -435,6 +435,30 @@ fn bars_have_the_uncertain_inputs_of_the_rig() {
     );
     let again = place.succeed((calibrate, "--out again_c", set(&rig)));
     again.prints("range by the data alone|by body.1.sphere.diameter ± 1 %");
+
+    // The band of e(v) without the plate: its part of the thickness is half of the difference of what both ends give.
+    let block = set(&["body.0={ name='plate', half_space={}, material='lib:steel' }"]);
+    let band = |name: &str| -> (String, Vec<f64>) {
+        place.succeed((&format!("export case.toml --fit {name}_f --out {name}_e"), &block));
+        let text = place.text(format!("{name}_e/restitution_band.csv"));
+        let row = text.lines().nth(40).unwrap().split(',').map(|cell| cell.parse().unwrap());
+        (text.lines().next().unwrap().to_string(), row.collect())
+    };
+    let (_, thin) = band("thin");
+    let (_, thick) = band("thick");
+    let (header, whole) = band("rig");
+    let column = header.split(',').position(|name| name.ends_with("thickness")).unwrap();
+    let half = 0.5 * (thick[1] - thin[1]);
+    assert!((whole[column] / half - 1.0).abs() < 0.05, "{header} {whole:?} {half}");
+    let squares: f64 = whole[5..].iter().map(|part| part * part).sum();
+    let reach = whole[4].hypot(1.959_964 * squares.sqrt());
+    assert!(((whole[1] - whole[2]) / reach - 1.0).abs() < 1e-6, "{whole:?} {reach}");
+    // On the plate itself the data say what e(v) is, but for the change of its share with speed.
+    place.succeed(("export case.toml --fit rig_f --out on_plate", set(&rig)));
+    let text = place.text("on_plate/restitution_band.csv");
+    let row: Vec<f64> =
+        text.lines().nth(40).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert!(row[column].abs() < 0.2 * half.abs(), "{row:?} {half}");
 }
 
 /// `invert` solves again with the restitution and each input at both ends, and adds the changes as squares.

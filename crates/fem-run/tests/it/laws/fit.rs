@@ -350,7 +350,7 @@ fn a_fit_is_exported_and_is_a_model() {
     assert_eq!((band.lines().count(), &export["band"]["confidence"]), (81, &fit["confidence"]));
     for file in ["lammps_viscoelastic.in", "mujoco_contact.xml"] {
         let text = place.text(format!("runs/case_export/{file}"));
-        assert!(text.contains("The data know e(v) to") && text.contains("95 % band"), "{text}");
+        assert!(text.contains("e(v) is known to") && text.contains("95 % band"), "{text}");
     }
     let viscoelastic = &export["snippets"][1];
     assert!(viscoelastic["worst_error"].as_f64().unwrap() < 1e-6, "{viscoelastic}");

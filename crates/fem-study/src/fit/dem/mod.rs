@@ -388,7 +388,7 @@ impl Export {
         };
         let band = self.band.map_or(String::new(), |(confidence, half)| {
             format!(
-                "# The data know e(v) to {} or better ({} % band, {BAND_FILE}).\n",
+                "# e(v) is known to {} or better ({} % band, {BAND_FILE}).\n",
                 number(half, 2),
                 number(100.0 * confidence, 3)
             )
