@@ -51,7 +51,7 @@ pub struct RestitutionBand {
 pub struct BandRow {
     /// Approach speed, m/s.
     pub speed: f64,
-    /// The restitution.
+    /// Restitution of the fitted law at this speed.
     pub restitution: f64,
     /// Lower and upper end of the band.
     pub ends: [f64; 2],
