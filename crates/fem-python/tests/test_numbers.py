@@ -277,3 +277,38 @@ def test_a_notebook_is_warned_where_the_terminal_is():
     known = result.summary["uncertainty"]["restitution"]["model_at_least"]
     assert known > 0.01 and "restitution" in page and "(error at least 0.0" in page
     assert all(html.escape(warning) in page for warning in result.warnings) and len(result.warnings) > 1
+
+
+def test_moduli_become_the_material_of_a_case(tmp_path):
+    # A standard linear solid with weights 0.5 at 1 ms and 10 MPa: E' and E'' in closed form.
+    frequency = np.geomspace(1, 1e4, 30)
+    x = 2 * np.pi * frequency * 1e-3
+    moduli = {"frequency_hz": frequency, "E' [MPa]": 10 * (0.5 + 0.5 * x**2 / (1 + x**2)), "E'' [MPa]": 5 * x / (1 + x**2)}
+    found = fem_run.relaxation(moduli, density=1200, poissons_ratio=0.4)
+    assert found["instantaneous_modulus_pa"] == pytest.approx(10e6, rel=1e-4)
+    assert [(one["weight"], one["relaxation_time_s"]) for one in found["terms"]] == [pytest.approx((0.5, 1e-3), rel=1e-4)]
+    assert repr(found).startswith("<fem_run.Relaxation of ") and "1 terms" in repr(found)
+    assert found._repr_html_().startswith("<svg")
+    named = fem_run.relaxation({"f": frequency, "one": moduli["E' [MPa]"], "two": moduli["E'' [MPa]"]},
+                               columns={"storage_modulus_mpa": "one", "loss_modulus_mpa": "two"})  # fmt: skip
+    assert named["terms"] == found["terms"]
+    rows = np.column_stack(list(moduli.values()))
+    (tmp_path / "dma.csv").write_text(",".join(moduli) + "\n" + "\n".join(",".join(map(str, row)) for row in rows.tolist()))
+    assert fem_run.relaxation(tmp_path / "dma.csv")["terms"] == found["terms"]
+    with pytest.raises(fem_run.InputError, match="one frequency"):
+        fem_run.relaxation({name: column[:1] for name, column in moduli.items()})
+    # The table that it writes is that of the known solid to a case.
+    (tmp_path / "rubber.relaxation.toml").write_text(found["relaxation_toml"])
+    case = {
+        "material": {"rubber": {"density": 1200, "youngs_modulus": 10e6, "poissons_ratio": 0.4}},
+        "body": [
+            {"name": "ball", "sphere": {"diameter": 0.02}, "material": "rubber", "approach_speed": 0.1},
+            {"name": "floor", "wall": {}},
+        ],
+        "model": {"ting": {}},
+    }
+    known, named = copy.deepcopy(case), copy.deepcopy(case)
+    known["material"]["rubber"]["relaxation"] = {"acts_on": "all", "terms": [{"weight": 0.5, "relaxation_time": 1e-3}]}
+    named["material"]["rubber"]["relaxation"] = {"file": str(tmp_path / "rubber.relaxation.toml")}
+    restitutions = [fem_run.Case.from_dict(one).run().restitution for one in (known, named)]
+    assert 0.2 < restitutions[0] < 0.9 and restitutions[1] == pytest.approx(restitutions[0], abs=1e-4)

@@ -36,8 +36,8 @@ impl Range {
     pub const LIKE_POISSONS_RATIO: Self = Self::between(-1.0, 1.0);
     /// Exponents of Swift's power law of hardening.
     pub const HARDENING_EXPONENT: Self = Self::above(0.0, 1.0);
-    #[cfg(feature = "schema")]
-    pub const RELAXATION_WEIGHT: Self = Self::from(0.0, 1.0);
+    /// Weights of terms, and uncertainties over their values.
+    pub const SHARE: Self = Self::from(0.0, 1.0);
 
     const fn from(low: f64, high: f64) -> Self {
         Self { low, is_low_open: false, high, is_high_open: false, is_whole: false }

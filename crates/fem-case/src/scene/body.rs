@@ -31,6 +31,12 @@ pub struct MeasuredBand {
     pub shift: Option<ShiftLaw>,
     /// The lowest and the highest frequency at the temperature of the body at which the moduli are measured, Hz.
     pub frequencies: Option<[f64; 2]>,
+    /// Frequencies at that temperature (Hz), rising, with the standard uncertainty of the loss modulus over its value.
+    pub loss_uncertainty: Vec<(f64, f64)>,
+    /// Young's modulus of the series at its highest frequencies, Pa.
+    pub youngs_modulus: Option<f64>,
+    /// The shear modulus of the series at its highest frequencies, Pa.
+    pub shear_modulus: Option<f64>,
 }
 
 impl Body {

@@ -139,6 +139,12 @@ pub struct RelaxationTable {
     /// Frequencies at which the moduli are measured, at the reference temperature.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub band: Option<BandTable>,
+    /// Young's modulus of the series at its highest frequencies, > 0, with which that of the material is compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Quantity<Stress>>,
+    /// The shear modulus instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_modulus: Option<Quantity<Stress>>,
 }
 
 impl RelaxationTable {
@@ -151,6 +157,8 @@ impl RelaxationTable {
             reference_temperature: None,
             shift: None,
             band: None,
+            youngs_modulus: None,
+            shear_modulus: None,
         }
     }
 }
@@ -196,6 +204,9 @@ pub struct BandTable {
     pub from: Quantity<Rate>,
     /// The highest frequency, above the lowest.
     pub to: Quantity<Rate>,
+    /// Frequencies, rising, with the standard uncertainty of the loss modulus over its value, from 0 to 1.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loss_uncertainty: Vec<(Quantity<Rate>, Quantity<Number>)>,
 }
 
 keywords! {

@@ -448,6 +448,7 @@ pub(crate) fn is_list(path: &str) -> bool {
     let is_of_material = path.starts_with("material.")
         && (path.ends_with(".relaxation.terms")
             || path.contains(".relaxation.shift.table")
+            || path.contains(".relaxation.band.loss_uncertainty")
             || path.contains(".flow.hardening.table"));
     is_of_material || matches!(path, "body" | "output.snapshots" | "output.fields" | "output.probe")
 }

@@ -9,6 +9,7 @@ use super::Check;
 use crate::case::text_at;
 use crate::error::CaseError;
 use crate::quantity::range::Range;
+use crate::quantity::{Quantity, QuantityKind};
 use crate::scene::body::MeasuredBand;
 use crate::schema::{CaseFile, RelaxationTable};
 use crate::source::document::Document;
@@ -63,6 +64,8 @@ fn empty() -> RelaxationTable {
         reference_temperature: None,
         shift: None,
         band: None,
+        youngs_modulus: None,
+        shear_modulus: None,
     }
 }
 
@@ -100,7 +103,16 @@ impl Check<'_> {
                 return Err(error.with_help("band.to is above band.from"));
             }
             measured.frequencies = Some([from, to]);
+            measured.loss_uncertainty = self.rows(
+                &at("band.loss_uncertainty"),
+                &band.loss_uncertainty,
+                "frequencies",
+                Range::SHARE,
+            )?;
         }
+        let (young, shear) = (table.youngs_modulus.as_ref(), table.shear_modulus.as_ref());
+        measured.youngs_modulus = self.optional(&at("youngs_modulus"), young, Range::POSITIVE)?;
+        measured.shear_modulus = self.optional(&at("shear_modulus"), shear, Range::POSITIVE)?;
         if let Some(law) = law {
             let Some(reference) = reference else {
                 let error = self.error(&at("shift"), "shift needs reference_temperature");
@@ -123,6 +135,9 @@ impl Check<'_> {
             }
             measured.frequencies =
                 measured.frequencies.map(|band| band.map(|frequency| frequency / factor));
+            for row in &mut measured.loss_uncertainty {
+                row.0 /= factor;
+            }
             measured.temperature = Some(temperature);
             measured.shift = Some(law);
         }
@@ -154,18 +169,7 @@ impl Check<'_> {
                 )?,
             },
             (None, None, Some(rows)) => {
-                let mut points: Vec<(f64, f64)> = Vec::new();
-                for (k, (temperature, log10)) in rows.iter().enumerate() {
-                    let of = |part: usize| format!("{path}.table.{k}.{part}");
-                    let temperature = self.number(&of(0), temperature, Range::POSITIVE)?;
-                    let log10 = self.number(&of(1), log10, Range::ANY)?;
-                    if points.last().is_some_and(|last| temperature <= last.0) {
-                        let error = self.error(&of(0), "the temperatures do not rise");
-                        return Err(error.with_help("write the coldest first"));
-                    }
-                    points.push((temperature, log10));
-                }
-                ShiftLaw::Table(points)
+                ShiftLaw::Table(self.rows(&at("table"), rows, "temperatures", Range::ANY)?)
             }
             _ => {
                 let error = self.error(path, "shift is exactly one law");
@@ -173,6 +177,28 @@ impl Check<'_> {
             }
         };
         Ok(Some(law))
+    }
+
+    /// Returns the rows of a table over rising values > 0, which `what` names.
+    fn rows<X: QuantityKind, Y: QuantityKind>(
+        &self,
+        path: &str,
+        rows: &[(Quantity<X>, Quantity<Y>)],
+        what: &str,
+        allowed: Range,
+    ) -> Result<Vec<(f64, f64)>, CaseError> {
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        for (k, (x, y)) in rows.iter().enumerate() {
+            let of = |part: usize| format!("{path}.{k}.{part}");
+            let x = self.number(&of(0), x, Range::POSITIVE)?;
+            let y = self.number(&of(1), y, allowed)?;
+            if points.last().is_some_and(|last| x <= last.0) {
+                let error = self.error(&of(0), format!("the {what} do not rise"));
+                return Err(error.with_help("write the lowest first"));
+            }
+            points.push((x, y));
+        }
+        Ok(points)
     }
 }
 

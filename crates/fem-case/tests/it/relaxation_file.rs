@@ -124,6 +124,16 @@ fn faults_of_files_and_temperatures_have_one_answer() {
             "shift needs reference_temperature",
         ),
         (SERIES.replace("to = 100", "to = 0.001"), vec![], "the band ends below its beginning"),
+        (
+            SERIES.replace("to = 100", "to = 100, loss_uncertainty = [[1, 2]]"),
+            vec![],
+            "loss_uncertainty is 2.0",
+        ),
+        (
+            SERIES.replace("to = 100", "to = 100, loss_uncertainty = [[1, 0.1], [1, 0.2]]"),
+            vec![],
+            "the frequencies do not rise",
+        ),
     ] {
         let error = parse(&series, &overrides).expect_err(&series).to_string();
         assert!(error.contains(expected), "{series}{overrides:?}\n{error}\nlacks {expected}");

@@ -7,7 +7,7 @@
 //! u_y^2 = \sum_k \left[\tfrac12 y(x_k+u_k) - \tfrac12 y(x_k-u_k)\right]^2 .
 //! ```
 //!
-//! What may lie outside the measured band of a relaxation is one more input (`relaxation_band`).
+//! The loss within the measured band of a relaxation, and what may lie outside, are two more inputs (`relaxation_band`).
 //!
 //! A material of both bodies is one input. The changes are those of the case's contact law, or of Hertz' or Ting's impact
 //! between half-spaces, or of the elastic–plastic impact of a body that flows, relative to it; that of the restitution is
@@ -18,7 +18,7 @@ use fem_case::{Body, Case, ModelChoice, Scene, Switch};
 use fem_collision::Collision;
 use fem_laws::{HertzImpact, Impact, ImpactQuantities};
 
-use super::relaxation_band::with_tail;
+use super::relaxation_band::variants;
 use super::summary::Quantities;
 use crate::effects::{PartnerWaves, SimplifiedScene};
 use crate::estimate::Estimate;
@@ -51,9 +51,10 @@ pub(super) fn input_uncertainty(
     let mut changes: Vec<Vec<f64>> = inputs.iter().map(change).collect();
     let is_one = bodies[0].material() == bodies[1].material();
     for side in 0..if is_one { 1 } else { 2 } {
-        let Some(other) = with_tail(&case, side, own.contact_time) else { continue };
-        let change = from_own(&other).unwrap_or_else(|| vec![f64::NAN; 6]);
-        changes.push(change.into_iter().map(|change| change / 3f64.sqrt()).collect());
+        for (other, share) in variants(&case, side, own.contact_time) {
+            let change = from_own(&other).unwrap_or_else(|| vec![f64::NAN; 6]);
+            changes.push(change.into_iter().map(|change| share * change).collect());
+        }
     }
     if changes.is_empty() {
         return None;

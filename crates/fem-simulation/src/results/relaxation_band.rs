@@ -6,6 +6,9 @@
 //! them have the root mean square distance |Δ|/√3 from the first, which is the series of the case (JCGM 100:2008, 4.3.7); that is
 //! its uncertainty by what is not measured.
 //!
+//! Within the band the scatter of the moduli makes the loss uncertain: the restitution is computed for a loss smaller by its standard
+//! uncertainty at the frequency of the contact.
+//!
 //! Faster terms add to the instantaneous modulus; slower ones are part of the equilibrium modulus.
 
 use std::f64::consts::TAU;
@@ -21,6 +24,8 @@ const REACH: f64 = 10.0;
 const MAX_TERMS: usize = 16;
 /// A frequency that instruments have, Hz.
 const INSTRUMENT_FREQUENCY: f64 = 10.0;
+/// Share by which the modulus of a material may differ from that of its data.
+const MAX_DIFFERENCE: f64 = 0.05;
 /// Measured decades that say how a series may go on.
 const LAST_DECADES: i32 = 2;
 
@@ -61,9 +66,50 @@ impl Tail {
     }
 }
 
+/// Returns the cases by whose change the relaxation of a body is uncertain, with the standard uncertainty over that change.
+pub(super) fn variants(case: &Case, side: usize, contact_time: f64) -> Vec<(Case, f64)> {
+    let tail = with_tail(case, side, contact_time).map(|case| (case, 3f64.sqrt().recip()));
+    tail.into_iter()
+        .chain(with_less_loss(case, side, contact_time).map(|case| (case, 1.0)))
+        .collect()
+}
+
+/// Returns the case with the weights, and so the loss, of a body's material smaller by their uncertainty; `None` if it is 0.
+fn with_less_loss(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
+    let body = &case.scene().bodies()[side];
+    let (series, measured) = (body.material()?.relaxation()?, body.measured()?);
+    let uncertainty = uncertainty_at(&measured.loss_uncertainty, 0.5 / contact_time)?;
+    let factor = 10f64.powf(log10_shift(measured));
+    let share = 1.0 - uncertainty;
+    let terms = series.terms().iter().map(|term| {
+        TermTable::with_relaxation_time(share * term.weight, term.relaxation_time / factor)
+    });
+    let terms: Vec<TermTable> = terms.collect();
+    let name = case.file().body.get(side)?.material.clone()?;
+    let edited = case.edited(|file| {
+        let table = file.material.get_mut(&name).and_then(|table| table.relaxation.as_mut());
+        if let Some(relaxation) = table {
+            relaxation.terms = terms;
+        }
+    });
+    edited.ok()
+}
+
+/// Returns the value at a frequency of a table over frequencies: linear in the logarithm, constant beyond its ends; `None` without rows.
+fn uncertainty_at(rows: &[(f64, f64)], frequency: f64) -> Option<f64> {
+    let k = rows.partition_point(|row| row.0 < frequency);
+    match (k.checked_sub(1).and_then(|k| rows.get(k)), rows.get(k)) {
+        (Some(below), Some(above)) => {
+            let share = (frequency / below.0).ln() / (above.0 / below.0).ln();
+            Some(below.1 + share * (above.1 - below.1))
+        }
+        (below, above) => Some(below.or(above)?.1),
+    }
+}
+
 /// Returns the case with the series of a body's material going on beyond the measured band; `None` if the band covers the
 /// contact.
-pub(super) fn with_tail(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
+fn with_tail(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
     let body = &case.scene().bodies()[side];
     let (material, measured) = (body.material()?, body.measured()?);
     let tail = Tail::of(material, measured.frequencies?, frequencies_of(contact_time))?;
@@ -106,16 +152,34 @@ fn log10_shift(measured: &MeasuredBand) -> f64 {
     shift().unwrap_or(0.0)
 }
 
-/// Returns one warning per material whose moduli are not measured at all frequencies of the contact.
+/// Returns the warnings about materials whose moduli are not measured at all frequencies of the contact, or are not those of the data.
 pub(super) fn band_warnings(scene: &Scene, contact_time: f64) -> Vec<String> {
     let contact = frequencies_of(contact_time);
     let mut warnings: Vec<String> = scene
         .bodies()
         .iter()
-        .filter_map(|body| band_warning(body, contact, contact_time))
+        .flat_map(|body| [band_warning(body, contact, contact_time), modulus_warning(body)])
+        .flatten()
         .collect();
     warnings.dedup();
     warnings
+}
+
+fn modulus_warning(body: &Body) -> Option<String> {
+    let (measured, moduli) = (body.measured()?, body.material()?.instantaneous());
+    let (key, of_data, own) = match (measured.youngs_modulus, measured.shear_modulus) {
+        (Some(young), _) => ("youngs_modulus", young, moduli.youngs_modulus()),
+        (None, shear) => ("shear_modulus", shear?, moduli.shear_modulus()),
+    };
+    ((own / of_data - 1.0).abs() > MAX_DIFFERENCE).then(|| {
+        format!(
+            "the {key} of {} is {}, but that of the data of its relaxation {}; set {key} of the material to that, unless the material is \
+             another one",
+            body.name(),
+            show(own, "Pa"),
+            show(of_data, "Pa")
+        )
+    })
 }
 
 fn band_warning(body: &Body, [lowest, highest]: [f64; 2], contact_time: f64) -> Option<String> {

@@ -1,5 +1,6 @@
 //! The relaxation of a material from a table of moduli, with the checks of the data.
 
+use std::collections::BTreeMap;
 use std::f64::consts::{LN_10, TAU};
 
 use fem_case::engineering::show;
@@ -133,6 +134,30 @@ impl FoundRelaxation {
     /// Returns the smallest and the largest measured frequency at the reference temperature, Hz; of a relaxation test 1/(2πt).
     pub fn band(&self) -> [f64; 2] {
         band(self.table.kind, &self.points)
+    }
+
+    /// Returns frequencies at the reference temperature (Hz), one per measured decade, with the standard uncertainty of the loss modulus over
+    /// its value: by the scatter of the moduli, and by the uncertainty of the shift of each point. Values are root mean squares over a decade.
+    pub fn loss_uncertainty(&self) -> Vec<(f64, f64)> {
+        let mut shifts = vec![0.0; self.points.len()];
+        for block in self.superposition.iter().flat_map(|found| &found.blocks) {
+            for k in &block.points {
+                shifts[*k] = block.shift_uncertainty;
+            }
+        }
+        let mut decades: BTreeMap<i32, Vec<[f64; 2]>> = BTreeMap::new();
+        let points = self.points.iter().zip(&self.series.loss_uncertainties).zip(shifts);
+        for ((point, by_scatter), shift) in points {
+            let [at, _] = band(self.table.kind, std::slice::from_ref(point));
+            let both = by_scatter.hypot(self.series.loss_slope(TAU * at) * shift);
+            // A loss that the data do not determine is as uncertain as it is large.
+            let both = if both.is_finite() { both.min(1.0) } else { 1.0 };
+            decades.entry(at.log10().floor() as i32).or_default().push([at.ln(), both * both]);
+        }
+        let mean = |rows: &[[f64; 2]], part: usize| {
+            rows.iter().map(|row| row[part]).sum::<f64>() / rows.len() as f64
+        };
+        decades.values().map(|rows| (mean(rows, 0).exp(), mean(rows, 1).sqrt())).collect()
     }
 
     /// Returns the weights G_k/G_0 and the relaxation times (s).

@@ -64,6 +64,8 @@ pub struct FittedSeries {
     pub terms: Vec<FittedTerm>,
     /// Standard uncertainty of the sum of all moduli, Pa.
     pub instantaneous_uncertainty: f64,
+    /// Standard uncertainty of the loss modulus at each point over its value, without that of shifts.
+    pub loss_uncertainties: Vec<f64>,
     /// Root mean square of the relative residuals.
     pub rms: f64,
 }
@@ -72,6 +74,19 @@ impl FittedSeries {
     /// Returns the sum of all moduli, Pa.
     pub fn instantaneous_modulus(&self) -> f64 {
         self.equilibrium_modulus + self.terms.iter().map(|term| term.modulus).sum::<f64>()
+    }
+
+    /// Returns d ln M″/d ln ω of an oscillation of an angular frequency, rad/s.
+    pub(super) fn loss_slope(&self, angular_frequency: f64) -> f64 {
+        let of = |part: fn(TestKind, f64, f64) -> [f64; 2]| -> f64 {
+            let terms = self.terms.iter();
+            let loss = |term: &FittedTerm| {
+                term.modulus
+                    * part(TestKind::Oscillation, angular_frequency, term.relaxation_time)[1]
+            };
+            terms.map(loss).sum()
+        };
+        of(slope) / of(element)
     }
 
     /// Returns storage and loss modulus at an angular frequency (rad/s), or relaxation modulus and 0 at a time (s), Pa.
@@ -351,6 +366,28 @@ pub fn fit_series(kind: TestKind, points: &[ModulusPoint], density: Option<f64>)
 }
 
 impl Observations {
+    /// Returns the relative standard uncertainties of the loss modulus at all points, by the covariance of the moduli, and of the times if
+    /// it has these.
+    fn loss_uncertainties(&self, best: &Candidate, covariance: &DMatrix<f64>) -> Vec<f64> {
+        let n = best.times.len();
+        let of_row = |row: &Row| {
+            let at = if self.kind == TestKind::Oscillation { row.at } else { row.at.recip() };
+            let mut slopes = DVector::zeros(covariance.nrows());
+            let mut loss = 0.0;
+            for k in 0..n {
+                let time = best.times[k];
+                slopes[k] = element(TestKind::Oscillation, at, time)[1];
+                loss += best.moduli[k] * slopes[k];
+                if slopes.len() > n + 1 {
+                    slopes[n + 1 + k] = best.moduli[k] * slope(TestKind::Oscillation, at, time)[1];
+                }
+            }
+            let variance = (slopes.transpose() * covariance * slopes)[0];
+            variance.max(0.0).sqrt() / loss
+        };
+        self.rows.iter().filter(|row| row.part == 0).map(of_row).collect()
+    }
+
     fn series(&self, best: &Candidate) -> FittedSeries {
         let n = best.times.len();
         // The data determine the times only so far as well, wherever the grid is.
@@ -368,8 +405,11 @@ impl Observations {
             modulus: best.moduli[k],
             uncertainty: uncertainty(k),
         });
+        let loss_uncertainties =
+            covariance.as_ref().map_or_else(Vec::new, |it| self.loss_uncertainties(best, it));
         let misfit = self.linear(&best.times).misfit(&best.moduli);
         FittedSeries {
+            loss_uncertainties,
             equilibrium_modulus: best.moduli[n],
             equilibrium_uncertainty: uncertainty(n),
             terms: terms.collect(),

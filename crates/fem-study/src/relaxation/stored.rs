@@ -125,6 +125,7 @@ impl FoundRelaxation {
             "equilibrium_modulus_pa": series.equilibrium_modulus,
             "equilibrium_modulus_uncertainty_pa": series.equilibrium_uncertainty,
             "terms": terms.collect::<Value>(),
+            "loss_uncertainty": self.loss_uncertainty(),
             "rms": series.rms,
             "scatter": self.scatter,
             "shift_law": self.shift_law().map(|law| match law {
@@ -150,7 +151,13 @@ impl FoundRelaxation {
             Unit::fitting(whole, "Pa").with_digits(6).show(whole),
         );
         text += &format!("acts_on = \"{}\"\n", self.acts_on().word());
-        text += &format!("band = {{ from = {from:?}, to = {to:?} }} # Hz\n");
+        let rows = self.loss_uncertainty();
+        let rows = rows.iter().map(|(frequency, loss)| format!("[{frequency:.4e}, {loss:.5}]"));
+        let rows = rows.collect::<Vec<_>>().join(", ");
+        text += &format!(
+            "band = {{ from = {from:?}, to = {to:?}, loss_uncertainty = [{rows}] }} # Hz\n"
+        );
+        text += &format!("{} = {whole:.6e} # Pa, of the fastest contacts\n", self.modulus().key());
         if let Some(temperature) = self.temperature {
             let celsius = temperature - ZERO_CELSIUS;
             text += &format!("reference_temperature = {temperature:.2} # K, {celsius:.1} degC\n");

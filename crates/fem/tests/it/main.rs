@@ -11,6 +11,7 @@ mod calibrate;
 mod condensed;
 mod contact_method;
 mod contact_profile;
+mod data_sheets;
 mod effects;
 mod elastic_null;
 mod error_bars;
