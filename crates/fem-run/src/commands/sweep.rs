@@ -80,7 +80,6 @@ struct Work<'a> {
     out: &'a Path,
     origin: &'a Origin,
     pool: &'a ThreadPool,
-    interrupt: Interrupt,
     /// Cost estimate of the members that are left, made when it is first needed.
     expected: OnceCell<SweepCost>,
 }
@@ -89,7 +88,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.status {
         return standard_output::print(&status(&arguments.sweep)?);
     }
-    let interrupt = Interrupt::listen();
     let sweep = load(&arguments.sweep, &arguments.set)?;
     let origin = Origin::of_digest("sweep", digest_of(sweep.texts().map(str::as_bytes)))
         .with_inputs(&arguments.set)
@@ -105,7 +103,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         out: &out,
         origin: &origin,
         pool: &pool,
-        interrupt,
         expected: OnceCell::new(),
     };
     match arguments.shard {
@@ -164,6 +161,8 @@ impl Work<'_> {
             }
             None => None,
         };
+        // Until here a signal ends the process at once: nothing is kept.
+        let interrupt = Interrupt::listen();
         let mark = self.manifest(members);
         folder.claim(|file| mark.write(file))?;
         if let Some(batch) = batch {
@@ -172,7 +171,7 @@ impl Work<'_> {
         let mut ran = Ok(());
         if !arguments.merge {
             self.announce(&checked, n_own);
-            ran = run_members(&self.job(&folder, members, shard), left);
+            ran = run_members(&self.job(&folder, members, shard, &interrupt), left);
         }
         let (numbers, choice) = (&numbers, &choice);
         let mut collector = Collector { sweep, members, folder: &mut folder, numbers, choice };
@@ -189,7 +188,7 @@ impl Work<'_> {
                 "they are in the table; the same command without --merge computes the others";
             return Err(Failure::failed(message).with_help(help));
         }
-        conclude(&collected, n_own, self.interrupt.is_requested())
+        conclude(&collected, n_own, interrupt.is_requested())
     }
 
     /// Computes a shard and reads no other member.
@@ -206,9 +205,10 @@ impl Work<'_> {
         if arguments.dry_run {
             return Ok(());
         }
+        let interrupt = Interrupt::listen();
         let mark = self.manifest(&checked.members);
         folder.join(|file| mark.write(file))?;
-        run_members(&self.job(&folder, &checked.members, shard), &checked.left)?;
+        run_members(&self.job(&folder, &checked.members, shard, &interrupt), &checked.left)?;
         folder.refresh();
         let mut collected = SweepOutcome::default();
         let identities = checked.members.iter().map(Member::identity);
@@ -219,7 +219,7 @@ impl Work<'_> {
             }
         }
         standard_output::warn(warning_lines(&collected.warnings, sweep, reported(&checked)));
-        conclude(&collected, places.len(), self.interrupt.is_requested())
+        conclude(&collected, places.len(), interrupt.is_requested())
     }
 
     fn hand_over(
@@ -258,9 +258,10 @@ impl Work<'_> {
         folder: &'j SweepFolder,
         members: &'j [Member],
         shard: Shard,
+        interrupt: &Interrupt,
     ) -> SweepJob<'j> {
         let (sweep, pool, quiet) = (self.sweep, self.pool, self.arguments.quiet);
-        SweepJob { sweep, members, folder, shard, pool, quiet, interrupt: self.interrupt.clone() }
+        SweepJob { sweep, members, folder, shard, pool, quiet, interrupt: interrupt.clone() }
     }
 }
 

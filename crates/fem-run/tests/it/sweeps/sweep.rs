@@ -338,6 +338,25 @@ fn interrupted_sweep_keeps_its_members_and_explains_how_to_resume() {
     assert_eq!(place.list("out/members").len(), n_done(&place, "out"), "nothing half-done");
 }
 
+/// While a million members are checked, which takes seconds, nothing is written that an orderly end could keep.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_a_check_at_once() {
+    use nix::sys::signal::{Signal, kill};
+    use nix::unistd::Pid;
+    use std::os::unix::process::ExitStatusExt;
+    use std::time::Duration;
+    let many = "case = 'case.toml'\nmax_members = 1000000\n[vary]\nbody.0.approach_speed = { from = 0.1, to = 1.0, n = 1000 }\n\
+                gap = { from = 1e-6, to = 1e-5, n = 1000 }\n";
+    let place = place(many);
+    let mut child = place.command("sweep sweep.toml").spawn().unwrap();
+    std::thread::sleep(Duration::from_secs(1));
+    assert!(child.try_wait().unwrap().is_none());
+    kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGINT).unwrap();
+    assert_eq!(child.wait().unwrap().signal(), Some(Signal::SIGINT as i32));
+    assert!(!place.path("runs").exists());
+}
+
 #[test]
 fn failing_sweep_member_is_named_and_the_others_are_run() {
     // Soft and fast: the sphere folds where it is pressed flat.
