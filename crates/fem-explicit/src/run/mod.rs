@@ -77,6 +77,7 @@ pub fn collide(
 /// #     contact_element_size: 0.2e-3,
 /// #     refined_radius: 0.6e-3,
 /// #     growth: None,
+/// #     edge: None,
 /// # };
 /// # let mesh = disc.build()?.on_side(Side::Below);
 /// # let settings = Settings {

@@ -181,6 +181,6 @@ impl RunState {
             && self.last_valid.fits(model, state, &self.request)
             && self.stability.fits(model, state)
             && self.unloaded.is_some() == model.bodies().iter().any(Body::flows)
-            && self.unloaded.as_ref().is_none_or(|unloaded| unloaded.fits(model))
+            && self.unloaded.as_ref().is_none_or(|unloaded| unloaded.fits(state))
     }
 }

@@ -44,14 +44,12 @@ impl UnloadedState {
         }
     }
 
-    /// Returns whether it can belong to a run of a model.
-    pub fn fits(&self, model: &ExplicitBodies) -> bool {
+    /// Returns whether it can belong to a run in this state.
+    pub fn fits(&self, state: &State) -> bool {
         let is_empty = self.sums.iter().all(Vec::is_empty);
-        let has_sizes = || {
-            let bodies = self.sums.iter().zip(model.bodies());
-            bodies.into_iter().all(|(sums, body)| sums.len() == body.n_nodes())
-        };
-        self.weight >= 0.0 && (is_empty || has_sizes())
+        let mut bodies = self.sums.iter().zip(&state.bodies);
+        let has_sizes = bodies.all(|(sums, body)| sums.len() == body.displacement.len());
+        self.weight >= 0.0 && (is_empty || has_sizes)
     }
 
     /// Returns the mean displacement of the nodes of a body; `None` if there was no instant after the contact.

@@ -181,7 +181,7 @@ fn a_fall_onto_a_dent_is_resumed() {
     let simulation = simulation(DENTED_BALL, &["gravity.spot='same'"]);
     let run = Identity::of(simulation.case()).unwrap();
     let whole = simulation.run(&mut ());
-    for state in states(&simulation, &[0.2, 0.6, 0.8]) {
+    for state in states(&simulation, &[0.2, 0.45, 0.6, 0.8, 0.95]) {
         let state = restart_state_of(&checkpoint(&run, &state), &run).unwrap();
         let mut resumed = simulation.resume(state).unwrap();
         while resumed.advance(&mut ()) {}
