@@ -16,7 +16,8 @@ import sys
 RADIUS = 5.0
 STEEL = dict(modulus=210e3, nu=0.3, density=7.8e-3, strength=1000.0)
 ALUMINIUM = dict(modulus=70e3, nu=0.33, density=2.7e-3, strength=100.0)
-# Material, speed in mm/ms, duration in ms: the contact and a period or two of the lowest vibration.
+# Material, speed in mm/ms, duration in ms: the contact and a period or two of the lowest vibration. The material of a
+# second ball in place of the wall, for balls.py.
 SCENES = {
     "steel_10": (STEEL, 0.35, 0.037),
     "steel_100": (STEEL, 3.5, 0.025),
@@ -24,6 +25,8 @@ SCENES = {
     "aluminium_10": (ALUMINIUM, 0.015, 0.071),
     "aluminium_100": (ALUMINIUM, 0.15, 0.046),
     "aluminium_1000": (ALUMINIUM, 1.5, 0.034),
+    "pair_100": (ALUMINIUM, 0.23, 0.052, STEEL),
+    "pair_1000": (ALUMINIUM, 2.3, 0.04, STEEL),
 }
 WEDGE = math.radians(2.0)
 # Of the contact radius; nodes on the axis would have no wedge.
@@ -36,9 +39,10 @@ ALPHA = -0.05
 
 
 def contact_radius(scene):
-    material, speed, _ = SCENES[scene]
-    energy = 2 / 3 * math.pi * RADIUS**3 * material["density"] * speed**2
-    return (4 * RADIUS * energy / (3 * math.pi * material["strength"])) ** 0.25
+    material, speed, _, *other = SCENES[scene]
+    density = material["density"] / (1 + sum(material["density"] / one["density"] for one in other))
+    energy = 2 / 3 * math.pi * RADIUS**3 * density * speed**2
+    return (4 * RADIUS / (1 + len(other)) * energy / (3 * math.pi * material["strength"])) ** 0.25
 
 
 CORNERS = [(0, 0), (0, 1), (1, 1), (1, 0)]

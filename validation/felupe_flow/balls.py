@@ -9,9 +9,10 @@ points. Written here and nowhere else are
   trial strain ½ ln(F C_p⁻¹ Fᵀ) has its deviator shortened to the yield surface, which is exact for a step in one
   direction; nothing hardens;
 - the steps: leapfrog with a diagonal mass and without any damping, STEP times h/(√6 c) of the smallest edge;
-- the wall: springs on the undeformed area at four Gauss points of each edge, PENALTY E*/h.
+- the wall: springs on the undeformed area at four Gauss points of each edge, PENALTY E*/h. A second ball is there in
+  its place, in its own coordinates; springs act along the normal of its nodes' polygon.
 
-It prints the numbers of the claim, from the impulse of the wall and the mean displacement. `pip install felupe==11.3.0`
+It prints the numbers of the claim, from the impulse and the mean displacement. `pip install felupe==11.3.0`
 has all that is needed.
 """
 
@@ -34,8 +35,8 @@ EDGES = [(0, 4, 1), (1, 5, 2), (2, 6, 3), (3, 7, 0)]
 class Ball:
     """Coordinates are (y, r), as FElupe has them; fields at Gauss points have the shape (points, cells)."""
 
-    def __init__(self, scene, cells, penalty):
-        self.material, self.speed, self.duration = SCENES[scene]
+    def __init__(self, scene, material, cells, penalty):
+        self.material = material
         modulus, nu = self.material["modulus"], self.material["nu"]
         self.shear, self.bulk = modulus / (2 * (1 + nu)), modulus / (3 * (1 - 2 * nu))
         nodes, elements = mesh(scene, cells, 0.0, PLACES)
@@ -75,6 +76,8 @@ class Ball:
         y, r = self.points[edges].transpose(2, 0, 1)
         near = outside[edges].all(1) & (r.max(1) < 1.8 * contact) & (y.max(1) < RADIUS)
         self.edges = edges[near]
+        rind = np.unique(self.edges)
+        self.rind = rind[np.argsort(self.points[rind, 1])]
         xi, weights = np.polynomial.legendre.leggauss(4)
         self.lagrange = np.array([xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2])
         slopes = np.array([xi - 0.5, -2 * xi, xi + 0.5])
@@ -120,6 +123,22 @@ class Ball:
         np.add.at(forces[:, 0], self.edges, np.einsum("jq,eq->ej", self.lagrange, springs))
         return springs.sum()
 
+    def press_on(self, other, own, others):
+        """Adds the forces between two balls, each in its own coordinates, and returns their sum along the axis."""
+        (place, forces), (rind, reactions) = own, others
+        y, r = np.einsum("jq,ejc->ceq", self.lagrange, (self.points + place)[self.edges])
+        ends = (other.points + rind)[other.rind]
+        k = np.clip(np.searchsorted(ends[:, 1], r) - 1, 0, len(ends) - 2)
+        sides = np.diff(ends, axis=0)[k]
+        slope, share = sides[..., 0] / sides[..., 1], (r - ends[k, 1]) / sides[..., 1]
+        gaps = y + ends[k, 0] + share * sides[..., 0]
+        springs = self.stiffness * np.maximum(-gaps, 0.0) / (1 + slope**2)
+        for axis, (here, there) in enumerate([(springs, springs), (springs * slope, -springs * slope)]):
+            np.add.at(forces[:, axis], self.edges, np.einsum("jq,eq->ej", self.lagrange, here))
+            np.add.at(reactions[:, axis], other.rind[k], (1 - share) * there)
+            np.add.at(reactions[:, axis], other.rind[k + 1], share * there)
+        return springs.sum()
+
 
 def right_handed(cells, points):
     y, r = points[cells[:, :4]].transpose(2, 0, 1)
@@ -158,35 +177,42 @@ def turned(values, directions):
     return np.array([mean + half * cosine, mean - half * cosine, half * sine, values[2]])
 
 
-def collide(scene, cells, penalty=20.0, step=0.5, kirchhoff=False):
-    ball = Ball(scene, cells, penalty)
+def step_of(ball, share):
     corners = ball.points[ball.cells[:, :4]]
     shortest = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).min()
-    sound = math.sqrt((ball.bulk + 4 * ball.shear / 3) / ball.material["density"])
-    steps = math.ceil(ball.duration / (step * shortest / (math.sqrt(6) * sound)))
-    dt, mass = ball.duration / steps, ball.mass.sum()
-    u, v = np.zeros_like(ball.points), np.zeros_like(ball.points)
-    v[:, 0] = -ball.speed
+    return share * shortest / math.sqrt(6 * (ball.bulk + 4 * ball.shear / 3) / ball.material["density"])
+
+
+def collide(scene, cells, penalty=20.0, step=0.5, kirchhoff=False):
+    material, speed, duration, *others = SCENES[scene]
+    balls = [Ball(scene, one, cells, penalty) for one in (material, *others)]
+    steps = math.ceil(duration / min(step_of(ball, step) for ball in balls))
+    dt, masses = duration / steps, [ball.mass.sum() for ball in balls]
+    mass = 1 / sum(1 / one for one in masses)
+    moving = [(np.zeros_like(ball.points), np.zeros_like(ball.points)) for ball in balls]
+    moving[0][1][:, 0] = -speed
     impulse, travel, last, peak, dents = 0.0, 0.0, 0, 0.0, []
     for k in range(steps):
-        forces = ball.stress(u, kirchhoff)
-        force = ball.press(u, forces)
-        forces[ball.axis, 1] = 0.0
-        v += (dt if k > 0 else 0.5 * dt) * forces / ball.mass[:, None]
-        u += dt * v
+        forces = [ball.stress(u, kirchhoff) for ball, (u, _) in zip(balls, moving)]
+        places = [(u, force) for (u, _), force in zip(moving, forces)]
+        force = balls[0].press_on(balls[1], *places) if others else balls[0].press(*places[0])
+        for ball, (u, v), inner in zip(balls, moving, forces):
+            inner[ball.axis, 1] = 0.0
+            v += (dt if k > 0 else 0.5 * dt) * inner / ball.mass[:, None]
+            u += dt * v
         impulse += dt * force
         peak = max(peak, force)
-        centre = -(ball.mass @ u[:, 0]) / mass
-        travel = max(travel, centre)
+        centres = [-(ball.mass @ u[:, 0]) / one for ball, (u, _), one in zip(balls, moving, masses)]
+        travel = max(travel, sum(centres))
         if force > 0:
             last, dents = k, []
         else:
-            dents.append(u[ball.pole, 0] + centre)
+            dents.append(moving[0][0][balls[0].pole, 0] + centres[0])
     return {
-        "restitution": impulse / (mass * ball.speed) - 1,
+        "restitution": impulse / (mass * speed) - 1,
         "contact time us": 1e3 * last * dt,
         "travel um": 1e3 * travel,
-        "plastic work": ball.work / (0.5 * mass * ball.speed**2),
+        "plastic work": sum(ball.work for ball in balls) / (0.5 * mass * speed**2),
         "dent um": 1e3 * sum(dents) / len(dents),
         "peak force N": peak,
     }

@@ -26,6 +26,7 @@ fn inputs(micrometres: u32) -> Result<[BodyInput; 2], Error> {
             contact_element_size: 1e-6 * f64::from(micrometres),
             refined_radius: 1.2 * CONTACT_RADIUS,
             growth: None,
+            edge: None,
         };
         let mesh = disc.build()?.on_side(side);
         Ok(BodyInput::Sphere { mesh, material: glass.clone() })

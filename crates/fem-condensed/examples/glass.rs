@@ -22,6 +22,7 @@ fn mesh(diameter: f64, size: f64, side: Side) -> Result<SphereMesh, MeshError> {
         contact_element_size: size,
         refined_radius: 1.2 * CONTACT_RADIUS,
         growth: None,
+        edge: None,
     };
     Ok(disc.build()?.on_side(side))
 }

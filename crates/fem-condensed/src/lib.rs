@@ -42,6 +42,7 @@
 //!     contact_element_size: 40e-6,
 //!     refined_radius: 0.3e-3,
 //!     growth: None,
+//!     edge: None,
 //! };
 //! let mesh = disc.build()?.on_side(Side::Above);
 //! let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material: glass }];

@@ -19,6 +19,7 @@ fn forces(bencher: Bencher<'_, '_>, micrometres: u32) {
             contact_element_size: 1e-6 * f64::from(micrometres),
             refined_radius: 0.27e-3,
             growth: None,
+            edge: None,
         };
         disc.build().expect("a mesh").on_side(side)
     };

@@ -256,10 +256,16 @@ mod tests {
     use super::*;
 
     fn sphere(radius: f64, size: f64, side: Side) -> SphereMesh {
-        HalfDisc { radius, contact_element_size: size, refined_radius: 0.4, growth: None }
-            .build()
-            .unwrap()
-            .on_side(side)
+        HalfDisc {
+            radius,
+            contact_element_size: size,
+            refined_radius: 0.4,
+            growth: None,
+            edge: None,
+        }
+        .build()
+        .unwrap()
+        .on_side(side)
     }
 
     #[test]

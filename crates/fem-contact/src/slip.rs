@@ -237,10 +237,16 @@ mod tests {
 
     fn sphere(side: Side) -> SphereMesh {
         let radius = RADII[usize::from(side == Side::Above)];
-        HalfDisc { radius, contact_element_size: SIZE, refined_radius: 0.4, growth: None }
-            .build()
-            .unwrap()
-            .on_side(side)
+        HalfDisc {
+            radius,
+            contact_element_size: SIZE,
+            refined_radius: 0.4,
+            growth: None,
+            edge: None,
+        }
+        .build()
+        .unwrap()
+        .on_side(side)
     }
 
     /// Returns the largest gap within r = 0.3, with slip and without, of two surfaces that lie on one curved

@@ -61,6 +61,7 @@ fn main() -> Result<(), Error> {
         contact_element_size: 28e-6,
         refined_radius: 0.27e-3,
         growth: None,
+        edge: None,
     };
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244)?;
     let relaxing = |weights: &[f64]| {

@@ -39,6 +39,7 @@ fn main() -> Result<(), Error> {
             contact_element_size: radius / elements_per_radius,
             refined_radius: 1.5 * radius,
             growth: None,
+            edge: None,
         };
         let mesh = disc.build()?.on_side(Side::Above);
         let n_elements = mesh.quads().len();

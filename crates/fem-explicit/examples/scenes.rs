@@ -39,6 +39,7 @@ fn input(material: Material, side: Side) -> Result<BodyInput, Error> {
         contact_element_size: 0.15e-3,
         refined_radius: 0.5e-3,
         growth: None,
+        edge: None,
     };
     Ok(BodyInput::Sphere { mesh: disc.build()?.on_side(side), material })
 }

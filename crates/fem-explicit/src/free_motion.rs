@@ -30,6 +30,7 @@ use crate::stress::{Collapse, FiniteStrainChoice};
 ///     contact_element_size: 1e-3,
 ///     refined_radius: 5e-3,
 ///     growth: None,
+///     edge: None,
 /// };
 /// let mut sphere = FreeMotion::new(disc.build()?, &glass, 0.9)?;
 /// // It vibrates, and its energy is conserved.

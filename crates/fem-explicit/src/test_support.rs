@@ -40,7 +40,7 @@ pub(crate) fn unit_sphere(n: f64, side: Side) -> SphereMesh {
 }
 
 pub(crate) fn sphere(size: f64, refined_radius: f64, side: Side) -> SphereMesh {
-    HalfDisc { radius: 1.0, contact_element_size: size, refined_radius, growth: None }
+    HalfDisc { radius: 1.0, contact_element_size: size, refined_radius, growth: None, edge: None }
         .build()
         .unwrap()
         .on_side(side)

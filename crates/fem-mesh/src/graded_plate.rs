@@ -11,14 +11,14 @@
 //! quarter plane as that of a half-space (`quarter_disc`) has cells that grow from the contact to the thickness and keep their
 //! angles:
 //!
-//! * a block of m × m cells of equal size at the contact, its free corner drawn in;
-//! * rings of 2 m cells, radii in geometric progression, to |ζ| = 1, where the corner of axis and far face is;
+//! * a block of m × m cells of equal size at the contact, its free corner drawn in; with an `edge`, of more and uneven columns (`contact_edge`);
+//! * rings of as many cells as the outline of the block has, radii in geometric progression, to |ζ| = 1, where the corner of axis and far face is;
 //! * rings beyond, of constant width once they are as wide as the waves in the plate allow, which end in the straight rim.
 
 use std::f64::consts::{FRAC_PI_2, LN_2};
 
 use crate::error::MeshError;
-use crate::rings::{Ring, Station, block_point, default_growth, fade, quad};
+use crate::rings::{Block, Ring, Station, default_growth, fade, quad};
 use crate::sphere_mesh::SphereMesh;
 
 /// Least radius of a plate over its thickness: nearer to the axis the cells at the rim would be skewed.
@@ -42,6 +42,7 @@ const WIDENING: f64 = 1.15;
 ///     refined_radius: 0.3e-3,
 ///     growth: None,
 ///     ring_width: 2e-3,
+///     edge: None,
 /// };
 /// assert!(plate.n_elements()? < 3000);
 /// assert_eq!(plate.build()?.far_boundary().len(), 21);
@@ -66,12 +67,14 @@ pub struct GradedPlate {
     pub growth: Option<f64>,
     /// Largest width of a ring.
     pub ring_width: f64,
+    /// Expected radius of a contact whose pressure is uniform up to its edge, for which the columns of the block are more, and
+    /// narrow at the edge; `None` for square elements.
+    pub edge: Option<f64>,
 }
 
 /// Numbers of cells, and the rings.
 struct Layout {
-    /// Cells along the block's edge.
-    n_block: usize,
+    block: Block,
     /// Half-width of the block in ζ.
     near: f64,
     /// Number of rings up to |ζ| = 1.
@@ -87,8 +90,8 @@ impl GradedPlate {
     /// The errors are those of [`GradedPlate::build`].
     pub fn n_elements(&self) -> Result<usize, MeshError> {
         let layout = self.layout()?;
-        let m = layout.n_block;
-        Ok(m * m + 2 * m * (layout.n_inner + layout.outer.len()))
+        let n_rings = layout.n_inner + layout.outer.len();
+        Ok(layout.block.n_cells() + layout.block.around() * n_rings)
     }
 
     /// Makes the mesh, body in y ≥ 0, contact pole at the origin.
@@ -98,28 +101,21 @@ impl GradedPlate {
     /// growth outside of (1, 2], more elements than can be numbered.
     pub fn build(&self) -> Result<SphereMesh, MeshError> {
         let layout = self.layout()?;
-        let (m, n_inner) = (layout.n_block, layout.n_inner);
+        let (block, n_inner) = (layout.block, layout.n_inner);
+        let around = block.around();
         let n_rings = n_inner + layout.outer.len();
         let (mut nodes, mut quads) = (Vec::new(), Vec::new());
 
-        // Block: node (i, j), i along the axis, j along the struck face.
-        let side = m + 1;
-        for i in 0..side {
-            for j in 0..side {
-                let [x, y] = block_point(i as f64 / m as f64, j as f64 / m as f64);
-                nodes.push(self.place(arcsine([layout.near * x, layout.near * y])));
-            }
-        }
-        let block = |i: usize, j: usize| (i * side + j) as u32;
-        for i in 0..m {
-            for j in 0..m {
-                quads.push(quad(&block, i, j));
-            }
-        }
+        nodes.extend(block.nodes().map(|at| {
+            let [x, y] = block.place(at);
+            self.place(arcsine([layout.near * x, layout.near * y]))
+        }));
+        let block_node = |i: usize, j: usize| block.node([i, j]) as u32;
+        quads.extend(block.cells().map(|[i, j]| quad(&block_node, i, j)));
 
         // Rings; station k runs from the axis, or the far face, to the struck face.
         let first_ring = nodes.len();
-        let stations: Vec<Station> = (0..=2 * m).map(|k| Station::new(m, k)).collect();
+        let stations = Station::all(block);
         let length = -layout.near.ln();
         for ring in 1..=n_inner {
             let x = length * ring as f64 / n_inner as f64;
@@ -128,38 +124,36 @@ impl GradedPlate {
             nodes.extend(stations.iter().map(|station| self.place(arcsine(ring.point(station)))));
         }
         // |ζ| = 1 but for rounding.
-        nodes[first_ring + (n_inner - 1) * (2 * m + 1)] = [0.0, self.thickness];
+        nodes[first_ring + (n_inner - 1) * (around + 1)] = [0.0, self.thickness];
         for (k, &log_radius) in layout.outer.iter().enumerate() {
             let straight = (k + 1) as f64 / layout.outer.len() as f64;
-            let depth = |station: usize| FRAC_PI_2 * (1.0 - station as f64 / (2 * m) as f64);
-            nodes.extend((0..=2 * m).map(|station| {
-                let point = outer_point(log_radius, depth(station), straight);
-                self.place(point)
+            nodes.extend(stations.iter().map(|station| {
+                self.place(outer_point(log_radius, station.depth_angle(), straight))
             }));
         }
         let ring_node = |ring: usize, k: usize| match ring {
-            0 if k <= m => block(m, k),
-            0 => block(2 * m - k, m),
-            _ => (first_ring + (ring - 1) * (2 * m + 1) + k) as u32,
+            0 => block.node(block.outline(k)) as u32,
+            _ => (first_ring + (ring - 1) * (around + 1) + k) as u32,
         };
         for ring in 0..n_rings {
-            for k in 0..2 * m {
-                quads.push(quad(&ring_node, ring, k));
-            }
+            quads.extend((0..around).map(|k| quad(&ring_node, ring, k)));
         }
 
-        let axis = (0..=m).map(|i| block(i, 0)).chain((1..=n_inner).map(|ring| ring_node(ring, 0)));
-        let surface =
-            (0..=m).map(|j| block(0, j)).chain((1..=n_rings).map(|ring| ring_node(ring, 2 * m)));
+        let axis = (0..=block.rows)
+            .map(|i| block_node(i, 0))
+            .chain((1..=n_inner).map(|ring| ring_node(ring, 0)));
+        let surface = (0..=block.columns)
+            .map(|j| block_node(0, j))
+            .chain((1..=n_rings).map(|ring| ring_node(ring, around)));
         let (axis, surface) = (axis.collect(), surface.collect());
         let far_face = (n_inner..=n_rings).map(|ring| ring_node(ring, 0));
         let mut far_boundary: Vec<u32> = far_face.filter(|_| self.is_bonded).collect();
         if self.has_held_rim {
             far_boundary
-                .extend((usize::from(self.is_bonded)..=2 * m).map(|k| ring_node(n_rings, k)));
+                .extend((usize::from(self.is_bonded)..=around).map(|k| ring_node(n_rings, k)));
         }
         let mesh = SphereMesh::from_parts(f64::INFINITY, nodes, quads, axis, surface, far_boundary);
-        Ok(mesh.with_thickness(self.thickness))
+        Ok(mesh.with_thickness(self.thickness).narrowed_at(self.edge, self.refined_radius))
     }
 
     /// Returns (r, y) of arcsin ζ.
@@ -215,8 +209,12 @@ impl GradedPlate {
         // The last ring is the rim.
         let stretch = end / at;
         outer.iter_mut().for_each(|at| *at *= stretch);
-        let n_block = m as usize;
-        Ok(Layout { n_block, near, n_inner: n_inner as usize, outer })
+        Ok(Layout {
+            block: Block::new(m, self.edge.is_some()),
+            near,
+            n_inner: n_inner as usize,
+            outer,
+        })
     }
 }
 

@@ -14,15 +14,15 @@
 //! to the distance from the contact, and whose boundary nodes lie on the true
 //! arc:
 //!
-//! * a block of m × m cells of equal size at ζ = 0, its free corner drawn in;
-//! * rings of 2 m cells, radii in geometric progression;
+//! * a block of m × m cells of equal size at ζ = 0, its free corner drawn in; with an `edge`, of more and uneven columns (`contact_edge`);
+//! * rings of as many cells as the outline of the block has, radii in geometric progression;
 //! * the image of such a block around ζ = ∞.
 //!
 //! Between the blocks the angular and (logarithmic) radial deviation of a
 //! block's outline from a circle fades as a power of the radius (`rings`).
 
 use crate::error::MeshError;
-use crate::rings::{Ring, Station, block_point, default_growth, fade, quad};
+use crate::rings::{Block, Ring, Station, default_growth, fade, quad};
 use crate::sphere_mesh::SphereMesh;
 
 /// Parameters of the graded half disc; lengths in m.
@@ -37,6 +37,9 @@ pub struct HalfDisc {
     /// Ratio of the radii of successive rings; `None` for the one that makes
     /// their cells square, 1 + π/(4 m).
     pub growth: Option<f64>,
+    /// Expected radius of a contact whose pressure is uniform up to its edge, for which the columns of the block are more, and
+    /// narrow at the edge; `None` for square elements.
+    pub edge: Option<f64>,
 }
 
 /// |ζ| where the far block begins: half of the sphere lies on either side of 1.
@@ -44,8 +47,8 @@ const FAR_BLOCK: f64 = 1.0;
 
 /// Counts and radii in the quarter plane.
 struct Layout {
-    /// Cells along a block's edge.
-    n_block: usize,
+    /// Cells of either block.
+    block: Block,
     n_rings: usize,
     /// Half-width of the near block in ζ.
     near: f64,
@@ -60,7 +63,7 @@ impl HalfDisc {
     /// The errors are those of [`HalfDisc::build`].
     pub fn n_elements(&self) -> Result<usize, MeshError> {
         let layout = self.layout()?;
-        Ok(2 * layout.n_block * layout.n_block + 2 * layout.n_block * layout.n_rings)
+        Ok(2 * layout.block.n_cells() + layout.block.around() * layout.n_rings)
     }
 
     /// Makes the mesh, body in y ≥ 0, contact pole at the origin.
@@ -71,78 +74,66 @@ impl HalfDisc {
     /// can be numbered.
     pub fn build(&self) -> Result<SphereMesh, MeshError> {
         let layout = self.layout()?;
-        let (m, n_rings) = (layout.n_block, layout.n_rings);
+        let (block, n_rings) = (layout.block, layout.n_rings);
+        let around = block.around();
         let mut nodes = Vec::new();
         let mut quads = Vec::new();
 
-        // Near block: node (i, j), i along the axis, j along the surface.
-        let side = m + 1;
-        for i in 0..side {
-            for j in 0..side {
-                let [x, y] = block_point(i as f64 / m as f64, j as f64 / m as f64);
-                nodes.push(self.image([layout.near * x, layout.near * y]));
-            }
-        }
-        let near_block = |i: usize, j: usize| (i * side + j) as u32;
-        for i in 0..m {
-            for j in 0..m {
-                quads.push(quad(&near_block, i, j));
-            }
-        }
+        // Near block.
+        nodes.extend(block.nodes().map(|at| {
+            let [x, y] = block.place(at);
+            self.image([layout.near * x, layout.near * y])
+        }));
+        let near_block = |i: usize, j: usize| block.node([i, j]) as u32;
+        quads.extend(block.cells().map(|[i, j]| quad(&near_block, i, j)));
 
         // Rings between the blocks; station k runs from the axis to the surface.
         let first_ring = nodes.len();
-        let stations: Vec<Station> = (0..=2 * m).map(|k| Station::new(m, k)).collect();
+        let stations = Station::all(block);
         for ring in 1..n_rings {
             let ring = layout.ring(ring);
             nodes.extend(stations.iter().map(|station| self.image(ring.point(station))));
         }
         // Far block, in 1/ζ; its outline is the last ring.
         let first_far = nodes.len();
-        for i in 0..side {
-            for j in 0..side {
-                let [x, y] = block_point(i as f64 / m as f64, j as f64 / m as f64);
-                nodes.push(self.far_image([x / layout.far, y / layout.far]));
-            }
-        }
-        let far_block = |i: usize, j: usize| (first_far + i * side + j) as u32;
-        let outline = |k: usize| if k <= m { (m, k) } else { (2 * m - k, m) };
+        nodes.extend(block.nodes().map(|at| {
+            let [x, y] = block.place(at);
+            self.far_image([x / layout.far, y / layout.far])
+        }));
+        let far_block = |i: usize, j: usize| (first_far + block.node([i, j])) as u32;
         let ring_node = |ring: usize, k: usize| {
-            let (i, j) = outline(k);
+            let [i, j] = block.outline(k);
             match ring {
                 0 => near_block(i, j),
                 _ if ring == n_rings => far_block(i, j),
-                _ => (first_ring + (ring - 1) * (2 * m + 1) + k) as u32,
+                _ => (first_ring + (ring - 1) * (around + 1) + k) as u32,
             }
         };
         for ring in 0..n_rings {
-            for k in 0..2 * m {
-                quads.push(quad(&ring_node, ring, k));
-            }
+            quads.extend((0..around).map(|k| quad(&ring_node, ring, k)));
         }
-        for i in 0..m {
-            for j in 0..m {
-                // ζ → 1/ζ turns the block around: keep the quads counter-clockwise.
-                let [a, b, c, d] = quad(&far_block, i, j);
-                quads.push([a, d, c, b]);
-            }
-        }
+        // ζ → 1/ζ turns the block around: keep the quads counter-clockwise.
+        quads.extend(block.cells().map(|[i, j]| {
+            let [a, b, c, d] = quad(&far_block, i, j);
+            [a, d, c, b]
+        }));
 
-        let axis = (0..=m)
+        let axis = (0..=block.rows)
             .map(|i| near_block(i, 0))
             .chain((1..n_rings).map(|ring| ring_node(ring, 0)))
-            .chain((0..=m).rev().map(|i| far_block(i, 0)))
+            .chain((0..=block.rows).rev().map(|i| far_block(i, 0)))
             .collect();
-        let surface = (0..=m)
+        let surface = (0..=block.columns)
             .map(|j| near_block(0, j))
-            .chain((1..n_rings).map(|ring| ring_node(ring, 2 * m)))
-            .chain((0..=m).rev().map(|j| far_block(0, j)))
+            .chain((1..n_rings).map(|ring| ring_node(ring, around)))
+            .chain((0..=block.columns).rev().map(|j| far_block(0, j)))
             .collect();
-        Ok(SphereMesh::from_parts(self.radius, nodes, quads, axis, surface, Vec::new()))
+        let mesh = SphereMesh::from_parts(self.radius, nodes, quads, axis, surface, Vec::new());
+        Ok(mesh.narrowed_at(self.edge, self.refined_radius))
     }
 
     fn layout(&self) -> Result<Layout, MeshError> {
-        let &HalfDisc { radius, contact_element_size: size, refined_radius, growth } = self;
+        let &HalfDisc { radius, contact_element_size: size, refined_radius, growth, .. } = self;
         for (name, value) in
             [("radius", radius), ("contact element size", size), ("refined radius", refined_radius)]
         {
@@ -171,7 +162,12 @@ impl HalfDisc {
         if n_elements > f64::from(u32::MAX / 2) {
             return Err(MeshError::TooLarge(n_elements));
         }
-        Ok(Layout { n_block: m as usize, n_rings: n_rings as usize, near, far })
+        Ok(Layout {
+            block: Block::new(m, self.edge.is_some()),
+            n_rings: n_rings as usize,
+            near,
+            far,
+        })
     }
 
     /// Returns (r, y) of ζ = x + i y.

@@ -13,6 +13,7 @@
 //! * [`SphereMesh`]: nodes, quads, boundary curves and tributary measures;
 //! * [`Quality`]: measures of the quality of a mesh.
 
+mod contact_edge;
 mod error;
 mod graded_plate;
 mod half_disc;

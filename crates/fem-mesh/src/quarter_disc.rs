@@ -3,15 +3,15 @@
 //! The half disc of a sphere is a conformal image of this quarter plane (`half_disc`). Here the map is left out, and so is
 //! the block at infinity:
 //!
-//! * a block of m × m cells of equal size at the contact, its free corner drawn in;
-//! * rings of 2 m cells, radii in geometric progression;
+//! * a block of m × m cells of equal size at the contact, its free corner drawn in; with an `edge`, of more and uneven columns (`contact_edge`);
+//! * rings of as many cells as the outline of the block has, radii in geometric progression;
 //! * the last ring, a circle: the far boundary, beyond which the half-space goes on.
 //!
 //! Cells keep their shape and are in proportion to the distance from the contact, so the number of
 //! elements grows with the logarithm of the far radius alone.
 
 use crate::error::MeshError;
-use crate::rings::{Ring, Station, block_point, default_growth, fade, quad};
+use crate::rings::{Block, Ring, Station, default_growth, fade, quad};
 use crate::sphere_mesh::SphereMesh;
 
 /// Parameters of the graded quarter disc; lengths in m.
@@ -24,6 +24,7 @@ use crate::sphere_mesh::SphereMesh;
 ///     contact_element_size: 10e-6,
 ///     refined_radius: 0.1e-3,
 ///     growth: None,
+///     edge: None,
 /// };
 /// let (near, far) = (block(0.1), block(100.0));
 /// assert!(far.n_elements()? < 3 * near.n_elements()?);
@@ -41,12 +42,14 @@ pub struct QuarterDisc {
     /// Ratio of the radii of successive rings; `None` for the one that makes
     /// their cells square, 1 + π/(4 m).
     pub growth: Option<f64>,
+    /// Expected radius of a contact whose pressure is uniform up to its edge, for which the columns of the block are more, and
+    /// narrow at the edge; `None` for square elements.
+    pub edge: Option<f64>,
 }
 
 /// Numbers of cells and radii of the mesh.
 struct Layout {
-    /// Cells along the block's edge.
-    n_block: usize,
+    block: Block,
     n_rings: usize,
     /// Half-width of the block, m.
     near: f64,
@@ -59,7 +62,7 @@ impl QuarterDisc {
     /// The errors are those of [`QuarterDisc::build`].
     pub fn n_elements(&self) -> Result<usize, MeshError> {
         let layout = self.layout()?;
-        Ok(layout.n_block * layout.n_block + 2 * layout.n_block * layout.n_rings)
+        Ok(layout.block.n_cells() + layout.block.around() * layout.n_rings)
     }
 
     /// Makes the mesh, body in y ≥ 0, contact pole at the origin.
@@ -69,55 +72,50 @@ impl QuarterDisc {
     /// half-width, a growth outside of (1, 2], more elements than can be numbered.
     pub fn build(&self) -> Result<SphereMesh, MeshError> {
         let layout = self.layout()?;
-        let (m, n_rings) = (layout.n_block, layout.n_rings);
+        let (block, n_rings) = (layout.block, layout.n_rings);
+        let around = block.around();
         let (mut nodes, mut quads) = (Vec::new(), Vec::new());
         // The quarter plane's axis is that of the body: (depth, r) → (r, y).
         let place = |[depth, r]: [f64; 2]| [r, depth];
 
-        // Block: node (i, j), i along the axis, j along the surface.
-        let side = m + 1;
-        for i in 0..side {
-            for j in 0..side {
-                let [x, y] = block_point(i as f64 / m as f64, j as f64 / m as f64);
-                nodes.push(place([layout.near * x, layout.near * y]));
-            }
-        }
-        let block = |i: usize, j: usize| (i * side + j) as u32;
-        for i in 0..m {
-            for j in 0..m {
-                quads.push(quad(&block, i, j));
-            }
-        }
+        nodes.extend(block.nodes().map(|at| {
+            let [x, y] = block.place(at);
+            place([layout.near * x, layout.near * y])
+        }));
+        let block_node = |i: usize, j: usize| block.node([i, j]) as u32;
+        quads.extend(block.cells().map(|[i, j]| quad(&block_node, i, j)));
 
         // Rings; station k runs from the axis to the surface.
         let first_ring = nodes.len();
-        let stations: Vec<Station> = (0..=2 * m).map(|k| Station::new(m, k)).collect();
+        let stations = Station::all(block);
         for ring in 1..=n_rings {
             let ring = self.ring(&layout, ring);
             nodes.extend(stations.iter().map(|station| place(ring.point(station))));
         }
         let ring_node = |ring: usize, k: usize| match ring {
-            0 if k <= m => block(m, k),
-            0 => block(2 * m - k, m),
-            _ => (first_ring + (ring - 1) * (2 * m + 1) + k) as u32,
+            0 => block.node(block.outline(k)) as u32,
+            _ => (first_ring + (ring - 1) * (around + 1) + k) as u32,
         };
         for ring in 0..n_rings {
-            for k in 0..2 * m {
-                quads.push(quad(&ring_node, ring, k));
-            }
+            quads.extend((0..around).map(|k| quad(&ring_node, ring, k)));
         }
 
         let rings = || 1..=n_rings;
-        let axis = (0..=m).map(|i| block(i, 0)).chain(rings().map(|ring| ring_node(ring, 0)));
-        let surface =
-            (0..=m).map(|j| block(0, j)).chain(rings().map(|ring| ring_node(ring, 2 * m)));
+        let axis = (0..=block.rows)
+            .map(|i| block_node(i, 0))
+            .chain(rings().map(|ring| ring_node(ring, 0)));
+        let surface = (0..=block.columns)
+            .map(|j| block_node(0, j))
+            .chain(rings().map(|ring| ring_node(ring, around)));
         let (axis, surface) = (axis.collect(), surface.collect());
-        let far_boundary = (0..=2 * m).map(|k| ring_node(n_rings, k)).collect();
-        Ok(SphereMesh::from_parts(f64::INFINITY, nodes, quads, axis, surface, far_boundary))
+        let far_boundary = (0..=around).map(|k| ring_node(n_rings, k)).collect();
+        let mesh = SphereMesh::from_parts(f64::INFINITY, nodes, quads, axis, surface, far_boundary);
+        Ok(mesh.narrowed_at(self.edge, self.refined_radius))
     }
 
     fn layout(&self) -> Result<Layout, MeshError> {
-        let &QuarterDisc { far_radius, contact_element_size: size, refined_radius, growth } = self;
+        let &QuarterDisc { far_radius, contact_element_size: size, refined_radius, growth, .. } =
+            self;
         for (name, value) in [
             ("far radius", far_radius),
             ("contact element size", size),
@@ -144,7 +142,7 @@ impl QuarterDisc {
         if n_elements > f64::from(u32::MAX / 2) {
             return Err(MeshError::TooLarge(n_elements));
         }
-        Ok(Layout { n_block: m as usize, n_rings: n_rings as usize, near })
+        Ok(Layout { block: Block::new(m, self.edge.is_some()), n_rings: n_rings as usize, near })
     }
 
     fn ring(&self, layout: &Layout, ring: usize) -> Ring {

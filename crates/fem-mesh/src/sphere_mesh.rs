@@ -43,6 +43,11 @@ impl SphereMesh {
         Self { thickness: Some(thickness), ..self }
     }
 
+    /// Replaces each node position (r, y), m.
+    pub(crate) fn move_nodes(&mut self, place: impl Fn([f64; 2]) -> [f64; 2]) {
+        self.nodes.iter_mut().for_each(|node| *node = place(*node));
+    }
+
     /// Returns the radius of the sphere, m; infinite for a half-space and for a plate.
     pub fn radius(&self) -> f64 {
         self.radius

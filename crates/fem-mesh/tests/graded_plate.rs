@@ -14,6 +14,7 @@ fn plate(thickness: f64) -> GradedPlate {
         refined_radius: 0.3e-3,
         growth: None,
         ring_width: 2e-3,
+        edge: None,
     }
 }
 

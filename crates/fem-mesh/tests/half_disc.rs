@@ -5,7 +5,13 @@ use fem_mesh::{
 };
 
 fn glass(size: f64) -> HalfDisc {
-    HalfDisc { radius: 11.1e-3, contact_element_size: size, refined_radius: 0.3e-3, growth: None }
+    HalfDisc {
+        radius: 11.1e-3,
+        contact_element_size: size,
+        refined_radius: 0.3e-3,
+        growth: None,
+        edge: None,
+    }
 }
 
 /// Volume of the straight-sided quads by the shoelace form of ∫ 2π r dA.
@@ -98,8 +104,13 @@ fn sphere_meshes_of_all_sizes_have_good_quality() {
         for fraction in [0.25, 0.05, 1e-3, 1e-7] {
             let size = radius * fraction;
             let refined_radius = (12.0 * size).min(radius / 2.0);
-            let mesh =
-                HalfDisc { radius, contact_element_size: size, refined_radius, growth: None };
+            let mesh = HalfDisc {
+                radius,
+                contact_element_size: size,
+                refined_radius,
+                growth: None,
+                edge: None,
+            };
             let mesh = mesh.build().unwrap();
             let quality = Quality::of(&mesh);
             assert!(quality.min_scaled_jacobian > 0.5, "{radius} {fraction} {quality:?}");
@@ -117,7 +128,8 @@ fn block_meshes_of_all_sizes_have_good_quality() {
         for n in [2.0, 8.0, 25.0] {
             let (radius, refined_radius) = (1e-2_f64, share * 1e-2);
             let contact_element_size = (refined_radius / n).min(radius / 4.0);
-            let mesh = HalfDisc { radius, contact_element_size, refined_radius, growth: None };
+            let mesh =
+                HalfDisc { radius, contact_element_size, refined_radius, growth: None, edge: None };
             let mesh = mesh.build().unwrap();
             let quality = Quality::of(&mesh);
             assert!(quality.min_scaled_jacobian > 0.5, "{share} {n} {quality:?}");
@@ -126,6 +138,46 @@ fn block_meshes_of_all_sizes_have_good_quality() {
             assert!(quality.min_edge / contact_element_size > 0.1, "{share} {n} {quality:?}");
         }
     }
+}
+
+/// Twice as many columns, of which those at the edge are the narrowest, and the same exact sphere.
+#[test]
+fn columns_are_narrow_at_the_edge_of_a_contact() {
+    for share in [0.5, 0.83, 0.99] {
+        let disc = HalfDisc { edge: Some(share * 0.3e-3), ..glass(30e-6) };
+        let mesh = disc.build().unwrap();
+        assert_eq!(mesh.quads().len(), disc.n_elements().unwrap());
+        let place = |k: usize| mesh.nodes()[mesh.surface()[k] as usize];
+        let widths: Vec<f64> = (0..20).map(|k| place(k + 1)[0] - place(k)[0]).collect();
+        // 1 + A and 1 columns per length.
+        let [narrowest, widest] =
+            [f64::min, f64::max].map(|of| widths.iter().copied().reduce(of).unwrap());
+        assert!((2.7..3.1).contains(&(widest / narrowest)), "{share}: {widths:?}");
+        let at = widths.iter().position(|width| *width == narrowest).unwrap();
+        assert!((place(at)[0] / (share * 0.3e-3) - 1.0).abs() < 0.1, "{share}: {widths:?}");
+        for &node in mesh.surface() {
+            let [r, y] = mesh.nodes()[node as usize];
+            assert!((r.hypot(y - mesh.radius()) / mesh.radius() - 1.0).abs() < 1e-14);
+        }
+        let caps: f64 = mesh
+            .surface()
+            .windows(2)
+            .map(|pair| {
+                let [p, q] = [pair[0], pair[1]].map(|node| mesh.nodes()[node as usize]);
+                cap_volume(p, q, mesh.radius())
+            })
+            .sum();
+        let exact = sphere_volume(mesh.radius());
+        assert!(((meshed_volume(&mesh) + caps) / exact - 1.0).abs() < 1e-12);
+        let quality = Quality::of(&mesh);
+        assert!(quality.min_scaled_jacobian > 0.5, "{share}: {quality:?}");
+        // Rows 3.3 times as high as columns are wide on average, times 2.7 at the edge.
+        assert!(quality.max_aspect_ratio < 9.5, "{share}: {quality:?}");
+    }
+    // A contact as wide as half of the sphere keeps even columns.
+    let wide =
+        HalfDisc { refined_radius: 6e-3, edge: Some(5e-3), ..glass(0.6e-3) }.build().unwrap();
+    assert!(Quality::of(&wide).min_scaled_jacobian > 0.5);
 }
 
 #[test]

@@ -7,8 +7,13 @@ const RADIUS: f64 = 0.01;
 type Mesh = (Vec<[f64; 2]>, Vec<[u32; 4]>);
 
 fn sphere() -> Mesh {
-    let disc =
-        HalfDisc { radius: RADIUS, contact_element_size: 2e-3, refined_radius: 4e-3, growth: None };
+    let disc = HalfDisc {
+        radius: RADIUS,
+        contact_element_size: 2e-3,
+        refined_radius: 4e-3,
+        growth: None,
+        edge: None,
+    };
     let mesh = disc.build().unwrap();
     (mesh.nodes().to_vec(), mesh.quads().to_vec())
 }

@@ -5,7 +5,13 @@ use std::f64::consts::PI;
 use fem_mesh::{MeshError, Quality, QuarterDisc, Side};
 
 fn block(far_radius: f64) -> QuarterDisc {
-    QuarterDisc { far_radius, contact_element_size: 30e-6, refined_radius: 0.3e-3, growth: None }
+    QuarterDisc {
+        far_radius,
+        contact_element_size: 30e-6,
+        refined_radius: 0.3e-3,
+        growth: None,
+        edge: None,
+    }
 }
 
 #[test]

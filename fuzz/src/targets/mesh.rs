@@ -26,6 +26,7 @@ impl MeshFile {
             contact_element_size: 2e-3,
             refined_radius: 2e-3,
             growth: Some(1.5),
+            edge: None,
         };
         if let Ok(mesh) = sphere.build() {
             let text = ascii(mesh.nodes(), mesh.quads());

@@ -3,8 +3,7 @@
 //! * `NAME.plastic_work_share`, the plastic work over the initial kinetic energy;
 //! * `NAME.dent_depth` of the first body that flowed, m; NaN without a dent;
 //! * `NAME.AT.force` (N), `NAME.AT.mean_pressure` (Pa) for each `approach.NAME.AT` of the parameters, m: means of F and
-//!   F/πa² over the samples of the loading within 4 % of that approach;
-//! * `NAME.QUANTITY` for each `mean.NAME` of the parameters: the mean of a quantity over those runs.
+//!   F/πa² over the samples of the loading within 4 % of that approach.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -26,17 +25,13 @@ struct Parameters {
     /// Approaches by the names of run and window, m.
     #[serde(default)]
     approach: BTreeMap<String, BTreeMap<String, f64>>,
-    /// Runs that differ only in their mesh, by the name of their mean.
-    #[serde(default)]
-    mean: BTreeMap<String, Vec<String>>,
 }
 
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let Parameters { approach, mean } = laboratory.parameters()?;
+    let Parameters { approach } = laboratory.parameters()?;
     let (names, cases) = laboratory.cases()?;
     let runs = laboratory.simulate_all(cases)?;
     let mut findings = Findings::new();
-    let mut means: BTreeMap<String, f64> = BTreeMap::new();
     for (name, run) in names.iter().zip(&runs) {
         let collision = &run.collision;
         let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
@@ -47,18 +42,12 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
             [("plastic_work_share", work / known(collision.initial_energy)), ("dent_depth", depth)];
         for (quantity, value) in quantities(run).chain(flow) {
             findings.measure(format!("{name}.{quantity}"), value);
-            for (of, runs) in mean.iter().filter(|(_, runs)| runs.contains(name)) {
-                *means.entry(format!("{of}.{quantity}")).or_default() += value / runs.len() as f64;
-            }
         }
         for (at, &approach) in approach.get(*name).into_iter().flatten() {
             let [force, pressure] = loading(&collision.history, approach);
             findings.measure(format!("{name}.{at}.force"), force);
             findings.measure(format!("{name}.{at}.mean_pressure"), pressure);
         }
-    }
-    for (quantity, value) in means {
-        findings.measure(quantity, value);
     }
     Ok(findings)
 }

@@ -230,8 +230,13 @@ mod tests {
     }
 
     fn mesh(side: Side) -> SphereMesh {
-        let disc =
-            HalfDisc { radius: 1.0, contact_element_size: 0.05, refined_radius: 0.2, growth: None };
+        let disc = HalfDisc {
+            radius: 1.0,
+            contact_element_size: 0.05,
+            refined_radius: 0.2,
+            growth: None,
+            edge: None,
+        };
         disc.build().unwrap().on_side(side)
     }
 

@@ -249,6 +249,7 @@ mod tests {
                 contact_element_size: 0.05,
                 refined_radius: 0.2,
                 growth: None,
+                edge: None,
             };
             let mesh = disc.build().unwrap().on_side(side);
             let stress = |[r, y]: [f64; 2]| {

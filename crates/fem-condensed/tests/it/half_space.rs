@@ -53,6 +53,7 @@ impl Ball {
             contact_element_size: contact_radius / self.elements,
             refined_radius: 1.2 * contact_radius,
             growth: None,
+            edge: None,
         };
         let mesh = disc.build().unwrap().on_side(Side::Below);
         BodyInput::HalfSpace { mesh, material: self.block.clone() }
@@ -65,6 +66,7 @@ impl Ball {
             contact_element_size: contact_radius / self.elements,
             refined_radius: 1.2 * contact_radius,
             growth: None,
+            edge: None,
         };
         let mesh = disc.build().unwrap().on_side(Side::Above);
         BodyInput::Sphere { mesh, material: self.ball.clone() }

@@ -159,7 +159,13 @@ fn frequencies_converge_to_those_of_a_sphere() {
     let glass = glass();
     let errors = [0.1, 0.05].map(|size| {
         let (contact_element_size, refined_radius) = (size, 0.5);
-        let disc = HalfDisc { radius: 1.0, contact_element_size, refined_radius, growth: None };
+        let disc = HalfDisc {
+            radius: 1.0,
+            contact_element_size,
+            refined_radius,
+            growth: None,
+            edge: None,
+        };
         let mesh = disc.build().unwrap().on_side(Side::Above);
         let sphere = BodyInput::Sphere { mesh, material: glass.clone() };
         let settings = PairSettings { vibration_modes: 6, ..PairSettings::new(0.3) };

@@ -213,7 +213,13 @@ mod tests {
     use crate::surface::Surface;
 
     fn sphere(radius: f64, contact_element_size: f64, side: Side) -> Surface {
-        let disc = HalfDisc { radius, contact_element_size, refined_radius: 0.3, growth: None };
+        let disc = HalfDisc {
+            radius,
+            contact_element_size,
+            refined_radius: 0.3,
+            growth: None,
+            edge: None,
+        };
         Surface::of_sphere(&disc.build().unwrap().on_side(side))
     }
 

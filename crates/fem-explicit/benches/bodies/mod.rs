@@ -89,8 +89,13 @@ pub fn mesh_and_glass(contact_element_size: f64) -> Result<(SphereMesh, Material
 
 /// Contact radius 0.22 mm, refined a fifth further.
 fn mesh(contact_element_size: f64) -> Result<SphereMesh, Error> {
-    let disc =
-        HalfDisc { radius: RADIUS, contact_element_size, refined_radius: 0.27e-3, growth: None };
+    let disc = HalfDisc {
+        radius: RADIUS,
+        contact_element_size,
+        refined_radius: 0.27e-3,
+        growth: None,
+        edge: None,
+    };
     Ok(disc.build()?)
 }
 

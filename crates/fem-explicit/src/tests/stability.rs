@@ -114,8 +114,13 @@ fn critical_time_step_with_closed_contact_is_safe() {
 #[test]
 fn lumped_mass_is_that_of_the_sphere() {
     for (size, refined_radius) in [(0.25, 0.5), (0.02, 0.06)] {
-        let mesh =
-            HalfDisc { radius: 3.0, contact_element_size: size, refined_radius, growth: None };
+        let mesh = HalfDisc {
+            radius: 3.0,
+            contact_element_size: size,
+            refined_radius,
+            growth: None,
+            edge: None,
+        };
         let bound = lumped(&mesh.build().unwrap(), unit_glass()).bound;
         let mass: f64 = bound.mass.iter().sum();
         // Rounding of a sum over the elements.

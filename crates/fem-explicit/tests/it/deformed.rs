@@ -82,6 +82,7 @@ fn unlike_bodies_on_deformed_surfaces_include_the_surface_slip() {
             contact_element_size: contact_radius / 5.0,
             refined_radius: 1.3 * contact_radius,
             growth: None,
+            edge: None,
         };
         let mesh = disc.build().unwrap().on_side(side);
         BodyInput::Sphere { mesh, material: Material::new(density, moduli, None).unwrap() }
@@ -145,6 +146,7 @@ fn rubber(element_size: f64, candidate_radius: f64) -> ([BodyInput; 2], Settings
         contact_element_size: element_size,
         refined_radius: 7.5e-3,
         growth: None,
+        edge: None,
     };
     let mesh = disc.build().unwrap().on_side(Side::Above);
     let settings = Settings {
@@ -232,6 +234,7 @@ fn finite_strain_selects_deformed_surface_contact_by_default() {
         contact_element_size: 1.2e-3,
         refined_radius: 5e-3,
         growth: None,
+        edge: None,
     };
     let mesh = disc.build().unwrap().on_side(Side::Below);
     let stiff = BodyInput::Sphere { mesh, material: Material::new(7850.0, steel, None).unwrap() };

@@ -78,6 +78,7 @@ impl Ball {
             contact_element_size: RADIUS / self.n,
             refined_radius: 0.5 * RADIUS,
             growth: None,
+            edge: None,
         };
         disc.build().unwrap().on_side(Side::Above)
     }
@@ -342,6 +343,7 @@ fn rubber_ball(radius: f64, n: f64, youngs_modulus: f64, side: Side) -> BodyInpu
         contact_element_size: radius / n,
         refined_radius: 0.5 * radius,
         growth: None,
+        edge: None,
     };
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(youngs_modulus, 0.45).unwrap();
     let material = Material::new(1000.0, moduli, None).unwrap();

@@ -41,6 +41,7 @@ fn collision(speed: f64) -> Collision {
         contact_element_size: radius / 5.0,
         refined_radius: 1.5 * radius,
         growth: None,
+        edge: None,
     };
     let mesh = disc.build().unwrap().on_side(Side::Above);
     let settings = Settings {

@@ -88,12 +88,14 @@ impl Ball {
             contact_element_size: size,
             refined_radius,
             growth: self.growth,
+            edge: None,
         };
         let ball = HalfDisc {
             radius: RADIUS,
             contact_element_size: size,
             refined_radius,
             growth: self.growth,
+            edge: None,
         };
         let other = match self.half_space {
             Side::Below => Side::Above,
@@ -180,6 +182,7 @@ fn a_partner_forty_times_larger_is_a_half_space() {
         contact_element_size: hertz.contact_radius / 6.0,
         refined_radius: 1.2 * hertz.contact_radius,
         growth: None,
+        edge: None,
     };
     let bodies = [
         BodyInput::Sphere {
@@ -331,6 +334,7 @@ fn half_space_rejects_a_plane_partner() {
             contact_element_size: 0.02,
             refined_radius: 0.1,
             growth: None,
+            edge: None,
         };
         let mesh = disc.build().unwrap().on_side(side);
         BodyInput::HalfSpace { mesh, material: glass(None) }

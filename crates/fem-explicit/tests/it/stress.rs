@@ -11,8 +11,13 @@ fn moduli() -> ElasticModuli {
 
 /// Wall and unit sphere with `n` elements over its radius.
 fn model(n: f64) -> ExplicitBodies {
-    let disc =
-        HalfDisc { radius: 1.0, contact_element_size: 1.0 / n, refined_radius: 0.5, growth: None };
+    let disc = HalfDisc {
+        radius: 1.0,
+        contact_element_size: 1.0 / n,
+        refined_radius: 0.5,
+        growth: None,
+        edge: None,
+    };
     let sphere = BodyInput::Sphere {
         mesh: disc.build().unwrap().on_side(Side::Above),
         material: Material::new(1.0, moduli(), None).unwrap(),

@@ -3,8 +3,7 @@
 use fem_collision::{Collision, QuantityOfInterest};
 
 use super::calibration::{
-    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, FLOW, MOVED_MASS,
-    SAMPLED_PER_TOLERANCE,
+    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, MOVED_MASS, SAMPLED_PER_TOLERANCE,
 };
 use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, moved_share};
@@ -72,7 +71,7 @@ impl ErrorEstimator {
         let estimated = self.reference_error(simulation, collision, size, values, widest);
         let Some((errors, calibration)) = estimated else { return [None; 6] };
         let moved_share = moved_share(simulation, collision);
-        bar_parts(errors, &calibration, [widest, at_pressure], moved_share)
+        bar_parts(errors, calibration, [widest, at_pressure], moved_share)
     }
 
     /// Returns the distances from the Richardson limits of the reference runs, the restitution's absolute, all others
@@ -84,7 +83,7 @@ impl ErrorEstimator {
         size: f64,
         values: Values,
         across: f64,
-    ) -> Option<(Values, Calibration)> {
+    ) -> Option<(Values, &'static Calibration)> {
         let plan = &simulation.setup().elements.as_ref()?.plan;
         let subject = &EstimatedCollision { simulation, approach: collision.approach, plan, size };
         let is_explicit = collision.element_updates.is_some();
@@ -95,23 +94,23 @@ impl ErrorEstimator {
                 .is_none_or(|estimate| needs_own_reference(&estimate, is_finite()));
         match (is_explicit, plan.makes_meshes, needs_own) {
             (true, false, true) => None,
-            (true, false, false) => Some((self.runs.mesh_file(subject, None, across)?, EXPLICIT)),
-            (true, true, false) => Some((self.runs.condensed(subject)?.0, EXPLICIT)),
+            (true, false, false) => Some((self.runs.mesh_file(subject, None, across)?, &EXPLICIT)),
+            (true, true, false) => Some((self.runs.condensed(subject)?.0, &EXPLICIT)),
             // Elastic condensed bodies show nothing of the error of flow.
             (true, true, true) if plan.estimate.flow.is_some() => {
-                Some((self.runs.coarser(subject, values)?, FLOW))
+                Some((self.runs.coarser(subject, values)?, Calibration::of_flow(&plan.estimate)))
             }
             (true, true, true) => {
                 let own = self.runs.coarser(subject, values)?;
                 let condensed = self.runs.condensed(subject).map(|(errors, _)| errors);
                 let condensed = |k: usize| condensed.and_then(|condensed| condensed[k]);
                 let both = |k: usize| Some(own[k]? + condensed(k).unwrap_or(0.0));
-                Some((std::array::from_fn(both), COARSER_RUN))
+                Some((std::array::from_fn(both), &COARSER_RUN))
             }
             (false, false, _) => {
-                Some((self.runs.mesh_file(subject, Some(values), across)?, CONDENSED))
+                Some((self.runs.mesh_file(subject, Some(values), across)?, &CONDENSED))
             }
-            (false, true, _) => Some((self.runs.coarser(subject, values)?, CONDENSED)),
+            (false, true, _) => Some((self.runs.coarser(subject, values)?, &CONDENSED)),
         }
     }
 
@@ -176,7 +175,7 @@ fn bar_parts(
             reference_error: errors[k]?,
             safety_factor: calibration.safety_factor,
             across,
-            edge: calibration.edge[k] / across.max(1.0).powi(2),
+            edge: calibration.edge[k] / across.max(1.0).powi(calibration.edge_power),
             scatter: calibration.scatter[k],
             moved_mass: MOVED_MASS[k] * moved_share,
         })
@@ -219,8 +218,13 @@ mod tests {
     /// The bar is F_s |Δ| + c (h/a)² + scatter + moved mass, and the pressure's floor depends on its own radius.
     #[test]
     fn error_bar_is_the_sum_of_its_documented_parts() {
-        let calibration =
-            Calibration { name: "", safety_factor: 2.0, edge: [0.16; 6], scatter: [5e-4; 6] };
+        let calibration = Calibration {
+            name: "",
+            safety_factor: 2.0,
+            edge: [0.16; 6],
+            edge_power: 2,
+            scatter: [5e-4; 6],
+        };
         let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
         for (k, parts) in parts.into_iter().enumerate() {
             let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.04 } else { 0.01 };

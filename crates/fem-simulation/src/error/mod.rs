@@ -29,7 +29,7 @@
 //! The estimate decides on the mesh (`tolerance_check`, `refinement`, `refinement_cost_bound`) and on the warnings
 //! (`tolerance_warnings`). The model-form error is the change by neglected effects (`results/uncertainty.rs`).
 
-mod calibration;
+pub(crate) mod calibration;
 mod elastic_null;
 mod estimate;
 mod estimator;

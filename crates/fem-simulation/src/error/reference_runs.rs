@@ -17,8 +17,6 @@ pub(super) type Values = [Option<f64>; 6];
 /// Element sizes of the coarser run of the model itself over those of the collision. The second is tried if the collision
 /// fails with the first.
 const COARSER_ELEMENT_RATIOS: [f64; 2] = [2.0, 1.5];
-/// Elements across the contact below which a coarser mesh of the same phase would have too few.
-const MIN_PHASE_ACROSS: f64 = 6.0;
 /// Time of the coarser run of condensed bodies over that of the collision with its factorisation.
 pub const CONDENSED_REFERENCE_TIME: f64 = 0.25;
 /// Time steps of condensed reference runs of explicit elements over the elastic contact time, which give the
@@ -130,11 +128,7 @@ impl ReferenceRuns {
     /// Returns the errors from a run of the model itself with longer elements, plus those of the mesh away from the
     /// contact if the case gives it.
     pub fn coarser(&mut self, subject: &EstimatedCollision<'_>, values: Values) -> Option<Values> {
-        let ratios = match subject.plan.estimate.flow {
-            Some(_) => [same_phase(values, subject.size), COARSER_ELEMENT_RATIOS[1]],
-            None => COARSER_ELEMENT_RATIOS,
-        };
-        ratios.into_iter().find_map(|ratio| {
+        COARSER_ELEMENT_RATIOS.into_iter().find_map(|ratio| {
             let settings = [Setting::ElementSize(ratio * subject.size), subject.staggered()];
             let coarse = self.values(subject, &settings, FarMesh::AsGiven)?;
             let near = errors(values, extrapolated(coarse, values, ratio));
@@ -247,14 +241,6 @@ impl ReferenceRuns {
         });
         self.known.last()
     }
-}
-
-/// Returns the ratio of about 2 at which the edge of the contact lies at the same place between two nodes of both meshes. The
-/// force of a body that flows oscillates with that place by more than it converges.
-fn same_phase(values: Values, size: f64) -> f64 {
-    let across = values[QuantityOfInterest::MaxContactRadius as usize].unwrap_or(0.0) / size;
-    let coarse = (0.5 * across).round() + across.fract();
-    if across >= MIN_PHASE_ACROSS { across / coarse } else { COARSER_ELEMENT_RATIOS[0] }
 }
 
 fn condensed(penalty_springs: bool) -> Setting {

@@ -9,8 +9,10 @@ use fem_case::defaults::{CONTACT_METHOD, PENALTY_FACTOR};
 use fem_case::{ContactMethod, Scene, Switch};
 
 use crate::effects::FiniteStrain;
+use crate::estimate::Estimate;
 use crate::estimate::quasi_static::surfaces_slip;
 use crate::plan::Plan;
+use crate::plan::element_size::MACH_OF_SLOW_IMPACTS;
 
 /// Returns the contact method at small strain.
 pub fn contact_method(scene: &Scene) -> ContactMethod {
@@ -45,6 +47,16 @@ pub fn ignored_method_warning(scene: &Scene, is_at_finite_strain: bool) -> Optio
 
 /// Penalty factor below which the overlap of the surfaces is reported.
 const SOFTEST_ADVISED_FACTOR: f64 = 0.25;
+
+/// Returns the factor on the penalty stiffness of a case that names none. In fast impacts of bodies that flow plastically,
+/// each node that touches excites the springs anew: in 49 random scenes a factor of 1 leaves an energy residual of up to 2.4e-4,
+/// 0.25 one of up to 7e-5, and changes the restitution by 0.003.
+pub(crate) fn default_penalty_factor(estimate: &Estimate) -> f64 {
+    match estimate.flow.is_some() && estimate.mach > MACH_OF_SLOW_IMPACTS {
+        true => SOFTEST_ADVISED_FACTOR,
+        false => PENALTY_FACTOR,
+    }
+}
 
 /// The setting that reduces contact noise in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

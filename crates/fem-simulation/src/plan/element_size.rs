@@ -20,12 +20,16 @@
 //! (docs/accuracy.md); those for nodes in the elastic and the relaxing glass pair with 90 element sizes, k = 4 to 17. The
 //! claim `error_bars` tests the rule on random scenes.
 //!
+//! - **Bodies that flow plastically**: an error c/k with the constants of the error estimate (`error/calibration.rs`), which
+//!   has 0.6 of the tolerance.
+//!
 //! If the oscillation remains, the element size is chosen so that it passes through zero: k = n + 0.35.
 
 use fem_case::{Accuracy, CondensedOptions, ModelChoice, Scene};
 use fem_collision::QuantityOfInterest;
 
 use crate::effects::FiniteStrain;
+use crate::error::calibration::Calibration;
 use crate::estimate::Estimate;
 use crate::quantity_errors::tolerance_of;
 
@@ -50,7 +54,7 @@ const TOLERANCE_SHARE_AT_FINITE_STRAIN: f64 = 0.5;
 /// Approach speed over the shear wave speed below which waves cross the body many times during the contact. In faster
 /// impacts the first and last touch are waves of a few elements' length, which bulk viscosity damps. Soft balls on walls
 /// at 0.06, 0.17 and 0.56, ν = 0.2 to 0.49, are within the tolerance with 7, 11 and 17 elements across the contact.
-const MACH_OF_SLOW_IMPACTS: f64 = 0.03;
+pub(crate) const MACH_OF_SLOW_IMPACTS: f64 = 0.03;
 /// Fewest elements across the contact radius: with 3.5 the radius of relaxing bodies has an error of 8 %.
 const MIN_ACROSS: f64 = 4.0;
 /// Fewest elements for nodes that touch exactly: with 4.5 the error of the radius is up to 1.2 %, with 5.5 0.7 %.
@@ -59,9 +63,8 @@ const MIN_ACROSS_AT_NODES: f64 = 5.45;
 const ELEMENT_SHARE_OF_LATER_CONTACTS: f64 = 0.75;
 /// Place of the edge between two nodes at which the oscillation passes through zero.
 const ZERO_OF_OSCILLATION: f64 = 0.35;
-/// Absolute error of the restitution and relative error of the peak force of bodies that flow plastically, times k: a
-/// perfectly plastic steel ball on a wall at 3 to 300 times the speed of first yield, k = 4 to 16.
-const ERRORS_OF_FLOW: [f64; 2] = [0.05, 0.1];
+/// Share of the tolerance for the place of the contact's edge between two nodes, if bodies flow plastically.
+const TOLERANCE_SHARE_OF_EDGE: f64 = 0.6;
 /// The quantities that the rule bounds.
 const BOUNDED_QUANTITIES: [QuantityOfInterest; 4] = [
     QuantityOfInterest::PeakForce,
@@ -118,8 +121,8 @@ impl MeshRule {
         let asked_for = match estimate.flow {
             Some(_) => {
                 let Accuracy { restitution, peak_force, .. } = scene.accuracy();
-                let [e, force] = ERRORS_OF_FLOW;
-                (e / restitution).max(force / peak_force) / TOLERANCE_SHARE_OF_MESH
+                let [e, _, force, ..] = Calibration::of_flow(estimate).edge;
+                (e / restitution).max(force / peak_force) / TOLERANCE_SHARE_OF_EDGE
             }
             None => (error / (TOLERANCE_SHARE_OF_MESH * tolerance)).sqrt() / later,
         };

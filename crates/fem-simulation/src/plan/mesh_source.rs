@@ -62,6 +62,7 @@ pub(crate) fn half_disc(plan: &Plan, side: usize, diameter: f64) -> HalfDisc {
         contact_element_size: plan.element_sizes()[side],
         refined_radius: plan.refined_radius,
         growth: plan.growth,
+        edge: plan.contact_edge(),
     }
 }
 
@@ -72,6 +73,7 @@ pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
         contact_element_size: plan.element_sizes()[side],
         refined_radius: plan.refined_radius,
         growth: plan.growth,
+        edge: plan.contact_edge(),
     }
 }
 
@@ -109,6 +111,7 @@ pub(crate) fn graded_plate(
         growth: plan.growth,
         ring_width: coarseness
             * (bending_wave / RINGS_PER_BENDING_WAVE).min(shear_wave / RINGS_PER_SHEAR_WAVE),
+        edge: plan.contact_edge(),
     }
 }
 

@@ -28,7 +28,7 @@ use crate::effects::{PlateBending, percent};
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
 use crate::plan::body_source::meshed;
-use crate::plan::contact_method::contact_method;
+use crate::plan::contact_method::{contact_method, default_penalty_factor};
 use crate::plan::element_size::{MeshRule, touches_at_nodes};
 use crate::plan::mesh_offset::{finer_body, is_generated, staggered};
 use crate::rejection::Rejection;
@@ -133,7 +133,8 @@ impl Plan {
             radius.min(estimate.smallest_radius)
         });
         let candidate_radius = candidate_radius(&estimate, contact_element_size);
-        let penalty_factor = scene.penalty_factor().unwrap_or(defaults::PENALTY_FACTOR);
+        let penalty_factor =
+            scene.penalty_factor().unwrap_or_else(|| default_penalty_factor(&estimate));
         let contact_stiffness =
             penalty_factor * PENALTY_OVER_MODULUS * estimate.hertz.pair().contact_modulus();
         let per_area = contact_stiffness / contact_element_size;
@@ -213,6 +214,16 @@ impl Plan {
             Some(finer) => staggered(length, divided_radius(&self.estimate), finer),
             None => [length; 2],
         }
+    }
+
+    /// Returns whether the penalty springs are softer than the default.
+    pub(crate) fn has_soft_springs(&self) -> bool {
+        self.penalty_factor < default_penalty_factor(&self.estimate)
+    }
+
+    /// Returns the expected radius (m) of a contact whose pressure is uniform up to its edge: of a body that flows.
+    pub(crate) fn contact_edge(&self) -> Option<f64> {
+        self.estimate.flow.map(|_| self.estimate.contact_radius)
     }
 
     /// Returns the key by which the case replaces the planned mesh away from a contact of this radius (m), if it does.

@@ -1,7 +1,5 @@
 //! Lengthening of a contact by compliant penalty springs.
 
-use fem_case::defaults::PENALTY_FACTOR;
-
 use crate::plan::Plan;
 
 /// Ratios below this are neglected: the estimate is not more accurate.
@@ -26,7 +24,7 @@ pub(crate) fn lengthening(plan: &Plan) -> f64 {
 /// Returns the relative lengthening by springs softer than the default; `None` for default springs, whose compliance is
 /// part of the discretisation error.
 pub(crate) fn softness(plan: &Plan) -> Option<f64> {
-    (plan.penalty_factor < PENALTY_FACTOR).then(|| ratio(plan) - 1.0)
+    plan.has_soft_springs().then(|| ratio(plan) - 1.0)
 }
 
 /// Returns the ratio without the bound [`MIN_LENGTHENING`]; 1 if it is not a number.

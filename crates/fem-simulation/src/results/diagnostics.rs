@@ -152,7 +152,7 @@ fn of_elements(
     let coarse = widest_contact(simulation, collision)
         .and_then(|radius| unresolved_warning(simulation, radius));
     let is_unresolved = is_unresolved(simulation, collision);
-    let is_soft = elements.plan.penalty_factor < PENALTY_FACTOR;
+    let is_soft = elements.plan.has_soft_springs();
     // On a coarse mesh the mesh is the cause of overlap, unless the springs are soft.
     let is_of_mesh = is_unresolved || (coarse.is_some() && !is_soft);
     let overlap = overlap(simulation, collision).filter(|_| !is_of_mesh);
@@ -222,7 +222,7 @@ fn penetration(collision: &Collision, plan: &Plan, overlap: &Overlap) -> Option<
     let size = plan.contact_element_size / (ROOM_OF_ADVICE * excess.powf(ELEMENT_SIZE_PER_OVERLAP));
     let shorter = match plan.makes_meshes {
         // The springs are the cause, and not the mesh.
-        _ if plan.penalty_factor < PENALTY_FACTOR => String::new(),
+        _ if plan.has_soft_springs() => String::new(),
         true => format!(", or use a mesh.contact_element_size of {} or less", show(size, "m")),
         false => ", or use meshes that are finer at the contact".to_string(),
     };

@@ -240,6 +240,7 @@ fn a_mesh_from_a_file_has_a_bar() {
             contact_element_size: radius / 6.0,
             refined_radius,
             growth: Some(growth),
+            edge: None,
         };
         let mesh = disc.build().unwrap();
         let points: Vec<_> = mesh.nodes().iter().map(|&[r, y]| [r, y, 0.0]).collect();

@@ -55,7 +55,8 @@ fn coarse_imported_meshes_get_advice() {
     let files = |name: &str, size: f64, refined_radius: f64, growth: f64| {
         [0, 1].map(|k| {
             let (radius, growth) = (RADII[k], Some(growth));
-            let disc = HalfDisc { radius, contact_element_size: size, refined_radius, growth };
+            let disc =
+                HalfDisc { radius, contact_element_size: size, refined_radius, growth, edge: None };
             mesh_file(folder.path(), name, k, disc)
         })
     };
@@ -83,6 +84,7 @@ fn resolution_warning_counts_the_coarser_body() {
         contact_element_size: 0.1e-3,
         refined_radius: 0.2e-3,
         growth: None,
+        edge: None,
     };
     let file = mesh_file(folder.path(), "coarse", 1, disc);
     let (simulation, _) = run(&[file, "model.condensed={}".to_string()]);

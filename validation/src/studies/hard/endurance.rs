@@ -17,8 +17,13 @@ const STEPS: usize = 100;
 pub(super) fn endure(n_steps: usize) -> Result<([f64; 2], u64), StudyError> {
     const FLIGHT: f64 = 1.0;
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.488, 0.244)?;
-    let disc =
-        HalfDisc { radius: 1.0, contact_element_size: 0.125, refined_radius: 0.5, growth: None };
+    let disc = HalfDisc {
+        radius: 1.0,
+        contact_element_size: 0.125,
+        refined_radius: 0.5,
+        growth: None,
+        edge: None,
+    };
     let material = Material::new(1.0, moduli, None)?;
     let mut sphere = FreeMotion::new(disc.build()?, &material, 0.9)?;
     let ringing = |[r, y]: [f64; 2]| [-0.5e-2 * r, 1e-2 * (y - 1.0)];

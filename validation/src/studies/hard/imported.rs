@@ -58,8 +58,13 @@ impl Imported {
     /// Writes the mesh and returns the override that names it.
     pub fn write(&self, folder: &Path, name: &str) -> Result<String, StudyError> {
         let Self { radius, element_size, refined_radius, .. } = *self;
-        let half_disc =
-            HalfDisc { radius, contact_element_size: element_size, refined_radius, growth: None };
+        let half_disc = HalfDisc {
+            radius,
+            contact_element_size: element_size,
+            refined_radius,
+            growth: None,
+            edge: None,
+        };
         let (nodes, quads) = self.changed(&half_disc.build()?);
         let path = folder.join(format!("{name}.vtu"));
         fs::write(&path, vtu(&nodes, &quads))

@@ -85,6 +85,7 @@ fn body(size: f64, side: Side) -> Result<FreeMotion, StudyError> {
         // Elements farther out have another size and so another penalty.
         refined_radius: 1.0 + 3.0 * size,
         growth: None,
+        edge: None,
     };
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(1.0, POISSONS_RATIO)?;
     Ok(FreeMotion::new(disc.build()?.on_side(side), &Material::new(1.0, moduli, None)?, 1.0)?)

@@ -96,6 +96,7 @@ fn sphere(size: f64, side: Side) -> Result<SphereMesh, StudyError> {
         contact_element_size: size,
         refined_radius: BLOCK * size,
         growth: None,
+        edge: None,
     };
     Ok(disc.build()?.on_side(side))
 }

@@ -55,6 +55,7 @@ fn unit_sphere(graded: &Graded, nu: f64, side: Side) -> Result<FreeMotion, Study
         contact_element_size: graded.element_size,
         refined_radius: graded.refined_radius,
         growth: None,
+        edge: None,
     };
     Ok(FreeMotion::new(disc.build()?.on_side(side), &Material::new(1.0, moduli, None)?, 1.0)?)
 }

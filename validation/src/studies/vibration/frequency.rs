@@ -62,6 +62,7 @@ fn unit_sphere(poissons_ratio: f64, elements_over_radius: f64) -> Result<FreeMot
         contact_element_size: elements_over_radius.recip(),
         refined_radius: 0.5,
         growth: None,
+        edge: None,
     };
     Ok(FreeMotion::new(disc.build()?.on_side(Side::Above), &material, 0.9)?)
 }

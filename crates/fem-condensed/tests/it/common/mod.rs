@@ -77,6 +77,7 @@ impl Scene {
             contact_element_size: contact_radius / elements,
             refined_radius: 1.2 * contact_radius,
             growth: None,
+            edge: None,
         };
         Some(disc.build().unwrap().on_side([Side::Below, Side::Above][side]))
     }

@@ -17,7 +17,7 @@ pub fn noise(k: usize) -> f64 {
 }
 
 pub fn sphere(radius: f64, size: f64, refined_radius: f64, side: Side) -> SphereMesh {
-    HalfDisc { radius, contact_element_size: size, refined_radius, growth: None }
+    HalfDisc { radius, contact_element_size: size, refined_radius, growth: None, edge: None }
         .build()
         .unwrap()
         .on_side(side)

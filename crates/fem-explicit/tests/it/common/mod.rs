@@ -107,6 +107,7 @@ impl Pair {
             contact_element_size: self.element_size * length,
             refined_radius: 0.3e-3 * length,
             growth: None,
+            edge: None,
         };
         let side = if body == 0 { Side::Below } else { Side::Above };
         BodyInput::Sphere { mesh: disc.build().unwrap().on_side(side), material: self.material() }
@@ -216,7 +217,12 @@ pub fn unit_glass(relaxation: Option<PronySeries>) -> Material {
 
 /// Returns an upper unit sphere with `n` elements over the radius, nearly uniform.
 pub fn unit_sphere(n: f64) -> SphereMesh {
-    let disc =
-        HalfDisc { radius: 1.0, contact_element_size: 1.0 / n, refined_radius: 0.5, growth: None };
+    let disc = HalfDisc {
+        radius: 1.0,
+        contact_element_size: 1.0 / n,
+        refined_radius: 0.5,
+        growth: None,
+        edge: None,
+    };
     disc.build().unwrap().on_side(Side::Above)
 }
