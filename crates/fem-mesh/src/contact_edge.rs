@@ -57,9 +57,9 @@ fn fade(distance: f64) -> f64 {
 
 /// An uneven spacing of nodes between 0 and 1.
 struct Spacing {
-    /// c.
+    /// The place c of the narrowest elements.
     centre: f64,
-    /// w.
+    /// The width w.
     width: f64,
 }
 

@@ -53,8 +53,9 @@ pub fn stop_advice(stop: &Stop) -> Option<StopAdvice> {
         ),
         Stop::SurfaceTurnsOver { .. } => (
             "the flank of the body folds onto the other one: the impact is faster than the shear waves of the body, \
-             \u{221a}(G/\u{3c1}); no element size, penalty factor, time step or law prevents this",
-            "lower body.N.approach_speed below the speed of these waves, or check the moduli and their units",
+             \u{221a}(G/\u{3c1}), or the body flows and spreads; no element size, penalty factor, time step or law prevents \
+             this",
+            "lower body.N.approach_speed, or check the moduli, the yield strength and their units",
         ),
         Stop::NoSeparation { .. } => (
             "the material has relaxed so far that no stiffness is left to push the bodies apart, or a \
