@@ -46,7 +46,7 @@ pub(super) const COARSER_RUN: Calibration = Calibration {
 
 /// Constants for explicit elements that flow plastically, with a coarser run of their own. The force of such a contact is a
 /// staircase (`fem-mesh/src/contact_edge.rs`), so its errors fall with the first power of the element size. 454 random scenes
-/// gave the constants of both rows; in the 373 others of `validation/flow_random` each bar holds in 96 % or more, and all six
+/// gave the constants of both rows; in the 373 others of `validation/random_scenes/flow.csv` each bar holds in 96 % or more, and all six
 /// in 95 %.
 const FLOW: Calibration = Calibration {
     name: "FLOW",

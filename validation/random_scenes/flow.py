@@ -1,32 +1,16 @@
 #!/usr/bin/env python3
-"""Error bars of random bodies that flow: scenes.py FEM-RUN SEED MINUTES > SEED.csv
+"""Error bars of random bodies that flow: flow.py FEM-RUN SEED MINUTES > SEED.csv
 
 Draws scenes until the time is over: sizes, moduli, yield strength, hardening, partner and speed, from 0.5 to 3000 times
 that of first yield and at most a twentieth of the speed of sound. Each is run with a tolerance of 3 %, and again with
 elements half as large, whose difference is compared with the error bar (`discretisation`). A row has the scene, how
-the runs ended, and for each quantity its value, the reference and the bar. scenes.csv
+the runs ended, and for each quantity its value, the reference and the bar. flow.csv
 has the rows of seeds 12 and 13, 14 minutes each, of numerics b1333db58a78e95c on a machine of 2 cores.
 """
 
-import csv
-import json
 import random
-import subprocess
-import sys
-import tempfile
-import time
-from pathlib import Path
 
-QUANTITIES = [
-    "restitution",
-    "contact_time_s",
-    "peak_force_n",
-    "max_approach_m",
-    "max_contact_radius_m",
-    "peak_pressure_pa",
-]
-QUIET = ["output.report=false", "output.snapshots=[]"]
-LONGEST = 150
+from scenes import QUANTITIES, bars, run, study
 
 
 def scene():
@@ -73,52 +57,24 @@ approach_speed = "{speed:.5g} m/s"
     return [partner, hardening, f"{speed / first_yield:.3g}", f"{strength_ratio:.0f}"], case
 
 
-def run(program, folder, overrides):
-    """Returns the summary, or how the run ended without one."""
-    sets = [word for override in QUIET + overrides for word in ("--set", override)]
-    command = [program, folder / "case.toml", "--out", folder / "out", "--force", "--quiet", *sets]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)
-    except subprocess.TimeoutExpired:
-        return None, f"longer than {LONGEST} s"
-    if done.returncode:
-        return None, " ".join(done.stderr.split())[:200]
-    return json.loads((folder / "out" / "summary.json").read_text()), ""
-
-
 def compare(program, folder):
+    """Yields the row of a scene."""
     ours, why = run(program, folder, [])
     if ours is None:
-        return [why]
+        return [[why]]
     size = ours["case"]["mesh"]["contact_element_size"]
     finer, why = run(program, folder, [f"mesh.contact_element_size={size / 2}", "accuracy.tolerance=0.5"])
     if finer is None:
-        return ["reference: " + why]
+        return [["reference: " + why]]
     row, outside = [], []
     for key in QUANTITIES:
-        parts = ours["uncertainty"].get(key) or ours["uncertainty"].get(key.rsplit("_", 1)[0]) or {}
-        bar = parts.get("discretisation")
+        bar = bars(ours, key).get("discretisation")
         row += [ours[key], finer[key], bar]
         if None not in row[-3:] and abs(ours[key] - finer[key]) > bar:
             outside.append(key)
-    return [" ".join(outside) or "inside", f"{ours['energy']['residual_relative']:.1e}", *row]
-
-
-def main(program, seed, minutes):
-    random.seed(int(seed))
-    rows, end = csv.writer(sys.stdout), time.time() + 60 * float(minutes)
-    values = [f"{key}{part}" for key in QUANTITIES for part in ("", "_reference", "_bar")]
-    head = ["scene", "partner", "hardening", "v_over_v_y", "e_over_y", "outcome", "energy_residual", *values]
-    rows.writerow(head)
-    number = 0
-    with tempfile.TemporaryDirectory() as folder:
-        while time.time() < end:
-            number += 1
-            drawn, case = scene()
-            (Path(folder) / "case.toml").write_text(case)
-            rows.writerow([f"{seed}.{number}", *drawn, *compare(program, Path(folder))])
-            sys.stdout.flush()
+    return [[" ".join(outside) or "inside", f"{ours['energy']['residual_relative']:.1e}", *row]]
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    values = [f"{key}{part}" for key in QUANTITIES for part in ("", "_reference", "_bar")]
+    study(scene, compare, ["partner", "hardening", "v_over_v_y", "e_over_y", "outcome", "energy_residual", *values])
