@@ -13,10 +13,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use crate::quantity::{Quantity, QuantityKind};
-use crate::schema::{
-    ActsOn, CaseFile, FlowPoints, JohnsonCookTable, MaterialTable, RateTable, TermTable,
-};
+use crate::schema::{CaseFile, MaterialTable};
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::shift;
 
@@ -126,60 +123,30 @@ fn find(name: &str) -> Option<&'static Material> {
     materials().get(name.strip_prefix(PREFIX)?)
 }
 
-/// Returns the table of a material as in a case file, `[material.NAME]`, with numbers as the library writes them.
+/// Returns the table of a material as in a case file, `[material.NAME]`, with the text of the library.
 pub fn table_text(name: &str) -> Option<String> {
-    let table = &materials().get(name)?.material;
-    let mut text = format!("[material.{name}]\ndensity = {}\n", written(&table.density));
-    let mut line = |key: &str, value: Option<String>| {
-        text.extend(value.map(|value| format!("{key} = {value}\n")));
-    };
-    line("youngs_modulus", table.youngs_modulus.as_ref().map(written));
-    line("shear_modulus", table.shear_modulus.as_ref().map(written));
-    line("bulk_modulus", table.bulk_modulus.as_ref().map(written));
-    line("poissons_ratio", table.poissons_ratio.as_ref().map(written));
-    line("yield_strength", table.yield_strength.as_ref().map(written));
-    line("surface_energy", table.surface_energy.as_ref().map(written));
-    line("hyperelastic", table.hyperelastic.map(|law| format!("{:?}", law.word())));
-    if let Some(flow) = &table.flow {
-        text += &format!("\n[material.{name}.flow]\n");
-        if let Some(FlowPoints::Rows(rows)) =
-            flow.hardening.as_ref().and_then(|it| it.table.as_ref())
-        {
-            text += "hardening.table = [\n";
-            let row = |strain, stress| format!("    [{}, {}],\n", written(strain), written(stress));
-            text.extend(rows.iter().map(|(strain, stress)| row(strain, stress)));
-            text += "]\n";
-        }
-        if let Some(RateTable { johnson_cook: JohnsonCookTable { c, reference_rate } }) = &flow.rate
-        {
-            let [c, reference_rate] = [written(c), written(reference_rate)];
-            text +=
-                &format!("rate.johnson_cook = {{ c = {c}, reference_rate = {reference_rate} }}\n");
-        }
-    }
-    if let Some(relaxation) = &table.relaxation {
-        let acts_on = relaxation.acts_on.map_or("", ActsOn::word);
-        text += &format!("\n[material.{name}.relaxation]\nacts_on = \"{acts_on}\"\nterms = [\n");
-        for TermTable { weight, decay_rate, relaxation_time } in &relaxation.terms {
-            text += &format!("    {{ weight = {}", written(weight));
-            text.extend(
-                decay_rate.as_ref().map(|rate| format!(", decay_rate = {}", written(rate))),
-            );
-            let time = relaxation_time.as_ref().map(written);
-            text.extend(time.map(|time| format!(", relaxation_time = {time}")));
-            text += " },\n";
-        }
-        text += "]\n";
-    }
-    Some(text)
+    let mut library = DeTable::parse(TEXT).ok()?.into_inner();
+    let DeValue::Table(entry) = library.remove(name)?.into_inner() else { return None };
+    let DeValue::Table(material) = entry.get("material")?.get_ref() else { return None };
+    Some(section(&format!("material.{name}"), material))
 }
 
-/// Writes a quantity as TOML with its unit.
-fn written<K: QuantityKind>(quantity: &Quantity<K>) -> String {
-    match (quantity.text(), quantity.si()) {
-        (None, Ok(value)) => format!("{value:?}"),
-        _ => quantity.to_string(),
+/// Returns the text of a table of the library under another name: its lines, then the tables that have lines of their own.
+fn section(name: &str, table: &DeTable<'_>) -> String {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(_, value)| value.span().start);
+    let mut text = format!("[{name}]\n");
+    let mut tables = String::new();
+    for (key, value) in entries {
+        let key = key.get_ref();
+        match (value.get_ref(), &TEXT[value.span()]) {
+            (DeValue::Table(inner), written) if !written.starts_with('{') => {
+                tables += &format!("\n{}", section(&format!("{name}.{key}"), inner));
+            }
+            (_, written) => text += &format!("{key} = {written}\n"),
+        }
     }
+    text + &tables
 }
 
 /// Adds to a case made in code the tables of the library's materials that its bodies name.

@@ -1,7 +1,7 @@
 //! Values of a varied key as a range, `{ from = "5 cm/s", to = "2 m/s", n = 40, log = true }` or with `step = "5 cm/s"` in
 //! place of `n`, or as the rows of a CSV file, `{ table = "pairs.csv" }`.
 //!
-//! The values of a range are evenly spaced, or have a constant ratio with `log`: x_k = from + (to − from) k / (n − 1), or
+//! The values of a range, also of temperatures (`from = "-20 degC", to = "80 degC", step = "5 degC"`), are evenly spaced, or have a constant ratio with `log`: x_k = from + (to − from) k / (n − 1), or
 //! from (to / from)^(k / (n − 1)). The ends are as written; the values between have the unit of `to`. Each row of a table
 //! is one value of all keys of the axis, from the columns of their names or from those in `columns`.
 
@@ -14,6 +14,7 @@ use toml::de::DeTable;
 
 use crate::case::bytes_at;
 use crate::error::CaseError;
+use crate::quantity::temperature::parse_temperature;
 use crate::quantity::units::{Dimension, parse_quantity};
 use crate::quantity::{Number, Quantity};
 use crate::source::document::Document;
@@ -26,6 +27,8 @@ const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perha
                      in place of n";
 /// Largest part of a step by which the last one may miss the end of a range.
 const ROUNDING: f64 = 1e-9;
+/// The dimension of a temperature, whose scales have an offset: both ends and the step have the same scale.
+const ON_A_SCALE: Dimension = Dimension([0; 4]);
 
 /// An error in a table of values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -193,7 +196,8 @@ impl ValuesReader<'_> {
                 End { number, unit: String::new(), si: number, dimension: None }
             }
             Some(text) => {
-                let si = parse_quantity(text);
+                let on_scale = parse_temperature(text).map(|kelvin| Ok((kelvin, ON_A_SCALE)));
+                let si = on_scale.unwrap_or_else(|| parse_quantity(text));
                 let (si, dimension) = si.map_err(|error| fault(&format!("{text:?}: {error}")))?;
                 let (number, unit) = split_unit(text);
                 End { number, unit: unit.to_string(), si, dimension: Some(dimension) }

@@ -54,7 +54,7 @@ const SMALL_STRAIN: &str =
     "cases/soft_sphere.toml --set effects.finite_strain=off --out runs/soft_small_strain";
 
 /// All pictures, in the order of the pages.
-pub const PICTURES: [Picture; 31] = [
+pub const PICTURES: [Picture; 32] = [
     page("report.png", &[GLASS], "runs/glass_0.5ms/report.html", [1000, 1010]),
     page(
         "comparison.png",
@@ -196,7 +196,12 @@ pub const PICTURES: [Picture; 31] = [
         "dent.svg",
     ),
     figure(
-        "gallery-11-acrylic.svg",
+        "gallery-11-temperature.svg",
+        &["sweep cases/sweep_temperature.toml"],
+        "runs/sweep_temperature/sweep.svg",
+    ),
+    figure(
+        "gallery-12-acrylic.svg",
         &[
             "new acrylic --material pmma --partner half-space",
             "acrylic.toml --set model=auto --out runs/acrylic",

@@ -8,7 +8,7 @@ use crate::pages::{Page, root};
 use crate::shell::{commands, words};
 
 /// Commands that take longer than two seconds, or read the output of such a command.
-const SLOW: [&str; 10] = [
+const SLOW: [&str; 11] = [
     "calibrate cases/polymer_drop.toml",
     "measure validation/data/plate_drops.csv",
     "calibrate cases/ice_2cm.toml",
@@ -18,6 +18,7 @@ const SLOW: [&str; 10] = [
     "invert cases/glass_0.5ms_elastic_bulk.toml",
     "sweep cases/sweep_speed.toml",
     "sweep cases/sweep_glass.toml",
+    "sweep cases/sweep_temperature.toml",
     "runs/sweep_glass/sweep.csv",
 ];
 /// Commands that are not run here: claims have their own tests, and shards are partial.

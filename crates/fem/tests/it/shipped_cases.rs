@@ -16,7 +16,7 @@ const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"
 type Row = (&'static str, &'static str, &'static [&'static str], &'static [[&'static str; 2]]);
 
 const RELAXES: &str = "viscoelasticity";
-const ROWS: [Row; 17] = [
+const ROWS: [Row; 18] = [
     ("glass_0.5ms", "fem", &[RELAXES], &[["mirror symmetry", "differ"]]),
     ("glass_0.5ms_14um", "fem", &[], &[]),
     ("glass_0.5ms_elastic", "fem", &[], &[]),
@@ -92,6 +92,8 @@ const ROWS: [Row; 17] = [
             [RELAXES, "2 faster and 5 slower than the contact"],
         ],
     ),
+    // At 30 °C the times are 10^(−20.7 · 10/101.1) = 0.9 % of those at 20 °C: one of 2.8 ms takes 25 µs.
+    ("pvb_ball", "ting", &[RELAXES], &[[RELAXES, "4 of 11 terms are integrated"]]),
 ];
 
 fn folder() -> PathBuf {
