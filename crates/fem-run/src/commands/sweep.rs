@@ -4,8 +4,8 @@ use std::cell::OnceCell;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use fem::digest_of;
 use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some, load};
+use fem::{WarningKinds, digest_of};
 use fem_case::{CaseFile, Sweep};
 use fem_report::sweep::FigureChoice;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -71,8 +71,6 @@ pub struct Arguments {
     #[arg(long, short)]
     quiet: bool,
 }
-
-const MAX_IMPLAUSIBLE: usize = 5;
 
 struct Work<'a> {
     arguments: &'a Arguments,
@@ -177,7 +175,7 @@ impl Work<'_> {
         let mut collector = Collector { sweep, members, folder: &mut folder, numbers, choice };
         let collected = collector.collect(|index| shard.has(index))?;
         ran?;
-        standard_output::warn(warning_lines(&collected.warnings, sweep, reported(&checked)));
+        standard_output::warn(warning_lines(&collected.warnings, sweep, &checked.warnings));
         if !arguments.quiet {
             let text = report(sweep, &collected, members.len(), folder.path());
             standard_output::print(&text)?;
@@ -218,7 +216,7 @@ impl Work<'_> {
                 collected.take(row, sweep, true);
             }
         }
-        standard_output::warn(warning_lines(&collected.warnings, sweep, reported(&checked)));
+        standard_output::warn(warning_lines(&collected.warnings, sweep, &checked.warnings));
         conclude(&collected, places.len(), interrupt.is_requested())
     }
 
@@ -250,7 +248,7 @@ impl Work<'_> {
             let expected = self.expected(checked);
             announce(&name, sweep, checked, expected, n_own, pool.current_num_threads());
         }
-        standard_output::warn(reported(checked).cloned());
+        standard_output::warn(warning_lines(&checked.warnings, sweep, &WarningKinds::default()));
     }
 
     fn job<'j>(
@@ -263,11 +261,6 @@ impl Work<'_> {
         let (sweep, pool, quiet) = (self.sweep, self.pool, self.arguments.quiet);
         SweepJob { sweep, members, folder, shard, pool, quiet, interrupt: interrupt.clone() }
     }
-}
-
-/// Returns the implausible values that are reported before the sweep.
-fn reported(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
-    checked.implausible.iter().take(MAX_IMPLAUSIBLE)
 }
 
 pub fn thread_pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {

@@ -153,12 +153,8 @@ const MAX_KINDS: usize = 20;
 
 /// Returns one line per kind, the most frequent first, and the number of kinds left out. Kinds that were
 /// printed `before` are skipped.
-pub fn warning_lines<'t>(
-    warnings: &WarningKinds,
-    sweep: &Sweep,
-    before: impl Iterator<Item = &'t String> + Clone,
-) -> Vec<String> {
-    let is_new = |kind: &&WarningKind| !before.clone().any(|text| kind.is_of(text));
+pub fn warning_lines(warnings: &WarningKinds, sweep: &Sweep, before: &WarningKinds) -> Vec<String> {
+    let is_new = |kind: &&WarningKind| !before.all().iter().any(|known| kind.is_of(&known.first));
     let mut kinds: Vec<&WarningKind> = warnings.all().iter().filter(is_new).collect();
     kinds.sort_by_key(|kind| std::cmp::Reverse(kind.count));
     let line = |kind: &&WarningKind| {

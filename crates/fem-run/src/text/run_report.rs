@@ -101,8 +101,9 @@ fn short(summary: &Summary) -> String {
         row("on", if reasons.len() > MAX_REASONS { names.join(", ") } else { reasons });
     }
     let off: Vec<&EffectDecision> = decisions().filter(|it| !it.active).collect();
-    let loss = off.iter().find(|it| it.name == MaterialLoss::NAME && !it.matters);
-    if let Some(loss) = loss {
+    let loss = off.iter().find(|it| it.name == MaterialLoss::NAME);
+    // Beside an estimate of plastic flow or adhesion it says little.
+    if let Some(loss) = loss.filter(|_| summary.estimate.is_none()) {
         row("elastic", loss.reason.clone());
     }
     let mattering: Vec<&str> = off.iter().filter(|it| it.matters).map(|it| it.name).collect();

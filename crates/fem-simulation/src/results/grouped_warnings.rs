@@ -29,7 +29,7 @@ pub struct WarningKind {
 /// kinds.add(1, "a step of 1.1 mm is 12 % too long");
 /// assert_eq!((kinds.all().len(), kinds.all()[0].count), (1, 2));
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WarningKinds {
     kinds: Vec<WarningKind>,
     n_others: usize,

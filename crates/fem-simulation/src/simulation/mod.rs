@@ -24,6 +24,7 @@ use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
 use crate::models::method::{Cost, Model, ModelSetup, SharedModels, start_stepper};
 use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
 use crate::models::{ComputedScene, ModelCandidate, SelectedModel};
+use crate::plan::Plan;
 use crate::plan::body_source::probes_of;
 use crate::rejection::Rejection;
 use crate::simulation::identity::identity_of;
@@ -138,6 +139,14 @@ impl Simulation {
         computed
             .and_then(|scene| scene.element_updates())
             .map_err(|rejection| rejection.in_case(case))
+    }
+
+    /// Returns why no mesh of a case meets its `accuracy.tolerance`, as [`Self::out_of_reach`] does, without making it.
+    pub fn out_of_reach_of(case: &Case) -> Option<String> {
+        let scene = ComputedScene::of(case.scene()).ok()?.selected.scene;
+        let has_elements = matches!(scene.model(), ModelChoice::Fem | ModelChoice::Condensed(_));
+        let plan = has_elements.then(|| Plan::of(&scene).ok()).flatten()?;
+        plan.out_of_reach().map(str::to_string)
     }
 
     /// Returns the case.

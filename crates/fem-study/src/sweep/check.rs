@@ -5,14 +5,14 @@
 //! member.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use fem_case::schema::MeshTable;
 use fem_case::{Case, CaseError, CaseFile};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::members::{Member, Members};
-use fem_simulation::Simulation;
+use fem_simulation::{Simulation, WarningKinds};
 
 /// Number of members that are made at the same time.
 const AT_ONCE: usize = 64;
@@ -28,8 +28,9 @@ pub struct Checked {
     /// Estimated cost of each of those by its element updates alone, s on one core of 3 GHz; an order of
     /// magnitude.
     pub seconds: Vec<f64>,
-    /// Implausible values of the scenes, such as a ball of 1 km; each once.
-    pub implausible: BTreeSet<String>,
+    /// Doubts about members before they run: implausible values, such as a ball of 1 km, and a tolerance
+    /// that no mesh meets.
+    pub warnings: WarningKinds,
     /// Suggestions that make the sweep cheaper.
     pub advice: Option<&'static str>,
 }
@@ -40,7 +41,7 @@ struct CheckedMember {
     case: CaseFile,
     /// Cost estimate of a member that is still to run.
     element_updates: Option<u64>,
-    implausible: Vec<String>,
+    warnings: Vec<String>,
 }
 
 /// Checks all members. Those that are `is_own` and not `is_done` are left to run; `see` is called for each member in
@@ -74,15 +75,11 @@ pub fn check_some(
         let (member, resolved) = Member::resolved(index, case)?;
         let is_left = is_own(index) && !is_done(&member);
         let element_updates = is_left.then(|| Simulation::element_updates_of(case)).transpose()?;
-        Ok(CheckedMember {
-            member,
-            case: resolved,
-            element_updates,
-            implausible: case.scene().implausible_numbers(),
-        })
+        let mut warnings = case.scene().implausible_numbers();
+        warnings.extend(is_left.then(|| Simulation::out_of_reach_of(case)).flatten());
+        Ok(CheckedMember { member, case: resolved, element_updates, warnings })
     };
     let mut checked = Checked { members: Vec::with_capacity(places.len()), ..Checked::default() };
-    let mut odd = BTreeSet::new();
     let (mut known, mut prices, mut meshes) = (HashSet::new(), Vec::new(), Meshes::default());
     for some in places.chunks(AT_ONCE) {
         let made = some.par_iter().map(|&index| members.build(index, |case| look(index, &case)));
@@ -91,8 +88,10 @@ pub fn check_some(
             let seen = seen.map_err(|first| {
                 members.with_other_faults(first, |case| look(usize::MAX, &case).map(drop))
             });
-            let CheckedMember { member, case, element_updates, implausible } = seen?;
-            odd.extend(implausible);
+            let CheckedMember { member, case, element_updates, warnings } = seen?;
+            for warning in warnings {
+                checked.warnings.add(member.index, &warning);
+            }
             see(&member, &case);
             checked.members.push(member);
             if let Some(element_updates) = element_updates
@@ -110,7 +109,6 @@ pub fn check_some(
     prices.sort_unstable_by_key(|(element_updates, index, _)| (*element_updates, *index));
     (checked.left, checked.seconds) =
         prices.into_iter().map(|(_, index, seconds)| (index, seconds)).unzip();
-    checked.implausible = odd;
     checked.advice = meshes.advice(members)?;
     Ok(checked)
 }

@@ -1,6 +1,6 @@
 //! Bad sweep files: exit status 2, line and column of the error, nothing written.
 
-use crate::common::Place;
+use crate::common::{CASE, Place};
 
 /// Runs a sweep file that must be rejected at LINE:COLUMN with a message that contains `expected`.
 #[track_caller]
@@ -67,6 +67,8 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
     refused(&range("{ from = 1, to = 2, n = 1 }"), "3:51", "n is 1|2 to");
     refused(&range("{ from = 1, to = 2, n = 3, logs = true }"), "3:54", "unknown key|log");
     refused(&range("{ from = '1 mm', to = '2 s', n = 3 }"), "3:49", "units of the same quantity");
+    let scales = vary("'temperature' = { from = '20 degC', to = '330 K', n = 3 }");
+    refused(&scales, "3:42", "units of the same quantity");
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", "furlong");
     refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", "not a number");
     refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", "greater than 0");
@@ -202,7 +204,8 @@ fn warnings_of_sweep_members_are_printed_once() {
     let place = Place::new();
     place.write("sweep.toml", &vary("'body.0.approach_speed' = [0.5, 0.6, 0.7]"));
     let set = "model={ ting = {} }";
-    let library = "body.1.material='lib:pmma'";
+    let library = "body=[{ name='a', sphere.diameter='1 m', material='lib:granite', approach_speed=1 }, \
+                   { name='b', sphere.diameter='1 m', material='lib:granite' }]";
     let arguments = ["sweep", "sweep.toml", "--quiet", "--set", set, "--set", library];
     // A finished sweep prints them again.
     for _ in 0..2 {
@@ -211,7 +214,7 @@ fn warnings_of_sweep_members_are_printed_once() {
             ran.stderr.lines().filter(|line| line.contains("no relaxation for")).collect();
         assert!(
             told.len() == 1
-                && told[0].starts_with("warning: the library has no relaxation for pmma"),
+                && told[0].starts_with("warning: the library has no relaxation for granite"),
             "{}",
             ran.stderr
         );
@@ -234,6 +237,21 @@ fn a_range_may_have_a_step() {
     let table = place.text("runs/sweep/sweep.csv");
     let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
     assert_eq!(texts, ["50 cm/s", "1 m/s", "1.5 m/s", "2 m/s"]);
+}
+
+/// Temperatures are on scales with an offset: a step is one of degrees.
+#[test]
+fn a_range_may_be_of_temperatures() {
+    let place = Place::new();
+    let range = "{ from = '-20 degC', to = '20 degC', step = '20 degC' }";
+    place.write("sweep.toml", &vary(&format!("temperature = {range}")));
+    place.succeed((
+        "sweep sweep.toml --quiet --out runs/sweep --set model.ting={}",
+        ["--set", "body.1.material='lib:pvb'"],
+    ));
+    let table = place.text("runs/sweep/sweep.csv");
+    let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert_eq!(texts, ["-20 degC", "0 degC", "20 degC"]);
 }
 
 /// Ends of a range in two units of one quantity: the ends are as written, the others in the unit of the
@@ -269,4 +287,15 @@ fn bare_numbers_of_a_sweep_need_their_unit() {
     assert_eq!(ran.code, Some(2), "{}", ran.stderr);
     ran.tells("sweep.toml:3|diameter = \"10 mm\"");
     assert_eq!(sweep("['1 cm', '10 m']").code, Some(0));
+}
+
+/// Members whose tolerance no mesh meets are warned of before any is computed, and not those of models without a mesh.
+#[test]
+fn a_tolerance_that_no_mesh_meets_is_warned_of() {
+    let place = Place::with(CASE.split("[mesh]").next().unwrap());
+    place.write("sweep.toml", &vary("accuracy.tolerance = [1e-2, 1e-5]"));
+    place
+        .succeed("sweep sweep.toml --dry-run")
+        .tells("accuracy.tolerance cannot be met|(1 member: accuracy.tolerance = 1e-5)");
+    assert_eq!(place.succeed("sweep sweep.toml --dry-run --quiet --set model.ting={}").stderr, "");
 }

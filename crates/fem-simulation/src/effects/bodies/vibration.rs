@@ -4,7 +4,6 @@
 //! Decided by the approach speed over the shear wave speed.
 
 use fem_case::{Body, Scene};
-use fem_collision::Collision;
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
@@ -18,8 +17,6 @@ use crate::quantity_errors::QuantityErrors;
 
 /// Number of modes per body that carry the inertia of its deformation.
 pub(super) const ENOUGH_MODES: usize = 12;
-/// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
-const MAX_VIBRATION: f64 = 0.01;
 
 /// Least loss of restitution over the bodies' own speeds in shear wave speeds ([`own_mach`]). Explicit elements lost
 /// 0.06 to 0.1 of it more than quasi-static bodies on a wall at 0.3 to 20 %, and twice that at 40 %. A small ball
@@ -81,28 +78,6 @@ impl Effect for Vibration {
         let margin = (MARGIN_OF_LOSS - 1.0) * loss_by_inertia(scene, estimate);
         let restitution = change.restitution.map(|loss| loss + margin);
         NeglectError { restitution, ..change }.of_all_quantities(estimate)
-    }
-
-    fn warnings_of_result(
-        &self,
-        _: &Scene,
-        estimate: &Estimate,
-        collision: &Collision,
-    ) -> Vec<String> {
-        let hertz = &estimate.hertz;
-        let initial = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
-        // Waves in a half-space, which has no mass, do not return.
-        let left = collision.bodies.iter().filter(|body| body.mass.is_some());
-        let left = left.filter_map(|body| body.vibration_energy);
-        let share = left.sum::<f64>() / initial;
-        let warning = (share > MAX_VIBRATION).then(|| {
-            format!(
-                "{:.1} % of the initial kinetic energy stays in vibrations of the bodies; closed \
-                 forms do not include this loss",
-                100.0 * share
-            )
-        });
-        warning.into_iter().collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Loss of the material itself, for materials without a relaxation. A case that gives its own elastic material asks for a
 //! collision without it. A material of the library has a loss that is not known: the restitution is too large, by an unknown
-//! amount.
+//! amount, which the effect says. Where restitutions of the material are measured, a warning names them.
 
 use fem_case::{Body, ModelChoice, Scene};
 use fem_collision::QuantityOfInterest;
@@ -13,19 +13,25 @@ use crate::quantity_errors::QuantityErrors;
 
 impl Effect for MaterialLoss {
     fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
-        let warning = scene.unknown_loss();
         let bodies: Vec<&str> = scene.elastic_bodies().map(Body::name).collect();
         if bodies.is_empty() {
             let number = "a material flows, but not in this collision".to_string();
             let if_not_needed = "computed as elastic".to_string();
             return Some(Relevance { number, if_not_needed, ..Relevance::default() });
         }
+        let names = scene.materials_without_loss();
+        let number = match names.is_empty() {
+            true => format!("the case gives no relaxation for {}", bodies.join(" and ")),
+            false => format!("the library has no relaxation for {}", names.join(" and ")),
+        };
+        // Measured restitutions are something to compare with.
+        let is_measured = !scene.measured_restitutions().is_empty();
         Some(Relevance {
-            is_needed: warning.is_some(),
-            number: format!("the case gives no relaxation for {}", bodies.join(" and ")),
+            is_needed: !names.is_empty(),
+            number,
             if_not_needed: "computed as elastic, without a loss of the material".to_string(),
-            open_error: "unknown".to_string(),
-            warning,
+            open_error: "the restitution is too high by an unknown amount".to_string(),
+            warning: scene.unknown_loss().filter(|_| is_measured),
         })
     }
 
