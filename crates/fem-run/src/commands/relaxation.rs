@@ -37,7 +37,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", value_parser = parse_density)]
     terms_per_decade: Option<f64>,
     /// Temperature to which the moduli of other temperatures are shifted [default: that in the middle]
-    #[arg(long, value_name = "TEMPERATURE", value_parser = of_kind(Kind::Temperature))]
+    #[arg(long, value_name = "TEMPERATURE", value_parser = of_kind(Kind::Temperature),
+        allow_hyphen_values = true)]
     reference_temperature: Option<Measured>,
     /// Scale the moduli of each temperature too
     #[arg(long)]

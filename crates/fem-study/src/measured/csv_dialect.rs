@@ -137,7 +137,8 @@ pub(super) fn with_units(
     next: &[String],
 ) -> Option<Vec<String>> {
     let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
-    if row.iter().any(|cell| is_number(cell)) {
+    // `1/MPa` is a unit.
+    if row.iter().any(|cell| is_number(cell) && !cell.starts_with("1/")) {
         return None;
     }
     let unit = |cell: &String| {

@@ -9,6 +9,9 @@
 //! The covariance of both residuals of a point is found from the residuals themselves (seemingly unrelated regressions: Zellner, *J. Am.
 //! Stat. Assoc.* 57 (1962) 348), so that a loss modulus with resonances of the instrument counts little.
 //!
+//! In the first round losses count over |E*|: a resonance of the instrument lies at one frequency of all temperatures, and relative to a
+//! small loss it would hold the blocks at their frequencies.
+//!
 //! Limits: residuals of different points are taken as independent.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix2};
@@ -22,7 +25,7 @@ use super::superposition::{Block, reduced};
 /// Terms per decade of the series of all blocks.
 const DENSITY: f64 = 2.0;
 /// Rounds after which the times of the series and the covariance of the residuals follow the shifts.
-const N_ROUNDS: usize = 4;
+const N_ROUNDS: usize = 5;
 /// Most steps of a round.
 const MAX_STEPS: usize = 30;
 /// Accuracy of a shift, ln.
@@ -101,10 +104,17 @@ impl<'a> Joint<'a> {
                 false => shifts.clone(),
                 true => shifts.iter().copied().chain(times.iter().map(|time| time.ln())).collect(),
             };
-            let problem = Problem { joint: self, times: &times, whitening };
+            let is_first = round == 0;
+            let problem = Problem { joint: self, times: &times, whitening, is_first };
             let (found, solved) = problem.minimise(start);
             covariance = problem.covariance(&found, &solved).view((0, 0), (n, n)).into_owned();
-            whitening = self.whitening(&solved, &whitening);
+            whitening = match is_first {
+                true => {
+                    let relative = problem.relative_residuals(&found, &solved);
+                    self.whitening(&relative, &whitening)
+                }
+                false => self.whitening(&solved.residuals, &whitening),
+            };
             let all = problem.times(&found);
             times = joined(all.iter().copied().zip(solved.moduli.iter().copied()));
             shifts.copy_from_slice(&found[..n_shifts]);
@@ -148,13 +158,13 @@ impl<'a> Joint<'a> {
     }
 
     /// Returns the factor of the inverse covariance of the residuals of a point, relative to the largest.
-    fn whitening(&self, solved: &Solved, before: &Matrix2<f64>) -> Matrix2<f64> {
+    fn whitening(&self, residuals: &DVector<f64>, before: &Matrix2<f64>) -> Matrix2<f64> {
         let Some(back) = before.try_inverse() else { return *before };
         if self.n_parts() == 1 {
             return *before;
         }
         let mut sum = Matrix2::zeros();
-        for pair in solved.residuals.as_slice().chunks_exact(2) {
+        for pair in residuals.as_slice().chunks_exact(2) {
             let plain = back * nalgebra::Vector2::new(pair[0], pair[1]);
             sum += plain * plain.transpose();
         }
@@ -171,6 +181,8 @@ struct Problem<'a> {
     joint: &'a Joint<'a>,
     times: &'a [f64],
     whitening: Matrix2<f64>,
+    /// Whether losses count over |E*|.
+    is_first: bool,
 }
 
 impl Problem<'_> {
@@ -234,7 +246,11 @@ impl Problem<'_> {
 
     fn solve(&self, parameters: &[f64]) -> Solved {
         let times = self.times(parameters);
-        let observations = Observations::of(self.joint.kind, &self.joint.reduced(parameters));
+        let points = self.joint.reduced(parameters);
+        let observations = match self.is_first {
+            true => Observations::over_magnitude(self.joint.kind, &points),
+            false => Observations::of(self.joint.kind, &points),
+        };
         let plain = observations.linear_of_all(&times);
         let n = plain.a.ncols();
         let mut rows = plain.a.insert_column(n, 0.0);
@@ -245,6 +261,14 @@ impl Problem<'_> {
         let moduli = non_negative(&small.a, &small.b);
         let residuals = &linear.a * &moduli - &linear.b;
         Solved { observations, linear, moduli, residuals }
+    }
+
+    /// Returns the residuals of the moduli that were found over the measured ones.
+    fn relative_residuals(&self, parameters: &[f64], solved: &Solved) -> DVector<f64> {
+        let points = self.joint.reduced(parameters);
+        let Linear { a, b } =
+            Observations::of(self.joint.kind, &points).linear_of_all(&self.times(parameters));
+        a * &solved.moduli - b
     }
 
     /// Returns the derivatives of the residuals by the parameters less what the moduli follow.

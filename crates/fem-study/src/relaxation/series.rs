@@ -146,11 +146,21 @@ pub(super) struct Observations {
 }
 
 impl Observations {
+    /// Returns the moduli over themselves; a loss angle is resolved to that of instruments.
     pub fn of(kind: TestKind, points: &[ModulusPoint]) -> Self {
+        Self::with_resolution(kind, points, PHASE_RESOLUTION)
+    }
+
+    /// Returns the storage moduli over themselves and the loss moduli over |E*|, about as force and displacement are measured.
+    pub fn over_magnitude(kind: TestKind, points: &[ModulusPoint]) -> Self {
+        Self::with_resolution(kind, points, 1.0)
+    }
+
+    fn with_resolution(kind: TestKind, points: &[ModulusPoint], resolution: f64) -> Self {
         let rows = points.iter().flat_map(|point| {
             let ModulusPoint { at, storage, loss, .. } = *point;
             let storage_row = Row { at, part: 0, value: storage, scale: storage };
-            let loss_scale = loss.hypot(PHASE_RESOLUTION * storage);
+            let loss_scale = loss.hypot(resolution * storage);
             let loss_row = Row { at, part: 1, value: loss, scale: loss_scale };
             let is_oscillation = kind == TestKind::Oscillation;
             [Some(storage_row), is_oscillation.then_some(loss_row)]
