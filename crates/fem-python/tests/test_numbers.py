@@ -168,7 +168,7 @@ def test_records_become_data_of_a_fit():
     data = ROOT / "validation" / "data"
     found = fem_run.measure(data / "bounce_times.csv", height="50 cm ± 1 mm")
     table = found.table()
-    assert found["kind"] == "bounce-times" and len(table["restitution"]) == 13
+    assert found["kind"] == "bounces" and len(table["restitution"]) == 13
     assert table["restitution"][0] == pytest.approx(0.8874, abs=1e-3) and table["time_s"][0] == 0.35
     assert "contact_time_s" not in table
     assert "13 restitutions" in repr(found) and found._repr_html_().startswith("<svg")

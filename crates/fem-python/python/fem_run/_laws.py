@@ -365,7 +365,7 @@ class Measurement(dict[str, Any]):
 def measure(
     data: Any,
     *,
-    kind: Literal["bounce-times", "track", "force", "sound"] | None = None,
+    kind: Literal["bounces", "track", "force", "sound"] | None = None,
     gravity: Quantity | None = None,
     height: Quantity | None = None,
     diameter: Quantity | None = None,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use fem::fit::cradle::Measured;
 use fem::measured::{Kind, NotMeasured, parse_measured};
 use fem::records::{
@@ -17,7 +17,16 @@ use crate::arguments::case::stem_of;
 use crate::arguments::data::{ColumnArguments, read_bytes};
 use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
+use crate::result_folder::whole_file::OwnedFileKind;
 use crate::text::{Failure, headed, show_measured, shown, standard_output};
+
+/// The table of impacts, of which `--out` may ask for a copy.
+const TABLE: OwnedFileKind = OwnedFileKind {
+    what: "table",
+    extension: "csv",
+    marker: "speed_m_s,restitution,restitution_uncertainty,speed_uncertainty_m_s,time_s",
+    option: "--out",
+};
 
 /// Turn a record of a bouncing ball into restitutions over speed, with uncertainties
 ///
@@ -79,13 +88,23 @@ struct RigArguments {
     force_uncertainty: Option<f64>,
 }
 
+/// Another name of [`RecordKind::Bounces`].
+const OLD_NAME: &str = "bounce-times";
+
 fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
     move |text| parse_measured(kind, text)
 }
 
 fn kinds() -> impl TypedValueParser<Value = RecordKind> {
-    let kind = |name: String| RecordKind::ALL.into_iter().find(|kind| kind.name() == name);
-    PossibleValuesParser::new(RecordKind::ALL.map(RecordKind::name))
+    let value = |kind: RecordKind| match kind {
+        RecordKind::Bounces => PossibleValue::new(kind.name()).alias(OLD_NAME),
+        _ => PossibleValue::new(kind.name()),
+    };
+    let kind = |name: String| {
+        let name = if name == OLD_NAME { RecordKind::Bounces.name() } else { &name };
+        RecordKind::ALL.into_iter().find(|kind| kind.name() == name)
+    };
+    PossibleValuesParser::new(RecordKind::ALL.map(value))
         .try_map(move |name| kind(name).ok_or("this is no kind of record"))
 }
 
@@ -118,7 +137,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let (path, rig) = (&arguments.file, arguments.rig.rig());
     let record = arguments.read(&read_bytes(path)?)?;
     let origin = arguments.columns.origin("measure", None, Some(path));
-    let mut output = arguments.output.claim(&stem_of(path), "measure", origin)?;
+    let stem = stem_of(path);
+    let mut output = arguments.output.claim_with_copy(&stem, "measure", origin, TABLE)?;
     let rows = record.impacts().iter().map(Impact::row);
     output.write_table("measure.csv", &IMPACT_COLUMNS, rows)?;
     output.write("measure.svg", record_figure(&record, &rig))?;

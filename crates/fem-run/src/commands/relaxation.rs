@@ -15,7 +15,16 @@ use crate::arguments::case::stem_of;
 use crate::arguments::data::{ColumnArguments, read_bytes};
 use crate::arguments::law::parse_share;
 use crate::result_folder::command_output::OutputArguments;
+use crate::result_folder::whole_file::OwnedFileKind;
 use crate::text::{Failure, headed, show_measured, shown, standard_output};
+
+/// The table of a relaxation, of which `--out` may ask for a copy.
+const TABLE: OwnedFileKind = OwnedFileKind {
+    what: "table",
+    extension: "toml",
+    marker: "# Prony series by",
+    option: "--out",
+};
 
 /// Turn moduli over frequency or time into the relaxation of a material
 ///
@@ -100,11 +109,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.file;
     let found = arguments.find(&read_bytes(path)?)?;
     let origin = arguments.columns.origin("relaxation", None, Some(path));
-    let mut output = arguments.output.claim(&arguments.name(), "relaxation", origin)?;
+    let name = arguments.name();
+    let mut output = arguments.output.claim_with_copy(&name, "relaxation", origin, TABLE)?;
+    let file = format!("{name}.relaxation.toml");
+    output.write(&file, found.relaxation_toml())?;
     let rows = found.rows().map(|row| row.into_iter().map(Some).collect::<Vec<_>>());
     output.write_table("relaxation.csv", found.columns(), rows)?;
-    let file = format!("{}.relaxation.toml", arguments.name());
-    output.write(&file, found.relaxation_toml())?;
     output.write("relaxation.svg", relaxation_figure(&found))?;
     let place = shown(&output.place().join(&file)).replace('\\', "/");
     standard_output::warn(found.warnings());

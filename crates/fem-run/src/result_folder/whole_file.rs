@@ -98,14 +98,19 @@ impl OwnedFileKind {
             return Ok(None);
         }
         self.check(path)?;
+        self.replace(path, text.as_bytes()).map(Some)
+    }
+
+    /// Writes a file whatever is there, and returns the line that reports it.
+    pub fn replace(&self, path: &Path, bytes: &[u8]) -> Result<String, Failure> {
         let shown = shown(path);
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        write_whole(path, folder.unwrap_or(Path::new(".")), text.as_bytes()).map_err(|error| {
+        write_whole(path, folder.unwrap_or(Path::new(".")), bytes).map_err(|error| {
             let help =
                 format!("name a file in a folder that you may write to with {}", self.option);
             Failure::bad_input(format!("{shown}: {error}")).with_help(help)
         })?;
         let (first, rest) = self.what.split_at(1);
-        Ok(Some(format!("{}{rest}: {shown}\n", first.to_uppercase())))
+        Ok(format!("{}{rest}: {shown}\n", first.to_uppercase()))
     }
 }

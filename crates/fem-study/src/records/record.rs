@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::fit::cradle::Measured;
 use crate::measured::{DataError, NumberColumns, decode};
 
 use super::bounce_times::{BounceTimes, Instants};
@@ -53,7 +54,7 @@ impl Record {
             None => RecordKind::of(&columns)?,
         };
         match kind {
-            RecordKind::BounceTimes => {
+            RecordKind::Bounces => {
                 BounceTimes::of(Instants::read(&columns)?, rig).map(Self::BounceTimes)
             }
             RecordKind::Track => Track::of(Frames::read(&columns)?, rig).map(Self::Track),
@@ -65,7 +66,7 @@ impl Record {
     /// Returns the kind.
     pub fn kind(&self) -> RecordKind {
         match self {
-            Self::BounceTimes(_) => RecordKind::BounceTimes,
+            Self::BounceTimes(_) => RecordKind::Bounces,
             Self::Track(_) => RecordKind::Track,
             Self::Force(_) => RecordKind::Force,
             Self::Sound(_) => RecordKind::Sound,
@@ -92,8 +93,42 @@ impl Record {
         }
     }
 
+    /// Returns the mean of the restitutions. Its uncertainty is that of bounces with their covariances; of other records it is the mean
+    /// of the uncertainties, since mass, calibration and g are common to all.
+    pub fn restitution(&self) -> Measured {
+        let impacts = self.impacts();
+        let mean = |of: fn(&Measured) -> f64| {
+            impacts.iter().map(|impact| of(&impact.restitution)).sum::<f64>() / impacts.len() as f64
+        };
+        let bounces = match self {
+            Self::BounceTimes(bounces) => bounces.mean_restitution(),
+            Self::Sound(sound) => sound.bounces.mean_restitution(),
+            Self::Track(_) | Self::Force(_) => None,
+        };
+        bounces.unwrap_or_else(|| Measured {
+            value: mean(|e| e.value),
+            uncertainty: mean(|e| e.uncertainty),
+        })
+    }
+
+    /// Returns the instants of the bounces or pulses that were picked, s.
+    pub fn events(&self) -> Vec<f64> {
+        match self {
+            Self::BounceTimes(bounces) => bounces.instants.values.clone(),
+            Self::Sound(sound) => sound.bounces.instants.values.clone(),
+            Self::Track(track) => track.impacts.iter().map(|impact| impact.time).collect(),
+            Self::Force(force) => force.pulses.iter().map(|pulse| pulse.time_s).collect(),
+        }
+    }
+
     /// Returns all numbers for JSON, SI.
     pub fn numbers(&self, name: &str, rig: &Rig) -> Value {
+        let velocity = |impact: &Impact| {
+            let Impact { time, speed, restitution, .. } = impact;
+            let after = restitution.value * speed.value;
+            json!({ "time_s": time, "before_m_s": speed.value, "after_m_s": after })
+        };
+        let restitution = self.restitution();
         let details = match self {
             Self::BounceTimes(bounces) => bounces.numbers(),
             Self::Track(track) => track.numbers(),
@@ -104,6 +139,9 @@ impl Record {
             "data": name,
             "kind": self.kind().name(),
             "gravity_m_s2": rig.gravity().value,
+            "restitution": { "value": restitution.value, "uncertainty": restitution.uncertainty },
+            "events": self.events(),
+            "velocities": self.impacts().iter().map(velocity).collect::<Value>(),
             "impacts": self.impacts(),
             "record": details,
             "warnings": self.warnings(),

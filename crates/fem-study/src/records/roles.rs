@@ -6,7 +6,7 @@ use crate::measured::{DataError, NumberColumns};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RecordKind {
     /// The instants at which a bouncing ball touches the plate.
-    BounceTimes,
+    Bounces,
     /// The height of a ball over time.
     Track,
     /// The force of impacts over time.
@@ -17,12 +17,12 @@ pub enum RecordKind {
 
 impl RecordKind {
     /// All kinds of records, in the order of the documentation.
-    pub const ALL: [Self; 4] = [Self::BounceTimes, Self::Track, Self::Force, Self::Sound];
+    pub const ALL: [Self; 4] = [Self::Bounces, Self::Track, Self::Force, Self::Sound];
 
-    /// Returns the name of the kind: `bounce-times`.
+    /// Returns the name of the kind: `bounces`.
     pub fn name(self) -> &'static str {
         match self {
-            Self::BounceTimes => "bounce-times",
+            Self::Bounces => "bounces",
             Self::Track => "track",
             Self::Force => "force",
             Self::Sound => "sound",
@@ -32,7 +32,7 @@ impl RecordKind {
     /// Returns the columns of the kind.
     fn columns(self) -> &'static str {
         match self {
-            Self::BounceTimes => "time_s",
+            Self::Bounces => "time_s",
             Self::Track => "time_s, y_m",
             Self::Force => "time_s, force_n",
             Self::Sound => "a WAV file, or time_s, signal",
@@ -53,7 +53,7 @@ impl RecordKind {
                     return Ok(kind);
                 }
             }
-            return Ok(Self::BounceTimes);
+            return Ok(Self::Bounces);
         }
         let found = columns.header().join(", ");
         let kinds = Self::ALL.map(|kind| format!("{} ({})", kind.name(), kind.columns()));
