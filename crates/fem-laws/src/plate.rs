@@ -99,6 +99,12 @@ pub fn plate_thickness_error(wave_travel: f64) -> f64 {
     0.015 + 0.2 / wave_travel
 }
 
+/// Returns what a strongly damped contact adds to the relative error of the contact time on a plate, for Zener's λ. Above about 1.4 the ball
+/// hardly separates, and explicit elements part earlier: at λ = 2.3, 3.9 and 8.2 by 5, 11 and 33 % of the contact time.
+pub fn plate_slow_contact_error(lambda: f64) -> f64 {
+    0.07 * (lambda - 1.3).max(0.0)
+}
+
 /// Returns Zener's λ of an impact on a plate of this mobility, m/(N s).
 pub fn plate_lambda(hertz: &HertzImpact, mobility: f64) -> f64 {
     let mass = hertz.pair().effective_mass();

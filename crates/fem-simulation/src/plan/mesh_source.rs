@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use fem_case::engineering::show;
 use fem_case::{Plate, PlateSupport};
 use fem_material::Material;
 use fem_mesh::{GradedPlate, HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
@@ -121,7 +122,14 @@ pub(crate) fn mesh_rejection(error: &MeshError, side: usize) -> Rejection {
         |key: &str| Rejection::new(format!("body.{side}.plate.{key}"), error.to_string());
     let key = match error {
         MeshError::ThinPlate { .. } => return of_plate("thickness").with_help("use model ting"),
-        MeshError::NarrowPlate { .. } => return of_plate("diameter").with_help("use model ting"),
+        MeshError::NarrowPlate { radius, least } => {
+            let [diameter, least] = [radius, least].map(|radius| show(2.0 * radius, "m"));
+            let message = format!(
+                "a plate with a diameter of {diameter} is too narrow for its thickness; at least {least} is needed"
+            );
+            let help = "elements need three thicknesses; without diameter the plate has no edge, and no waves come back from there";
+            return Rejection::new(format!("body.{side}.plate.diameter"), message).with_help(help);
+        }
         MeshError::RefinedRadius { .. } => "mesh.refined_radius",
         MeshError::Growth(_) => "mesh.growth",
         MeshError::FarRadius { .. } => "mesh.far_radius",

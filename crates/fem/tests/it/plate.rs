@@ -102,11 +102,12 @@ fn elements_go_from_the_thin_plate_to_the_half_space() {
     assert!((last / half_space - 1.0).abs() < 0.1, "{last} {half_space}");
 }
 
-/// Error bars of reduced models hold elements, from thin plates to thick ones, with the plate's thickness and without it.
+/// Error bars of reduced models hold elements, from plates so thin that the ball hardly separates (λ = 2.9) to thick ones, with the
+/// plate's thickness and without it.
 #[test]
 fn bars_of_reduced_models_hold_elements() {
     let other = "material.metal.density='8000 kg/m^3'";
-    for metres in [2e-3, 5e-3, 20e-3, 60e-3] {
+    for metres in [1.15e-3, 2e-3, 5e-3, 20e-3, 60e-3] {
         let thickness = thickness(metres);
         let fine = "mesh.contact_element_size='40 um'";
         let elements = collision_of(BALL, &["model.fem={}", fine, other, &thickness]);

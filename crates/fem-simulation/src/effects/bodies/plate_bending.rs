@@ -7,7 +7,7 @@
 use fem_case::engineering::{number, show};
 use fem_case::{ModelChoice, PlateSupport, Scene, Switch};
 use fem_collision::{Collision, QuantityOfInterest};
-use fem_laws::plate_thickness_error;
+use fem_laws::{plate_slow_contact_error, plate_thickness_error};
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
@@ -190,7 +190,15 @@ impl Effect for PlateBending {
         if status.is_lacking {
             return change.of_all_quantities(estimate);
         }
-        change.of_all_quantities(estimate).times(plate_thickness_error(plate.thicknesses))
+        let (all, share) =
+            (change.of_all_quantities(estimate), plate_thickness_error(plate.thicknesses));
+        QuantityErrors::from_fn(|quantity| {
+            let slow = match quantity {
+                QuantityOfInterest::ContactTime => plate_slow_contact_error(plate.lambda),
+                _ => 0.0,
+            };
+            Some(all.size(quantity)? * (share + slow))
+        })
     }
 
     fn warnings_of_result(&self, scene: &Scene, estimate: &Estimate, _: &Collision) -> Vec<String> {
