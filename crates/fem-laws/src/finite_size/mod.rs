@@ -40,6 +40,8 @@ use crate::pair_relaxation::PairRelaxation;
 #[derive(Debug, Clone, PartialEq)]
 pub struct FiniteSize {
     spheres: Vec<SphereCompliance>,
+    /// Largest a/R that is computed.
+    largest_ratio: f64,
 }
 
 impl FiniteSize {
@@ -57,7 +59,14 @@ impl FiniteSize {
     ) -> Result<Self, LawError> {
         let spheres = [first, second].into_iter().flatten();
         let spheres = spheres.map(|(radius, material)| SphereCompliance::new(radius, material));
-        Ok(Self { spheres: spheres.collect::<Result<_, LawError>>()? })
+        let spheres = spheres.collect::<Result<_, LawError>>()?;
+        Ok(Self { spheres, largest_ratio: Self::MAX_CONTACT_RATIO })
+    }
+
+    /// Returns the correction for a trial: contacts may be three times as large, where the first order is no result but leads a search
+    /// back to its range.
+    pub fn of_trial(self) -> Self {
+        Self { largest_ratio: 3.0 * Self::MAX_CONTACT_RATIO, ..self }
     }
 
     /// Returns the approach (m) added to Hertz' at a force, N, and a contact radius, m, before any
@@ -115,11 +124,10 @@ impl FiniteSize {
         let smallest =
             self.spheres.iter().map(SphereCompliance::radius).fold(f64::INFINITY, f64::min);
         let value = contact_radius / smallest;
-        if value <= Self::MAX_CONTACT_RATIO {
+        if value <= self.largest_ratio {
             Ok(())
         } else {
-            let (quantity, limit) =
-                ("finite_size contact radius / radius", Self::MAX_CONTACT_RATIO);
+            let (quantity, limit) = ("finite_size contact radius / radius", self.largest_ratio);
             Err(LawError::OutsideValidity { quantity, value, limit })
         }
     }

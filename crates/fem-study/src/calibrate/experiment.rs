@@ -100,6 +100,12 @@ impl Experiment {
         self.model.restitutions(terms, &self.speeds)
     }
 
+    /// Returns the fastest speed, m/s, if its contact is beyond the limits of the model with these terms in the calibrated material.
+    pub fn too_fast(&self, terms: &[PronyTerm]) -> Option<f64> {
+        let fastest = self.speeds.iter().copied().reduce(f64::max)?;
+        self.model.check(terms, fastest).is_err().then_some(fastest)
+    }
+
     /// Returns the restitution at a speed (m/s) with these terms in the calibrated material; 0 if the
     /// bodies do not separate.
     ///

@@ -53,7 +53,7 @@ pub enum CalibrationFault {
         exponent: Option<f64>,
     },
     /// The model has no plate that bends.
-    #[error("condensed bodies have no plate that bends")]
+    #[error("the condensed model of a calibration has no plate that bends")]
     Plate,
     /// A mesh with elements that are small enough for the slowest collision has too many.
     #[error(

@@ -62,6 +62,23 @@ impl PairModel {
     /// # Errors
     /// A collision cannot be computed.
     pub fn restitution(&self, terms: &[PronyTerm], speed: f64) -> Result<f64, FitError> {
+        self.computed(terms, speed, FiniteSize::of_trial)
+    }
+
+    /// Checks that a collision is within the limits of the model.
+    ///
+    /// # Errors
+    /// A contact too large for the first order of finite size; a collision cannot be computed.
+    pub fn check(&self, terms: &[PronyTerm], speed: f64) -> Result<(), FitError> {
+        self.computed(terms, speed, |size| size).map(|_| ())
+    }
+
+    fn computed(
+        &self,
+        terms: &[PronyTerm],
+        speed: f64,
+        limited: fn(FiniteSize) -> FiniteSize,
+    ) -> Result<f64, FitError> {
         let acts_on = self.target.acts_on;
         let series = (!terms.is_empty()).then(|| PronySeries::new(terms.to_vec(), acts_on));
         let series = series.transpose().map_err(failed)?;
@@ -88,7 +105,7 @@ impl PairModel {
                     material(1).transpose().map_err(failed)?,
                 ];
                 let bodies = (materials.each_ref().map(Option::as_ref), self.diameters);
-                match ting((pair, plate.as_ref()), bodies, speed) {
+                match ting((pair, plate.as_ref()), bodies, speed, limited) {
                     Err(LawError::NotFinished { .. }) => Ok(0.0),
                     result => result.map_err(failed),
                 }
@@ -105,10 +122,11 @@ fn ting(
     (pair, plate): (&Pair, Option<&FreePlate>),
     ([first, second], diameters): ([Option<&Material>; 2], [Option<f64>; 2]),
     speed: f64,
+    limited: fn(FiniteSize) -> FiniteSize,
 ) -> Result<f64, LawError> {
     let relaxation = PairRelaxation::new(first, second)?;
     let sized = |side: usize, material| Some((0.5 * diameters[side]?, material?));
-    let size = FiniteSize::new(sized(0, first), sized(1, second))?;
+    let size = limited(FiniteSize::new(sized(0, first), sized(1, second))?);
     let mut ting = Ting::new(pair, relaxation).with_tolerance(TOLERANCE)?.with_finite_size(size);
     if let Some(plate) = plate
         && let Some(mobility) = plate.mobility_in(&HertzImpact::new(pair, speed)?)?

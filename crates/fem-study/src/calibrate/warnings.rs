@@ -39,6 +39,7 @@ impl Calibration {
         warnings.extend(self.scatter(names));
         warnings.extend(self.undetermined());
         warnings.extend(self.coarse());
+        warnings.extend(self.wide_contact());
         warnings.extend(self.of_pairs());
         warnings.extend(self.unused(names));
         warnings
@@ -56,6 +57,17 @@ impl Calibration {
         Some(format!(
             "{least:.1} elements across the smallest contact radius{others} are too few: lower \
              mesh.contact_element_size, or leave it out"
+        ))
+    }
+
+    /// Returns the warning about contacts with the best series that are too large for the first order of finite size.
+    fn wide_contact(&self) -> Option<String> {
+        let terms = self.terms();
+        let too_fast = self.experiments.iter().filter_map(|experiment| experiment.too_fast(&terms));
+        let speed = show(too_fast.reduce(f64::max)?, "m/s");
+        Some(format!(
+            "at {speed} the contact is wider than a tenth of the sphere's radius with the best series, beyond the first order of its \
+             finite size: leave the fastest impacts out"
         ))
     }
 
