@@ -17,12 +17,18 @@ use crate::measured::{DataError, NumberColumns};
 use super::impact::Impact;
 use super::rig::{Flights, Rig};
 use super::roles::{TIME_UNCERTAINTIES, TIMES};
-use super::series::{FlightSpan, Scatter, flight_spans, scatter};
+use super::series::{FlightSpan, Scatter, drops, flight_spans, median, scatter};
 
 /// Longest flight, s; a longer one, with landing at 100 m/s, is one in another unit.
 const LONGEST_FLIGHT: f64 = 20.0;
 /// Flights shorter than this are warned of: the ball rises by 5 µm.
 const SHORT_FLIGHT: f64 = 2e-3;
+/// Fewest instants that are too even for bounces.
+const EVEN: usize = 6;
+/// Difference from 1 below which the usual ratio of successive flights is that of even instants; no ball has e = 0.995.
+const EVENNESS: f64 = 0.005;
+/// Relative difference of the first flights of two drops from the same height.
+const SAME_HEIGHT: f64 = 0.1;
 /// Most instants of one drop.
 const MOST_INSTANTS: usize = 1000;
 /// Most warnings about single flights.
@@ -162,7 +168,8 @@ impl BounceTimes {
         let mut warnings = left_out(&instants.values, &spans);
         let speeds = Speeds::of(&instants, &spans, &uncertainties, rig, &mut warnings);
         let mut found_impacts: Vec<(Impact, Errors)> =
-            speeds.first(rig).into_iter().chain(speeds.others()).collect();
+            speeds.first(&instants, rig).chain(speeds.others()).collect();
+        found_impacts.sort_by(|a, b| a.0.time.total_cmp(&b.0.time));
         found_impacts.retain(|(impact, _)| match impact.impossible() {
             Some(reason) => {
                 warnings.push(format!("the impact at {:.4} s is left out: {reason}", impact.time));
@@ -171,13 +178,15 @@ impl BounceTimes {
             None => true,
         });
         let (mut impacts, errors): (Vec<Impact>, Vec<Errors>) = found_impacts.into_iter().unzip();
-        let restitution_to_rest = rig.rest.map(|rest| to_rest(&instants, &uncertainties, rest));
+        let last_drop = drops(&spans).last().map_or(0, |drop| drop[0].from);
+        let to_rest = |rest| to_rest(&instants, last_drop, &uncertainties, rest);
+        let restitution_to_rest = rig.rest.map(to_rest);
         let restitution_to_rest = restitution_to_rest.transpose()?;
         if impacts.is_empty()
             && let (Some(restitution), Some(first)) = (restitution_to_rest, speeds.by_span.first())
             && let Some(flight) = first
         {
-            let time = instants.values[1];
+            let time = flight.time;
             let speed = flight.landing_speed();
             impacts.push(Impact { time, speed, restitution, contact_time: None });
             warnings.push("the restitution is a mean over all bounces until rest".to_string());
@@ -225,7 +234,8 @@ impl BounceTimes {
         let duration = self.instants.values[to] - self.instants.values[from];
         let rest = self.instants.values[to] + duration * e / (1.0 - e);
         self.predicted_rest = Some(rest);
-        let (Some(given), Some(start)) = (rig.rest, self.instants.values.first()) else { return };
+        let start = drops(&self.spans).last().map(|drop| self.instants.values[drop[0].from]);
+        let (Some(given), Some(start)) = (rig.rest, start) else { return };
         // The last bounces are many and short: a twentieth of the time is what their restitution changes.
         let tolerance = (3.0 * given.uncertainty).max(0.05 * (rest - start));
         if (given.value - rest).abs() > tolerance {
@@ -283,6 +293,7 @@ impl BounceTimes {
                 1e6 * rig.gravity().value * longest * longest / 8.0
             ));
         }
+        self.warnings.extend(Impact::gain(&self.impacts));
         if self.source == TimeUncertaintySource::Digits {
             self.warnings.push(format!(
                 "the uncertainty of an instant, {}, is that of its last digit only: \
@@ -311,20 +322,26 @@ fn check_flights(instants: &Instants, rig: &Rig) -> Result<(), DataError> {
              rest, suffices",
         ));
     }
+    let flights = || values.windows(2).map(|pair| pair[1] - pair[0]);
+    let ratios: Vec<f64> = flights().zip(flights().skip(1)).map(|(a, b)| b / a).collect();
+    if values.len() >= EVEN && (median(&ratios) - 1.0).abs() < EVENNESS {
+        let step = show((values[values.len() - 1] - values[0]) / (values.len() - 1) as f64, "s");
+        let message = format!(
+            "the {} instants are evenly spaced, by {step}: they are those of frames or samples, and no bounces",
+            values.len()
+        );
+        let help = "name the column that goes with them, such as y_m, force_n or signal, or write --columns height=COLUMN";
+        return Err(error(message).with_help(help));
+    }
     if values.len() > MOST_INSTANTS {
         let message = format!("{} instants are more than the bounces of one drop", values.len());
         let help =
             format!("keep each drop in a file of its own, of at most {MOST_INSTANTS} instants");
         return Err(error(message).with_help(help));
     }
-    let flights = values.windows(2).map(|pair| pair[1] - pair[0]);
-    let (k, longest) =
-        flights.enumerate().fold(
-            (0, 0.0),
-            |longest, (k, flight)| {
-                if flight > longest.1 { (k, flight) } else { longest }
-            },
-        );
+    let (k, longest) = flights().enumerate().fold((0, 0.0), |longest, (k, flight)| {
+        if flight > longest.1 { (k, flight) } else { longest }
+    });
     if longest > LONGEST_FLIGHT {
         let speed = 0.5 * rig.gravity().value * longest;
         let message = format!("a flight of {longest:.3} s lands at {speed:.0} m/s");
@@ -358,6 +375,11 @@ fn left_out(instants: &[f64], spans: &[FlightSpan]) -> Vec<String> {
     let mut warnings = Vec::new();
     for FlightSpan { from, to, n_flights } in spans.iter().copied() {
         let [start, end] = [from, to].map(|k| instants[k]);
+        if n_flights == 0 {
+            warnings.push(format!(
+                "from {start:.4} s to {end:.4} s is no flight of the ball: another drop begins"
+            ));
+        }
         if n_flights > 1 {
             let missing = if n_flights == 2 { "an instant is" } else { "two instants are" };
             warnings.push(format!(
@@ -372,13 +394,17 @@ fn left_out(instants: &[f64], spans: &[FlightSpan]) -> Vec<String> {
     warnings
 }
 
-/// Returns the restitution of a ball that bounces on until rest with the same restitution: 1 − T/(rest − first instant).
+/// Returns the restitution of a ball that bounces on until rest with the same restitution: 1 − T/(rest − first instant), with the index
+/// of the first instant of the drop.
 fn to_rest(
     instants: &Instants,
+    first_index: usize,
     uncertainties: &[f64],
     rest: Measured,
 ) -> Result<Measured, DataError> {
-    let [first, second, ..] = instants.values[..] else { return Ok(Measured::exact(0.0)) };
+    let [first, second, ..] = instants.values[first_index..] else {
+        return Ok(Measured::exact(0.0));
+    };
     let last = instants.values[instants.values.len() - 1];
     if rest.value <= last {
         let message = format!("the ball is at rest at {} s and bounces at {last} s", rest.value);
@@ -388,7 +414,8 @@ fn to_rest(
     let (flight, whole) = (second - first, rest.value - first);
     let e = 1.0 - flight / whole;
     let slopes = [1.0 / whole - flight / (whole * whole), 1.0 / whole, flight / (whole * whole)];
-    let spread = [uncertainties[0], uncertainties[1], rest.uncertainty];
+    let [of_first, of_second] = [first_index, first_index + 1].map(|k| uncertainties[k]);
+    let spread = [of_first, of_second, rest.uncertainty];
     let uncertainty = slopes.iter().zip(spread).fold(0.0f64, |sum, (a, b)| sum.hypot(a * b));
     Ok(Measured { value: e, uncertainty })
 }
@@ -479,8 +506,8 @@ impl Errors {
 struct Speeds {
     /// Those of each single flight.
     by_span: Vec<Option<FlightSpeeds>>,
-    /// The first instant and its uncertainty, s.
-    start: Measured,
+    /// The first flights of drops from the height of the rig, as indices.
+    first: Vec<usize>,
     flights: Flights,
 }
 
@@ -520,14 +547,29 @@ impl Speeds {
                 time: end,
             })
         };
-        let by_span = spans.iter().map(&mut of_span).collect();
-        let start = Measured { value: instants.values[0], uncertainty: uncertainties[0] };
-        Self { by_span, start, flights }
+        let by_span: Vec<Option<FlightSpeeds>> = spans.iter().map(&mut of_span).collect();
+        let begins = |k: &usize| by_span[*k].is_some() && (*k == 0 || spans[*k - 1].n_flights == 0);
+        let launch = |k: usize| by_span[k].map_or(0.0, |flight| flight.speeds[0]);
+        let mut first: Vec<usize> = (0..spans.len()).filter(begins).collect();
+        // Other drops are from the same height if their first flight is the same.
+        let height = first.first().map_or(0.0, |k| launch(*k));
+        first.retain(|k| (launch(*k) / height - 1.0).abs() < SAME_HEIGHT);
+        Self { by_span, first, flights }
     }
 
-    /// Returns the impact after the drop from the height of the rig.
-    fn first(&self, rig: &Rig) -> Option<(Impact, Errors)> {
-        let (height, flight) = (rig.drop_height?, (*self.by_span.first()?)?);
+    /// Returns the impacts after drops from the height of the rig.
+    fn first(&self, instants: &Instants, rig: &Rig) -> impl Iterator<Item = (Impact, Errors)> {
+        self.first.iter().filter_map(move |k| self.first_of(self.by_span[*k]?, instants, rig))
+    }
+
+    /// Returns the impact between a drop from the height of the rig and a flight.
+    fn first_of(
+        &self,
+        flight: FlightSpeeds,
+        instants: &Instants,
+        rig: &Rig,
+    ) -> Option<(Impact, Errors)> {
+        let height = rig.drop_height?;
         let [landing, more] = self.flights.landing_after(height.value)?;
         let e = flight.speeds[0] / landing;
         let slope = flight.slopes[0] / landing;
@@ -546,7 +588,7 @@ impl Speeds {
             value: landing,
             uncertainty: (landing * of_height.hypot(of_gravity)).hypot(more - landing),
         };
-        let time = self.start.value;
+        let time = instants.values[flight.instants[0]];
         let restitution = errors.of(e);
         Some((Impact { time, speed, restitution, contact_time: None }, errors))
     }

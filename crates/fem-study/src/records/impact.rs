@@ -44,12 +44,24 @@ impl Impact {
         ]
     }
 
+    /// Returns a warning if impacts gain energy on average.
+    pub(super) fn gain(impacts: &[Self]) -> Option<String> {
+        let values = impacts.iter().map(|impact| impact.restitution.value);
+        let mean = values.sum::<f64>() / impacts.len() as f64;
+        let warning = || {
+            format!(
+                "the restitutions are {mean:.3} on average, above 1: is something else than a ball recorded?"
+            )
+        };
+        (mean > 1.0).then(warning)
+    }
+
     /// Returns why no collision has this restitution, if its uncertainty does not explain it.
     pub(super) fn impossible(&self) -> Option<String> {
         let Measured { value, uncertainty } = self.restitution;
         let excess = (value - 1.0).max(-value);
         let reason = impossible_restitution(self.restitution)?;
-        (excess > (3.0 * uncertainty).min(MAX_EXCESS)).then(|| format!("{reason}, {value:.3}"))
+        (excess > (3.0 * uncertainty).min(MAX_EXCESS)).then(|| format!("{reason} ({value:.3})"))
     }
 }
 

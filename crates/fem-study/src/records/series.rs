@@ -2,7 +2,9 @@
 //!
 //! The flights of a ball whose restitution varies little from bounce to bounce are nearly a geometric series. A flight
 //! that is longer than its neighbours allow by the sum of a second or a third flight spans several bounces; one that is
-//! too short ends at an instant that is no bounce.
+//! too short ends at an instant that is no bounce. A time that fits neither way is no flight: another drop begins after it.
+
+use std::cmp::Ordering;
 
 use nalgebra::DVector;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -14,12 +16,16 @@ pub struct FlightSpan {
     pub from: usize,
     /// Index of the instant at its end.
     pub to: usize,
-    /// Number of flights of the ball in it; above 1 if instants are missing.
+    /// Number of flights of the ball in it; above 1 if instants are missing, 0 between two drops.
     pub n_flights: usize,
 }
 
 /// Most flights of the ball between two instants, and most instants that are no bounce in one flight, plus one.
 const MAX_JOINED: usize = 3;
+/// Misfit at which a time between two instants is that between two drops: e times more or less than any number of flights.
+const BETWEEN_DROPS: f64 = 1.0;
+/// Ratio of a flight to the one before from which one of both is none: no ball gains energy, and shorter flights scatter.
+const LARGEST_RATIO: f64 = 1.05;
 /// Spans that are looked at after one to decide about it.
 const LOOK_AHEAD: usize = 2;
 /// Ratios of flights on either side that decide what is usual.
@@ -28,6 +34,8 @@ const NEIGHBOURS: usize = 3;
 const FEWEST: usize = 4;
 /// Most terms of the polynomial through the logarithms of flight times.
 const MAX_TERMS: usize = 5;
+/// Fewest degrees of freedom of a polynomial that is no line.
+const FEWEST_FREEDOM: f64 = 2.0;
 /// Quantile of the interval that two standard uncertainties are.
 const TWO_SIDED_95: f64 = 0.975;
 /// The same quantile of the normal distribution.
@@ -67,7 +75,54 @@ pub(super) fn flight_spans(instants: &[f64]) -> Vec<FlightSpan> {
         spans.push(FlightSpan { from, to: from + n_steps, n_flights });
         from += n_steps;
     }
+    leave_impossible_out(&mut spans, instants, usual);
     spans
+}
+
+/// Marks flights as none that are neighbours of a shorter flight before or a longer one after: of both the one that fits its other
+/// neighbour less. `usual(k)` is the usual ratio of the durations k + 1 and k.
+fn leave_impossible_out(spans: &mut [FlightSpan], instants: &[f64], usual: impl Fn(usize) -> f64) {
+    // The first or the last flight of the ball in a span, s.
+    let flight = |span: &FlightSpan, e: f64, k: i32| {
+        let sum: f64 = (0..span.n_flights).map(|k| e.powi(k as i32)).sum();
+        (instants[span.to] - instants[span.from]) * e.powi(k) / sum
+    };
+    let misfit = |spans: &[FlightSpan], k: usize| {
+        let [before, after] = [spans.get(k)?, spans.get(k + 1)?];
+        let e = usual(before.from);
+        let are_flights = before.n_flights > 0 && after.n_flights > 0;
+        let ratio = flight(after, e, 0) / flight(before, e, before.n_flights as i32 - 1);
+        are_flights.then(|| (ratio, (ratio / e).ln().abs()))
+    };
+    // Between a flight and a longer one no bounces are missing.
+    for k in 1..spans.len().saturating_sub(1) {
+        let lasts = |k: usize| instants[spans[k].to] - instants[spans[k].from];
+        if spans[k].n_flights > 1 && lasts(k + 1) > LARGEST_RATIO * lasts(k - 1) {
+            spans[k].n_flights = 0;
+        }
+    }
+    for k in 0..spans.len().saturating_sub(1) {
+        let Some((ratio, own)) = misfit(spans, k) else { continue };
+        let e = usual(spans[k].from);
+        if ratio < LARGEST_RATIO || own < 0.5 * (1.0 + e).ln() {
+            continue;
+        }
+        let fit_of = |k: Option<usize>| k.and_then(|k| misfit(spans, k)).map(|(_, misfit)| misfit);
+        let [before, after] = [fit_of(k.checked_sub(1)), fit_of(Some(k + 1))];
+        let [before, after] = [before, after].map(|misfit| misfit.unwrap_or(f64::INFINITY));
+        // Of a single flight and several the several are none.
+        let is_first = match spans[k].n_flights.cmp(&spans[k + 1].n_flights) {
+            Ordering::Greater => true,
+            Ordering::Less => false,
+            Ordering::Equal => before >= after,
+        };
+        spans[if is_first { k } else { k + 1 }].n_flights = 0;
+    }
+}
+
+/// Returns the spans of each drop.
+pub(super) fn drops(spans: &[FlightSpan]) -> impl Iterator<Item = &[FlightSpan]> {
+    spans.split(|span| span.n_flights == 0).filter(|drop| !drop.is_empty())
 }
 
 /// Goes along durations, the first of which is one flight of the ball. Returns, for each span after it, how many durations
@@ -87,7 +142,7 @@ struct Step {
     choice: (usize, usize),
     /// The duration after it.
     at: usize,
-    /// The last flight of the ball in it, s.
+    /// The last flight of the ball in it, s; NaN between two drops.
     last: f64,
     /// Logarithm of its duration over what is usual, and of those after it, with a penalty for unusual spans.
     misfit: f64,
@@ -108,21 +163,27 @@ fn best_step(
         let whole: f64 = lasts[at..at + n_steps].iter().sum();
         // The sum of the flights over the first of them.
         let sum: f64 = (0..n_flights).map(|k| e.powi(k as i32)).sum();
-        let own = (whole / (last * e * sum)).ln().abs();
-        let own = if (n_steps, n_flights) == (1, 1) { own } else { own + penalty };
-        let last = whole * e.powi(n_flights as i32 - 1) / sum;
+        let own = match (n_steps, n_flights) {
+            (_, 0) => BETWEEN_DROPS,
+            // The first flight of a drop has any duration.
+            (1, 1) if last.is_nan() => 0.0,
+            (1, 1) => (whole / (last * e)).ln().abs(),
+            _ => (whole / (last * e * sum)).ln().abs() + penalty,
+        };
+        let last =
+            if n_flights == 0 { f64::NAN } else { whole * e.powi(n_flights as i32 - 1) / sum };
         let at = at + n_steps;
         let next = (ahead > 0 && at < lasts.len())
             .then(|| best_step(lasts, usual, at, last, ahead - 1).misfit);
         Step { choice: (n_steps, n_flights), at, last, misfit: own + next.unwrap_or(0.0) }
     };
     let mut best = step((1, 1));
-    if best.misfit <= penalty {
+    if best.misfit <= penalty || last.is_nan() {
         return best;
     }
     let longer = (2..=MAX_JOINED).map(|m| (1, m));
     let joined = (2..=MAX_JOINED.min(lasts.len() - at)).map(|n_steps| (n_steps, 1));
-    for other in longer.chain(joined).map(step) {
+    for other in longer.chain(joined).chain([(1, 0)]).map(step) {
         if other.misfit < best.misfit {
             best = other;
         }
@@ -157,75 +218,113 @@ pub struct Scatter {
 }
 
 /// Returns the scatter of instants that makes single flights differ from durations T_k whose logarithm is a polynomial over the
-/// number of the bounce; `None` for fewer than three flights. The degree from 1 to 4 with the smallest
-/// uncertainty is taken, which counts the degrees of freedom.
+/// number of the bounce, one for each drop; `None` for fewer than three flights. The degree from 1 to 4 with the smallest
+/// uncertainty is taken, which counts the degrees of freedom; a higher one needs [`FEWEST_FREEDOM`] of them, because the smallest of
+/// several vague estimates is too small.
 pub(super) fn scatter(instants: &[f64], spans: &[FlightSpan]) -> Option<Scatter> {
-    let all = (2..=MAX_TERMS).filter_map(|n_terms| scatter_about(instants, spans, n_terms));
-    all.min_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty))
+    let of = |n_terms: usize| {
+        let all = drops(spans).filter_map(|drop| Misfit::about(instants, drop, n_terms));
+        let whole = all.reduce(Misfit::with)?;
+        let freedom = (whole.trace * whole.trace / whole.trace_of_square).max(1.0);
+        let uncertainty = widened(freedom) * (whole.squares / whole.trace).sqrt();
+        let residual = |span: &FlightSpan| {
+            let found = whole.residuals.iter().find(|(from, _)| *from == span.from);
+            found.map(|(_, residual)| *residual)
+        };
+        Some(Scatter { uncertainty, freedom, residuals: spans.iter().map(residual).collect() })
+    };
+    let line = of(2);
+    let others = (3..=MAX_TERMS).filter_map(of).filter(|other| other.freedom >= FEWEST_FREEDOM);
+    line.into_iter().chain(others).min_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty))
 }
 
-/// Returns the scatter about a polynomial with `n_terms` terms.
-///
-/// With independent errors of the instants, the errors of the durations have the covariance V, 2σ² on the diagonal and
-/// −σ² for flights that share an instant. The residuals of a fit with weights T_k are My, with the projector M, so that
-/// the sum of their squares has the mean σ² tr(MV) and the effective freedom (tr MV)²/tr(MVMV) (Satterthwaite 1946).
-fn scatter_about(instants: &[f64], spans: &[FlightSpan], n_terms: usize) -> Option<Scatter> {
-    let singles: Vec<usize> = (0..spans.len()).filter(|k| spans[*k].n_flights == 1).collect();
-    let n = singles.len();
-    if n <= n_terms {
-        return None;
+/// The misfit of single flights of a drop, and that which scattering instants would have.
+struct Misfit {
+    /// Sum of the squared residuals, s².
+    squares: f64,
+    /// Its mean over the variance of an instant, tr(MV).
+    trace: f64,
+    /// tr(MVMV).
+    trace_of_square: f64,
+    /// Residual, s, of each flight, with the index of the instant at its beginning.
+    residuals: Vec<(usize, f64)>,
+}
+
+impl Misfit {
+    /// Returns the misfit of two drops.
+    fn with(mut self, other: Self) -> Self {
+        self.squares += other.squares;
+        self.trace += other.trace;
+        self.trace_of_square += other.trace_of_square;
+        self.residuals.extend(other.residuals);
+        self
     }
-    let numbers: Vec<f64> = spans
-        .iter()
-        .scan(0, |number, span| {
-            *number += span.n_flights;
-            Some((*number - span.n_flights) as f64)
-        })
-        .collect();
-    let durations = DVector::from_iterator(
-        n,
-        singles.iter().map(|k| instants[spans[*k].to] - instants[spans[*k].from]),
-    );
-    let middle = 0.5 * (numbers[singles[0]] + numbers[singles[n - 1]]);
-    let mut basis: Vec<DVector<f64>> = Vec::new();
-    for power in 0..n_terms {
-        let mut term = DVector::from_fn(n, |k, _| {
-            durations[k] * ((numbers[singles[k]] - middle) / (middle + 1.0)).powi(power as i32)
-        });
-        // Twice is enough (Kahan and Parlett).
-        for _ in 0..2 {
-            for known in &basis {
-                term -= known * known.dot(&term);
-            }
+
+    /// Returns the misfit of a drop about a polynomial with `n_terms` terms, if it has more single flights.
+    ///
+    /// With independent errors of the instants, the errors of the durations have the covariance V, 2σ² on the diagonal and
+    /// −σ² for flights that share an instant. The residuals of a fit with weights T_k are My, with the projector M, so that
+    /// the sum of their squares has the mean σ² tr(MV) and the effective freedom (tr MV)²/tr(MVMV) (Satterthwaite 1946).
+    fn about(instants: &[f64], spans: &[FlightSpan], n_terms: usize) -> Option<Self> {
+        let singles: Vec<usize> = (0..spans.len()).filter(|k| spans[*k].n_flights == 1).collect();
+        let n = singles.len();
+        if n <= n_terms {
+            return None;
         }
-        let length = term.norm();
-        basis.push(term / length);
-    }
-    let mut residuals = durations.map(|duration| duration * duration.ln());
-    for known in &basis {
-        residuals -= known * known.dot(&residuals);
-    }
-    let is_shared = |k: usize| spans[singles[k]].from == spans[singles[k - 1]].to;
-    let covariance = |x: &DVector<f64>| {
-        DVector::from_fn(n, |k, _| {
-            let before = if k > 0 && is_shared(k) { x[k - 1] } else { 0.0 };
-            let after = if k + 1 < n && is_shared(k + 1) { x[k + 1] } else { 0.0 };
-            2.0 * x[k] - before - after
+        let numbers: Vec<f64> = spans
+            .iter()
+            .scan(0, |number, span| {
+                *number += span.n_flights;
+                Some((*number - span.n_flights) as f64)
+            })
+            .collect();
+        let durations = DVector::from_iterator(
+            n,
+            singles.iter().map(|k| instants[spans[*k].to] - instants[spans[*k].from]),
+        );
+        let middle = 0.5 * (numbers[singles[0]] + numbers[singles[n - 1]]);
+        let mut basis: Vec<DVector<f64>> = Vec::new();
+        for power in 0..n_terms {
+            let mut term = DVector::from_fn(n, |k, _| {
+                durations[k] * ((numbers[singles[k]] - middle) / (middle + 1.0)).powi(power as i32)
+            });
+            // Twice is enough (Kahan and Parlett).
+            for _ in 0..2 {
+                for known in &basis {
+                    term -= known * known.dot(&term);
+                }
+            }
+            let length = term.norm();
+            basis.push(term / length);
+        }
+        let mut residuals = durations.map(|duration| duration * duration.ln());
+        for known in &basis {
+            residuals -= known * known.dot(&residuals);
+        }
+        let is_shared = |k: usize| spans[singles[k]].from == spans[singles[k - 1]].to;
+        let covariance = |x: &DVector<f64>| {
+            DVector::from_fn(n, |k, _| {
+                let before = if k > 0 && is_shared(k) { x[k - 1] } else { 0.0 };
+                let after = if k + 1 < n && is_shared(k + 1) { x[k + 1] } else { 0.0 };
+                2.0 * x[k] - before - after
+            })
+        };
+        let images: Vec<DVector<f64>> = basis.iter().map(covariance).collect();
+        let n_shared = (1..n).filter(|k| is_shared(*k)).count();
+        let mut trace = 2.0 * n as f64;
+        let mut trace_of_square = 4.0 * n as f64 + 2.0 * n_shared as f64;
+        for (term, image) in basis.iter().zip(&images) {
+            trace -= term.dot(image);
+            trace_of_square -= 2.0 * image.norm_squared();
+            let cross = basis.iter().map(|other| other.dot(image).powi(2));
+            trace_of_square += cross.sum::<f64>();
+        }
+        let begins = singles.iter().map(|k| spans[*k].from);
+        Some(Self {
+            squares: residuals.norm_squared(),
+            trace,
+            trace_of_square,
+            residuals: begins.zip(residuals.iter().copied()).collect(),
         })
-    };
-    let images: Vec<DVector<f64>> = basis.iter().map(covariance).collect();
-    let n_shared = (1..n).filter(|k| is_shared(*k)).count();
-    let mut trace = 2.0 * n as f64;
-    let mut trace_of_square = 4.0 * n as f64 + 2.0 * n_shared as f64;
-    for (term, image) in basis.iter().zip(&images) {
-        trace -= term.dot(image);
-        trace_of_square -= 2.0 * image.norm_squared();
-        let cross = basis.iter().map(|other| other.dot(image).powi(2));
-        trace_of_square += cross.sum::<f64>();
     }
-    let freedom = (trace * trace / trace_of_square).max(1.0);
-    let uncertainty = widened(freedom) * residuals.norm() / trace.sqrt();
-    let mut of_spans = vec![None; spans.len()];
-    singles.iter().zip(residuals.iter()).for_each(|(k, residual)| of_spans[*k] = Some(*residual));
-    Some(Scatter { uncertainty, freedom, residuals: of_spans })
 }

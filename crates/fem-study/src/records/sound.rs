@@ -16,6 +16,8 @@ use super::series::median;
 const HIGH_PASS: f64 = 200.0;
 /// Length of a frame whose energy is averaged, s.
 const FRAME: f64 = 2.5e-4;
+/// Fewest samples of a frame: the mean of fewer noisy samples exceeds its usual value by [`OVER_NOISE`] once in a minute.
+const FEWEST_SAMPLES: usize = 4;
 /// Frames before an onset with which its energy is compared.
 const BEFORE: usize = 16;
 /// Energy of an onset over the noise.
@@ -114,7 +116,7 @@ impl Signal {
     /// Returns the noise and the instants of the onsets, s.
     fn onsets(&self) -> (f64, Vec<f64>) {
         let signal = self.without_drift();
-        let size = ((FRAME * self.rate) as usize).max(1);
+        let size = ((FRAME * self.rate) as usize).max(FEWEST_SAMPLES);
         let energy = |frame: &[f64]| frame.iter().map(|x| x * x).sum::<f64>() / frame.len() as f64;
         let energies: Vec<f64> = signal.chunks(size).map(energy).collect();
         let mut sorted = energies.clone();
@@ -176,7 +178,8 @@ impl Sound {
         let (noise, values) = signal.onsets();
         let n_clipped = signal.values.iter().filter(|x| (*x - level).abs() >= swing).count();
         if values.len() < 2 {
-            let message = format!("{} bounces stand out from the noise", values.len());
+            let n = if values.is_empty() { "no" } else { "only one" };
+            let message = format!("{n} bounce stands out from the noise");
             let help = "list the instants in a file with a column time_s if you can hear more";
             return fault(message, help);
         }

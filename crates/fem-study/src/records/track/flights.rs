@@ -16,6 +16,12 @@ const RISE_OVER_NOISE: f64 = 8.0;
 const RISE_OVER_RANGE: f64 = 4e-3;
 /// A frame this many times the usual deviation off its parabola is left out.
 const OUTLIER: f64 = 5.0;
+/// Frames of a span over those at its end that are compared with the others.
+const OUTER_PART: usize = 10;
+/// Fewest frames that are compared.
+const FEWEST_OUTER: usize = 3;
+/// Deviation of a mean over its uncertainty from which a ball is held.
+const HELD: f64 = 2.5;
 /// A flight whose deviations are this many times the usual ones is no parabola.
 const MISFIT: f64 = 3.0;
 /// Relative difference of a flight's own g from the usual one that air drag and noise do not make.
@@ -123,6 +129,9 @@ pub(super) fn flights(
                 span.drain(span.len() - n_less..)
             };
         }
+        if k == 0 || k == last {
+            leave_held_out(frames, &mut span, usual, k == 0);
+        }
         // Frames in contact are off the parabola.
         for _ in 0..4 {
             if !is_long(&span) || frames.own_misfit(&span) <= allowed {
@@ -172,6 +181,38 @@ pub(super) fn flights(
         }
     }
     flights
+}
+
+/// Removes frames at the outer end of a span in which a hand holds the ball or it rests: while the mean of the outermost ones is off the
+/// parabola of the others by more than the noise (m) explains.
+fn leave_held_out(frames: &Frames, span: &mut Vec<usize>, noise: f64, at_start: bool) {
+    let mut has_held = false;
+    loop {
+        let n_outer = (span.len() / OUTER_PART).max(FEWEST_OUTER);
+        if span.len() < FEWEST_FRAMES + n_outer {
+            return;
+        }
+        let is_off = |n: usize| {
+            let split = if at_start { n } else { span.len() - n };
+            let (first, second) = span.split_at(split);
+            let (outer, inner) = if at_start { (first, second) } else { (second, first) };
+            let (off, uncertainty) = TrackFlight::of(frames, inner.to_vec()).misses(frames, outer);
+            off.abs() > HELD * noise * uncertainty
+        };
+        let is_held = [1, FEWEST_OUTER, n_outer].into_iter().any(is_off);
+        if is_held || has_held {
+            // Frames just before the release are nearly on the parabola.
+            let n_less = n_outer / 2;
+            match at_start {
+                true => drop(span.drain(..n_less)),
+                false => span.truncate(span.len() - n_less),
+            }
+        }
+        if !is_held {
+            return;
+        }
+        has_held = true;
+    }
 }
 
 /// Removes frames that are far off their parabola, and returns their number.

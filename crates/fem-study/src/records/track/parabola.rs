@@ -73,6 +73,20 @@ impl TrackFlight {
         }
     }
 
+    /// Returns the mean deviation of other frames from the parabola of least squares, m, and its uncertainty over the noise of a frame.
+    pub(super) fn misses(&self, all: &Frames, others: &[usize]) -> (f64, f64) {
+        let Moments { weight, square, cube, .. } = self.moments;
+        let (along, across) = self.curvature(all);
+        let parabola = self.parabola(if across > 0.0 { along / across } else { 0.0 });
+        let n = others.len() as f64;
+        let mean = |value: &dyn Fn(usize) -> f64| others.iter().map(|k| value(*k)).sum::<f64>() / n;
+        let tau = |k: usize| all.times[k] - self.centre;
+        let bent = mean(&|k| -0.5 * (tau(k).powi(2) - square - cube / square * tau(k)));
+        let variance =
+            1.0 / n + (1.0 + mean(&tau).powi(2) / square) / weight + bent * bent / across;
+        (mean(&|k| all.heights[k] - parabola.at(all.times[k])), variance.sqrt())
+    }
+
     /// Returns the products of −τ²/2, less its regression on 1 and τ, with the heights and with itself.
     pub(super) fn curvature(&self, all: &Frames) -> (f64, f64) {
         let Moments { height, slope, square, cube, .. } = self.moments;
