@@ -173,7 +173,9 @@ fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
     };
     while goes_on(begin.elapsed(), n_reports) && stepper.advance(&mut ()) {
         let now = (begin.elapsed(), stepper.progress().step);
-        let seconds = (now.0 - before.0).as_secs_f64() / (now.1 - before.1).max(1) as f64;
+        // A run that begins anew with shorter steps counts them from 0.
+        let n_steps = now.1.saturating_sub(before.1).max(1);
+        let seconds = (now.0 - before.0).as_secs_f64() / n_steps as f64;
         fewest = Some(fewest.map_or(seconds, |fewest: f64| fewest.min(seconds)));
         (before, n_reports) = (now, n_reports + 1);
     }

@@ -242,9 +242,9 @@ pub(super) fn scatter(instants: &[f64], spans: &[FlightSpan]) -> Option<Scatter>
 struct Misfit {
     /// Sum of the squared residuals, s².
     squares: f64,
-    /// Its mean over the variance of an instant, tr(MV).
+    /// Its mean over the variance of an instant, the trace of MV.
     trace: f64,
-    /// tr(MVMV).
+    /// The trace of (MV)², by which the degrees of freedom are counted.
     trace_of_square: f64,
     /// Residual, s, of each flight, with the index of the instant at its beginning.
     residuals: Vec<(usize, f64)>,
