@@ -50,6 +50,8 @@ const OTHER_DROP: f64 = 0.25;
 const FLAT: f64 = 2.0;
 /// Relative error of the impulse of sin^1.5 by its samples, times their number to the power 5/2.
 const SAMPLING: f64 = 0.28;
+/// Range over the noise in which the samples of a flat top lie.
+const TOP_OVER_NOISE: f64 = 5.0;
 /// Most pulses of a record.
 const MOST_PULSES: usize = 1000;
 
@@ -395,19 +397,24 @@ fn pulse(samples: &Samples, spans: &[[usize; 2]], k: usize, noise: f64) -> Pulse
         impulse_uncertainty_n_s: variance.sqrt().hypot(of_baseline).hypot(of_sampling),
         contact_time_10_percent_s: lasts(LEVELS[0]),
         contact_time_1_percent_s: lasts(LEVELS[1]),
-        is_clipped: is_clipped(&f[from..=to], peak),
+        is_clipped: is_clipped(&f[from..=to], peak, noise),
         samples: [start, last],
         baseline: [line(start), line(last) - line(start)],
     }
 }
 
-/// Whether equal samples at the top of a pulse are more than those of a rounded top, which lie within one step of the converter.
-fn is_clipped(forces: &[f64], peak: f64) -> bool {
+/// Whether the samples at the top of a pulse are more than those of a rounded top: equal ones, which lie within one step of the
+/// converter, or those of an amplifier that saturates, which differ by the noise.
+fn is_clipped(forces: &[f64], peak: f64, noise: f64) -> bool {
     let top = forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let n_equal = forces.iter().filter(|force| **force == top).count();
     let step = forces.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     let step = step.filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
-    // The part of a half sine within the share q of its top is 2/π √(2q).
-    let rounded = 0.9 * (step.min(peak) / peak).sqrt() * forces.len() as f64;
-    n_equal >= 3 && n_equal as f64 > FLAT * rounded + 2.0
+    let is_flat = |n: usize, within: f64| {
+        // The part of a half sine within the share q of its top is 2/π √(2q).
+        let rounded = 0.9 * (within.min(peak) / peak).sqrt() * forces.len() as f64;
+        n >= 3 && n as f64 > FLAT * rounded + 2.0
+    };
+    let n_within = |width: f64| forces.iter().filter(|force| top - **force <= width).count();
+    let width = TOP_OVER_NOISE * noise;
+    is_flat(n_within(0.0), step) || is_flat(n_within(width), width)
 }

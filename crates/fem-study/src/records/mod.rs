@@ -5,14 +5,15 @@
 //! wav ─── sound: onsets ───┤                │
 //!          of              ├─ track ────────┤
 //!          crate::measured └─ force ────────┘
-//! rig ──── free_flight, with drag
-//! series ─ missing instants, scatter
+//! rig ──── free_flight, with drag ── flight_speeds, of bounce_times
+//! series ─ drops, missing instants, scatter
 //! ```
 //!
 //! A record that does not support a restitution is an error that says why. Nothing is opened here: callers pass texts and
 //! their names.
 
 mod bounce_times;
+mod flight_speeds;
 mod force;
 mod free_flight;
 mod impact;

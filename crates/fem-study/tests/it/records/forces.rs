@@ -140,6 +140,15 @@ fn clipped_and_other_pulses_without_a_restitution_say_why() {
         let whole = format!("{error}; {}", error.help.clone().unwrap_or_default());
         assert!(expected.split('|').all(|part| whole.contains(part)), "{expected}: {whole}");
     }
+    // An amplifier that saturates before its noise has no equal samples.
+    let mut noise = Noise::seeded(12);
+    let row = |k: u32| {
+        let time = f64::from(k) / 50e3;
+        format!("{time:.6},{:.5}\n", force(time, &pulses[..1]).min(16.0) + 0.02 * noise.normal())
+    };
+    let saturated = "time_s,force_n\n".to_string() + &(0..5000).map(row).collect::<String>();
+    let error = forces(&saturated, &rig).unwrap_err();
+    assert!(error.help.is_some_and(|help| help.contains("clipped")), "{}", error.message);
     // The second pulse is no bounce of the first one, which would follow after 2 · 0.8/g = 0.16 s: it is a drop of its own.
     let two = forces(&record(100.0, &pulses), &rig).unwrap();
     assert_eq!(two.impacts.len(), 1, "{:?}", two.warnings);
