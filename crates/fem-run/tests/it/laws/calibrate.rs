@@ -352,6 +352,8 @@ fn calibrations_and_fits_take_the_plate_with_them() {
     ));
     assert!((weight("of_fast") - 0.2).abs() < 1e-4, "{}", weight("of_fast"));
     assert!(!ran.stderr.contains("finite size"), "{}", ran.stderr);
+    // The case names the model that the calibration has.
+    assert!(!ran.stderr.contains("is ignored"), "{}", ran.stderr);
 
     // What no closed form has is refused.
     place.fails(2, (calibrate, "--model condensed")).tells("no plate that bends|--model ting");
