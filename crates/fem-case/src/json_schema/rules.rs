@@ -11,6 +11,7 @@ use crate::schema::model_tables::{LawKey, LawTable};
 
 /// Keys of a definition, and their range ([`rule`]).
 const RANGES: &[(&str, &[&str], Range)] = &[
+    ("SceneTable", &["temperature"], Range::POSITIVE),
     (
         "MaterialTable",
         &[
@@ -69,7 +70,6 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
             add(schema, &format!("/definitions/{table}/properties/{key}"), [rule(*range)]);
         }
     }
-    add(schema, "/properties/temperature", [rule(Range::POSITIVE)]);
     add(schema, "/definitions/MaterialTable", [two_of(&MODULI)]);
     let needs_material = json!({
         "if": { "required": ["wall"] },

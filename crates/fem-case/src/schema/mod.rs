@@ -35,10 +35,9 @@ pub struct CaseFile {
     /// Title of the case; the file's stem if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
-    /// Temperature of the bodies, > 0, which shifts the relaxation times of materials with a law `shift`; the reference temperature of each
-    /// if absent.
+    /// Conditions of both bodies.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub temperature: Option<Quantity<Temperature>>,
+    pub scene: Option<SceneTable>,
     /// The tables `[material.NAME]`, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     // A table `[material."lib:NAME"]` may have any keys, since the library gives the others.
@@ -113,6 +112,15 @@ impl CaseFile {
     /// Returns this case, computed by this model.
     pub fn with_model(self, model: impl Into<ModelTable>) -> Self {
         Self { model: Some(model.into()), ..self }
+    }
+}
+
+optional_keys! {
+    /// `[scene]`: the conditions of both bodies.
+    SceneTable, "a table [scene]" {
+        /// Temperature of the bodies, > 0, which shifts the relaxation times of materials with a law `shift`; the
+        /// reference temperature of each if absent.
+        temperature: Quantity<Temperature>,
     }
 }
 

@@ -31,8 +31,8 @@ pub(crate) fn validate(
     folder: &Path,
 ) -> Result<Scene, CaseError> {
     let mut check = Check { document, folder, temperature: None, inputs: RefCell::default() };
-    let temperature = file.temperature.as_ref();
-    check.temperature = check.optional("temperature", temperature, Range::POSITIVE)?;
+    let temperature = file.scene.as_ref().and_then(|scene| scene.temperature.as_ref());
+    check.temperature = check.optional("scene.temperature", temperature, Range::POSITIVE)?;
     check_temperature(&check, file)?;
     let start = file.start.clone().unwrap_or_default();
     let mesh = file.mesh.clone().unwrap_or_default();
@@ -104,7 +104,7 @@ pub(crate) fn validate(
 /// Returns whether a key is that of a measured input.
 fn is_measured(key: &str) -> bool {
     const TABLES: [&str; 5] = ["material.", "body.", "start.", "gravity.", "model.law."];
-    ["contact.work_of_adhesion", "temperature"].contains(&key)
+    ["contact.work_of_adhesion", "scene.temperature"].contains(&key)
         || TABLES.iter().any(|table| key.starts_with(table))
 }
 

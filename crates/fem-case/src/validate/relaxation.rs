@@ -126,7 +126,9 @@ impl Check<'_> {
                 );
                 let help = "a table holds between its temperatures, and the law of Williams, Landel and Ferry on one side of its \
                             pole at reference_temperature - c2";
-                return Err(self.conflict(&at("shift"), &["temperature"], message).with_help(help));
+                return Err(self
+                    .conflict(&at("shift"), &["scene.temperature"], message)
+                    .with_help(help));
             };
             let factor = 10f64.powf(log10);
             for term in &mut terms {
@@ -207,7 +209,7 @@ pub(super) fn check_temperature(check: &Check<'_>, file: &CaseFile) -> Result<()
     let depends = |table: &RelaxationTable| table.shift.is_some();
     let mut relaxations = file.material.values().filter_map(|table| table.relaxation.as_ref());
     if check.temperature.is_some() && !relaxations.any(depends) {
-        let error = check.error("temperature", "no material depends on the temperature");
+        let error = check.error("scene.temperature", "no material depends on the temperature");
         return Err(error.with_help(
             "give a relaxation reference_temperature and shift, as fem-run relaxation finds them, or leave temperature out",
         ));

@@ -55,7 +55,7 @@ fn a_file_gives_the_series_and_the_temperature_shifts_it() {
     // 10 K above the reference, log10 a_T is −10 · 10/110.
     let factor = 10f64.powf(-100.0 / 110.0);
     for temperature in ["'30 degC'", "303.15", "'86 °F'"] {
-        let case = parse(SERIES, &[&format!("temperature={temperature}")]).unwrap();
+        let case = parse(SERIES, &[&format!("scene.temperature={temperature}")]).unwrap();
         for (time, known) in times(&case).into_iter().zip([1e-3, 0.1]) {
             assert!((time / known / factor - 1.0).abs() < 1e-9, "{temperature}: {time}");
         }
@@ -66,16 +66,16 @@ fn a_file_gives_the_series_and_the_temperature_shifts_it() {
         let again = Case::parse("ball.toml", &written, Path::new("/nowhere"), &[]).unwrap();
         assert_eq!(times(&again), times(&case));
     }
-    let case = parse(SERIES, &["temperature='30 ± 2 degC'"]).unwrap();
+    let case = parse(SERIES, &["scene.temperature='30 ± 2 degC'"]).unwrap();
     let input = &case.scene().uncertain_inputs()[0];
-    assert_eq!((input.key.as_str(), input.uncertainty), ("temperature", 2.0));
+    assert_eq!((input.key.as_str(), input.uncertainty), ("scene.temperature", 2.0));
     let arrhenius = "{ arrhenius = { activation_temperature = 20000 } }";
     let series = SERIES.replace("{ wlf = { c1 = 10, c2 = 100 } }", arrhenius);
-    let found = times(&parse(&series, &["temperature=303.15"]).unwrap())[0] / 1e-3;
+    let found = times(&parse(&series, &["scene.temperature=303.15"]).unwrap())[0] / 1e-3;
     assert!((found.ln() - 2e4 * (1.0 / 303.15 - 1.0 / 293.15)).abs() < 1e-9);
     let table = "{ table = [['10 degC', 1], ['20 degC', 0], ['40 degC', -1]] }";
     let series = SERIES.replace("{ wlf = { c1 = 10, c2 = 100 } }", table);
-    let found = times(&parse(&series, &["temperature=303.15"]).unwrap())[0] / 1e-3;
+    let found = times(&parse(&series, &["scene.temperature=303.15"]).unwrap())[0] / 1e-3;
     assert!((found.log10() + 0.5).abs() < 1e-9, "{found}");
 }
 
@@ -105,12 +105,12 @@ fn faults_of_files_and_temperatures_have_one_answer() {
         ),
         (
             SERIES.into(),
-            vec!["temperature='-90 degC'"],
+            vec!["scene.temperature='-90 degC'"],
             "shift has no value at the temperature -90.0 degC",
         ),
-        (SERIES.into(), vec!["temperature='hot'"], "its scale is degC, K or degF"),
-        (SERIES.into(), vec!["temperature=-3"], "temperature is -3.0 K"),
-        (with(""), vec!["temperature=300"], "no material depends on the temperature"),
+        (SERIES.into(), vec!["scene.temperature='hot'"], "its scale is degC, K or degF"),
+        (SERIES.into(), vec!["scene.temperature=-3"], "temperature is -3.0 K"),
+        (with(""), vec!["scene.temperature=300"], "no material depends on the temperature"),
         (with("shift = {}\n"), vec![], "shift is exactly one law"),
         (with("shift = { wlf = { c1 = 10, c2 = 0 } }\n"), vec![], "c2 is 0"),
         (

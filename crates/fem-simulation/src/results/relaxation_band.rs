@@ -18,6 +18,8 @@ use fem_case::schema::TermTable;
 use fem_case::{Body, Case, MeasuredBand, Scene};
 use fem_material::{ActsOn, Material, ZERO_CELSIUS};
 
+use crate::results::summary::RelaxationCoverage;
+
 /// Decades on either side of the frequency of a contact within which a term matters.
 const REACH: f64 = 10.0;
 /// Most terms that are added.
@@ -158,7 +160,10 @@ pub(super) fn band_warnings(scene: &Scene, contact_time: f64) -> Vec<String> {
     let mut warnings: Vec<String> = scene
         .bodies()
         .iter()
-        .flat_map(|body| [band_warning(body, contact, contact_time), modulus_warning(body)])
+        .flat_map(|body| {
+            let coverage = coverage_of(body, contact, contact_time);
+            [coverage.and_then(|coverage| coverage.warning), modulus_warning(body)]
+        })
         .flatten()
         .collect();
     warnings.dedup();
@@ -182,14 +187,28 @@ fn modulus_warning(body: &Body) -> Option<String> {
     })
 }
 
-fn band_warning(body: &Body, [lowest, highest]: [f64; 2], contact_time: f64) -> Option<String> {
+/// Returns the coverage of the body whose data cover least of the frequencies of the contact; `None` without such data.
+pub(super) fn least_coverage(scene: &Scene, contact_time: f64) -> Option<RelaxationCoverage> {
+    let contact = frequencies_of(contact_time);
+    let all = scene.bodies().iter().filter_map(|body| coverage_of(body, contact, contact_time));
+    all.min_by(|a, b| a.decades_inside.total_cmp(&b.decades_inside))
+}
+
+fn coverage_of(
+    body: &Body,
+    [lowest, highest]: [f64; 2],
+    contact_time: f64,
+) -> Option<RelaxationCoverage> {
     let measured = body.measured()?;
     let [from, to] = measured.frequencies?;
-    if from <= lowest && to >= highest {
-        return None;
-    }
     let decades = |from: f64, to: f64| (to / from).log10().max(0.0);
     let inside = decades(from.max(lowest), to.min(highest));
+    let needed = decades(lowest, highest);
+    let of =
+        |warning| RelaxationCoverage { decades_inside: inside, decades_needed: needed, warning };
+    if from <= lowest && to >= highest {
+        return Some(of(None));
+    }
     let celsius = |kelvin: f64| format!("{:.0} degC", kelvin - ZERO_CELSIUS);
     let kelvin = measured.temperature.or(measured.reference_temperature);
     let at = kelvin.map_or(String::new(), |kelvin| format!(" at {}", celsius(kelvin)));
@@ -205,15 +224,14 @@ fn band_warning(body: &Body, [lowest, highest]: [f64; 2], contact_time: f64) -> 
         None => format!("at {} temperatures", if is_fast { "lower" } else { "higher" }),
     };
     let wanted = format!("{side} {}, or {or}", show(wanted, "Hz"));
-    Some(format!(
-        "the contact of {} asks for moduli from {} to {}; those of {} are measured from {} to {}{at}: {inside:.1} of {:.1} \
-         decades, ± input has the rest; measure {wanted}",
+    Some(of(Some(format!(
+        "the contact of {} asks for moduli from {} to {}; those of {} are measured from {} to {}{at}: {inside:.1} of \
+         {needed:.1} decades, ± input has the rest; measure {wanted}",
         show(contact_time, "s"),
         show(lowest, "Hz"),
         show(highest, "Hz"),
         body.name(),
         show(from, "Hz"),
         show(to, "Hz"),
-        decades(lowest, highest),
-    ))
+    ))))
 }

@@ -17,6 +17,7 @@ use crate::effects::{
 use crate::error::{ComputedCollision, ErrorEstimate};
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::PlateImpact;
+use crate::results::relaxation_band::least_coverage;
 use crate::simulation::Simulation;
 use crate::simulation::identity::{NUMERICS, PROGRAM};
 
@@ -75,6 +76,10 @@ impl Summary {
             bounces: bounces(simulation, collision, &mut numbers),
             adhesion: adhesion(simulation, collision, &mut numbers),
             plate: plate(simulation, collision, &mut numbers),
+            relaxation_coverage: least_coverage(
+                simulation.case().scene(),
+                simulation.setup().estimate.contact_time,
+            ),
             dent: dent(simulation, collision),
             rest: collision.rest.as_ref().map(|rest| at_rest(rest, &mut numbers)),
             bodies: [0, 1].map(|side| body(simulation, collision, side, &mut numbers)).to_vec(),

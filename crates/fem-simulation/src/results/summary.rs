@@ -46,6 +46,8 @@ pub struct Summary {
     pub adhesion: Option<AdhesionSummary>,
     /// Impact on a plate; `None` without one.
     pub plate: Option<PlateSummary>,
+    /// Coverage of the contact's frequencies by the data of a relaxation; `None` without data.
+    pub relaxation_coverage: Option<RelaxationCoverage>,
     /// Dents of the bodies that flowed plastically; `None` if none did.
     pub dent: Option<Vec<DentSummary>>,
     /// Static equilibrium of a ball at rest, fully relaxed.
@@ -281,6 +283,18 @@ pub struct PlateSummary {
     pub wave_travel_over_thickness: Option<f64>,
     /// Contact times until a surface wave is back from the edge; `None` for an unbounded plate.
     pub edge_return_over_contact_time: Option<f64>,
+}
+
+/// Coverage of the frequencies of the contact by those at which the moduli of a body are measured; of two bodies with
+/// data that of the lesser.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RelaxationCoverage {
+    /// Decades of frequency that are measured and matter to the contact.
+    pub decades_inside: f64,
+    /// Decades of frequency that matter to the contact.
+    pub decades_needed: f64,
+    /// The frequency or the temperature to measure; `None` if the data cover the contact.
+    pub warning: Option<String>,
 }
 
 /// One body. A wall has no mass and no vibration, a reduced model has no elements.

@@ -44,7 +44,7 @@ const IMPACTS: [[&str; 3]; 3] =
 /// Returns the restitution of an impact on a rigid wall and its standard uncertainty by the material.
 fn restitution(material: &str, [diameter, speed, temperature]: [&str; 3]) -> (f64, f64) {
     let case = format!(
-        "model.ting = {{}}\ntemperature = '{temperature}'\n{material}\n[[body]]\nname = 'ball'\n\
+        "model.ting = {{}}\nscene.temperature = '{temperature}'\n{material}\n[[body]]\nname = 'ball'\n\
          sphere.diameter = '{diameter}'\nmaterial = 'polymer'\napproach_speed = '{speed}'\n[[body]]\nname = 'floor'\nwall = {{}}\n"
     );
     let summary = summary_of::<&str>(&case, &[]);

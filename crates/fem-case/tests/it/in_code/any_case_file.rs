@@ -193,7 +193,7 @@ impl Random {
         let materials = (0..1 + self.below(2)).map(|_| (self.name(&["glass"]), self.material()));
         CaseFile {
             title: None,
-            temperature: None,
+            scene: None,
             material: materials.collect(),
             body: names.iter().map(|name| self.body(name)).collect(),
             start: self.maybe(|random| StartTable { gap: Some(random.quantity(&[1e-6])) }),

@@ -43,9 +43,16 @@ fn moduli_become_a_material_that_a_case_accepts() {
     ran.prints(
         "± input|0.0 of 2.0 decades, ± input has the rest; measure up to|or at lower temperatures",
     );
-    place.fails(2, ["impact.toml", "--set", "temperature=30 degC"]).tells("no material depends on");
-    let e = place.json("e/summary.json")["restitution"].as_f64().unwrap();
+    place
+        .fails(2, ["impact.toml", "--set", "scene.temperature=30 degC"])
+        .tells("no material depends on");
+    let summary = place.json("e/summary.json");
+    let e = summary["restitution"].as_f64().unwrap();
     assert!((0.5..1.0).contains(&e), "{e}");
+    let coverage = &summary["relaxation_coverage"];
+    let decades = ["decades_inside", "decades_needed"].map(|key| coverage[key].as_f64().unwrap());
+    assert!(decades[0] == 0.0 && (decades[1] - 2.0).abs() < 1e-12, "{coverage}");
+    assert!(coverage["warning"].as_str().unwrap().contains("measure up to"), "{coverage}");
 }
 
 #[test]
@@ -126,7 +133,8 @@ fn restitutions_of_found_series_are_those_of_the_true_one() {
     place.write("known.toml", &case(&known));
     for (temperature, covered) in [(-10, false), (5, false), (20, true), (50, true)] {
         let run = |name: &str| {
-            let (file, set) = (format!("{name}.toml"), format!("temperature={temperature} degC"));
+            let (file, set) =
+                (format!("{name}.toml"), format!("scene.temperature={temperature} degC"));
             let ran = place.succeed([&file, "--set", &set, "--out", "run", "--force"]);
             let summary = place.json("run/summary.json");
             (ran, summary)

@@ -139,7 +139,13 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
                     check(format!("uncertainty_{part}_{quantity}"), value)
                 });
             }),
-            "bounces" | "rest" | "adhesion" | "plate" | "dent" | "estimate" => {
+            "bounces"
+            | "rest"
+            | "adhesion"
+            | "plate"
+            | "dent"
+            | "estimate"
+            | "relaxation_coverage" => {
                 assert!(value.is_null(), "{key} without its table")
             }
             "warnings" => check(key.clone(), &value.as_array().unwrap().len().into()),

@@ -67,7 +67,7 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
     refused(&range("{ from = 1, to = 2, n = 1 }"), "3:51", "n is 1|2 to");
     refused(&range("{ from = 1, to = 2, n = 3, logs = true }"), "3:54", "unknown key|log");
     refused(&range("{ from = '1 mm', to = '2 s', n = 3 }"), "3:49", "units of the same quantity");
-    let scales = vary("'temperature' = { from = '20 degC', to = '330 K', n = 3 }");
+    let scales = vary("scene.temperature = { from = '20 degC', to = '330 K', n = 3 }");
     refused(&scales, "3:42", "units of the same quantity");
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", "furlong");
     refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", "not a number");
@@ -244,7 +244,7 @@ fn a_range_may_have_a_step() {
 fn a_range_may_be_of_temperatures() {
     let place = Place::new();
     let range = "{ from = '-20 degC', to = '20 degC', step = '20 degC' }";
-    place.write("sweep.toml", &vary(&format!("temperature = {range}")));
+    place.write("sweep.toml", &vary(&format!("scene.temperature = {range}")));
     place.succeed((
         "sweep sweep.toml --quiet --out runs/sweep --set model.ting={}",
         ["--set", "body.1.material='lib:pvb'"],
