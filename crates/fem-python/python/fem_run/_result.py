@@ -56,6 +56,7 @@ class Result:
     bounces: list[dict[str, Any]] | None
     adhesion: dict[str, Any] | None
     plate: dict[str, Any] | None
+    relaxation_coverage: dict[str, Any] | None
     dent: list[dict[str, Any]] | None
     rest: dict[str, Any] | None
     bodies: list[dict[str, Any]]

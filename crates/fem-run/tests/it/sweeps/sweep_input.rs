@@ -68,7 +68,7 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
     refused(&range("{ from = 1, to = 2, n = 3, logs = true }"), "3:54", "unknown key|log");
     refused(&range("{ from = '1 mm', to = '2 s', n = 3 }"), "3:49", "units of the same quantity");
     let scales = vary("scene.temperature = { from = '20 degC', to = '330 K', n = 3 }");
-    refused(&scales, "3:42", "units of the same quantity");
+    refused(&scales, "3:46", "units of the same quantity");
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", "furlong");
     refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", "not a number");
     refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", "greater than 0");
