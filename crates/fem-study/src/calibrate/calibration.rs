@@ -5,7 +5,7 @@ use crate::fit::spectrum::{
     speed_exponent,
 };
 use crate::fit::{FitError, InputPart, Robustness, SPEED};
-use fem_case::Case;
+use fem_case::{Case, ModelChoice};
 use fem_material::PronyTerm;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -280,9 +280,16 @@ fn check(
     Ok(())
 }
 
-/// Returns the keys of the case's own model that are ignored: all of it, or the steps of the chosen one.
+/// Returns the keys of the case's own model that are ignored: all of it, or the steps of the chosen one. A calibration by Ting's model has the
+/// finite size of the spheres, as a case with `finite_size = true` does.
 fn unused_key(case: &Case, chosen: CalibrationModel) -> Option<String> {
-    let model = case.scene().model().path();
+    let own = case.scene().model();
+    if chosen == CalibrationModel::Ting
+        && matches!(own, ModelChoice::Ting { finite_size: true, .. })
+    {
+        return None;
+    }
+    let model = own.path();
     let is_own = chosen == CalibrationModel::Condensed && model == "model.condensed";
     let key = if is_own { UNUSED_STEPS.to_string() } else { model };
     case.gives(&key).then_some(key)

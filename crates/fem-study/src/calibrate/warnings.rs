@@ -150,9 +150,6 @@ impl Calibration {
 
     fn unused(&self, names: &SettingNames) -> Option<String> {
         let key = self.unused_key.as_deref()?;
-        if key.strip_prefix("model.") == Some(self.model.word()) {
-            return None;
-        }
         Some(match key {
             UNUSED_STEPS => format!("{key} is ignored: calibrate takes {STEPS_PER_CONTACT_TIME}"),
             _ => format!(
