@@ -257,7 +257,12 @@ fn restitution_chart(found: &Calibration) -> Result<Chart, FitError> {
     let band = best.iter().map(|&(x, _)| (x, limit(x, 1.0), limit(x, -1.0))).collect();
     let errors = found.measured.data.points.iter();
     let errors = errors.map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
-    Ok(Chart::new(x.axis(), Axis::new("restitution e"))
+    let mut chart = Chart::new(x.axis(), Axis::new("restitution e"));
+    if let Some(prior) = curves.prior {
+        let curve = Curve::dashed("measured relaxation alone", scaled(prior));
+        chart = chart.with(curve.like_curve(4));
+    }
+    Ok(chart
         .with_band("slopes of any Prony series", band, GREY)
         .with(Curve::dashed("single Maxwell term", scaled(curves.maxwell)).like_curve(2))
         .with(Curve::line("best fit", best).like_curve(0))
@@ -277,6 +282,13 @@ fn weight_chart(found: &Calibration) -> Chart {
         let range = found.weight_range(k);
         let line = vec![(x.scaled(*time), range.low), (x.scaled(*time), range.high)];
         chart = chart.with(Curve::line(label.clone(), line).coloured(COLOURS[3]));
+    }
+    if let Some(parts) = &found.fit.parts {
+        let points = found.times.iter().zip(&parts.weights);
+        let points = points.map(|(time, weight)| (x.scaled(*time), weight.value)).collect();
+        let errors = parts.weights.iter().map(|weight| weight.error).collect();
+        let prior = Curve::points("measured relaxation", points).with_errors(errors);
+        chart = chart.with(prior.like_curve(4));
     }
     let weights = found.times.iter().zip(&found.fit.weights);
     let weights = weights.map(|(time, weight)| (x.scaled(*time), *weight)).collect();

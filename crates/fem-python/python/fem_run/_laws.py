@@ -267,6 +267,7 @@ def calibrate(
     uncertainty: float | None = None,
     model: Literal["condensed", "ting"] | None = None,
     robust: bool = False,
+    prior: bool = False,
     confidence: float | None = None,
     columns: Columns | None = None,
 ) -> Calibration:
@@ -283,6 +284,7 @@ def calibrate(
         uncertainty: standard uncertainty of the restitutions if the data have none.
         model: the model that computes the collisions, ``"condensed"`` by default.
         robust: whether points far from the curve count little; their weights are in ``curves["data"]["weight"]``.
+        prior: whether the measured relaxation of the case is prior knowledge, whose weights move within their uncertainties.
         confidence: level of the ranges, 0.95 by default.
         columns: names of the columns by their meaning.
 

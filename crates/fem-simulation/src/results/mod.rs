@@ -29,6 +29,7 @@ pub use dent::{DentProfile, DentSummary, dents};
 pub use energy::{Accounts, Energy, energy_key};
 pub use measured::MeasuredSummary;
 #[cfg(feature = "files")]
+pub use relaxation_band::SeriesTail;
 pub use snapshots::write_snapshots;
 pub use summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, EstimateSummary,

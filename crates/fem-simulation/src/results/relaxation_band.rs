@@ -37,15 +37,28 @@ pub(super) fn frequencies_of(contact_time: f64) -> [f64; 2] {
     [middle / REACH, middle * REACH]
 }
 
-/// Terms beyond the measured band, with weights over the instantaneous modulus.
-struct Tail {
-    faster: Vec<(f64, f64)>,
-    slower: Vec<(f64, f64)>,
+/// Terms beyond the measured band: their largest weights over the instantaneous modulus, and their relaxation times, s.
+#[derive(Clone, Debug)]
+pub struct SeriesTail {
+    /// Terms that are faster than the measured ones.
+    pub faster: Vec<(f64, f64)>,
+    /// Terms that are slower.
+    pub slower: Vec<(f64, f64)>,
 }
 
-impl Tail {
-    /// Returns the terms by which a series may go on within the frequencies of the contact.
-    fn of(material: &Material, [from, to]: [f64; 2], [lowest, highest]: [f64; 2]) -> Option<Self> {
+impl SeriesTail {
+    /// Returns the lowest and the highest frequency (Hz) that matter to a contact (s).
+    pub fn frequencies(contact_time: f64) -> [f64; 2] {
+        frequencies_of(contact_time)
+    }
+
+    /// Returns the terms by which a series that is measured in a band (Hz) may go on within the frequencies that are needed; `None` if
+    /// the material does not relax.
+    pub fn of(
+        material: &Material,
+        [lowest, highest]: [f64; 2],
+        [from, to]: [f64; 2],
+    ) -> Option<Self> {
         let series = material.relaxation()?;
         let per_decade = |is_last: &dyn Fn(f64) -> bool| {
             let terms = series.terms().iter().filter(|term| is_last(term.relaxation_time));
@@ -114,7 +127,7 @@ fn uncertainty_at(rows: &[(f64, f64)], frequency: f64) -> Option<f64> {
 fn with_tail(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
     let body = &case.scene().bodies()[side];
     let (material, measured) = (body.material()?, body.measured()?);
-    let tail = Tail::of(material, measured.frequencies?, frequencies_of(contact_time))?;
+    let tail = SeriesTail::of(material, frequencies_of(contact_time), measured.frequencies?)?;
     if tail.is_empty() {
         return None;
     }

@@ -14,6 +14,7 @@ use super::experiment::Experiment;
 use super::fault::CalibrationFault;
 use super::flow::FlowFit;
 use super::maxwell::Maxwell;
+use super::prior::Prior;
 use super::settings::{CalibrationModel, Settings};
 use super::speed_span::ends;
 use super::target::Target;
@@ -80,6 +81,8 @@ pub struct Calibration {
     pub times: Vec<f64>,
     /// Weights, their ranges by the data alone, and which combinations are determined.
     pub fit: SpectrumFit,
+    /// The measured relaxation of the case as prior knowledge.
+    pub prior: Option<Prior>,
     /// Parts of uncertain inputs of the case in the errors of the weights and of the moments.
     pub inputs: Vec<InputPart>,
     /// The single Maxwell term of weight 1 with the measured mean.
@@ -115,9 +118,10 @@ impl Calibration {
     ) -> Result<Self, CalibrationFault> {
         let target = Target::of(case, settings.material.as_deref(), settings.acts_on)?;
         let uncertainties = measured.uncertainties();
-        let regularisation = settings
-            .regularisation
-            .unwrap_or_else(|| uncertainties.as_deref().map_or(REGULARISATION, root_mean_square));
+        let regularisation = settings.regularisation.unwrap_or_else(|| match settings.uses_prior {
+            true => 0.0,
+            false => uncertainties.as_deref().map_or(REGULARISATION, root_mean_square),
+        });
         check(&measured, settings, regularisation)?;
         let of_case = |case: &Case| {
             let pairs = measured.pairs.par_iter();
@@ -131,7 +135,17 @@ impl Calibration {
             contacts.0 / RELAXATION_OVER_CONTACT_TIMES,
             contacts.1 * RELAXATION_OVER_CONTACT_TIMES,
         ));
-        let times = spaced(window, settings.n_terms);
+        let prior_of = |case: &Case| Prior::of(case, &target, contacts);
+        let prior = match (settings.uses_prior, &uncertainties) {
+            (false, _) => None,
+            (true, None) => return Err(CalibrationFault::NoUncertainties),
+            (true, Some(_)) => Some(prior_of(case).ok_or_else(|| {
+                let material = target.material.clone();
+                CalibrationFault::NoPrior { material }
+            })?),
+        };
+        let of_settings = || spaced(window, settings.n_terms);
+        let times = prior.as_ref().map_or_else(of_settings, |prior| prior.times.clone());
         let wanted = measured.restitutions();
         let of_terms = |terms: &[PronyTerm]| restitutions(&experiments, terms, wanted.len());
         let problem = SpectrumProblem {
@@ -141,19 +155,26 @@ impl Calibration {
             uncertainties: uncertainties.as_deref(),
             times: &times,
             regularisation,
-            is_robust: settings.is_robust,
+            is_robust: settings.is_robust && prior.is_none(),
+            prior: prior.as_ref().map(|prior| &prior.of_weights),
         };
         let fit = problem.fit(settings.confidence)?;
         let refit = |case: &Case| {
             let experiments = of_case(case).ok()?;
+            let prior = if prior.is_some() { Some(prior_of(case)?) } else { None };
+            let times = prior.as_ref().map_or(&times, |prior| &prior.times);
+            if times.len() != problem.times.len() {
+                return None;
+            }
             let restitutions =
-                |weights: &[f64]| restitutions(&experiments, &terms(&times, weights), wanted.len());
-            let weights =
-                SpectrumProblem { restitutions: &restitutions, ..problem }.refit(&fit).ok()?;
+                |weights: &[f64]| restitutions(&experiments, &terms(times, weights), wanted.len());
+            let prior = prior.as_ref().map(|prior| &prior.of_weights);
+            let changed = SpectrumProblem { restitutions: &restitutions, prior, times, ..problem };
+            let weights = changed.refit(&fit).ok()?;
             let changes: Vec<f64> =
                 weights.iter().zip(&fit.weights).map(|(changed, own)| changed - own).collect();
             let moment = |moment: &Vec<f64>| moment.iter().zip(&changes).map(|(c, w)| c * w).sum();
-            let moments = moments(&times).each_ref().map(moment);
+            let moments = moments(problem.times).each_ref().map(moment);
             Some([changes, moments.to_vec()].concat())
         };
         let inputs = InputPart::of(case, times.len() + 3, &[SPEED], refit);
@@ -171,6 +192,7 @@ impl Calibration {
             confidence: settings.confidence,
             unused_key: unused_key(case, settings.model),
             fit,
+            prior,
             inputs,
             maxwell,
             times,
@@ -192,6 +214,12 @@ impl Calibration {
     /// Returns the terms that are not zero.
     pub fn terms(&self) -> Vec<PronyTerm> {
         terms(&self.times, &self.fit.weights)
+    }
+
+    /// Returns the terms of the measured relaxation alone; `None` without prior knowledge.
+    pub fn prior_terms(&self) -> Option<Vec<PronyTerm>> {
+        let prior = self.prior.as_ref()?;
+        Some(terms(&prior.times, &prior.of_weights.weights))
     }
 
     /// Returns the shortest and the longest contact time of the data without relaxation, s.
@@ -259,7 +287,8 @@ fn check(
     settings: &Settings,
     regularisation: f64,
 ) -> Result<(), CalibrationFault> {
-    let (n_values, n_free) = (measured.data.points.len(), settings.n_terms);
+    let n_free = if settings.uses_prior { 1 } else { settings.n_terms };
+    let n_values = measured.data.points.len();
     if n_values == 0 {
         return Err(DataError::new(&measured.data.name, "there is no restitution").into());
     }

@@ -45,6 +45,8 @@ pub struct RestitutionCurves {
     pub best: Vec<(f64, f64)>,
     /// Restitutions of the single Maxwell term, at the same places.
     pub maxwell: Vec<(f64, f64)>,
+    /// Restitutions of the measured relaxation alone, at the same places; `None` without prior knowledge.
+    pub prior: Option<Vec<(f64, f64)>>,
 }
 
 /// A collision that is drawn.
@@ -87,6 +89,7 @@ impl Calibration {
             range,
             best: curve(&self.terms())?,
             maxwell: curve(&[self.maxwell.term()])?,
+            prior: self.prior_terms().map(|terms| curve(&terms)).transpose()?,
             data: points.map(|(point, x)| (x, point.restitution)).collect(),
         })
     }

@@ -34,6 +34,15 @@ pub enum CalibrationFault {
         /// The materials of the bodies.
         materials: Vec<String>,
     },
+    /// The relaxation of the case cannot be prior knowledge.
+    #[error("the relaxation of {material} has no measured uncertainties for these moduli")]
+    NoPrior {
+        /// The material that is calibrated.
+        material: String,
+    },
+    /// Prior knowledge and data without uncertainties cannot be compared.
+    #[error("prior knowledge needs data with uncertainties")]
+    NoUncertainties,
     /// The data are those of plastic flow, and no series makes them.
     #[error(
         "plastic flow explains these restitutions, and no relaxation does: a yield strength of {} has an rms error of \

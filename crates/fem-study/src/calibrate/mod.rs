@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The case gives bodies and instantaneous moduli. Each pair of bodies has one model for all of its
-//! speeds; `crate::fit::spectrum` finds the weights.
+//! speeds; `crate::fit::spectrum` finds the weights. A measured relaxation of the case may be its prior knowledge (`prior`).
 
 mod calibration;
 mod curves;
@@ -18,6 +18,7 @@ mod fault;
 mod flow;
 mod maxwell;
 mod pair_model;
+mod prior;
 mod settings;
 mod speed_span;
 pub(crate) mod stored_calibration;
@@ -30,6 +31,7 @@ pub use experiment::Experiment;
 pub use fault::CalibrationFault;
 pub use flow::FlowFit;
 pub use maxwell::{Beyond, Maxwell};
+pub use prior::Prior;
 pub use settings::{CalibrationModel, SettingNames, Settings};
 pub use speed_span::SpeedDoubt;
 pub use target::Target;

@@ -23,6 +23,9 @@ pub struct Settings {
     pub confidence: f64,
     /// Whether data far from the curve count little ([`crate::fit::Robustness`]).
     pub is_robust: bool,
+    /// Whether the measured relaxation of the case is prior knowledge: its weights move within their uncertainties. The
+    /// relaxation times are then those of the case, no data are weighted down, and the regularisation is 0 by default.
+    pub uses_prior: bool,
 }
 
 impl Default for Settings {
@@ -37,6 +40,7 @@ impl Default for Settings {
             regularisation: None,
             confidence: 0.95,
             is_robust: false,
+            uses_prior: false,
         }
     }
 }

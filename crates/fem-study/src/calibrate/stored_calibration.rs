@@ -1,6 +1,7 @@
 //! The stored forms of a calibration: `calibrate.json` and `relaxation.toml`.
 
 use fem_case::schema::{ActsOn, RelaxationTable, TermTable};
+use fem_material::PronyTerm;
 use fem_simulation::results::PROGRAM;
 use serde_json::{Value, json};
 
@@ -8,7 +9,8 @@ use super::calibration::Calibration;
 use super::curves::Abscissa;
 use super::experiment::Experiment;
 use super::maxwell::Beyond;
-use crate::fit::spectrum::{Combination, Range};
+use crate::fit::spectrum::{Combination, Range, Share};
+use crate::relaxation::stored::shift_toml;
 
 /// Names of the moments of the weights.
 const MOMENTS: [&str; 3] = ["weight_sum", "initial_decay_rate_1_s", "viscous_time_s"];
@@ -41,6 +43,7 @@ impl Calibration {
             (MOMENTS[1]): rate,
             (MOMENTS[2]): time,
             "inputs": self.inputs.iter().map(|part| part.numbers(&results)).collect::<Value>(),
+            "prior": self.prior_numbers(),
             "combinations": combinations.collect::<Value>(),
             "combinations_determined": fit.resolution.n_determined(),
             "rms": fit.rms,
@@ -77,7 +80,8 @@ impl Calibration {
         let [mut data, best, maxwell] =
             [&curves.data, &curves.best, &curves.maxwell].map(|points| columns(points));
         data["weight"] = (0..curves.data.len()).map(|k| self.weight(k)).collect();
-        Some(json!({ "over": x, "data": data, "best": best, "maxwell": maxwell }))
+        let prior = curves.prior.as_ref().map(|points| columns(points));
+        Some(json!({ "over": x, "data": data, "best": best, "maxwell": maxwell, "prior": prior }))
     }
 
     fn term(&self, k: usize) -> Value {
@@ -88,7 +92,21 @@ impl Calibration {
             "range": [range.low, range.high],
             "range_of_data": [of_data.low, of_data.high],
             "share_of_data": self.fit.resolution.shares[k],
+            "prior": self.fit.parts.as_ref().map(|parts| share(&parts.weights[k])),
+            "error": self.fit.parts.as_ref().map(|parts| parts.errors[k]),
         })
+    }
+
+    /// Returns what the measured relaxation and the data contribute.
+    fn prior_numbers(&self) -> Option<Value> {
+        let (prior, parts) = (self.prior.as_ref()?, self.fit.parts.as_ref()?);
+        let [of_prior, of_data, of_both] = parts.restitution.each_ref().map(share);
+        Some(json!({
+            "frequencies_hz": prior.band,
+            "weights_of_data": parts.n_of_data,
+            "mean_restitution": { "prior": of_prior, "data": of_data, "both": of_both },
+            "restitution": parts.restitutions,
+        }))
     }
 }
 
@@ -99,6 +117,10 @@ fn pair(experiment: &Experiment) -> Value {
         "elements_across_smallest_contact": experiment.elements_across.map(|across| across.0),
         "elements_across_largest_contact": experiment.elements_across.map(|across| across.1),
     })
+}
+
+fn share(share: &Share) -> Value {
+    json!({ "value": share.value, "error": share.error })
 }
 
 fn range(whole: &Range, of_data: &Range) -> Value {
@@ -122,11 +144,21 @@ fn combination(combination: &Combination) -> Value {
 impl Calibration {
     /// Returns the table that gives the material the series that was found; `None` if nothing relaxes.
     pub fn relaxation(&self) -> Option<RelaxationTable> {
-        let terms = self.terms().into_iter();
+        let terms = self.reference_terms().into_iter();
         let terms =
             terms.map(|term| TermTable::with_relaxation_time(term.weight, term.relaxation_time));
         let terms: Vec<TermTable> = terms.collect();
-        (!terms.is_empty()).then(|| RelaxationTable::new(self.acts_on(), terms))
+        let new = || RelaxationTable::new(self.acts_on(), []);
+        let table = self.prior.as_ref().map_or_else(new, |prior| prior.table.clone());
+        (!terms.is_empty()).then_some(RelaxationTable { terms, ..table })
+    }
+
+    /// Returns the terms that are not zero at the reference temperature, which is that of the case without prior knowledge.
+    fn reference_terms(&self) -> Vec<PronyTerm> {
+        let factor = self.prior.as_ref().map_or(1.0, |prior| prior.shift_factor);
+        let mut terms = self.terms();
+        terms.iter_mut().for_each(|term| term.relaxation_time /= factor);
+        terms
     }
 
     /// Returns the moduli that relax.
@@ -143,7 +175,7 @@ impl Calibration {
             resolution.n_determined(),
             self.fit.weights.len(),
         );
-        let terms = self.terms();
+        let terms = self.reference_terms();
         if terms.is_empty() {
             return text + "# No term has a weight: the data show no loss.\n";
         }
@@ -155,7 +187,16 @@ impl Calibration {
                 term.weight, term.relaxation_time
             );
         }
-        text + "]\n"
+        text += "]\n";
+        let Some(prior) = &self.prior else { return text };
+        if let Some(law) = &prior.shift {
+            let reference = prior.reference_temperature;
+            let reference =
+                reference.map(|kelvin| format!("reference_temperature = \"{kelvin:?} K\"\n"));
+            text += &reference.unwrap_or_default();
+            text += &format!("shift = {}\n", shift_toml(law));
+        }
+        text
     }
 }
 

@@ -35,6 +35,7 @@ impl Calibration {
         }));
         warnings.extend(self.measured.data.warnings());
         warnings.extend(self.fit.robustness.as_ref().and_then(Robustness::warning));
+        warnings.extend(self.contradiction());
         warnings.extend(self.misfit(names));
         warnings.extend(self.scatter(names));
         warnings.extend(self.undetermined());
@@ -110,7 +111,10 @@ impl Calibration {
         }
         let none = "no series of these relaxation times fits these data";
         let meaningless = "so the ranges have no statistical meaning";
-        let remedy = format!("try more {} or other {}", names.terms, names.times);
+        let remedy = match self.prior {
+            Some(_) => "the model or the measured relaxation is wrong".to_string(),
+            None => format!("try more {} or other {}", names.terms, names.times),
+        };
         Some(match self.fit.misfit {
             Some(misfit) if !self.has_uncertainties() => format!(
                 "the misfit is {misfit:.1} times the scatter of repeats: {none}, {meaningless}; \
@@ -138,7 +142,23 @@ impl Calibration {
         })
     }
 
+    /// Returns the warning about data that the measured relaxation does not make.
+    fn contradiction(&self) -> Option<String> {
+        let [prior, data, _] = self.fit.parts.as_ref()?.restitution;
+        let errors = (data.value - prior.value).abs() / prior.error.hypot(data.error);
+        (errors > LARGE_MISFIT).then(|| {
+            format!(
+                "the measured relaxation gives a mean restitution of {:.4} ± {:.4} and the data {:.4} ± {:.4}, {errors:.1} standard \
+                 errors away: a loss that is no relaxation, other moduli or an uncertainty that is too small",
+                prior.value, prior.error, data.value, data.error,
+            )
+        })
+    }
+
     fn undetermined(&self) -> Option<String> {
+        if self.prior.is_some() {
+            return None;
+        }
         let (n, determined) = (self.fit.weights.len(), self.fit.resolution.n_determined());
         (determined < n).then(|| {
             format!(

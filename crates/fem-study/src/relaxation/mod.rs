@@ -9,7 +9,7 @@
 mod found;
 mod joint;
 mod series;
-mod stored;
+pub(crate) mod stored;
 mod superposition;
 
 pub use found::{FoundRelaxation, RelaxationSettings};

@@ -15,7 +15,7 @@ use crate::measured::{ModulusPoint, TestKind};
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
 /// Returns a shift law as TOML.
-fn shift_toml(law: &ShiftLaw) -> String {
+pub(crate) fn shift_toml(law: &ShiftLaw) -> String {
     match law {
         ShiftLaw::Wlf { c1, c2 } => format!("{{ wlf = {{ c1 = {c1:.5}, c2 = {c2:.4} }} }}"),
         ShiftLaw::Arrhenius { activation_temperature } => {

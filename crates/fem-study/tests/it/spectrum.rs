@@ -46,6 +46,7 @@ fn fit(
         times,
         regularisation,
         is_robust: false,
+        prior: None,
     };
     problem.fit(0.95)
 }
@@ -131,6 +132,7 @@ fn one_point_determines_one_combination() {
         times: &GRID[1..],
         regularisation,
         is_robust: false,
+        prior: None,
     };
     assert!(matches!(
         problem(0.0).fit(0.95),
@@ -191,6 +193,7 @@ fn repeats_give_the_pure_error() {
             times: &[1e-4],
             regularisation: 0.0,
             is_robust: false,
+            prior: None,
         }
         .fit(0.95)
         .unwrap()
@@ -242,6 +245,7 @@ fn a_robust_series_leaves_gross_errors_out() {
             times: &[time],
             regularisation: 0.0,
             is_robust,
+            prior: None,
         };
         problem.fit(0.95).unwrap()
     };

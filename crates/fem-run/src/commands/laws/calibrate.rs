@@ -63,6 +63,10 @@ pub struct Arguments {
     /// Fit robustly: points far from the curve count little, and are listed
     #[arg(long)]
     robust: bool,
+    /// Take the measured relaxation of the case, relaxation = { file = ... }, as prior knowledge: its weights move
+    /// within their uncertainties
+    #[arg(long, conflicts_with_all = ["terms", "times", "acts_on", "robust"])]
+    prior: bool,
     /// Confidence level of the ranges
     #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
         value_parser = parse_confidence)]
@@ -137,6 +141,7 @@ fn settings(arguments: &Arguments) -> Settings {
         regularisation: arguments.regularisation,
         confidence: arguments.confidence,
         is_robust: arguments.robust,
+        uses_prior: arguments.prior,
     }
 }
 

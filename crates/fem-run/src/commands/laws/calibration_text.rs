@@ -15,6 +15,7 @@ const ROUNDING: f64 = 1e-9;
 pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     let mut text = heading(found);
     text += &weights(found);
+    text += &prior(found);
     text += &inputs(found);
     text += "\n";
     text += &combinations(found);
@@ -97,25 +98,32 @@ fn heading(found: &Calibration) -> String {
 fn weights(found: &Calibration) -> String {
     let fit = &found.fit;
     let level = 100.0 * found.confidence;
-    let header = format!("|>relaxation time|>best|{level} % range, others free|>from the data");
+    let parts = fit.parts.as_ref();
+    let of_prior = if parts.is_some() { "|>measured" } else { "" };
+    let header =
+        format!("|>relaxation time{of_prior}|>best|{level} % range, others free|>from the data");
     let span = |range: &Range, shown: &dyn Fn(f64) -> String| {
         format!("{} to {}", shown(range.low), shown(range.high))
     };
     let plain = |value: f64| format!("{value:.4}");
     let terms = (0..found.times.len()).map(|k| {
-        [
-            format!("g{}", k + 1),
-            show(found.times[k], "s"),
-            plain(fit.weights[k]),
-            span(&found.weight_range(k), &plain),
-            format!("{:.0} %", 100.0 * fit.resolution.shares[k]),
-        ]
+        let weight = parts.map(|parts| parts.weights[k]);
+        let weight = weight.map(|weight| format!("{:.4} ± {:.4}", weight.value, weight.error));
+        let mut cells = vec![format!("g{}", k + 1), show(found.times[k], "s")];
+        cells.extend(weight);
+        cells.push(plain(fit.weights[k]));
+        cells.push(span(&found.weight_range(k), &plain));
+        cells.push(format!("{:.0} %", 100.0 * fit.resolution.shares[k]));
+        cells
     });
     let [total, rate, time] = &found.moments();
     let rates = |value: f64| show_value(value, "1/s");
     let times = |value: f64| show(value, "s");
     let moment = |name: &str, range: &Range, shown: &dyn Fn(f64) -> String| {
-        [name.to_string(), String::new(), shown(range.value), span(range, shown), String::new()]
+        let mut cells = vec![name.to_string(), String::new()];
+        cells.extend(parts.map(|_| String::new()));
+        cells.extend([shown(range.value), span(range, shown), String::new()]);
+        cells
     };
     let moments = [
         moment("Σ g", total, &plain),
@@ -123,6 +131,21 @@ fn weights(found: &Calibration) -> String {
         moment("Σ g τ", time, &times),
     ];
     headed(&header, terms.chain(moments))
+}
+
+/// Returns the mean restitution by the measured relaxation, by the data and by both; nothing without prior knowledge.
+fn prior(found: &Calibration) -> String {
+    let Some(parts) = &found.fit.parts else { return String::new() };
+    let names = ["the measured relaxation", "the data", "both"];
+    let rows = names.iter().zip(&parts.restitution).map(|(name, share)| {
+        [format!("by {name}"), format!("{:.5} ± {:.5}", share.value, share.error)]
+    });
+    format!(
+        "\n{}the data determine {:.1} of {} weights, the measured relaxation the others\n",
+        headed("|mean restitution", rows),
+        parts.n_of_data,
+        found.times.len(),
+    )
 }
 
 /// Returns the ranges of the moments by the data alone and the standard errors by uncertain inputs; nothing without these.

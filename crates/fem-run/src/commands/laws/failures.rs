@@ -96,6 +96,12 @@ impl From<CalibrationFault> for Failure {
             }
             CalibrationFault::TwoMaterials { materials } => Failure::bad_input(message)
                 .with_help(format!("name the one to calibrate: --material {}", materials[0])),
+            CalibrationFault::NoPrior { .. } => Failure::bad_input(message).with_help(
+                "make one with fem-run relaxation and name its file in the case, relaxation = { file = \"...\" }, or leave \
+                 --prior out",
+            ),
+            CalibrationFault::NoUncertainties => Failure::bad_input(message)
+                .with_help("give --uncertainty, the standard uncertainty of a restitution"),
             CalibrationFault::Flow { .. } => Failure::bad_input(message).with_help(
                 "give the material a yield strength: fem-run fit CASE --data FILE --law mean_pressure",
             ),

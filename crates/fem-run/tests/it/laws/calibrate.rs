@@ -502,3 +502,28 @@ fn an_inversion_has_the_uncertain_inputs_of_the_rig() {
     place.fails(2, (invert, ["0.65 ± -0.01"])).tells("an uncertainty is at least 0");
     place.fails(2, (invert, ["0.65 ± x"])).tells("such as 0.9 or '90 %'");
 }
+
+/// Prior knowledge and one restitution: both parts are printed and stored.
+#[test]
+fn calibrate_says_what_prior_and_data_contribute() {
+    let place = Place::with(include_str!("../../../../../validation/data/polymer_ball.toml"));
+    place.write(
+        "dma_polymer.relaxation.toml",
+        include_str!("../../../../../validation/data/dma_polymer.relaxation.toml"),
+    );
+    place.write("e.csv", "speed_m_s,restitution\n0.2,0.9903\n");
+    let command = "calibrate case.toml --data e.csv --model ting --prior --out found";
+    place.fails(2, command).tells("prior knowledge needs data with uncertainties|--uncertainty");
+    let both = format!("{command} --terms 3 --uncertainty 0.002");
+    place.fails(2, both.as_str()).tells("--terms");
+    let good = format!("{command} --uncertainty 0.002 --set temperature=263.15");
+    place
+        .succeed(good.as_str())
+        .prints("by the measured relaxation|the data determine 0.9 of 14 weights");
+    let numbers = place.json("found/calibrate.json");
+    let mean = &numbers["prior"]["mean_restitution"];
+    let error = |of: &str| number(&mean[of]["error"]);
+    assert!(error("both") < error("data") && error("both") < error("prior"), "{mean}");
+    assert!(number(&numbers["terms"][0]["prior"]["error"]) > 0.0);
+    assert!(place.text("found/relaxation.toml").contains("shift = {"));
+}

@@ -21,12 +21,14 @@
 //! assume independent normal errors.
 
 pub(crate) mod bounded;
+mod parts;
 mod ranges;
 mod repeats;
 mod resolution;
 mod solve;
 mod speed_exponent;
 
+pub use parts::{Parts, Share};
 pub use ranges::Range;
 pub(crate) use ranges::moments;
 pub use repeats::PureError;
@@ -38,6 +40,15 @@ use super::robust::Robustness;
 
 /// A function from weights to the restitutions of all data.
 pub type Restitutions<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;
+
+/// What is known of the weights without the data.
+#[derive(Clone, Debug)]
+pub struct WeightPrior {
+    /// The most probable weights.
+    pub weights: Vec<f64>,
+    /// Residuals of the weights over their standard uncertainties.
+    pub(crate) rows: bounded::Linear,
+}
 
 /// The data and settings from which the weights of a series are found.
 pub struct SpectrumProblem<'a> {
@@ -55,6 +66,8 @@ pub struct SpectrumProblem<'a> {
     pub regularisation: f64,
     /// Whether data far from the curve count little ([`crate::fit::Robustness`]).
     pub is_robust: bool,
+    /// What is known of the weights without the data, with uncertainties of the data only.
+    pub prior: Option<&'a WeightPrior>,
 }
 
 impl SpectrumProblem<'_> {
@@ -109,4 +122,6 @@ pub struct SpectrumFit {
     pub n_evaluations: usize,
     /// The weights of the data in a robust fit.
     pub robustness: Option<Robustness>,
+    /// What a prior and the data contribute.
+    pub parts: Option<Parts>,
 }

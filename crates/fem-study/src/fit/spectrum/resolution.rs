@@ -39,7 +39,7 @@ impl Combination {
 pub struct Resolution {
     /// The combinations, the best determined first; as many as weights.
     pub combinations: Vec<Combination>,
-    /// Share of each weight that the data determine and not the regularisation, 0 to 1.
+    /// Share of each weight that the data determine and not the regularisation, or prior knowledge, 0 to 1.
     pub shares: Vec<f64>,
 }
 

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::bounded::Linear;
+use super::parts::{Evidence, Parts};
 use super::ranges::{RangeSearch, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
@@ -36,7 +37,7 @@ impl SpectrumProblem<'_> {
         let is_ridge = self.regularisation >= 0.0 && self.regularisation.is_finite();
         range("regularisation", self.regularisation, "at least 0 and finite", is_ridge)?;
         let (n_values, n_free) = (self.measured.len(), self.times.len());
-        if n_values < n_free && self.regularisation == 0.0 {
+        if n_values < n_free && self.regularisation == 0.0 && self.prior.is_none() {
             let free = "the weights of the series".to_string();
             return Err(FitError::TooFewData { n_values, n_free, free });
         }
@@ -83,7 +84,8 @@ impl<'a> Solver<'a> {
 
     fn fit(mut self, confidence: f64) -> Result<SpectrumFit, FitError> {
         let problem = self.problem;
-        let start = vec![0.0; problem.times.len()];
+        let start = || vec![0.0; problem.times.len()];
+        let start = problem.prior.map_or_else(start, |prior| prior.weights.clone());
         let start = State { restitutions: self.evaluate(&start)?, weights: start };
         let (mut state, mut jacobian) = self.minimise(start)?;
         let least_scale =
@@ -98,10 +100,14 @@ impl<'a> Solver<'a> {
             let (found, counted) = reweight(first, least_scale, next)?;
             ((state, jacobian), robustness) = (found, Some(counted));
         }
-        let linear = self.linear(&state, &jacobian);
+        let linear = self.of_data(&state, &jacobian);
+        let parts = self.parts(&state, &jacobian)?;
         let sum = self.misfit(&state.restitutions);
         let (n_values, n_collisions) = (problem.measured.len(), n_distinct(problem.collisions));
-        let n_free = self.n_free(&state);
+        let n_free = match &parts {
+            Some(parts) => (parts.n_of_data.round() as usize).min(n_collisions),
+            None => self.n_free(&state),
+        };
         let freedom = n_values - n_free;
         let pure_error = PureError::of(problem.measured, problem.collisions);
         let unit = problem.unit();
@@ -121,7 +127,7 @@ impl<'a> Solver<'a> {
                 self.linear(&at, &jacobian)
             },
             best: &state.weights,
-            best_misfit: sum,
+            best_misfit: sum + self.of_prior(&state.weights),
             rise: (error * quantile).powi(2),
         };
         let n = problem.times.len();
@@ -131,10 +137,16 @@ impl<'a> Solver<'a> {
         let [total, rate, time] = moments(problem.times);
         let moments = [search.range(&total)?, search.range(&rate)?, search.range(&time)?];
         let squares = state.restitutions.iter().zip(problem.measured).map(|(e, m)| (e - m).powi(2));
+        let mut resolution =
+            Resolution::of(&linear.a, error, problem.regularisation, &state.weights);
+        if let Some(parts) = &parts {
+            resolution.shares.clone_from(&parts.shares);
+        }
         let squares: f64 = squares.zip(&self.data_weights).map(|(square, w)| square * w).sum();
         Ok(SpectrumFit {
             rms: (squares / self.data_weights.iter().sum::<f64>()).sqrt(),
-            resolution: Resolution::of(&linear.a, error, problem.regularisation, &state.weights),
+            resolution,
+            parts,
             misfit: match (is_weighted, &robustness) {
                 (true, Some(robustness)) => Some(robustness.scale / unit),
                 (true, None) => Some(scatter / unit),
@@ -191,7 +203,8 @@ impl<'a> Solver<'a> {
         let ridge = self.problem.regularisation;
         let cost = |state: &State| {
             let size: f64 = state.weights.iter().map(|weight| weight * weight).sum();
-            self.misfit(&state.restitutions) + ridge * ridge * size
+            let of_prior = self.of_prior(&state.weights);
+            self.misfit(&state.restitutions) + of_prior + ridge * ridge * size
         };
         let mut state = start;
         for _ in 0..MAX_STEPS {
@@ -255,8 +268,44 @@ impl<'a> Solver<'a> {
         Ok(DMatrix::from_columns(&columns))
     }
 
-    /// Returns e(w) + J (w' − w) as residuals in w'.
+    /// Returns Σ r² of the prior, with residuals in the unit of the data's.
+    fn of_prior(&self, weights: &[f64]) -> f64 {
+        let unit = self.problem.unit();
+        self.problem.prior.map_or(0.0, |prior| unit * unit * prior.rows.misfit(weights))
+    }
+
+    /// Returns what the prior and the data contribute.
+    fn parts(&self, at: &State, jacobian: &DMatrix<f64>) -> Result<Option<Parts>, FitError> {
+        let both = self.problem.prior.zip(self.problem.uncertainties);
+        let Some((prior, uncertainties)) = both else { return Ok(None) };
+        Ok(Parts::of(Evidence {
+            jacobian,
+            prior: &prior.rows.a,
+            prior_weights: &prior.weights,
+            uncertainties,
+            measured: self.problem.measured,
+            best: &at.restitutions,
+            of_prior: self.evaluate(&prior.weights)?,
+        }))
+    }
+
+    /// Returns e(w) + J (w' − w) and the prior as residuals in w'.
     fn linear(&self, at: &State, jacobian: &DMatrix<f64>) -> Linear {
+        let of_data = self.of_data(at, jacobian);
+        let Some(prior) = self.problem.prior else { return of_data };
+        let unit = self.problem.unit();
+        let (n_values, n_rows) = (of_data.a.nrows(), prior.rows.a.nrows());
+        let mut all = Linear {
+            a: of_data.a.resize_vertically(n_values + n_rows, 0.0),
+            b: of_data.b.resize_vertically(n_values + n_rows, 0.0),
+        };
+        all.a.rows_mut(n_values, n_rows).copy_from(&(&prior.rows.a * unit));
+        all.b.rows_mut(n_values, n_rows).copy_from(&(&prior.rows.b * unit));
+        all
+    }
+
+    /// Returns e(w) + J (w' − w) as residuals in w'.
+    fn of_data(&self, at: &State, jacobian: &DMatrix<f64>) -> Linear {
         let own = jacobian * DVector::from_row_slice(&at.weights);
         let n_values = self.problem.measured.len();
         let ratio = |i: usize| self.ratio(i);
