@@ -122,6 +122,6 @@ pub struct SpectrumFit {
     pub n_evaluations: usize,
     /// The weights of the data in a robust fit.
     pub robustness: Option<Robustness>,
-    /// What a prior and the data contribute.
+    /// Parts of a prior and of the data, if there is a prior.
     pub parts: Option<Parts>,
 }

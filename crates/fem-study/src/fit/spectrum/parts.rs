@@ -1,4 +1,4 @@
-//! What a prior and the data contribute to the weights and to the restitutions.
+//! Parts of a prior and of the data in the weights and the restitutions.
 //!
 //! About the best weights everything is linear. With J the derivatives of the restitutions over their uncertainties and P the
 //! rows of the prior the covariance of the weights is (PᵀP)⁻¹ by the prior and (PᵀP + JᵀJ)⁻¹ by both. The share of the data in a weight is
@@ -12,13 +12,13 @@ use nalgebra::{DMatrix, DVector};
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
-    /// The value.
+    /// The best estimate of it.
     pub value: f64,
     /// Its standard error.
     pub error: f64,
 }
 
-/// What a prior and the data contribute.
+/// Parts of a prior and of the data in the weights and the restitutions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
     /// The weights by the prior alone.
