@@ -516,7 +516,7 @@ fn calibrate_says_what_prior_and_data_contribute() {
     place.fails(2, command).tells("prior knowledge needs data with uncertainties|--uncertainty");
     let both = format!("{command} --terms 3 --uncertainty 0.002");
     place.fails(2, both.as_str()).tells("--terms");
-    let good = format!("{command} --uncertainty 0.002 --set temperature=263.15");
+    let good = format!("{command} --uncertainty 0.002 --set scene.temperature=263.15");
     place
         .succeed(good.as_str())
         .prints("by the measured relaxation|the data determine 0.9 of 14 weights");
