@@ -1,6 +1,6 @@
 //! The target of a calibration, and the single Maxwell term that it starts from.
 
-use fem_case::schema::{self, BodyTable, MaterialTable};
+use fem_case::schema::{self, BodyTable, MaterialTable, SceneTable};
 use fem_case::{Case, CaseFile};
 use fem_material::{ActsOn, PronyTerm};
 use fem_study::calibrate::{
@@ -77,7 +77,8 @@ fn a_failed_collision_is_an_error() {
 fn polymer(temperature: &str) -> Case {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/data");
     let case = Case::load(&folder.join("polymer_ball.toml"), &[]).unwrap();
-    case.edited(|file| file.temperature = Some(temperature.into())).unwrap()
+    let scene = SceneTable { temperature: Some(temperature.into()) };
+    case.edited(|file| file.scene = Some(scene)).unwrap()
 }
 
 fn with_prior(case: &Case, data: &[(f64, f64)], uncertainty: f64) -> Calibration {
