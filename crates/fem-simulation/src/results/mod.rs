@@ -28,10 +28,11 @@ pub use csv_files::{
 pub use dent::{DentProfile, DentSummary, dents};
 pub use energy::{Accounts, Energy, energy_key};
 pub use measured::MeasuredSummary;
-#[cfg(feature = "files")]
 pub use relaxation_band::SeriesTail;
+#[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summary::{
     AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, EstimateSummary,
-    Parts, PlateSummary, Quantities, RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
+    Parts, PlateSummary, Quantities, RelaxationCoverage, RestSummary, SUMMARY_FILE, Summary,
+    UncertaintySummary,
 };
