@@ -1,7 +1,7 @@
 //! The stored forms of a calibration: `calibrate.json` and `relaxation.toml`.
 
 use fem_case::schema::{ActsOn, RelaxationTable, TermTable};
-use fem_material::PronyTerm;
+use fem_material::{PronyTerm, ShiftLaw};
 use fem_simulation::results::PROGRAM;
 use serde_json::{Value, json};
 
@@ -10,7 +10,6 @@ use super::curves::Abscissa;
 use super::experiment::Experiment;
 use super::maxwell::Beyond;
 use crate::fit::spectrum::{Combination, Range, Share};
-use crate::relaxation::stored::shift_toml;
 
 /// Names of the moments of the weights.
 const MOMENTS: [&str; 3] = ["weight_sum", "initial_decay_rate_1_s", "viscous_time_s"];
@@ -207,5 +206,20 @@ pub(crate) fn toml_key(name: &str) -> String {
         true => name.to_string(),
         // A string of JSON is one of TOML.
         false => serde_json::Value::from(name).to_string(),
+    }
+}
+
+/// Returns a shift law as TOML.
+pub(crate) fn shift_toml(law: &ShiftLaw) -> String {
+    match law {
+        ShiftLaw::Wlf { c1, c2 } => format!("{{ wlf = {{ c1 = {c1:.5}, c2 = {c2:.4} }} }}"),
+        ShiftLaw::Arrhenius { activation_temperature } => {
+            format!("{{ arrhenius = {{ activation_temperature = {activation_temperature:.1} }} }}")
+        }
+        ShiftLaw::Table(rows) => {
+            let rows =
+                rows.iter().map(|(temperature, log10)| format!("[{temperature:.2}, {log10:.4}]"));
+            format!("{{ table = [{}] }}", rows.collect::<Vec<_>>().join(", "))
+        }
     }
 }

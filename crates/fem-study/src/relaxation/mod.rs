@@ -9,7 +9,7 @@
 mod found;
 mod joint;
 mod series;
-pub(crate) mod stored;
+mod stored;
 mod superposition;
 
 pub use found::{FoundRelaxation, RelaxationSettings};

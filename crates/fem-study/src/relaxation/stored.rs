@@ -8,26 +8,11 @@ use fem_simulation::results::PROGRAM;
 
 use super::found::FoundRelaxation;
 use super::superposition::{FittedShift, Superposition};
-use crate::calibrate::stored_calibration::toml_key;
+use crate::calibrate::stored_calibration::{shift_toml, toml_key};
 use crate::measured::{ModulusPoint, TestKind};
 
 /// The gas constant, J/(mol K), exact by the SI of 2019.
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
-
-/// Returns a shift law as TOML.
-pub(crate) fn shift_toml(law: &ShiftLaw) -> String {
-    match law {
-        ShiftLaw::Wlf { c1, c2 } => format!("{{ wlf = {{ c1 = {c1:.5}, c2 = {c2:.4} }} }}"),
-        ShiftLaw::Arrhenius { activation_temperature } => {
-            format!("{{ arrhenius = {{ activation_temperature = {activation_temperature:.1} }} }}")
-        }
-        ShiftLaw::Table(rows) => {
-            let rows =
-                rows.iter().map(|(temperature, log10)| format!("[{temperature:.2}, {log10:.4}]"));
-            format!("{{ table = [{}] }}", rows.collect::<Vec<_>>().join(", "))
-        }
-    }
-}
 
 /// Returns the numbers of shifts for JSON.
 fn superposition(found: &Superposition) -> Value {
