@@ -66,7 +66,7 @@ def compare(program, folder):
     for name in ("fem", "condensed", "ting"):
         runs[name] = run(program, folder, [f"model='{name}'"])
     for name in ("fem", "condensed"):
-        runs[name + " fine"] = run(program, folder, [f"model='{name}'", *FINE])
+        runs[name + " fine"] = run(program, folder, [f"model='{name}'", *FINE], 30)
     for model, reference in COMPARED:
         (ours, why), (fine, why_fine) = runs[model], runs[reference + " fine"]
         pair = [model, reference]

@@ -23,7 +23,7 @@ ARRANGEMENTS = [
     ("twin", "1 m/s", "3 mm"),
     ("ball of bearing-steel", "0.3 m/s", "10 mm"),
 ]
-PERFECT = "{{ yield_strength = '{}', hardening = 'perfect' }}"
+PERFECT = "{{ yield_strength = '{}' }}"
 
 
 def case(material, partner, speed, diameter):
@@ -48,12 +48,20 @@ def remedies(warning, summary):
     bodies = {body["name"]: body.get("material") for body in summary["case"]["body"]}
     named = [f"material.'{material}'" for name, material in bodies.items() if material and name in warning.split(": ")[0]]
     materials = summary["case"]["material"]
-    strength = lambda key: materials[key.split("'")[1]].get("yield_strength", "50 MPa")
+
+    def strength(key):
+        given = materials[key.split("'")[1]].get("yield_strength", 5e7)
+        return f"{given['value'] if isinstance(given, dict) else given} Pa"
+
     if "which is softer, its material.NAME.yield_strength" in warning:
         softer = bodies[warning.split("plastic flow give ")[1].split(",")[0]]
         return [f"material.'{softer}'.yield_strength='50 MPa'"]
     if "computes plastic flow" in warning:
         return [f"{key}.flow={PERFECT.format(strength(key))}" for key in named]
+    if "set material.NAME.flow.rate" in warning:
+        return [f"material.'{name}'.flow.rate.johnson_cook={{ c = 0, reference_rate = 1 }}" for name in materials]
+    if 'set mesh.contact_element_size = "' in warning:
+        return [f"mesh.contact_element_size='{warning.split('set mesh.contact_element_size = ')[1].split(chr(34))[1]}'"]
     if "set material.NAME.hyperelastic" in warning:
         return [f"material.'{name}'.hyperelastic='neo-hooke'" for name in materials if "flow" not in materials[name]]
     return []
@@ -61,7 +69,7 @@ def remedies(warning, summary):
 
 def main(program):
     listed = subprocess.run([program, "materials"], capture_output=True, text=True, check=True).stdout
-    names = [line.split()[0] for line in listed.splitlines() if line[:1].islower()]
+    names = [line.split()[0] for line in listed.splitlines()[1:] if line[:1].islower()]
     rows = csv.writer(sys.stdout)
     rows.writerow(["material", "partner", "speed", "diameter", "warnings", "first", "left", "rounds"])
     with tempfile.TemporaryDirectory() as folder:
@@ -70,7 +78,7 @@ def main(program):
                 (Path(folder) / "case.toml").write_text(case(name, *arrangement))
                 overrides, rounds, first = [], 0, None
                 while True:
-                    summary, why = run(program, Path(folder), overrides)
+                    summary, why = run(program, Path(folder), overrides, 30)
                     warnings = [why] if summary is None else summary["warnings"]
                     first = warnings if first is None else first
                     more = [new for one in warnings if summary for new in remedies(one, summary)]

@@ -164,8 +164,7 @@ pub(crate) fn apply<'t>(
     assignment: Assignment<'t>,
 ) -> Result<(), OverrideError> {
     let Assignment { path, mut value } = assignment;
-    let names: Vec<&str> = path.iter().map(|part| part.get_ref().as_str()).collect();
-    expand_choice(&names, &mut value);
+    expand_all(&mut path.iter().map(|part| part.get_ref().clone()).collect(), &mut value);
     let Some((last, parents)) = path.split_last() else {
         return Ok(());
     };
@@ -229,17 +228,21 @@ pub(crate) fn repair<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<
 
 /// Replaces the names of choices in a file, such as a model, by their tables.
 pub(crate) fn expand_choices(root: &mut DeTable<'_>) {
-    fn inside<'t>(path: &mut Vec<String>, table: &mut DeTable<'t>) {
+    for (key, value) in root.iter_mut() {
+        expand_all(&mut vec![key.get_ref().to_string()], value);
+    }
+}
+
+/// Replaces the names of choices in the value at a path.
+fn expand_all(path: &mut Vec<String>, value: &mut Spanned<DeValue<'_>>) {
+    expand_choice(&path.iter().map(String::as_str).collect::<Vec<_>>(), value);
+    if let DeValue::Table(table) = value.get_mut() {
         for (key, value) in table.iter_mut() {
             path.push(key.get_ref().to_string());
-            expand_choice(&path.iter().map(String::as_str).collect::<Vec<_>>(), value);
-            if let DeValue::Table(table) = value.get_mut() {
-                inside(path, table);
-            }
+            expand_all(path, value);
             path.pop();
         }
     }
-    inside(&mut Vec::new(), root);
 }
 
 /// Replaces the name of a choice by its table: `ting` means `{ ting = {} }`.

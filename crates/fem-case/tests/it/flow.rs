@@ -39,6 +39,9 @@ fn stresses(rule: &FlowRule) -> [f64; 3] {
 #[test]
 fn hardening_is_that_of_its_formula() {
     let perfect = rule(&["material.metal.flow.hardening='perfect'"]);
+    // The name stands for its table inside of a larger value too.
+    let whole = "material.metal.flow={ yield_strength='235 MPa', hardening='perfect' }";
+    assert_eq!(rule(&[whole]), rule(&["material.metal.flow={ yield_strength='235 MPa' }"]));
     assert_eq!(stresses(&perfect), [235e6; 3], "the strength is that beside the density");
     let own = rule(&["material.metal.flow={ yield_strength='1 GPa' }"]);
     assert_eq!(stresses(&own), [1e9; 3]);
