@@ -10,7 +10,7 @@ has the rows of seeds 12 and 13, 14 minutes each, of numerics b1333db58a78e95c o
 
 import random
 
-from scenes import QUANTITIES, bars, run, study
+from scenes import QUANTITIES, bars, bodies, run, study
 
 
 def scene():
@@ -45,15 +45,8 @@ material.elastic.density = "4000 kg/m^3"
 material.elastic.youngs_modulus = "{modulus * random.uniform(0.5, 8):.5g} Pa"
 material.elastic.poissons_ratio = 0.25
 accuracy.tolerance = "3 %"
-[[body]]
-name = "lower"
-{lower}
-[[body]]
-name = "upper"
-sphere = {{ diameter = "{diameter:.5g} m" }}
-material = "{"elastic" if partner == "flowing block" else "metal"}"
-approach_speed = "{speed:.5g} m/s"
 """
+    case += bodies(lower, "elastic" if partner == "flowing block" else "metal", diameter, speed)
     return [partner, hardening, f"{speed / first_yield:.3g}", f"{strength_ratio:.0f}"], case
 
 

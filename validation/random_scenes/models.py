@@ -12,7 +12,7 @@ value, the reference, and the bars of both.
 
 import random
 
-from scenes import QUANTITIES, bars, run, study
+from scenes import QUANTITIES, bars, bodies, run, study
 
 FINE = ["accuracy.tolerance='0.3 %'", "limits.element_updates=1e10"]
 COMPARED = [("fem", "fem"), ("condensed", "condensed"), ("condensed", "fem"), ("ting", "fem")]
@@ -47,17 +47,7 @@ def scene():
     }[partner]
     other = modulus * 10 ** random.uniform(-1, 1), density * 10 ** random.uniform(-0.5, 0.5)
     case = material("a", modulus, density) + material("b", *other)
-    case += f"""
-[[body]]
-name = "lower"
-{lower}
-[[body]]
-name = "upper"
-sphere = {{ diameter = "{diameter:.5g} m" }}
-material = "a"
-approach_speed = "{speed:.5g} m/s"
-"""
-    return [partner], case
+    return [partner], case + bodies(lower, "a", diameter, speed)
 
 
 def compare(program, folder):

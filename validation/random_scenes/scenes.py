@@ -20,6 +20,20 @@ QUANTITIES = [
 QUIET = ["output.report=false", "output.snapshots=[]"]
 
 
+def bodies(lower, material, diameter, speed):
+    """Returns the tables of a ball that strikes another body from above, m and m/s."""
+    return f"""
+[[body]]
+name = "lower"
+{lower}
+[[body]]
+name = "upper"
+sphere = {{ diameter = "{diameter:.5g} m" }}
+material = "{material}"
+approach_speed = "{speed:.5g} m/s"
+"""
+
+
 def bars(summary, key):
     """Returns the parts of the error bar of a quantity."""
     uncertainty = summary["uncertainty"]

@@ -28,7 +28,9 @@ pub use estimate::approach::approach_of;
 pub use estimate::plastic_flow::{FlowingImpact, flowing_impact};
 pub use estimate::plate_impact::free_plate;
 pub use estimate::quasi_static::ting_impact;
-pub use models::method::{Cost, ElementSetup, Method, Model, ModelSetup, SharedModels};
+pub use models::method::{
+    Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels,
+};
 pub use models::stepper::{RefinementLevel, RestartState, Stepper};
 pub use models::{
     AutoMethod, Condensed, CondensedMethod, ExpectedError, Explicit, ExplicitMethod, METHODS,

@@ -39,6 +39,17 @@ pub struct MeasuredBand {
     pub shear_modulus: Option<f64>,
 }
 
+impl MeasuredBand {
+    /// Returns log10 a_T of the body's temperature: of its relaxation times over those of the case; 0 without a shift.
+    pub fn log10_shift(&self) -> f64 {
+        let shift = || {
+            let (temperature, reference) = (self.temperature?, self.reference_temperature?);
+            self.shift.as_ref()?.log10_shift(temperature, reference)
+        };
+        shift().unwrap_or(0.0)
+    }
+}
+
 impl Body {
     /// Returns the name: letters, digits, `_` and `-`. The other body has another name.
     pub fn name(&self) -> &str {

@@ -1,8 +1,9 @@
 //! Values of a varied key as a range, `{ from = "5 cm/s", to = "2 m/s", n = 40, log = true }` or with `step = "5 cm/s"` in
 //! place of `n`, or as the rows of a CSV file, `{ table = "pairs.csv" }`.
 //!
-//! The values of a range, also of temperatures (`from = "-20 degC", to = "80 degC", step = "5 degC"`), are evenly spaced, or have a constant ratio with `log`: x_k = from + (to − from) k / (n − 1), or
-//! from (to / from)^(k / (n − 1)). The ends are as written; the values between have the unit of `to`. Each row of a table
+//! The values of a range, also of temperatures (`from = "-20 degC", to = "80 degC", step = "5 degC"`), are evenly
+//! spaced, or have a constant ratio with `log`: x_k = from + (to − from) k / (n − 1), or from (to / from)^(k / (n − 1)).
+//! The ends are as written; the values between have the unit of `to`. Each row of a table
 //! is one value of all keys of the axis, from the columns of their names or from those in `columns`.
 
 use std::ops::Range;

@@ -16,7 +16,7 @@ use crate::effects::{
 };
 use crate::estimate::Estimate;
 use crate::estimate::viscous_flow;
-use crate::models::method::{Method, Model, SharedModels};
+use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
 use crate::quantity_errors::{QuantityErrors, tolerance_of};
 use crate::rejection::Rejection;
 
@@ -38,9 +38,9 @@ impl Method for AutoMethod {
         None
     }
 
-    fn element_updates(&self, scene: &Scene) -> Result<u64, Rejection> {
+    fn expected(&self, scene: &Scene) -> Result<ExpectedRun, Rejection> {
         let chosen = with_chosen_model(scene)?;
-        method_of(&chosen).element_updates(&chosen)
+        method_of(&chosen).expected(&chosen)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection> {

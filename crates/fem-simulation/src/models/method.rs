@@ -42,24 +42,37 @@ pub trait Method: Sync {
         Ok(())
     }
 
-    /// Returns the number of element updates, by which runs are ordered. Meshes are made, but no factors; models
-    /// without steps count as zero.
+    /// Returns what is expected of a run. Meshes are made, but no factors.
     ///
     /// # Errors
     /// As [`Method::build`], but for faults that only factors show.
-    fn element_updates(&self, scene: &Scene) -> Result<u64, Rejection> {
-        match self.build(scene, &SharedModels::default())?.setup().cost {
-            Cost::Steps { element_updates, .. } => Ok(element_updates),
-            _ => Ok(0),
-        }
+    fn expected(&self, scene: &Scene) -> Result<ExpectedRun, Rejection> {
+        let model = self.build(scene, &SharedModels::default())?;
+        let setup = model.setup();
+        let element_updates = match setup.cost {
+            Cost::Steps { element_updates, .. } => element_updates,
+            _ => 0,
+        };
+        let plan = setup.elements.as_ref().map(|elements| &elements.plan);
+        let out_of_reach = plan.and_then(Plan::out_of_reach).map(str::to_string);
+        Ok(ExpectedRun { element_updates, out_of_reach })
     }
 
     /// Returns the case as written with the method's defaults filled in, which makes the same model. Keys that the
     /// method does not read stay as they are.
     ///
     /// # Errors
-    /// As [`Method::element_updates`].
+    /// As [`Method::expected`].
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Rejection>;
+}
+
+/// What is expected of a run before its factors are made.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ExpectedRun {
+    /// Number of element updates, by which runs are ordered; 0 of a model without steps.
+    pub element_updates: u64,
+    /// The reason why no mesh meets `accuracy.tolerance`, if none does.
+    pub out_of_reach: Option<String>,
 }
 
 /// Caches that the models of several scenes share; clones share the same caches.

@@ -16,7 +16,7 @@ use fem_case::schema::StopTable;
 use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
 use crate::effects::{SimplifiedScene, Support};
-use crate::models::method::{Method, Model, SharedModels};
+use crate::models::method::{ExpectedRun, Method, Model, SharedModels};
 use crate::rejection::Rejection;
 
 use bouncing::Bouncing;
@@ -90,11 +90,13 @@ impl ComputedScene {
         }
     }
 
-    /// Returns the number of element updates of all contacts ([`Method::element_updates`]).
-    pub fn element_updates(&self) -> Result<u64, Rejection> {
+    /// Returns what is expected of a run with all contacts ([`Method::expected`]).
+    pub fn expected(&self) -> Result<ExpectedRun, Rejection> {
         let scene = &self.selected.scene;
         let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
-        Ok(self.method().element_updates(scene)?.saturating_mul(contacts))
+        let of_contact = self.method().expected(scene)?;
+        let element_updates = of_contact.element_updates.saturating_mul(contacts);
+        Ok(ExpectedRun { element_updates, ..of_contact })
     }
 
     /// Returns the case as written with every default of its method filled in.

@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 
 use fem_case::engineering::show;
 use fem_case::schema::TermTable;
-use fem_case::{Body, Case, MeasuredBand, Scene};
+use fem_case::{Body, Case, Scene};
 use fem_material::{ActsOn, Material, ZERO_CELSIUS};
 
 use crate::results::summary::RelaxationCoverage;
@@ -31,12 +31,6 @@ const MAX_DIFFERENCE: f64 = 0.05;
 /// Measured decades that say how a series may go on.
 const LAST_DECADES: i32 = 2;
 
-/// Returns the frequencies that matter to a contact (s), Hz.
-pub(super) fn frequencies_of(contact_time: f64) -> [f64; 2] {
-    let middle = 0.5 / contact_time;
-    [middle / REACH, middle * REACH]
-}
-
 /// Terms beyond the measured band: their largest weights over the instantaneous modulus, and their relaxation times, s.
 #[derive(Clone, Debug)]
 pub struct SeriesTail {
@@ -49,7 +43,8 @@ pub struct SeriesTail {
 impl SeriesTail {
     /// Returns the lowest and the highest frequency (Hz) that matter to a contact (s).
     pub fn frequencies(contact_time: f64) -> [f64; 2] {
-        frequencies_of(contact_time)
+        let middle = 0.5 / contact_time;
+        [middle / REACH, middle * REACH]
     }
 
     /// Returns the terms by which a series that is measured in a band (Hz) may go on within the frequencies that are needed; `None` if
@@ -94,7 +89,7 @@ fn with_less_loss(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
     let body = &case.scene().bodies()[side];
     let (series, measured) = (body.material()?.relaxation()?, body.measured()?);
     let uncertainty = uncertainty_at(&measured.loss_uncertainty, 0.5 / contact_time)?;
-    let factor = 10f64.powf(log10_shift(measured));
+    let factor = 10f64.powf(measured.log10_shift());
     let share = 1.0 - uncertainty;
     let terms = series.terms().iter().map(|term| {
         TermTable::with_relaxation_time(share * term.weight, term.relaxation_time / factor)
@@ -127,13 +122,14 @@ fn uncertainty_at(rows: &[(f64, f64)], frequency: f64) -> Option<f64> {
 fn with_tail(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
     let body = &case.scene().bodies()[side];
     let (material, measured) = (body.material()?, body.measured()?);
-    let tail = SeriesTail::of(material, frequencies_of(contact_time), measured.frequencies?)?;
+    let tail =
+        SeriesTail::of(material, SeriesTail::frequencies(contact_time), measured.frequencies?)?;
     if tail.is_empty() {
         return None;
     }
     let series = material.relaxation()?;
     // The times of the case hold at its reference temperature.
-    let factor = 10f64.powf(log10_shift(measured));
+    let factor = 10f64.powf(measured.log10_shift());
     let whole = 1.0 + tail.faster.iter().map(|term| term.0).sum::<f64>();
     let own = series.terms().iter().map(|term| (term.weight, term.relaxation_time));
     let terms = own
@@ -159,22 +155,13 @@ fn with_tail(case: &Case, side: usize, contact_time: f64) -> Option<Case> {
     edited.ok()
 }
 
-fn log10_shift(measured: &MeasuredBand) -> f64 {
-    let shift = || {
-        let (temperature, reference) = (measured.temperature?, measured.reference_temperature?);
-        measured.shift.as_ref()?.log10_shift(temperature, reference)
-    };
-    shift().unwrap_or(0.0)
-}
-
 /// Returns the warnings about materials whose moduli are not measured at all frequencies of the contact, or are not those of the data.
 pub(super) fn band_warnings(scene: &Scene, contact_time: f64) -> Vec<String> {
-    let contact = frequencies_of(contact_time);
     let mut warnings: Vec<String> = scene
         .bodies()
         .iter()
         .flat_map(|body| {
-            let coverage = coverage_of(body, contact, contact_time);
+            let coverage = coverage_of(body, contact_time);
             [coverage.and_then(|coverage| coverage.warning), modulus_warning(body)]
         })
         .flatten()
@@ -202,16 +189,12 @@ fn modulus_warning(body: &Body) -> Option<String> {
 
 /// Returns the coverage of the body whose data cover least of the frequencies of the contact; `None` without such data.
 pub(super) fn least_coverage(scene: &Scene, contact_time: f64) -> Option<RelaxationCoverage> {
-    let contact = frequencies_of(contact_time);
-    let all = scene.bodies().iter().filter_map(|body| coverage_of(body, contact, contact_time));
+    let all = scene.bodies().iter().filter_map(|body| coverage_of(body, contact_time));
     all.min_by(|a, b| a.decades_inside.total_cmp(&b.decades_inside))
 }
 
-fn coverage_of(
-    body: &Body,
-    [lowest, highest]: [f64; 2],
-    contact_time: f64,
-) -> Option<RelaxationCoverage> {
+fn coverage_of(body: &Body, contact_time: f64) -> Option<RelaxationCoverage> {
+    let [lowest, highest] = SeriesTail::frequencies(contact_time);
     let measured = body.measured()?;
     let [from, to] = measured.frequencies?;
     let decades = |from: f64, to: f64| (to / from).log10().max(0.0);
@@ -229,7 +212,7 @@ fn coverage_of(
     let (side, wanted) = if is_fast { ("up to", highest) } else { ("from", lowest) };
     // An instrument's frequency at this temperature is the wanted one at that of the body.
     let temperature_for = |wanted: f64| {
-        let log10 = log10_shift(measured) + (wanted / INSTRUMENT_FREQUENCY).log10();
+        let log10 = measured.log10_shift() + (wanted / INSTRUMENT_FREQUENCY).log10();
         measured.shift.as_ref()?.temperature(log10, measured.reference_temperature?)
     };
     let or = match temperature_for(wanted) {

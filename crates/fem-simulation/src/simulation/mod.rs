@@ -21,10 +21,9 @@ use crate::effects::{
 };
 use crate::estimate::Estimate;
 use crate::models::explicit::cost::{REFERENCE_UPDATES, needs_own_reference};
-use crate::models::method::{Cost, Model, ModelSetup, SharedModels, start_stepper};
+use crate::models::method::{Cost, ExpectedRun, Model, ModelSetup, SharedModels, start_stepper};
 use crate::models::stepper::{RefinementLevel, RestartState, Stepper};
 use crate::models::{ComputedScene, ModelCandidate, SelectedModel};
-use crate::plan::Plan;
 use crate::plan::body_source::probes_of;
 use crate::rejection::Rejection;
 use crate::simulation::identity::identity_of;
@@ -130,23 +129,13 @@ impl Simulation {
             .map_err(|rejection| rejection.in_case(case))
     }
 
-    /// Estimates the element updates of a case.
+    /// Returns what is expected of a run of a case.
     ///
     /// # Errors
     /// A case that the method rejects.
-    pub fn element_updates_of(case: &Case) -> Result<u64, CaseError> {
+    pub fn expected_of(case: &Case) -> Result<ExpectedRun, CaseError> {
         let computed = ComputedScene::of(case.scene());
-        computed
-            .and_then(|scene| scene.element_updates())
-            .map_err(|rejection| rejection.in_case(case))
-    }
-
-    /// Returns why no mesh of a case meets its `accuracy.tolerance`, as [`Self::out_of_reach`] does, without making it.
-    pub fn out_of_reach_of(case: &Case) -> Option<String> {
-        let scene = ComputedScene::of(case.scene()).ok()?.selected.scene;
-        let has_elements = matches!(scene.model(), ModelChoice::Fem | ModelChoice::Condensed(_));
-        let plan = has_elements.then(|| Plan::of(&scene).ok()).flatten()?;
-        plan.out_of_reach().map(str::to_string)
+        computed.and_then(|scene| scene.expected()).map_err(|rejection| rejection.in_case(case))
     }
 
     /// Returns the case.

@@ -224,7 +224,7 @@ impl Base {
         value: Option<f64>,
         case: Case,
     ) -> Result<Variant, CaseError> {
-        let element_updates = Simulation::element_updates_of(&case)?;
+        let element_updates = Simulation::expected_of(&case)?.element_updates;
         let size = settings.iter().find_map(|setting| match setting {
             Setting::ElementSize(size) => Some(*size),
             _ => None,

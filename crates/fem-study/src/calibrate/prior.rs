@@ -10,9 +10,8 @@
 
 use std::f64::consts::TAU;
 
-use fem_case::Case;
 use fem_case::schema::RelaxationTable;
-use fem_material::ShiftLaw;
+use fem_case::{Case, MeasuredBand};
 use fem_simulation::results::SeriesTail;
 use nalgebra::{DMatrix, DVector};
 
@@ -32,12 +31,8 @@ pub struct Prior {
     pub band: [f64; 2],
     /// The table of the case without its terms.
     pub(super) table: RelaxationTable,
-    /// Its reference temperature, K.
-    pub(super) reference_temperature: Option<f64>,
-    /// The law of its shift.
-    pub(super) shift: Option<ShiftLaw>,
-    /// Factor of the relaxation times from the reference temperature to that of the case.
-    pub(super) shift_factor: f64,
+    /// What its file says of the data, with the law of the shift.
+    pub(super) measured: MeasuredBand,
     /// Weights of the file, 0 beyond the measured band, and their uncertainties.
     pub(super) of_weights: WeightPrior,
 }
@@ -84,11 +79,6 @@ impl Prior {
             rows.push((row, weight / uncertainty));
         }
         let table = case.file().material.get(&target.material)?.relaxation.as_ref()?;
-        let shifted = || {
-            let (temperature, reference) = (measured.temperature?, measured.reference_temperature?);
-            measured.shift.as_ref()?.log10_shift(temperature, reference)
-        };
-        let log10_shift = shifted();
         Some(Self {
             times: terms.iter().map(|term| term.0).collect(),
             band,
@@ -97,9 +87,7 @@ impl Prior {
                 shift: table.shift.clone(),
                 ..RelaxationTable::new(target.acts_on.into(), [])
             },
-            reference_temperature: measured.reference_temperature,
-            shift: measured.shift.clone(),
-            shift_factor: 10f64.powf(log10_shift.unwrap_or(0.0)),
+            measured: measured.clone(),
             of_weights: WeightPrior {
                 weights: terms.iter().map(|term| term.1).collect(),
                 rows: Linear {

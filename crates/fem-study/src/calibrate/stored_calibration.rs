@@ -9,6 +9,7 @@ use super::calibration::Calibration;
 use super::curves::Abscissa;
 use super::experiment::Experiment;
 use super::maxwell::Beyond;
+use super::prior::Prior;
 use crate::fit::spectrum::{Combination, Range, Share};
 
 /// Names of the moments of the weights.
@@ -154,7 +155,8 @@ impl Calibration {
 
     /// Returns the terms that are not zero at the reference temperature, which is that of the case without prior knowledge.
     fn reference_terms(&self) -> Vec<PronyTerm> {
-        let factor = self.prior.as_ref().map_or(1.0, |prior| prior.shift_factor);
+        let log10_shift = |prior: &Prior| prior.measured.log10_shift();
+        let factor = 10f64.powf(self.prior.as_ref().map_or(0.0, log10_shift));
         let mut terms = self.terms();
         terms.iter_mut().for_each(|term| term.relaxation_time /= factor);
         terms
@@ -188,8 +190,8 @@ impl Calibration {
         }
         text += "]\n";
         let Some(prior) = &self.prior else { return text };
-        if let Some(law) = &prior.shift {
-            let reference = prior.reference_temperature;
+        if let Some(law) = &prior.measured.shift {
+            let reference = prior.measured.reference_temperature;
             let reference =
                 reference.map(|kelvin| format!("reference_temperature = \"{kelvin:?} K\"\n"));
             text += &reference.unwrap_or_default();

@@ -74,9 +74,10 @@ pub fn check_some(
         case.check_units()?;
         let (member, resolved) = Member::resolved(index, case)?;
         let is_left = is_own(index) && !is_done(&member);
-        let element_updates = is_left.then(|| Simulation::element_updates_of(case)).transpose()?;
+        let expected = is_left.then(|| Simulation::expected_of(case)).transpose()?;
+        let element_updates = expected.as_ref().map(|expected| expected.element_updates);
         let mut warnings = case.scene().implausible_numbers();
-        warnings.extend(is_left.then(|| Simulation::out_of_reach_of(case)).flatten());
+        warnings.extend(expected.and_then(|expected| expected.out_of_reach));
         Ok(CheckedMember { member, case: resolved, element_updates, warnings })
     };
     let mut checked = Checked { members: Vec::with_capacity(places.len()), ..Checked::default() };

@@ -160,8 +160,12 @@ impl Observer for () {
 
 /// Returns all members, the most expensive first; rejected ones cost nothing.
 pub fn most_expensive_first(members: &(impl Members + ?Sized)) -> Vec<usize> {
-    let price =
-        |index| members.build(index, |case| Simulation::element_updates_of(&case)).unwrap_or(0);
+    let price = |index| {
+        members
+            .build(index, |case| Simulation::expected_of(&case))
+            .unwrap_or_default()
+            .element_updates
+    };
     let mut order: Vec<usize> = (0..members.n_members()).collect();
     order.sort_by_cached_key(|index| Reverse(price(*index)));
     order

@@ -98,7 +98,7 @@ fn compute(
         Setting::MassScaling(LITTLE_MASS).apply(file);
         Setting::ElementSize(radius / EXPLICIT[1]).apply(file);
     })?;
-    if fem::Simulation::element_updates_of(&finest)? as f64 > element_updates {
+    if fem::Simulation::expected_of(&finest)?.element_updates as f64 > element_updates {
         return Ok(None);
     }
     let levels = |settings: &[Setting], across: &[f64]| {

@@ -135,7 +135,7 @@ fn compute(
     scene: String,
     element_updates: f64,
 ) -> Result<Option<SoftTrial>, StudyError> {
-    if Simulation::element_updates_of(case)? as f64 > element_updates {
+    if Simulation::expected_of(case)?.element_updates as f64 > element_updates {
         return Ok(None);
     }
     let run = |case: Case| Ok::<_, CaseError>(Simulation::new(case)?.run_within_tolerance(&mut ()));

@@ -29,7 +29,7 @@ use crate::estimate::plate_impact::free_plate;
 use crate::estimate::quasi_static::surfaces_slip;
 use crate::estimate::viscous_flow::slower;
 use crate::models::method::{
-    Cost, ElementSetup, Method, Model, ModelSetup, SharedModels, estimate_at,
+    Cost, ElementSetup, ExpectedRun, Method, Model, ModelSetup, SharedModels, estimate_at,
 };
 use crate::plan::Plan;
 use crate::plan::body_source::BodySource;
@@ -71,9 +71,11 @@ impl Method for CondensedMethod {
         effects::support(effect, scene, estimate, None)
     }
 
-    fn element_updates(&self, scene: &Scene) -> Result<u64, Rejection> {
+    fn expected(&self, scene: &Scene) -> Result<ExpectedRun, Rejection> {
         let plan = Plan::of(scene)?;
-        check_memory(&plan, &BodySource::of_scene(scene, &plan)?).map(|()| 0)
+        check_memory(&plan, &BodySource::of_scene(scene, &plan)?)?;
+        let out_of_reach = plan.out_of_reach().map(str::to_string);
+        Ok(ExpectedRun { element_updates: 0, out_of_reach })
     }
 
     /// Returns the case with the defaults of the tables that the model reads.
