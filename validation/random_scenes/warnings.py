@@ -56,15 +56,33 @@ def remedies(warning, summary):
     if "which is softer, its material.NAME.yield_strength" in warning:
         softer = bodies[warning.split("plastic flow give ")[1].split(",")[0]]
         return [f"material.'{softer}'.yield_strength='50 MPa'"]
+    if "in place of its relaxation" in warning:
+        return [
+            override
+            for k, body in enumerate(summary["case"]["body"])
+            if f"material.'{body.get('material')}'" in named
+            for override in (f"body.{k}.material='own'", f"material.own={flowing(materials[body['material']])}")
+        ]
     if "computes plastic flow" in warning:
         return [f"{key}.flow={PERFECT.format(strength(key))}" for key in named]
     if "set material.NAME.flow.rate" in warning:
-        return [f"material.'{name}'.flow.rate.johnson_cook={{ c = 0, reference_rate = 1 }}" for name in materials]
+        rate = "flow.rate.johnson_cook={ c = 0, reference_rate = 1 }"
+        return [f"material.'{name}'.{rate}" for name, material in materials.items() if "flow" in material]
     if 'set mesh.contact_element_size = "' in warning:
         return [f"mesh.contact_element_size='{warning.split('set mesh.contact_element_size = ')[1].split(chr(34))[1]}'"]
     if "set material.NAME.hyperelastic" in warning:
         return [f"material.'{name}'.hyperelastic='neo-hooke'" for name in materials if "flow" not in materials[name]]
     return []
+
+
+def flowing(material):
+    """Returns the table of a material that flows in place of its relaxation."""
+    keys = ["density", "youngs_modulus", "shear_modulus", "bulk_modulus", "poissons_ratio", "yield_strength"]
+    given = {key: material[key] for key in keys if key in material}
+    values = {key: value["value"] if isinstance(value, dict) else value for key, value in given.items()}
+    strength = values.pop("yield_strength")
+    table = ", ".join(f"{key} = {value}" for key, value in values.items())
+    return f"{{ {table}, flow = {PERFECT.format(f'{strength} Pa')} }}"
 
 
 def main(program):

@@ -146,6 +146,11 @@ impl<'a> ImpactMotion<'a> {
         })
     }
 
+    /// Returns the mobility of a plate that bends, m/(N s).
+    pub fn plate_mobility(&self) -> Option<f64> {
+        self.plate.as_ref().map(PlateDashpot::mobility)
+    }
+
     /// Adds gravity along the approach, m/s².
     pub fn with_gravity(self, gravity: f64) -> Self {
         Self { acceleration: gravity, gravity, ..self }

@@ -23,6 +23,9 @@ const STEPS_PER_UNIT: f64 = 400.0;
 /// Steps per instant of the history.
 const STEPS_PER_INSTANT: usize = 8;
 const MAX_STEPS: usize = 1_000_000;
+/// λ from which a ball sinks in with the plate. Without a dent its restitution would be 7e-6 here, and the equal steps of a
+/// whole motion would be too many.
+const SINKING_LAMBDA_OF_DENTS: f64 = 10.0;
 /// Energy over the initial one below which the bodies stay together.
 const STUCK: f64 = 1e-16;
 
@@ -144,6 +147,7 @@ pub(crate) fn collide(
         (state, time) = (next, time + part);
         let growth = motion.rates(state, unloading(state[0]))[0];
         let stays = has_receded && growth >= 0.0 && gravity > 0.0
+            || lambda >= SINKING_LAMBDA_OF_DENTS
             || energy(state) < STUCK * 0.5 * mass * speed * speed;
         has_receded |= growth < 0.0;
         let ends = is_over || stays;
@@ -158,11 +162,12 @@ pub(crate) fn collide(
             break is_over.then_some(state[1]);
         }
     };
+    let sunk = if lambda >= SINKING_LAMBDA_OF_DENTS { mobility * mass * speed } else { 0.0 };
     Ok(Impact {
         restitution: restitution(end, speed),
         contact_time: end.map(|_| time),
         peak_force,
-        max_approach: history.iter().map(|now| now.approach).fold(0.0, f64::max),
+        max_approach: history.iter().map(|now| now.approach).fold(sunk, f64::max),
         max_contact_radius,
         peak_pressure: None,
         history,

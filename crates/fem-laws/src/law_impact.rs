@@ -48,6 +48,7 @@ use crate::impact::{Impact, ImpactInstant, restitution};
 use crate::laws::{ContactLaw, EndRule};
 use crate::numerics::bisection::falling_zero;
 use crate::pair::Pair;
+use crate::plate::SINKING_LAMBDA;
 
 /// A pair with a contact law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -410,7 +411,11 @@ impl Solout<f64, State> for Watch<'_> {
         }
         self.record(*state);
         let turns_back = oscillator.gravity > 0.0 && rates[0] < 0.0 && rates[1] >= 0.0;
-        if oscillator.energy(*state) < STUCK || turns_back {
+        let sinks = is_widest && oscillator.lambda >= SINKING_LAMBDA;
+        if sinks {
+            self.outcome.max_approach = oscillator.lambda;
+        }
+        if oscillator.energy(*state) < STUCK || turns_back || sinks {
             ControlFlag::Terminate
         } else {
             ControlFlag::Continue

@@ -14,7 +14,8 @@
 //! \lambda = \beta m\,(K/m)^{2/5}v^{1/5},
 //! ```
 //!
-//! and e ≈ exp(−1.719 λ) at small λ.
+//! and e ≈ exp(−1.719 λ) at small λ. At large λ the plate stops the ball slowly, under a force of v/λ, until the contact is so
+//! soft that it parts: e = 0.679 λ⁻⁵. From [`SINKING_LAMBDA`] on the models take that as 0.
 //!
 //! Limits: the plate is thin against the distance that waves travel in the contact time T, and no wave returns from its edge
 //! within it. A plate of finite thickness loses more, by shear, by the inertia of its own deformation and finally by waves into the
@@ -31,6 +32,9 @@ use fem_material::Material;
 use crate::error::LawError;
 use crate::hertz::HertzImpact;
 use crate::numerics::functions::power;
+
+/// λ from which a ball sinks in with the plate: the restitution by Zener's equation is then below 1e-8.
+pub const SINKING_LAMBDA: f64 = 40.0;
 
 /// Returns the point mobility β of an infinite thin plate, m/(N s), with the instantaneous moduli; `thickness` is in metres.
 pub fn plate_mobility(material: &Material, thickness: f64) -> f64 {

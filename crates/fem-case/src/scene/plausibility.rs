@@ -71,14 +71,26 @@ impl Scene {
         }
     }
 
-    /// Returns a warning that the restitution lacks the loss of the
-    /// [materials without a loss](Self::materials_without_loss), with a measured restitution if there is one.
+    /// Returns that the restitution lacks the loss of the [materials without a loss](Self::materials_without_loss), and what
+    /// is measured of it.
     pub fn unknown_loss(&self) -> Option<String> {
         let names = self.materials_without_loss();
+        (!names.is_empty()).then(|| {
+            format!(
+                "the library has no relaxation for {}: {} loss is not computed, and {}",
+                names.join(" and "),
+                if names.len() > 1 { "their" } else { "its" },
+                self.too_high_a_restitution()
+            )
+        })
+    }
+
+    /// Returns that the restitution is too high, with what the library knows from measurements.
+    pub fn too_high_a_restitution(&self) -> String {
         let speed = self.approach_speed();
         let measured = self.measured_restitutions();
         let within = measured.iter().find_map(|it| Some((it, it.at(speed)?)));
-        let remedy = match (within, measured.first()) {
+        let known = match (within, measured.first()) {
             (Some((it, restitution)), _) => {
                 format!("measured: {} ({})", number(restitution, 2), it.name)
             }
@@ -89,14 +101,7 @@ impl Scene {
             }
             (None, None) => "`fem-run calibrate` finds one from measured restitutions".to_string(),
         };
-        (!names.is_empty()).then(|| {
-            format!(
-                "the library has no relaxation for {}: {} loss is not computed, and the restitution is too high by an \
-                 unknown amount; {remedy}",
-                names.join(" and "),
-                if names.len() > 1 { "their" } else { "its" }
-            )
-        })
+        format!("the restitution is too high by an unknown amount; {known}")
     }
 
     /// Returns a note that relaxations hold at their reference temperatures, since the case gives no temperature.

@@ -140,9 +140,9 @@ fn an_unknown_name_lists_the_library() {
     assert!(fault(&["material.'lib:pmma'=3"]).contains("lib:pmma"));
 }
 
-/// The warning of a loss that is not computed appears for each way to use a material of the library, and only then.
+/// A loss that is not computed is known for each way to use a material of the library, and only then.
 #[test]
-fn an_unknown_loss_causes_a_warning() {
+fn an_unknown_loss_is_known() {
     let warning = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unknown_loss();
     assert!(warning(BALL, &[]).unwrap().contains("the library has no relaxation for pmma"));
     // As `fem-run new` writes it, and as a resolved case has it.
@@ -174,9 +174,9 @@ fn an_unknown_loss_causes_a_warning() {
     assert!(names(&[relaxing.replace("'lib:pmma'", "pmma").as_str()]).is_empty());
 }
 
-/// Within the measured speeds the warning has the restitution, beyond them the speeds.
+/// Within the measured speeds an unknown loss is told with the restitution, beyond them with the speeds.
 #[test]
-fn the_warning_of_an_unknown_loss_has_the_measured_restitution() {
+fn an_unknown_loss_is_told_with_the_measured_restitution() {
     let warning = |speed: &str| {
         let set = ["body.1.material='lib:ice'", &format!("body.1.approach_speed='{speed}'")];
         parse(BALL, &set).unwrap().scene().unknown_loss().unwrap()

@@ -28,6 +28,11 @@ impl PlateDashpot {
         Self { mobility, time_step, force: 0.0, deflection: 0.0 }
     }
 
+    /// Returns the mobility, m/(N s).
+    pub fn mobility(&self) -> f64 {
+        self.mobility
+    }
+
     /// Returns the change of the gap at all points within a step per force, m/N.
     pub fn compliance(&self) -> f64 {
         0.5 * self.mobility * self.time_step

@@ -30,6 +30,9 @@ const OF_ROUNDING: f64 = 1e-13;
 /// below this share of what it has fallen since first touch.
 const SETTLED: f64 = 1e-3;
 
+/// Time after which a ball that sinks in with a plate is followed no longer: some two of Hertz' contact times.
+const SUNK: f64 = 6.0;
+
 /// Steps that a collision may take at [`Ting::DEFAULT_TOLERANCE`], the fifth root of which they follow as a step's
 /// error does its fifth power. Tens are usual; the most viscous and the most radiating contacts of the tests take more
 /// than 2000. Each step looks back on all before.
@@ -159,6 +162,13 @@ impl<'a> Collision<'a> {
                 size.check(last.contact_radius * units.radius)?;
             }
             steps.push(solved.step);
+            // A contact that relaxes may grow as long as the ball sinks.
+            let has_peaked = turn < 1.0 || self.state.time > SUNK;
+            if let Some(plate) = self.contact.plate.filter(|plate| has_peaked && plate.takes_all())
+            {
+                self.max_approach = plate.deflection(0.0, 0.0, 0.0);
+                return Ok(None);
+            }
             if turn < 1.0 && !self.rests() {
                 return Ok(Some(Record { steps, end: self.state.time }));
             }

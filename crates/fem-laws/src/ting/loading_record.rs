@@ -6,6 +6,7 @@
 
 use crate::finite_size::correction::Correction;
 use crate::numerics::functions::exp;
+use crate::plate::SINKING_LAMBDA;
 use crate::ting::collocation::dot;
 use crate::ting::collocation::{
     Interpolation, POINTS, Vector, double_integral, evaluate, fading_moments, integral,
@@ -78,6 +79,11 @@ pub(crate) struct Plate {
 }
 
 impl Plate {
+    /// Returns whether the ball sinks in with the plate.
+    pub fn takes_all(&self) -> bool {
+        self.mobility >= SINKING_LAMBDA
+    }
+
     /// Returns the deflection w = β ∫F dt, which the motion gives: the impulse is what it has lost of its rate.
     pub fn deflection(&self, rate: f64, gravity: f64, time: f64) -> f64 {
         self.mobility * (self.first_rate + gravity * time - rate)

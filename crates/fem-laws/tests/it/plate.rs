@@ -95,6 +95,47 @@ fn elastic_models_on_a_plate_equal_zeners_equation() {
     }
 }
 
+/// A plate that takes all, such as a foil, ends every model at once: the ball has no restitution, gives the plate all of its
+/// momentum, and its peak force is 1/λ in units of the motion at large λ. At the limit the results are those of the
+/// whole motion, whose restitution falls as 0.6793 λ⁻⁵ (an integration by SciPy's LSODA at 1e-11, λ from 3.3 to 20).
+#[test]
+fn a_ball_sinks_in_with_a_foil() {
+    let impacts = |lambda: f64| {
+        let (pair, mobility) = (pair(), mobility(lambda));
+        let law = |law| LawImpact::new(&pair, law).with_plate(mobility).unwrap().impact(SPEED);
+        let ting = Ting::new(&pair, elastic()).with_plate(mobility).unwrap().impact(SPEED);
+        let dent = thornton(&pair, 1e14).unwrap();
+        [ting, law(hertz(&pair).unwrap()), law(dent)].map(Result::unwrap)
+    };
+    let sunk = |lambda: f64| mobility(lambda) * pair().effective_mass() * SPEED;
+    for lambda in [40.1, 120.0, 1e4] {
+        for impact in impacts(lambda) {
+            assert_eq!((impact.restitution, impact.contact_time), (0.0, None), "{lambda}");
+            assert_close(impact.max_approach, sunk(lambda), 1e-12);
+        }
+    }
+    // Here the contact grows without a turn, since the ball relaxes.
+    let (relaxing_pair, relaxation) = relaxing();
+    let creeping = Ting::new(&relaxing_pair, relaxation).with_plate(mobility(120.0)).unwrap();
+    let impact = creeping.impact(SPEED).unwrap();
+    assert_eq!((impact.restitution, impact.contact_time), (0.0, None));
+    assert_close(impact.max_approach, sunk(120.0), 1e-12);
+    for (name, k) in [("ting", 0), ("law", 1), ("dent", 2)] {
+        let asymptote = |lambda: f64| 0.6793 * lambda.powi(-5);
+        assert_close(impacts(9.0)[k].restitution, asymptote(9.0), 1e-3);
+        let limit = if name == "dent" { 10.0 } else { 40.0 };
+        let [below, above] =
+            [0.999 * limit, 1.001 * limit].map(|lambda| impacts(lambda)[k].clone());
+        assert!(below.restitution < 1.01 * asymptote(0.999 * limit), "{name}");
+        // λ differs by 2e-3.
+        assert_close(above.peak_force, below.peak_force, 2.5e-3);
+        assert_close(above.max_contact_radius, below.max_contact_radius, 2.5e-3);
+        assert_close(above.max_approach, below.max_approach, 1e-2);
+        let [one, other] = [1e3, 1e4].map(|lambda| impacts(lambda)[k].peak_force * lambda);
+        assert_close(one, other, 2e-2);
+    }
+}
+
 /// Thin-plate theory of a 10 mm ball at 1 m/s on 20, 10, 5 and 2 mm of steel.
 #[test]
 fn a_steel_ball_loses_more_on_a_thinner_plate() {

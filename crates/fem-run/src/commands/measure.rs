@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use fem::fit::cradle::Measured;
 use fem::measured::{Kind, NotMeasured, parse_measured};
 use fem::records::{
@@ -88,23 +88,13 @@ struct RigArguments {
     force_uncertainty: Option<f64>,
 }
 
-/// Another name of [`RecordKind::Bounces`].
-const OLD_NAME: &str = "bounce-times";
-
 fn of_kind(kind: Kind) -> impl Fn(&str) -> Result<Measured, NotMeasured> + Clone {
     move |text| parse_measured(kind, text)
 }
 
 fn kinds() -> impl TypedValueParser<Value = RecordKind> {
-    let value = |kind: RecordKind| match kind {
-        RecordKind::Bounces => PossibleValue::new(kind.name()).alias(OLD_NAME),
-        _ => PossibleValue::new(kind.name()),
-    };
-    let kind = |name: String| {
-        let name = if name == OLD_NAME { RecordKind::Bounces.name() } else { &name };
-        RecordKind::ALL.into_iter().find(|kind| kind.name() == name)
-    };
-    PossibleValuesParser::new(RecordKind::ALL.map(value))
+    let kind = |name: String| RecordKind::ALL.into_iter().find(|kind| kind.name() == name);
+    PossibleValuesParser::new(RecordKind::ALL.map(RecordKind::name))
         .try_map(move |name| kind(name).ok_or("this is no kind of record"))
 }
 

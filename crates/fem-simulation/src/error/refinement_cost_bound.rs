@@ -27,21 +27,39 @@ pub struct RefinementBound {
 impl Simulation {
     /// Returns an upper bound of the finer meshes that may follow the run; `None` if the mesh stays.
     pub fn refinement_bound(&self) -> Option<RefinementBound> {
-        let (one, most, growth, power) = match self.setup().cost {
-            Cost::Steps { element_updates, .. } => {
-                let limit = self.case().scene().limits().element_updates;
-                (element_updates, limit.unwrap_or(MAX_UPDATES), GROWTH_OF_UPDATES, 1.0)
-            }
-            Cost::Factors { elements, .. } => {
-                (elements, MAX_ELEMENTS, GROWTH_OF_ELEMENTS, TIME_POWER_OF_ELEMENTS)
-            }
-            Cost::ClosedForm { .. } => return None,
+        let most = most_over_present(self)?;
+        let (growth, power) = match self.setup().cost {
+            Cost::Factors { .. } => (GROWTH_OF_ELEMENTS, TIME_POWER_OF_ELEMENTS),
+            _ => (GROWTH_OF_UPDATES, 1.0),
         };
         let left = MAX_LEVELS.saturating_sub(self.levels().len());
-        let of_levels = |n| of_levels(n, most as f64 / one as f64, growth, power);
+        let of_levels = |n| of_levels(n, most, growth, power);
         let meshes = (1..=left).rev().find(|n| of_levels(*n) > 0.0)?;
         let over_first = (1..=meshes).map(of_levels).fold(0.0, f64::max);
         may_be_refined(self).then_some(RefinementBound { meshes, over_first })
+    }
+}
+
+/// Returns the largest work of a finer mesh over that of the present one: element updates, or elements of condensed bodies.
+fn most_over_present(simulation: &Simulation) -> Option<f64> {
+    let (present, most) = match simulation.setup().cost {
+        Cost::Steps { element_updates, .. } => {
+            let limit = simulation.case().scene().limits().element_updates;
+            (element_updates, limit.unwrap_or(MAX_UPDATES))
+        }
+        Cost::Factors { elements, .. } => (elements, MAX_ELEMENTS),
+        Cost::ClosedForm { .. } => return None,
+    };
+    Some(most as f64 / present as f64)
+}
+
+/// Returns the ratio by which elements may become smaller without the cost of a finer mesh being too large: element
+/// updates grow with its third power, elements with its second.
+pub(super) fn affordable_ratio(simulation: &Simulation) -> f64 {
+    let most = most_over_present(simulation).unwrap_or(0.0);
+    match simulation.setup().cost {
+        Cost::Factors { .. } => most.sqrt(),
+        _ => most.cbrt(),
     }
 }
 

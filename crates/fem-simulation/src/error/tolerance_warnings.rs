@@ -7,6 +7,7 @@ use fem_material::engineering::Unit;
 use super::estimate::{ErrorEstimate, NotRefined};
 use super::noise_floor::early_pressure_radius;
 use super::refinement::{REFINEMENT_RATIOS, is_of_chatter, length, refinement_ratio};
+use super::refinement_cost_bound::affordable_ratio;
 use super::tolerance_check::{ToleranceMiss, missed};
 use crate::plan::mesh_source::longest_contact_edge;
 use crate::simulation::Simulation;
@@ -40,18 +41,23 @@ pub(crate) fn unresolved_warning(simulation: &Simulation, contact_radius: f64) -
     })
 }
 
-/// Returns a warning that the mesh does not resolve an early peak of the pressure.
+/// Returns a warning that the mesh does not resolve an early peak of the pressure, if a finer mesh would not be too
+/// expensive. The error bar has it in any case.
 pub(crate) fn early_pressure_warning(
     simulation: &Simulation,
     collision: &Collision,
 ) -> Option<String> {
     let radius = early_pressure_radius(simulation, collision)?;
-    Some(format!(
-        "the pressure is largest early, when the contact radius is {} and spans few elements: the peak pressure is not \
-         resolved; set mesh.contact_element_size = \"{}\"",
-        show(radius, "m"),
-        advised_size(radius)
-    ))
+    let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
+    let is_affordable = affordable_ratio(simulation) >= ADVISED_ACROSS * size / radius;
+    is_affordable.then(|| {
+        format!(
+            "the pressure is largest early, when the contact radius is {} and spans few elements: the peak pressure is \
+             not resolved; set mesh.contact_element_size = \"{}\"",
+            show(radius, "m"),
+            advised_size(radius)
+        )
+    })
 }
 
 /// Returns a warning that the tolerance is missed, with the reason and what to do.

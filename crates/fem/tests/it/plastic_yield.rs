@@ -93,6 +93,34 @@ fn the_softer_body_is_asked_for_its_strength_first() {
     }
 }
 
+/// The advice to compute flow names what has to leave the material for it: a relaxation, or a named hyperelastic law.
+#[test]
+fn advice_to_compute_flow_names_what_it_excludes() {
+    let relaxation = "material.steel.relaxation={ acts_on='all', terms=[{ weight=0.1, relaxation_time='1 ms' }] }";
+    let law = "material.steel.hyperelastic='neo-hooke'";
+    for (set, words) in [
+        (vec![], "[material.NAME.flow] with model fem"),
+        (vec![relaxation], "[material.NAME.flow] in place of its relaxation with model fem"),
+        (vec![law], "[material.NAME.flow] in place of material.NAME.hyperelastic with model fem"),
+    ] {
+        let strength = "material.steel.yield_strength='1 GPa'";
+        let (_, warnings) = decision_on(STEEL, &[&[strength, "model.fem={}"], &set[..]].concat());
+        assert!(warnings.contains(words), "{warnings}");
+    }
+}
+
+/// If one body flows and the other yields too, the advice names the other: elements compute flow if every body that yields
+/// has a rule.
+#[test]
+fn a_body_that_yields_beside_a_flowing_one_is_named() {
+    let soft = "material.soft={ density='2700 kg/m^3', youngs_modulus='70 GPa', poissons_ratio=0.33, yield_strength='0.9 GPa' }";
+    let flow = "material.steel.flow={ yield_strength='0.5 GPa' }";
+    let (_, warnings) = decision_on(STEEL, &["model.fem={}", flow, soft, "body.1.material='soft'"]);
+    let advice =
+        "upper yields too: with its own [material.NAME.flow] model fem computes plastic flow";
+    assert!(warnings.contains("lower yields from") && warnings.contains(advice), "{warnings}");
+}
+
 #[test]
 fn a_yield_strength_gives_the_speed_and_an_estimate() {
     for model in MODELS {

@@ -189,7 +189,7 @@ fn models_that_cannot_compute_a_plate_say_so() {
     assert!(found.contains("too small for the contact"), "{found}");
     let found = fault(&["model.fem={}", "body.0.plate.diameter='8 mm'"]);
     assert!(found.contains("too narrow for its thickness"), "{found}");
-    let found = fault(&["model.fem={}", "body.0.plate.thickness='0.3 mm'"]);
+    let found = fault(&["model.fem={}", "body.0.plate.thickness='50 um'"]);
     assert!(found.contains("too thin for its contact"), "{found}");
 }
 

@@ -37,7 +37,7 @@ fn bounce_times_become_a_table_that_fit_and_calibrate_read() {
     assert!((of("value") - 0.91).abs() < 0.01 && of("uncertainty") < 1e-3, "{printed}");
     assert_eq!(place.text("table.csv"), place.text("runs/drop_measure/measure.csv"));
     // Another name of the kind from before, and a file that is not a table of the program.
-    place.succeed("measure drop.csv --kind bounce-times --out table.csv -q");
+    place.succeed("measure drop.csv --kind bounces --out table.csv -q");
     place.write("notes.csv", "mine\n");
     place.fails(2, "measure drop.csv --out notes.csv").tells("notes.csv: this file is not a table");
     place.succeed("measure drop.csv --out notes.csv --force");

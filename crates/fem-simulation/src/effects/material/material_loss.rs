@@ -1,6 +1,7 @@
 //! Loss of the material itself, for materials without a relaxation. A case that gives its own elastic material asks for a
 //! collision without it. A material of the library has a loss that is not known: the restitution is too large, by an unknown
-//! amount, which the effect says. Where restitutions of the material are measured, a warning names them.
+//! amount, which the effect says, with the measured restitutions of the material where there are some. It does not warn: the
+//! user has no relaxation to give.
 
 use fem_case::{Body, ModelChoice, Scene};
 use fem_collision::QuantityOfInterest;
@@ -24,14 +25,12 @@ impl Effect for MaterialLoss {
             true => format!("the case gives no relaxation for {}", bodies.join(" and ")),
             false => format!("the library has no relaxation for {}", names.join(" and ")),
         };
-        // Measured restitutions are something to compare with.
-        let is_measured = !scene.measured_restitutions().is_empty();
         Some(Relevance {
             is_needed: !names.is_empty(),
             number,
             if_not_needed: "computed as elastic, without a loss of the material".to_string(),
-            open_error: "the restitution is too high by an unknown amount".to_string(),
-            warning: scene.unknown_loss().filter(|_| is_measured),
+            open_error: scene.too_high_a_restitution(),
+            warning: None,
         })
     }
 

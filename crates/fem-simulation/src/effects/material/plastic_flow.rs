@@ -154,11 +154,7 @@ impl PlasticFlow {
 
     /// Returns the support of explicit elements: they compute flow if every body that yields has a flow rule.
     pub(crate) fn of_elements(scene: &Scene, estimate: &Estimate) -> Support {
-        let lacks = |body: &Body| {
-            let yields = first_yield(body, estimate).is_some_and(|first| first.ratio() > 1.0);
-            yields && body.material().is_none_or(|material| material.flow().is_none())
-        };
-        match scene.flows() && !scene.bodies().iter().any(lacks) {
+        match scene.flows() && !scene.bodies().iter().any(|body| yields_elastic(body, estimate)) {
             true => Support::Computes { idle: "" },
             false => Support::Lacks,
         }
@@ -176,6 +172,12 @@ fn first_yield(body: &Body, estimate: &Estimate) -> Option<FirstYield> {
     Some(FirstYield::new(&estimate.hertz, body.yielding()?))
 }
 
+/// Returns whether a body yields that has no flow rule.
+fn yields_elastic(body: &Body, estimate: &Estimate) -> bool {
+    let yields = first_yield(body, estimate).is_some_and(|first| first.ratio() > 1.0);
+    yields && body.material().is_none_or(|material| material.flow().is_none())
+}
+
 fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estimate) -> Relevance {
     let (ratio, name) = (first.ratio(), body.name());
     let is_needed = ratio > 1.0;
@@ -188,8 +190,17 @@ fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estima
                 "for plastic flow give {}, which is softer, its material.NAME.yield_strength first",
                 other.name()
             ),
-            (None, Some(_)) => "model fem computes plastic flow".to_string(),
-            (None, None) => "[material.NAME.flow] with model fem computes plastic flow".to_string(),
+            (None, Some(_)) => format!(
+                "{}model fem computes plastic flow",
+                also_yields(scene, body, estimate).map_or(String::new(), |other| format!(
+                    "{} yields too: with its own [material.NAME.flow] ",
+                    other.name()
+                ))
+            ),
+            (None, None) => format!(
+                "[material.NAME.flow]{} with model fem computes plastic flow",
+                body.material().map_or(String::new(), in_place_of)
+            ),
         };
         format!(
             "{name} yields from {} on, and the impact is at {}: {by_law}; {computed}",
@@ -203,6 +214,27 @@ fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estima
         if_not_needed: format!("it yields from {} on", show(first.speed, "m/s")),
         open_error: by_law,
         warning,
+    }
+}
+
+/// Returns the partner of a body, if it yields too and has no flow rule.
+fn also_yields<'a>(scene: &'a Scene, body: &Body, estimate: &Estimate) -> Option<&'a Body> {
+    scene
+        .bodies()
+        .iter()
+        .find(|other| other.name() != body.name() && yields_elastic(other, estimate))
+}
+
+/// Returns what a flow rule excludes and a material has, as words.
+fn in_place_of(material: &Material) -> String {
+    let excluded = [
+        material.relaxation().map(|_| "its relaxation"),
+        material.named_law().map(|_| "material.NAME.hyperelastic"),
+    ];
+    let excluded: Vec<&str> = excluded.into_iter().flatten().collect();
+    match excluded.is_empty() {
+        true => String::new(),
+        false => format!(" in place of {}", excluded.join(" and ")),
     }
 }
 
