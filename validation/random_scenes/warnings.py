@@ -23,7 +23,6 @@ ARRANGEMENTS = [
     ("twin", "1 m/s", "3 mm"),
     ("ball of bearing-steel", "0.3 m/s", "10 mm"),
 ]
-PERFECT = "{{ yield_strength = '{}' }}"
 
 
 def case(material, partner, speed, diameter):
@@ -46,43 +45,40 @@ approach_speed = "{speed}"
 def remedies(warning, summary):
     """Returns the overrides that a warning asks for; none for a warning without a rule here."""
     bodies = {body["name"]: body.get("material") for body in summary["case"]["body"]}
-    named = [f"material.'{material}'" for name, material in bodies.items() if material and name in warning.split(": ")[0]]
     materials = summary["case"]["material"]
 
-    def strength(key):
-        given = materials[key.split("'")[1]].get("yield_strength", 5e7)
-        return f"{given['value'] if isinstance(given, dict) else given} Pa"
+    def strength(material):
+        given = materials[material].get("yield_strength", 5e7)
+        return given["value"] if isinstance(given, dict) else given
+
+    def flowing(material):
+        """Returns overrides by which a material flows, in place of its relaxation if it has one."""
+        rule = f"{{ yield_strength = '{strength(material)} Pa' }}"
+        if "relaxation" not in materials[material]:
+            return [f"material.'{material}'.flow={rule}"]
+        keys = ["density", "youngs_modulus", "poissons_ratio"]
+        values = {key: materials[material][key] for key in keys}
+        values = {key: value["value"] if isinstance(value, dict) else value for key, value in values.items()}
+        own = f"material.own={{ {', '.join(f'{key} = {value}' for key, value in values.items())}, flow = {rule} }}"
+        places = [k for k, body in enumerate(summary["case"]["body"]) if body.get("material") == material]
+        return [own, *(f"body.{k}.material='own'" for k in places)]
 
     if "which is softer, its material.NAME.yield_strength" in warning:
         softer = bodies[warning.split("plastic flow give ")[1].split(",")[0]]
-        return [f"material.'{softer}'.yield_strength='50 MPa'"]
-    if "in place of its relaxation" in warning:
-        return [
-            override
-            for k, body in enumerate(summary["case"]["body"])
-            if f"material.'{body.get('material')}'" in named
-            for override in (f"body.{k}.material='own'", f"material.own={flowing(materials[body['material']])}")
-        ]
+        return flowing(softer) if "relaxation" in materials[softer] else [f"material.'{softer}'.yield_strength='50 MPa'"]
+    if "yields too: with its own" in warning:
+        return flowing(bodies[warning.split(" yields too")[0].split("; ")[-1]])
     if "computes plastic flow" in warning:
-        return [f"{key}.flow={PERFECT.format(strength(key))}" for key in named]
+        return [override for name, material in bodies.items() if name in warning.split(": ")[0] for override in flowing(material)]
     if "set material.NAME.flow.rate" in warning:
         rate = "flow.rate.johnson_cook={ c = 0, reference_rate = 1 }"
-        return [f"material.'{name}'.{rate}" for name, material in materials.items() if "flow" in material]
+        said = warning.split(" does not depend")[0]
+        return [f"material.'{material}'.{rate}" for name, material in bodies.items() if said.endswith(name)]
     if 'set mesh.contact_element_size = "' in warning:
         return [f"mesh.contact_element_size='{warning.split('set mesh.contact_element_size = ')[1].split(chr(34))[1]}'"]
     if "set material.NAME.hyperelastic" in warning:
         return [f"material.'{name}'.hyperelastic='neo-hooke'" for name in materials if "flow" not in materials[name]]
     return []
-
-
-def flowing(material):
-    """Returns the table of a material that flows in place of its relaxation."""
-    keys = ["density", "youngs_modulus", "shear_modulus", "bulk_modulus", "poissons_ratio", "yield_strength"]
-    given = {key: material[key] for key in keys if key in material}
-    values = {key: value["value"] if isinstance(value, dict) else value for key, value in given.items()}
-    strength = values.pop("yield_strength")
-    table = ", ".join(f"{key} = {value}" for key, value in values.items())
-    return f"{{ {table}, flow = {PERFECT.format(f'{strength} Pa')} }}"
 
 
 def main(program):
