@@ -19,13 +19,16 @@ pub enum Section {
     Mechanics,
     /// Comparison with other programs.
     CrossCode,
+    /// Comparison with experiments.
+    Measured,
     /// Comparison with the published study of two glass spheres.
     Paper,
 }
 
 impl Section {
     /// All sections in the order of the tables.
-    pub const ALL: [Self; 4] = [Self::Theory, Self::Mechanics, Self::CrossCode, Self::Paper];
+    pub const ALL: [Self; 5] =
+        [Self::Theory, Self::Mechanics, Self::CrossCode, Self::Measured, Self::Paper];
 
     /// Returns the heading of the section.
     pub fn heading(self) -> &'static str {
@@ -33,6 +36,7 @@ impl Section {
             Self::Theory => "Against theory",
             Self::Mechanics => "Mechanics",
             Self::CrossCode => "Against other programs",
+            Self::Measured => "Against measurements",
             Self::Paper => "Against Bordbar & Hyppänen (2007)",
         }
     }

@@ -289,10 +289,12 @@ impl LawFamily {
 
     /// Returns whether a contact under this law leaves a dent.
     pub fn is_elastic_plastic(self) -> bool {
-        use LawFamily::{JacksonGreen, Johnson, Luding, Mdr, MeanPressure, Thornton, WaltonBraun};
+        use LawFamily::{
+            Brake, JacksonGreen, Johnson, Luding, Mdr, MeanPressure, Thornton, WaltonBraun,
+        };
         matches!(
             self,
-            Thornton | Johnson | JacksonGreen | MeanPressure | Mdr | WaltonBraun | Luding
+            Thornton | Johnson | JacksonGreen | Brake | MeanPressure | Mdr | WaltonBraun | Luding
         )
     }
 

@@ -56,7 +56,7 @@ fn rows_of(path: &Path, name: &str) -> Result<Vec<Row>, (String, String)> {
     let has_decimal_commas = separator != Some(',');
     let cells = |line: &str| -> Vec<String> {
         let parts = line.split(|c| separator.is_some_and(|separator| c == separator));
-        let cells = parts.map(str::trim).filter(|cell| !cell.is_empty());
+        let cells = parts.map(|cell| cell.trim().trim_matches('"')).filter(|cell| !cell.is_empty());
         let with_point = |cell: &str| match has_decimal_commas && !cell.contains('.') {
             true => cell.replacen(',', ".", 1),
             false => cell.to_string(),

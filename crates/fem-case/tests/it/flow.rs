@@ -83,6 +83,7 @@ fn flow_stress_is_read_from_csv() {
         "strain stress\n0 0.2e9\n0.2 0.4e9\n\n",
         "strain,stress\n0,0.2 GPa\n0.2,400 MPa\n",
         "eps,sigma (GPa)\r\n0, 0.2\r\n0.2, 0.4\r\n",
+        "\"strain\",\"stress (GPa)\"\n\"0\",\"0.2\"\n\"0.2\",\"0.4\"\n",
     ] {
         let case = of(text).unwrap();
         let found = stresses(case.scene().bodies()[0].material().unwrap().flow().unwrap());

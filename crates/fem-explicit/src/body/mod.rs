@@ -14,7 +14,7 @@ mod unscaled_body;
 
 use std::sync::Arc;
 
-use fem_collision::{BodyFields, StressField};
+use fem_collision::{Account, BodyFields, StressField};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
@@ -366,6 +366,20 @@ impl Body {
             StrainMeasure::Small(small) => Some(stress.fields.start + small.effective()?),
             StrainMeasure::Finite(_) => None,
         }
+    }
+
+    /// Returns the elastic energy, J, that its stress holds. That of a flat body is taken from the elements at finite strain,
+    /// around the contact: waves and bending are elsewhere.
+    pub(crate) fn residual_energy(&self, motion: &Motion<'_>, history: &[NodalField]) -> f64 {
+        let mut accounts = Accounts::default();
+        let is_flat = self.mesh().is_some_and(SphereMesh::is_half_space);
+        match (&self.stress, self.finite_strain()) {
+            (Some(placed), Some(stress)) if is_flat => {
+                stress.add_energies_at_finite_strain(motion, placed.of(history), &mut accounts);
+            }
+            _ => self.add_energies(motion, history, &mut accounts),
+        }
+        accounts.energies.get(Account::Strain).unwrap_or(0.0)
     }
 
     /// Adds the energies that its parts store, give and dissipate.

@@ -17,6 +17,7 @@
 //! | [`thornton`] | Hertz up to the pressure p_y, then F = F_y + πp_yR*(δ − δ_y), a² = R*δ | the public description of `chiton-helmet-sim`, which cites Thornton (1997); [`crate::FirstYield`] |
 //! | [`johnson`] | F = 2πR*p_dδ, a² = 2R*δ | Johnson (1985), section 11.5, as in [`crate::FirstYield`] |
 //! | [`jackson_green`] | Hertz up to 1.9 ω_c, then a fit to finite elements | `SPHERE_PLASTIC_PRE2.m`, for a sphere of radius R* on a rigid flat |
+//! | [`brake`] | as `jackson_green`; the rebound has Hertz' contact radius, a² = R*δ | `SPHERE_PLASTIC_PRE.m` of the same model, which cites Ghaednia, Brake et al. (2019) and Brake (2015) |
 //! | [`mean_pressure`] | Hertz, then a fit to finite elements, and so is the rebound | the module `mean_pressure` |
 //! | [`walton_braun`] | F = k₁δ | `walton::normal_force` of a public code for granular flow, which cites Walton & Braun (1986) |
 //! | [`luding`] | F = k₁δ, rebound stiffer with δ_m, up to δ\*; beyond all of it elastic with k_p | YADE's LudingPM, which cites Luding (2008), eqs. 6 to 8 |
@@ -80,6 +81,8 @@ enum Formula {
     JacksonGreen {
         strength: f64,
         constraint: f64,
+        /// Whether the rebound has the contact radius of the loading, Etsion's, or that of Hertz, Brake's.
+        rebounds_flattened: bool,
     },
     MeanPressure(MeanPressure),
     Mdr(Mdr),
@@ -152,7 +155,7 @@ impl ElasticPlastic {
     /// ω_c of Jackson and Green, m.
     fn critical_interference(&self) -> f64 {
         match self.formula {
-            Formula::JacksonGreen { strength, constraint } => {
+            Formula::JacksonGreen { strength, constraint, .. } => {
                 self.radius * (0.5 * PI * constraint * strength / self.modulus).powi(2)
             }
             _ => f64::INFINITY,
@@ -166,7 +169,7 @@ impl ElasticPlastic {
             Formula::Thornton { pressure } => {
                 PI * pressure * self.radius * (approach - self.yield_approach() / 3.0)
             }
-            Formula::JacksonGreen { strength, constraint } => {
+            Formula::JacksonGreen { strength, constraint, .. } => {
                 let x = approach / self.critical_interference();
                 let slope = PI * self.contact_radius(approach) / self.radius;
                 let hardness = 2.84 - 0.92 * (1.0 - slope.cos());
@@ -197,7 +200,11 @@ impl ElasticPlastic {
             Formula::MeanPressure(law) => law.rebound(approach),
             Formula::Mdr(law) => law.rebound(approach),
             Formula::Thornton { .. } | Formula::Johnson { .. } | Formula::JacksonGreen { .. } => {
-                let length = 0.75 * force / (self.modulus * self.contact_radius(approach));
+                let is_hertz =
+                    matches!(self.formula, Formula::JacksonGreen { rebounds_flattened: false, .. });
+                let hertz = (self.radius * approach).sqrt();
+                let radius = if is_hertz { hertz } else { self.contact_radius(approach) };
+                let length = 0.75 * force / (self.modulus * radius);
                 (length, 0.4 * force * length)
             }
         }
@@ -274,9 +281,34 @@ pub fn jackson_green(
     yield_strength: f64,
     poissons_ratio: f64,
 ) -> Result<ContactLaw, LawError> {
+    fitted_sphere(pair, yield_strength, poissons_ratio, true)
+}
+
+/// Returns the law of [`jackson_green`] with Brake's rebound: Hertz' of the curvature that has the force F_m at the
+/// contact radius √(R\*δ_m).
+///
+/// Ghaednia, Brake, Berryhill & Jackson (2019), *J. Tribol.*, without hardening, and Brake (2015), *Int. J. Solids Struct.*
+///
+/// # Errors
+/// Those of [`jackson_green`].
+pub fn brake(
+    pair: &Pair,
+    yield_strength: f64,
+    poissons_ratio: f64,
+) -> Result<ContactLaw, LawError> {
+    fitted_sphere(pair, yield_strength, poissons_ratio, false)
+}
+
+fn fitted_sphere(
+    pair: &Pair,
+    yield_strength: f64,
+    poissons_ratio: f64,
+    rebounds_flattened: bool,
+) -> Result<ContactLaw, LawError> {
     let strength = positive("yield_strength", yield_strength)?;
     let constraint = 1.295 * (0.736 * checked_ratio(poissons_ratio)?).exp();
-    dented(pair, (hertz_stiffness(pair), 1.5), Formula::JacksonGreen { strength, constraint })
+    let formula = Formula::JacksonGreen { strength, constraint, rebounds_flattened };
+    dented(pair, (hertz_stiffness(pair), 1.5), formula)
 }
 
 /// Returns the mean-pressure law of a pair, and yield strength (Pa), Poisson's ratio and linear hardening (Pa) of the body that

@@ -13,8 +13,8 @@ mod tsuji;
 
 pub(crate) use elastic_plastic::Rebound;
 pub use elastic_plastic::{
-    ElasticPlastic, jackson_green, jackson_green_values, johnson, johnson_values, luding, mdr,
-    mdr_values, mean_pressure, mean_pressure_values, thornton, thornton_values, walton_braun,
+    ElasticPlastic, brake, jackson_green, jackson_green_values, johnson, johnson_values, luding,
+    mdr, mdr_values, mean_pressure, mean_pressure_values, thornton, thornton_values, walton_braun,
 };
 pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
 pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
@@ -213,6 +213,19 @@ macro_rules! contact_laws {
             JacksonGreen, jackson_green, JacksonGreenTable,
                 "a table such as { yield_strength = \"1 GPa\" }";
             formula(pair, [yield_strength, nu]) = laws::jackson_green(pair, yield_strength, nu);
+            given by [yield_strength: KeyNeed::Optional, nu: KeyNeed::Optional],
+                values laws::jackson_green_values;
+            ends at ZeroForce;
+            keys {
+                /// Yield strength, > 0; absent: that of the material that yields first.
+                yield_strength: Stress, Positive, Role::STRENGTH;
+                /// Poisson's ratio of the body that flows; absent: the material's.
+                nu: Number, LikePoissonsRatio, Role::number(Some(0.3), (0.0, 0.5));
+            }
+
+            /// The loading of `jackson_green`; unloading of a sphere with Hertz' contact radius.
+            Brake, brake, BrakeTable, "a table such as { yield_strength = \"1 GPa\" }";
+            formula(pair, [yield_strength, nu]) = laws::brake(pair, yield_strength, nu);
             given by [yield_strength: KeyNeed::Optional, nu: KeyNeed::Optional],
                 values laws::jackson_green_values;
             ends at ZeroForce;

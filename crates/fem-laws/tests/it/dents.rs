@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use fem_laws::laws::{
-    ContactLaw, jackson_green, johnson, luding, mdr, mean_pressure, thornton, walton_braun,
+    ContactLaw, brake, jackson_green, johnson, luding, mdr, mean_pressure, thornton, walton_braun,
 };
 use fem_laws::{
     FirstYield, HertzImpact, Impact, LawImpact, Pair, Partner, YieldingBody,
@@ -138,6 +138,25 @@ fn jackson_green_has_the_published_limits_and_dent() {
     assert!((2.4..2.84).contains(&(pressure / strength)), "{}", pressure / strength);
 }
 
+/// The dent is δ_m(1 − F_m/(4/3 E* √R* δ_m^(3/2))), Brake's (2015) as read in two public models of rough contacts, so that the rebound
+/// begins with the stiffness 2E*√(R*δ_m) of Hertz' contact, and the loading is Jackson and Green's.
+#[test]
+fn brake_has_the_published_dent_and_rebound() {
+    let (pair, modulus) = (pair(), pair().contact_modulus());
+    for speed in [0.01, 0.1, 1.0] {
+        let found = impact(brake(&pair, STRENGTH, NU).unwrap(), speed);
+        let beside = impact(jackson_green(&pair, STRENGTH, NU).unwrap(), speed);
+        let (depth, force) = (found.max_approach, found.peak_force);
+        assert_close(depth, beside.max_approach, 1e-9);
+        assert_close(force, beside.peak_force, 1e-9);
+        let hertz = 4.0 / 3.0 * modulus * pair.effective_radius().sqrt() * depth.powf(1.5);
+        assert_close(dent(&found), depth * (1.0 - force / hertz), 1e-6);
+        let returned = 0.4 * force * (depth - dent(&found));
+        let energy = 0.5 * pair.effective_mass() * speed * speed;
+        assert_close(found.restitution, (returned / energy).sqrt(), 1e-6);
+    }
+}
+
 /// e is the given one, and T = (π/2)(m*/k₁)^(1/2)(1 + e).
 #[test]
 fn walton_braun_has_its_restitution_and_time() {
@@ -169,7 +188,7 @@ fn luding_rebounds_the_stiffer_the_deeper() {
     }
 }
 
-fn all_laws() -> [ContactLaw; 7] {
+fn all_laws() -> [ContactLaw; 8] {
     let pair = pair();
     [
         thornton(&pair, 1.6 * STRENGTH),
@@ -179,6 +198,7 @@ fn all_laws() -> [ContactLaw; 7] {
         luding(&pair, 5.0, 1e6, 0.05),
         mdr(&pair, STRENGTH, NU, 1.0),
         mean_pressure(&pair, [STRENGTH, NU, 0.05 * 210e9, 0.5, 0.3]),
+        brake(&pair, STRENGTH, NU),
     ]
     .map(Result::unwrap)
 }
@@ -220,6 +240,7 @@ fn restitution_falls_with_speed_from_one() {
         thornton(&pair, 1e12),
         johnson(&pair, 1e15),
         jackson_green(&pair, 1e11, NU),
+        brake(&pair, 1e11, NU),
         walton_braun(&pair, 1.0, 1e7),
         luding(&pair, 1.0, 1e6, 0.05),
         mean_pressure(&pair, [1e12, NU, 0.0, 0.5, 0.0]),
@@ -227,7 +248,7 @@ fn restitution_falls_with_speed_from_one() {
     for law in hard {
         assert_close(impact(law.unwrap(), 0.1).restitution, 1.0, 1e-8);
     }
-    for law in [0, 1, 2, 4, 5].map(|k| all_laws()[k]) {
+    for law in [0, 1, 2, 4, 5, 7].map(|k| all_laws()[k]) {
         let mut last = 2.0;
         for speed in [1e-5, 1e-2, 0.1, 1.0, 10.0] {
             let e = impact(law, speed).restitution;

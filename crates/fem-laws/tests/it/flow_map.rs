@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use fem_laws::laws::{
-    ContactLaw, jackson_green, johnson, luding, mdr, mean_pressure, thornton, walton_braun,
+    ContactLaw, brake, jackson_green, johnson, luding, mdr, mean_pressure, thornton, walton_braun,
 };
 use fem_laws::{HertzImpact, LawImpact, Pair, Partner, largest_von_mises};
 
@@ -196,9 +196,10 @@ fn of_luding(row: &Row, contact: &Contact) -> ContactLaw {
     luding(&contact.pair, ratio, stiffness, depth).unwrap()
 }
 
-const TABLE: [Entry; 7] = [
+const TABLE: [Entry; 8] = [
     ("mean_pressure", "Y", of_mean_pressure),
     ("jackson_green", "Y", |row, it| jackson_green(&it.pair, it.strength, row.nu).unwrap()),
+    ("brake", "Y", |row, it| brake(&it.pair, it.strength, row.nu).unwrap()),
     ("mdr", "Y", |row, it| mdr(&it.pair, it.strength, row.nu, 0.0).unwrap()),
     ("thornton", "Y", |row, it| {
         thornton(&it.pair, it.strength / largest_von_mises(row.nu)).unwrap()

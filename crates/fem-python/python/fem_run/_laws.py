@@ -45,6 +45,7 @@ Law = Literal[
     "thornton",
     "johnson",
     "jackson_green",
+    "brake",
     "mean_pressure",
     "walton_braun",
     "luding",

@@ -8,7 +8,7 @@ pub(crate) mod quasi_static;
 pub(crate) mod semi_infinite_partner;
 pub(crate) mod viscous_flow;
 
-use fem_case::{Body, Scene, Shape};
+use fem_case::{Body, ModelChoice, Scene, Shape};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, ImpactQuantities, LawError, Pair, Partner};
 use fem_material::engineering::number;
@@ -30,7 +30,7 @@ const LARGE_LOSS_OF_MODULI: f64 = 0.5;
 pub struct Estimate {
     /// Hertz' impact with instantaneous moduli.
     pub hertz: HertzImpact,
-    /// The impact of a body that flows plastically, by closed forms; `None` if none does.
+    /// The impact of a body that flows plastically, by closed forms; `None` if none does or the model is elastic.
     pub flow: Option<ImpactQuantities>,
     /// Contact time with plastic flow, or with the moduli relaxed to the middle of the contact, s.
     pub contact_time: f64,
@@ -128,7 +128,12 @@ impl Estimate {
         }
         let spheres = || scene.bodies().iter().filter_map(Body::diameter);
         let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
-        let flow = flowing_impact(scene, &hertz, None).map(|impact| impact.quantities);
+        let is_elastic = matches!(
+            scene.model(),
+            ModelChoice::Condensed(_) | ModelChoice::Ting { .. } | ModelChoice::Hertz { .. }
+        );
+        let flow = flowing_impact(scene, &hertz, None).filter(|_| !is_elastic);
+        let flow = flow.map(|impact| impact.quantities);
         // A plate takes part of the force and lengthens the contact.
         let bent = thin_plate_mobility(scene)
             .and_then(|_| predicted_on_half_spaces(scene, hertz.pair(), speed).ok());

@@ -1,7 +1,8 @@
 //! The dents that plastic flow leaves: their profile, depth and radius, and the size of the plastic zone.
 //!
 //! All lengths are those of the unloaded bodies ([`Collision::unloaded`]). The profile is measured from the mass centre of
-//! a sphere, or from the far boundary of a half-space, so that the depth is how much the pole has come closer to it.
+//! a sphere, from the middle of a plate's far face, or from the far boundary of a half-space, so that the depth is how much the pole has
+//! come closer to it.
 
 use fem_collision::{BodyFields, Collision};
 use fem_mesh::SphereMesh;
@@ -23,7 +24,7 @@ const PROFILE_OVER_CONTACT: f64 = 3.0;
 pub struct DentSummary {
     /// Name of the body in the case.
     pub body: String,
-    /// How much the pole has come closer to the mass centre, or to the far boundary of a half-space.
+    /// How much the pole has come closer to the mass centre, to the far face of a plate or to the far boundary of a half-space.
     pub depth_m: Option<f64>,
     /// Radius at which the surface is displaced inward by a tenth of the depth.
     pub radius_m: Option<f64>,
@@ -84,7 +85,7 @@ pub fn dents(
 
 /// Returns the surface nodes from the axis out to a radius, after the collision and relative to the mass centre.
 fn profile(mesh: &SphereMesh, displacement: &[[f64; 2]], widest: f64) -> DentProfile {
-    let shift = shift_of_centre(mesh, displacement);
+    let shift = shift_of_body(mesh, displacement);
     let nodes = || mesh.surface().iter().map(|node| *node as usize);
     let surface: Vec<[f64; 2]> = nodes().map(|node| mesh.nodes()[node]).collect();
     let moved = nodes().map(|node| {
@@ -104,10 +105,13 @@ fn height(surface: &[[f64; 2]], r: f64) -> f64 {
     }
 }
 
-/// Returns the displacement of the mass centre along y, m; 0 for a half-space, whose far boundary is held.
-fn shift_of_centre(mesh: &SphereMesh, displacement: &[[f64; 2]]) -> f64 {
+/// Returns the displacement along y, m, of the mass centre of a sphere, and of the middle of a plate's far face, which moves as the
+/// plate does; 0 for a half-space, whose far boundary is held.
+fn shift_of_body(mesh: &SphereMesh, displacement: &[[f64; 2]]) -> f64 {
     if mesh.is_half_space() {
-        return 0.0;
+        let on_axis = mesh.nodes().iter().zip(displacement).filter(|(node, _)| node[0] == 0.0);
+        let farthest = on_axis.max_by(|(a, _), (b, _)| a[1].abs().total_cmp(&b[1].abs()));
+        return farthest.map_or(0.0, |(_, u)| u[1]);
     }
     let (mut moment, mut volume) = (0.0, 0.0);
     for (element, quad) in mesh.quads().iter().enumerate() {

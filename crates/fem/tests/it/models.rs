@@ -96,6 +96,7 @@ fn every_model_and_law_is_read() {
             "jackson_green = { yield_strength = 1e9, nu = 0.3 }",
             "JacksonGreen yield_strength=1e9 nu=3e-1",
         ),
+        ("brake = {}", "Brake"),
         (
             "mean_pressure = { yield_strength = 1e9, hardening = '2 GPa' }",
             "MeanPressure yield_strength=1e9 hardening=2e9",

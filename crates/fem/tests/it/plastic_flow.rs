@@ -148,6 +148,39 @@ fn the_unloaded_body_keeps_its_dent() {
     assert!(summary.dent.is_none() && summary.energy.locked_in_j.is_none());
 }
 
+/// A free plate moves and bends under the ball, and waves cross it. Its dent and its locked-in energy are those of a half-space.
+#[test]
+fn the_dent_of_a_free_plate_is_that_of_a_half_space() {
+    let elastic =
+        "material.hard={ density = 7850, youngs_modulus = '210 GPa', poissons_ratio = 0.3 }";
+    let ball = "body.1={ name = 'ball', sphere.diameter = '10 mm', material = 'hard', approach_speed = '1 m/s' }";
+    let of = |target: &str| {
+        let set = format!("body.0={{ name = 'target', material = 'steel', {target} }}");
+        let simulation = simulation_of(BALL, &[elastic, ball, set.as_str()]);
+        let summary = simulation.summary(&simulation.run(&mut ()));
+        let depth = summary.dent.unwrap()[0].depth_m.unwrap();
+        (depth, summary.energy.locked_in_j.unwrap() / summary.energy.initial_j.unwrap())
+    };
+    let (depth, share) = of("half_space = {}");
+    assert!((0.017..0.023).contains(&share), "{share}");
+    let plate = "plate = { thickness = '20 mm', diameter = '20 cm', support = 'SUPPORT' }";
+    for support in ["free", "bonded"] {
+        let (of_plate, share_of_plate) = of(&plate.replace("SUPPORT", support));
+        assert!((of_plate / depth - 1.0).abs() < 0.02, "{support} {of_plate} {depth}");
+        assert!((share_of_plate / share - 1.0).abs() < 0.05, "{support} {share_of_plate} {share}");
+    }
+}
+
+/// Elastic models size their elements for an elastic contact, and their snapshots have no unloaded bodies.
+#[test]
+fn the_plan_of_an_elastic_model_expects_no_flow() {
+    let condensed = "model={ condensed = {} }";
+    let flowing = simulation_of(BALL, &[condensed]);
+    assert!(flowing.setup().estimate.flow.is_none());
+    let warnings = &flowing.run(&mut ()).warnings;
+    assert!(warnings.iter().all(|warning| !warning.contains("after-separation")), "{warnings:?}");
+}
+
 /// A plan that expected an elastic impact would need a second run with a wider search and finer elements.
 #[test]
 fn the_plan_expects_the_sizes_of_flow() {
