@@ -155,6 +155,7 @@ pub fn relaxation_at(equilibrium_weight: f64, terms: &[PronyTerm], time: f64) ->
 }
 
 /// Returns storage and loss modulus of a Maxwell element over its modulus at x = ωτ: x²/(1 + x²) and x/(1 + x²).
+#[inline]
 pub fn maxwell_element(x: f64) -> [f64; 2] {
     // A quotient below 1 does not overflow.
     if x > 1.0 {

@@ -3,7 +3,8 @@
 //! The unknowns are ln a_T of every block but the reference, ln b_T if it is asked for, and the moduli of a series with terms at given
 //! times. The moduli are found by non-negative least squares for given shifts, and the shifts by steps of Gauss and Newton with the
 //! derivatives of the residuals less what the moduli can follow (variable projection: Golub & Pereyra, *SIAM J. Numer. Anal.* 10 (1973)
-//! 413; Kaufman, *BIT* 15 (1975) 49), damped as by Levenberg and Marquardt.
+//! 413; Kaufman, *BIT* 15 (1975) 49), damped as by Levenberg and Marquardt. The steps of a round end when the misfit falls by less than a
+//! hundredth of its value per degree of freedom.
 //!
 //! Storage and loss modulus differ in their accuracy, and those of a point may be correlated, as by the force that both are measured with.
 //! The covariance of both residuals of a point is found from the residuals themselves (seemingly unrelated regressions: Zellner, *J. Am.
@@ -30,12 +31,32 @@ const N_ROUNDS: usize = 5;
 const MAX_STEPS: usize = 30;
 /// Accuracy of a shift, ln.
 const TOLERANCE: f64 = 1e-5;
+/// The least gain of a step, in squares of the scatter of a modulus: parameters of smaller ones move by a tenth of their uncertainty.
+const LEAST_GAIN: f64 = 0.01;
 /// The largest step of a shift, ln.
 const MAX_STEP: f64 = 1.0;
 /// Damping above which no step lowers the misfit.
 const MAX_DAMPING: f64 = 1e6;
 /// Standard uncertainty of a shift that the data do not determine, ln: a decade and a half.
 const WIDEST: f64 = 1.5 * std::f64::consts::LN_10;
+
+/// Returns the terms whose times, within a reach of ln τ about those given, and moduli meet the points best.
+pub(super) fn vary_times(
+    kind: TestKind,
+    points: &[ModulusPoint],
+    times: &[f64],
+    reach: f64,
+) -> impl Iterator<Item = (f64, f64)> {
+    let points = points.to_vec();
+    let shift_of = vec![None; points.len()];
+    let joint =
+        Joint { kind, points, shift_of, moving: vec![], blocks: &mut [], has_vertical: false };
+    let whitening = Matrix2::identity();
+    let problem = Problem { joint: &joint, times, reach, whitening, is_first: false };
+    let (found, solved) = problem.minimise(times.iter().map(|time| time.ln()).collect());
+    let moduli = solved.moduli.iter().copied().collect::<Vec<f64>>();
+    found.into_iter().map(f64::exp).zip(moduli)
+}
 
 /// All moduli with the blocks that they are of.
 pub(super) struct Joint<'a> {
@@ -105,7 +126,8 @@ impl<'a> Joint<'a> {
                 true => shifts.iter().copied().chain(times.iter().map(|time| time.ln())).collect(),
             };
             let is_first = round == 0;
-            let problem = Problem { joint: self, times: &times, whitening, is_first };
+            let reach = f64::INFINITY;
+            let problem = Problem { joint: self, times: &times, reach, whitening, is_first };
             let (found, solved) = problem.minimise(start);
             covariance = problem.covariance(&found, &solved).view((0, 0), (n, n)).into_owned();
             whitening = match is_first {
@@ -180,6 +202,8 @@ impl<'a> Joint<'a> {
 struct Problem<'a> {
     joint: &'a Joint<'a>,
     times: &'a [f64],
+    /// How far ln of a relaxation time may go from that in `times`.
+    reach: f64,
     whitening: Matrix2<f64>,
     /// Whether losses count over |E*|.
     is_first: bool,
@@ -200,13 +224,22 @@ impl Problem<'_> {
     fn minimise(&self, mut found: Vec<f64>) -> (Vec<f64>, Solved) {
         let n = found.len();
         let mut solved = self.solve(&found);
+        let freedom = solved.residuals.len() as f64;
         let mut damping = 1e-3;
         for _ in 0..MAX_STEPS {
             let slopes = self.slopes(&found, &solved);
-            let normal = slopes.transpose() * &slopes;
-            let gradient = slopes.transpose() * &solved.residuals;
+            let mut normal = slopes.transpose() * &slopes;
+            let mut gradient = slopes.tr_mul(&solved.residuals);
+            for k in 0..n {
+                if !self.is_held(&found, k, gradient[k]) {
+                    continue;
+                }
+                normal.row_mut(k).fill(0.0);
+                normal.column_mut(k).fill(0.0);
+                gradient[k] = 0.0;
+            }
             let floor = 1e-12 * normal.diagonal().max().max(f64::MIN_POSITIVE);
-            let mut size = 0.0;
+            let (mut size, before) = (0.0, solved.misfit());
             while damping < MAX_DAMPING {
                 let mut damped = normal.clone();
                 for k in 0..n {
@@ -215,7 +248,7 @@ impl Problem<'_> {
                 let step = Cholesky::new(damped).map(|factor| factor.solve(&gradient));
                 let step = step.unwrap_or_else(|| DVector::zeros(n));
                 let step = step.map(|it| it.clamp(-MAX_STEP, MAX_STEP));
-                let trial: Vec<f64> = found.iter().zip(&step).map(|(at, step)| at - step).collect();
+                let trial: Vec<f64> = (0..n).map(|k| self.clamped(k, found[k] - step[k])).collect();
                 let tried = self.solve(&trial);
                 if tried.misfit() <= solved.misfit() {
                     (found, solved, size) = (trial, tried, step.amax());
@@ -224,11 +257,25 @@ impl Problem<'_> {
                 }
                 damping *= 10.0;
             }
-            if size < TOLERANCE {
+            let gain = (before - solved.misfit()) * freedom;
+            if size < TOLERANCE || gain < LEAST_GAIN * solved.misfit() {
                 break;
             }
         }
         (found, solved)
+    }
+
+    /// Returns a value of a parameter, a relaxation time within its reach.
+    fn clamped(&self, k: usize, value: f64) -> f64 {
+        let Some(time) = k.checked_sub(self.n_shifts()).map(|k| self.times[k].ln()) else {
+            return value;
+        };
+        value.clamp(time - self.reach, time + self.reach)
+    }
+
+    /// Whether a parameter is at the end of its reach and would leave it.
+    fn is_held(&self, found: &[f64], k: usize, gradient: f64) -> bool {
+        self.clamped(k, found[k] - 1e-6 * gradient.signum()) == found[k]
     }
 
     /// Returns the covariance of the parameters.
@@ -257,7 +304,7 @@ impl Problem<'_> {
         rows.set_column(n, &plain.b);
         self.joint.whiten(&mut rows, &self.whitening);
         let linear = Linear { b: rows.column(n).into_owned(), a: rows.remove_column(n) };
-        let small = linear.compressed();
+        let small = linear.compressed_by_products();
         let moduli = non_negative(&small.a, &small.b);
         let residuals = &linear.a * &moduli - &linear.b;
         Solved { observations, linear, moduli, residuals }
@@ -275,22 +322,32 @@ impl Problem<'_> {
     fn slopes(&self, parameters: &[f64], solved: &Solved) -> DMatrix<f64> {
         let (joint, times) = (self.joint, self.times(parameters));
         let n = joint.moving.len();
+        let mut of_times = solved.observations.slopes(&times);
+        for (mut column, modulus) in of_times.column_iter_mut().zip(&solved.moduli) {
+            column *= *modulus;
+        }
+        let of_shift = of_times.column_sum();
         let mut slopes = DMatrix::zeros(solved.residuals.len(), parameters.len());
         for i in 0..slopes.nrows() {
-            let parts = solved.observations.relative_slopes(i, &times, solved.moduli.as_slice());
             if let Some(k) = joint.shift_of[i / joint.n_parts()] {
-                slopes[(i, k)] = parts.iter().sum();
+                slopes[(i, k)] = of_shift[i];
                 if joint.has_vertical {
                     slopes[(i, n + k)] = solved.observations.relative(i);
                 }
             }
-            for k in self.n_shifts()..parameters.len() {
-                slopes[(i, k)] = parts[k - self.n_shifts()];
-            }
         }
+        let n_varied = parameters.len() - self.n_shifts();
+        slopes.columns_mut(self.n_shifts(), n_varied).copy_from(&of_times.columns(0, n_varied));
         joint.whiten(&mut slopes, &self.whitening);
-        let q = solved.passive().qr().q();
-        let followed = &q * (q.transpose() * &slopes);
+        let passive = solved.passive();
+        let transposed = passive.transpose();
+        let followed = match Cholesky::new(&transposed * &passive) {
+            Some(factor) => passive * factor.solve(&(transposed * &slopes)),
+            None => {
+                let q = passive.qr().q();
+                &q * (q.transpose() * &slopes)
+            }
+        };
         slopes - followed
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! since an instrument measures a force amplitude to a share and a phase to an angle. The grid is the one of several spacings
 //! and positions with the least Bayesian information criterion (Schwarz, *Ann. Stat.* 6 (1978) 461), n ln(S/n) + p ln n with
-//! the sum of squares S of n residuals and p parameters. Terms are then removed, and their times varied, as long as it falls.
+//! the sum of squares S of n residuals and p < n parameters. Terms are then removed, and their times varied, as long as it falls.
 //!
 //! A smooth spectrum with one term per decade gives a loss modulus that is wavy by 2/cosh(π²/ln 10) = 5.5 %, with two per
 //! decade by 0.08 %: data that are better than that ask for more than one.
@@ -22,9 +22,10 @@ use nalgebra::{DMatrix, DVector};
 
 use fem_material::maxwell_element;
 
-use crate::fit::least_squares::minimise;
 use crate::fit::spectrum::bounded::{Linear, non_negative};
 use crate::measured::{ModulusPoint, TestKind};
+
+use super::joint::vary_times;
 
 /// Share of the storage modulus that is the least scale of a residual of the loss modulus: phases are measured to about
 /// half a degree.
@@ -145,6 +146,57 @@ pub(super) struct Observations {
     rows: Vec<Row>,
 }
 
+/// The triangular factor of the columns of terms at given times, of equilibrium, of the derivatives of the terms by ln τ, and of the
+/// moduli. Problems of some of these columns have its columns.
+struct Compressed {
+    n_rows: usize,
+    n_terms: usize,
+    factor: DMatrix<f64>,
+}
+
+impl Compressed {
+    fn of(observations: &Observations, times: &[f64]) -> Self {
+        let n = times.len();
+        let Linear { a, b } = observations.linear_of_all(times);
+        let mut all = a.resize_horizontally(2 * n + 2, 0.0);
+        all.columns_mut(n + 1, n).copy_from(&observations.slopes(times));
+        all.set_column(2 * n + 1, &b);
+        Self { n_rows: all.nrows(), n_terms: n, factor: all.qr().r() }
+    }
+
+    /// Returns the problem of the moduli of some terms and of equilibrium.
+    fn linear(&self, numbers: &[usize]) -> Linear {
+        let kept: Vec<usize> = numbers.iter().copied().chain([self.n_terms]).collect();
+        let b = self.factor.column(2 * self.n_terms + 1).into_owned();
+        Linear { a: self.factor.select_columns(&kept), b }
+    }
+
+    /// Returns the covariance of the moduli of some terms and of equilibrium, and of their times if these are varied.
+    fn covariance(&self, numbers: &[usize], found: &Candidate) -> Option<DMatrix<f64>> {
+        let mut linear = self.linear(numbers);
+        let misfit = linear.misfit(&found.moduli);
+        if found.per_term == 2 {
+            let n = linear.a.ncols();
+            linear.a = linear.a.resize_horizontally(n + numbers.len(), 0.0);
+            for (k, number) in numbers.iter().enumerate() {
+                let slope = self.factor.column(self.n_terms + 1 + number) * found.moduli[k];
+                linear.a.set_column(n + k, &slope);
+            }
+        }
+        let freedom = self.n_rows.saturating_sub(found.n_parameters()).max(1) as f64;
+        // Columns of the same size, so that moduli of different sizes do not make the matrix singular.
+        let norms: Vec<f64> = linear.a.column_iter().map(|column| column.norm()).collect();
+        let scaled = DMatrix::from_fn(linear.a.nrows(), norms.len(), |i, j| {
+            linear.a[(i, j)] / norms[j].max(f64::MIN_POSITIVE)
+        });
+        let inverse = (scaled.transpose() * scaled).pseudo_inverse(1e-14).ok()?;
+        let n = norms.len();
+        Some(DMatrix::from_fn(n, n, |i, j| {
+            inverse[(i, j)] * misfit / freedom / norms[i] / norms[j]
+        }))
+    }
+}
+
 impl Observations {
     /// Returns the moduli over themselves; a loss angle is resolved to that of instruments.
     pub fn of(kind: TestKind, points: &[ModulusPoint]) -> Self {
@@ -173,18 +225,33 @@ impl Observations {
         self.rows[row].value / self.rows[row].scale
     }
 
-    /// Returns the derivatives of the modulus of a row over its scale by ln τ of each term.
-    pub fn relative_slopes(&self, row: usize, times: &[f64], moduli: &[f64]) -> Vec<f64> {
-        let row = &self.rows[row];
-        let of_term = |(time, modulus): (&f64, &f64)| match *modulus > 0.0 {
-            true => modulus * slope(self.kind, row.at, *time)[row.part] / row.scale,
-            false => 0.0,
-        };
-        times.iter().zip(moduli).map(of_term).collect()
+    /// Returns a matrix over the scales of the rows with a column per time.
+    fn columns(&self, times: &[f64], of: fn(TestKind, f64, f64) -> [f64; 2]) -> DMatrix<f64> {
+        let n_parts = if self.kind == TestKind::Oscillation { 2 } else { 1 };
+        let mut matrix = DMatrix::zeros(self.rows.len(), times.len());
+        let columns = matrix.as_mut_slice().chunks_exact_mut(self.rows.len());
+        for (column, time) in columns.zip(times) {
+            let points = self.rows.chunks_exact(n_parts);
+            for (cells, rows) in column.chunks_exact_mut(n_parts).zip(points) {
+                let parts = of(self.kind, rows[0].at, *time);
+                for ((cell, row), part) in cells.iter_mut().zip(rows).zip(parts) {
+                    *cell = part / row.scale;
+                }
+            }
+        }
+        matrix
+    }
+
+    /// Returns the derivatives of the moduli over their scales by ln τ of terms of modulus 1.
+    pub fn slopes(&self, times: &[f64]) -> DMatrix<f64> {
+        self.columns(times, slope)
     }
 
     /// Returns the criterion of a sum of squares.
     fn criterion(&self, misfit: f64, n_parameters: usize) -> f64 {
+        if n_parameters >= self.rows.len() {
+            return f64::INFINITY;
+        }
         let n = self.rows.len() as f64;
         n * (misfit / n + ROUNDING * ROUNDING).ln() + n_parameters as f64 * n.ln()
     }
@@ -192,15 +259,10 @@ impl Observations {
     /// Returns the linear problem of the moduli of terms at these times and of equilibrium.
     pub fn linear_of_all(&self, times: &[f64]) -> Linear {
         let k = times.len();
-        let entry = |i: usize, j: usize| {
-            let row = &self.rows[i];
-            let of_column = match times.get(j) {
-                Some(time) => element(self.kind, row.at, *time)[row.part],
-                None => [1.0, 0.0][row.part],
-            };
-            of_column / row.scale
-        };
-        let a = DMatrix::from_fn(self.rows.len(), k + 1, entry);
+        let mut a = self.columns(times, element).insert_column(k, 0.0);
+        for (cell, row) in a.column_mut(k).iter_mut().zip(&self.rows) {
+            *cell = [1.0, 0.0][row.part] / row.scale;
+        }
         let b = DVector::from_iterator(a.nrows(), self.rows.iter().map(|r| r.value / r.scale));
         Linear { a, b }
     }
@@ -211,102 +273,69 @@ impl Observations {
 
     /// Returns the moduli of terms at these times, without terms that have none.
     fn solve(&self, times: &[f64], per_term: usize) -> Candidate {
-        let linear = self.linear(times);
+        let all: Vec<usize> = (0..times.len()).collect();
+        self.solve_of(&self.linear(times), &all, times, per_term).0
+    }
+
+    /// Returns the moduli of those of the terms that are given by their numbers, without terms that have none, and the numbers that remain.
+    fn solve_of(
+        &self,
+        linear: &Linear,
+        numbers: &[usize],
+        times: &[f64],
+        per_term: usize,
+    ) -> (Candidate, Vec<usize>) {
         let moduli = non_negative(&linear.a, &linear.b);
-        let kept: Vec<usize> = (0..times.len()).filter(|k| moduli[*k] > 0.0).collect();
+        let kept: Vec<usize> = (0..numbers.len()).filter(|k| moduli[*k] > 0.0).collect();
         let mut found = Candidate {
-            times: kept.iter().map(|k| times[*k]).collect(),
-            moduli: kept.iter().map(|k| moduli[*k]).chain([moduli[times.len()]]).collect(),
+            times: kept.iter().map(|k| times[numbers[*k]]).collect(),
+            moduli: kept.iter().map(|k| moduli[*k]).chain([moduli[numbers.len()]]).collect(),
             per_term,
             criterion: 0.0,
         };
         let misfit = linear.misfit(moduli.as_slice());
         found.criterion = self.criterion(misfit, found.n_parameters());
-        found
+        (found, kept.iter().map(|k| numbers[*k]).collect())
     }
 
     /// Returns the covariance of the moduli, with the times free if they are varied.
     fn covariance(&self, candidate: &Candidate) -> Option<DMatrix<f64>> {
-        let mut linear = self.linear(&candidate.times);
-        let misfit = linear.misfit(&candidate.moduli);
-        if candidate.per_term == 2 {
-            let n = candidate.times.len();
-            let entry = |i: usize, j: usize| {
-                let (row, k) = (&self.rows[i], j.wrapping_sub(n + 1));
-                let of_column = match (candidate.times.get(j), candidate.times.get(k)) {
-                    (Some(time), _) => element(self.kind, row.at, *time)[row.part],
-                    (None, None) => [1.0, 0.0][row.part],
-                    (None, Some(time)) => {
-                        candidate.moduli[k] * slope(self.kind, row.at, *time)[row.part]
-                    }
-                };
-                of_column / row.scale
-            };
-            linear.a = DMatrix::from_fn(self.rows.len(), 2 * n + 1, entry);
-        }
-        let freedom = self.rows.len().saturating_sub(candidate.n_parameters()).max(1) as f64;
-        // Columns of the same size, so that moduli of different sizes do not make the matrix singular.
-        let norms: Vec<f64> = linear.a.column_iter().map(|column| column.norm()).collect();
-        let scaled = DMatrix::from_fn(linear.a.nrows(), norms.len(), |i, j| {
-            linear.a[(i, j)] / norms[j].max(f64::MIN_POSITIVE)
-        });
-        let inverse = (scaled.transpose() * scaled).pseudo_inverse(1e-14).ok()?;
-        let n = norms.len();
-        Some(DMatrix::from_fn(n, n, |i, j| {
-            inverse[(i, j)] * misfit / freedom / norms[i] / norms[j]
-        }))
+        let all: Vec<usize> = (0..candidate.times.len()).collect();
+        Compressed::of(self, &candidate.times).covariance(&all, candidate)
     }
 
     /// Returns a candidate without the terms that the data do not ask for.
     fn pruned(&self, mut best: Candidate) -> Candidate {
-        while best.times.len() > 1 {
-            let Some(covariance) = self.covariance(&best) else { break };
+        let compressed = Compressed::of(self, &best.times);
+        let times = best.times.clone();
+        let mut numbers: Vec<usize> = (0..times.len()).collect();
+        while numbers.len() > 1 {
+            let Some(covariance) = compressed.covariance(&numbers, &best) else { break };
             let significance = |k: usize| best.moduli[k] / covariance[(k, k)].max(0.0).sqrt();
-            let least = (0..best.times.len())
+            let least = (0..numbers.len())
                 .min_by(|i, j| significance(*i).total_cmp(&significance(*j)))
                 .unwrap_or(0);
-            let mut times = best.times.clone();
-            times.remove(least);
-            let fewer = self.solve(&times, best.per_term);
+            let mut without = numbers.clone();
+            without.remove(least);
+            let linear = compressed.linear(&without);
+            let (fewer, left) = self.solve_of(&linear, &without, &times, best.per_term);
             if fewer.criterion > best.criterion {
                 break;
             }
-            best = fewer;
+            (best, numbers) = (fewer, left);
         }
         best
     }
 
     /// Returns a candidate whose times are varied too, if that is better.
-    fn varied(&self, best: Candidate) -> Candidate {
+    fn varied(&self, points: &[ModulusPoint], best: Candidate) -> Candidate {
         let n = best.times.len();
         if self.rows.len() * n > MAX_VARIED || 2 * n + 1 >= self.rows.len() {
             return best;
         }
-        let total: f64 = best.moduli.iter().sum();
-        let start: Vec<f64> = best.times.iter().map(|time| time.ln()).collect();
-        let start: Vec<f64> =
-            start.into_iter().chain(best.moduli.iter().map(|modulus| modulus / total)).collect();
-        let reach = MARGIN.ln();
-        let bounds: Vec<(f64, f64)> =
-            start[..n].iter().map(|ln| (ln - reach, ln + reach)).collect();
-        let bounds: Vec<(f64, f64)> =
-            bounds.into_iter().chain((0..=n).map(|_| (0.0, f64::INFINITY))).collect();
-        let residuals = |parameters: &[f64]| {
-            let times: Vec<f64> = parameters[..n].iter().map(|ln| ln.exp()).collect();
-            let of_row = |row: &Row| {
-                let equilibrium = if row.part == 0 { parameters[2 * n] } else { 0.0 };
-                let terms = times.iter().zip(&parameters[n..2 * n]);
-                let sum: f64 = terms
-                    .map(|(time, modulus)| modulus * element(self.kind, row.at, *time)[row.part])
-                    .sum();
-                (total * (equilibrium + sum) - row.value) / row.scale
-            };
-            Some(self.rows.iter().map(of_row).collect())
-        };
-        let Ok((found, _)) = minimise(&residuals, &start, &bounds) else { return best };
-        let times = joined((0..n).map(|k| (found[k].exp(), found[n + k])));
+        let times = joined(vary_times(self.kind, points, &best.times, MARGIN.ln()));
         let varied = self.pruned(self.solve(&times, 2));
-        let varied = if varied.times.len() < n { self.varied(varied) } else { varied };
+        let varied = if varied.times.len() < n { self.varied(points, varied) } else { varied };
         // A grid of the best position has times that were chosen too.
         let with_times = Candidate { per_term: 2, ..best.clone() };
         let n_more = (with_times.n_parameters() - best.n_parameters()) as f64;
@@ -369,7 +398,7 @@ pub fn fit_series(kind: TestKind, points: &[ModulusPoint], density: Option<f64>)
     }
     let best = best.unwrap_or_else(|| observations.solve(&[], 1));
     let best = match density {
-        None => observations.varied(observations.pruned(best)),
+        None => observations.varied(points, observations.pruned(best)),
         Some(_) => best,
     };
     observations.series(&best)

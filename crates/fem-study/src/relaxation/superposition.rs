@@ -238,7 +238,9 @@ fn scanned_shift(
         let second = second.iter().map(|point| reduced(kind, point, ln_shift, 0.0));
         let both: Vec<ModulusPoint> = first.iter().copied().chain(second).collect();
         let times = grid(kind, &both, DENSITY, 0.0);
-        let linear = Observations::over_magnitude(kind, &both).linear_of_all(&times).compressed();
+        let linear = Observations::over_magnitude(kind, &both)
+            .linear_of_all(&times)
+            .compressed_by_products();
         linear.misfit(non_negative(&linear.a, &linear.b).as_slice())
     };
     let width = 2.0 * REACH * std::f64::consts::LN_10 / N_SCANNED as f64;
