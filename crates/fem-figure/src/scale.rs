@@ -8,6 +8,9 @@ const HEADROOM: f64 = 0.05;
 /// Below this number of decades there are ticks within decades.
 const FEW_DECADES: f64 = 2.5;
 
+/// Fewer ticks do not show a scale.
+const FEWEST: usize = 3;
+
 /// The range of an axis.
 pub(crate) struct Scale {
     from: f64,
@@ -68,7 +71,9 @@ impl Scale {
         let stride = ((decades / n as f64).ceil() as usize).max(1);
         let powers = (first..=last).step_by(stride);
         let all = powers.flat_map(|power| digits.iter().map(move |d| d * 10f64.powi(power)));
-        all.filter(|value| (self.from..=self.to).contains(value)).collect()
+        let round: Vec<f64> = all.filter(|value| (self.from..=self.to).contains(value)).collect();
+        // A narrow range has few of them, or none.
+        if round.len() < FEWEST { ticks((self.from, self.to), n) } else { round }
     }
 }
 
@@ -111,5 +116,19 @@ mod tests {
         let scale = Scale::of(&axis, std::iter::empty(), false).unwrap();
         assert!((scale.share(0.1) - 0.5).abs() < 1e-15);
         assert_eq!(scale.ticks(5).len(), 7);
+    }
+
+    #[test]
+    fn narrow_logarithmic_axes_have_ticks() {
+        for (range, expected) in [
+            ((4.1, 4.9), vec![4.2, 4.4, 4.6, 4.8]),
+            ((30.0, 60.0), vec![30.0, 40.0, 50.0, 60.0]),
+            ((2.5, 12.0), vec![4.0, 6.0, 8.0, 10.0, 12.0]),
+        ] {
+            let axis = Axis::new("E").logarithmic().from_to(range.0, range.1);
+            let found = Scale::of(&axis, std::iter::empty(), false).unwrap().ticks(5);
+            assert_eq!(found.len(), expected.len(), "{found:?}");
+            assert!(found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-12));
+        }
     }
 }

@@ -1,11 +1,14 @@
 //! The choice of what a sweep's figure shows: columns, the horizontal key, and the keys that distinguish curves.
 
+use fem::ZERO_CELSIUS;
 use fem::sweep::{COLUMNS, KeyNumbers};
 use fem_case::{CaseError, Combine, Sweep};
 
 /// Columns that are drawn by default.
 const DEFAULT_COLUMNS: [&str; 4] =
     ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
+/// Spellings of the degree Celsius.
+const CELSIUS: [&str; 2] = ["degC", "°C"];
 /// Columns of text or of true and false.
 const NOT_NUMBERS: [&str; 3] = ["complete", "radius_and_pressure", "stopped_because"];
 
@@ -29,7 +32,7 @@ pub struct HorizontalKey {
     pub key: usize,
     /// Axis of the sweep that the key belongs to.
     pub axis: usize,
-    /// Values in SI, or counted from 1 if they are not numbers.
+    /// Values in SI, temperatures in °C if they are written so, or counted from 1 if they are not numbers.
     pub values: Vec<f64>,
     /// Unit of the values.
     pub unit: Option<&'static str>,
@@ -50,7 +53,19 @@ impl FigureChoice {
         };
         let horizontal = |key: usize| {
             let (axis, unit) = (places[key].0, numbers.unit(key).filter(|unit| !unit.is_empty()));
-            let values = numbers.of_key(key)?;
+            let mut values = numbers.of_key(key)?;
+            let first = sweep.axes[axis].values.first();
+            let is_celsius = first.is_some_and(|it| {
+                let text = it.displayed(places[key].1);
+                CELSIUS.iter().any(|unit| text.ends_with(unit))
+            });
+            let unit = match unit {
+                Some("K") if is_celsius => {
+                    values.iter_mut().for_each(|value| *value -= ZERO_CELSIUS);
+                    Some("°C")
+                }
+                unit => unit,
+            };
             Some(HorizontalKey { key, axis, values, unit, is_counted: false })
         };
         let x = match &sweep.plot.x {

@@ -19,7 +19,7 @@ const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> UnitSuff
 }
 
 /// If two endings fit the same name, the longer one comes first.
-const ENDINGS: [UnitSuffix; 34] = [
+const ENDINGS: [UnitSuffix; 39] = [
     ending("_cm_s", 1e-2, [1, 0, -1]),
     ending("_mm_s", 1e-3, [1, 0, -1]),
     ending("_um_s", 1e-6, [1, 0, -1]),
@@ -52,17 +52,25 @@ const ENDINGS: [UnitSuffix; 34] = [
     ending("_kpa", 1e3, PRESSURE),
     ending("_mpa", 1e6, PRESSURE),
     ending("_gpa", 1e9, PRESSURE),
+    ending("_psi", PSI, PRESSURE),
+    ending("_ksi", 1e3 * PSI, PRESSURE),
+    ending("_dyn_cm2", 0.1, PRESSURE),
+    // A name that ends in `_min` may be a least value.
+    ending("_minutes", 60.0, [0, 0, 1]),
+    ending("_hours", 3600.0, [0, 0, 1]),
     // Scales of temperature have an offset, which their reader adds.
     ending("_degc", 1.0, [0; 3]),
     ending("_degf", 1.0, [0; 3]),
     ending("_kelvin", 1.0, [0; 3]),
 ];
 
+/// A pound-force per square inch, Pa: lb g_n / in².
+const PSI: f64 = 0.453_592_37 * 9.806_65 / (0.0254 * 0.0254);
 /// Exponents of a pressure.
 pub(super) const PRESSURE: [i32; 3] = [-1, 1, -2];
 
 /// Names of units that the units of a case do not have, with their endings.
-const OTHER_UNITS: [(&str, &str); 17] = [
+const OTHER_UNITS: [(&str, &str); 27] = [
     ("rad/s", "_rad_s"),
     ("rad s^-1", "_rad_s"),
     ("rad·s⁻¹", "_rad_s"),
@@ -80,6 +88,16 @@ const OTHER_UNITS: [(&str, &str); 17] = [
     ("K", "_kelvin"),
     ("°F", "_degf"),
     ("degF", "_degf"),
+    ("F", "_degf"),
+    ("psi", "_psi"),
+    ("ksi", "_ksi"),
+    ("dyn/cm^2", "_dyn_cm2"),
+    ("dyn/cm²", "_dyn_cm2"),
+    ("dyn/cm2", "_dyn_cm2"),
+    ("dyne/cm^2", "_dyn_cm2"),
+    ("dyne/cm²", "_dyn_cm2"),
+    ("dyne/cm2", "_dyn_cm2"),
+    ("hr", "_hours"),
 ];
 
 /// Returns the ending of a unit of an angle, a rate of phase or a temperature.

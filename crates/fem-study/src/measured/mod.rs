@@ -6,7 +6,7 @@
 //!             │
 //!             └─ column_roles ─ table ─┬────── restitution_table
 //!                speed_cm_s     CSV    ├────── cradle_trials
-//!                                      ├────── moduli: storage and loss over frequency
+//!                                      ├────── moduli: storage and loss over frequency (temperature_blocks)
 //!                                      └────── number_columns: long records
 //! ```
 //!
@@ -34,6 +34,8 @@ mod restitutions;
 mod rows;
 #[cfg(feature = "csv")]
 mod table;
+#[cfg(feature = "csv")]
+mod temperature_blocks;
 
 #[cfg(feature = "csv")]
 pub use cradle_trials::cradle_trials;

@@ -9,9 +9,11 @@ use super::column_roles::{
     LOSS_MODULI, PHASES, PRESSURE, RELAXATION_ENDS, RELAXATION_MODULI, SHORT_TEMPERATURES,
     STORAGE_ENDS, STORAGE_MODULI, TEMPERATURES, TIMES, bare, ending_of,
 };
+use super::csv_dialect::column_name;
 use super::data_error::DataError;
 use super::number_columns::without_preamble;
 use super::table::Table;
+use super::temperature_blocks::with_temperature_column;
 
 /// Temperatures of measurements, K.
 const SENSIBLE_TEMPERATURES: std::ops::RangeInclusive<f64> = 50.0..=1500.0;
@@ -190,6 +192,14 @@ impl Role {
         })
     }
 
+    fn is_abscissa(self) -> bool {
+        matches!(self, Self::Frequency | Self::AngularFrequency | Self::Time)
+    }
+
+    fn is_of_modulus(self) -> bool {
+        matches!(self, Self::Storage(_) | Self::Loss(_) | Self::Complex(_) | Self::Relaxation(_))
+    }
+
     fn modulus(self) -> Option<Modulus> {
         match self {
             Self::Storage(of) | Self::Loss(of) | Self::Complex(of) | Self::Relaxation(of) => of,
@@ -205,6 +215,9 @@ type OfModulus = fn(Option<Modulus>) -> Role;
 const COLUMNS: &str = "a table has a frequency [Hz] or omega [rad/s], and E' [MPa] with E'' [MPa] or tan_delta, or |E*| [MPa] \
                        with tan_delta; or a time [s] and E(t) [MPa]; G for shear; name the columns so, or say which they \
                        are, --columns storage_modulus=COLUMN";
+
+/// The units that a table may have.
+const UNITS: &str = "units are Hz, kHz, rad/s; s, ms, min, h; Pa, kPa, MPa, GPa, psi, ksi, dyn/cm^2, N/mm^2; °C, K, °F";
 
 /// The columns of a table by their roles.
 struct Columns<'a> {
@@ -293,14 +306,30 @@ impl Columns<'_> {
 }
 
 impl ModulusTable {
-    /// Returns the table of a text, without the lines above its header if there are any.
+    /// Returns the table of a text, without the lines above its header if there are any, and with a column of the temperatures above
+    /// blocks of rows.
     fn table(name: &str, text: &str) -> Result<Table, DataError> {
+        let role = |header: &String| Role::of(header, true);
+        let has_temperature = |table: &Table| {
+            table.header().iter().any(|it| matches!(role(it), Some(Role::Temperature(_))))
+        };
         let whole = Table::parse(name, text);
-        let is_known = |header: &String| Role::of(header, true).is_some();
-        match whole {
-            Ok(table) if table.header().iter().any(is_known) => Ok(table),
+        let found = match whole {
+            Ok(table) if table.header().iter().any(|it| role(it).is_some()) => Ok(table),
             whole => Table::parse(name, &without_preamble(text)).or(whole),
+        };
+        if found.as_ref().is_ok_and(has_temperature) {
+            return found;
         }
+        let is_header = |line: &str| {
+            let separators = if line.contains([',', ';', '\t']) { ",;\t" } else { " " };
+            let cells = line.split(|c: char| separators.contains(c)).map(column_name);
+            let roles: Vec<Role> = cells.filter_map(|cell| Role::of(&cell, false)).collect();
+            roles.iter().any(|it| it.is_of_modulus()) && roles.iter().any(|it| it.is_abscissa())
+        };
+        let blocks = with_temperature_column(text, is_header);
+        let blocks = blocks.and_then(|text| Table::parse(name, &text).ok());
+        blocks.filter(has_temperature).map_or(found, Ok)
     }
 
     /// Reads a table; messages refer to it by `name`, and `names` renames columns as [`Table::renamed`] does. `modulus` is the
@@ -336,12 +365,21 @@ impl ModulusTable {
             .collect();
         let columns = Columns { table: &table, roles };
         let missing = |what: &str| {
+            // A column of an unknown unit keeps the brackets in its name.
+            let is_of_unknown_unit = |(column, header): &(usize, &String)| {
+                let name = header.split(['[', '(']).next().map(|name| name.trim_end_matches('_'));
+                let is_role = name.is_some_and(|name| Role::of(name, has_frequency).is_some());
+                is_role && name != Some(header) && columns.roles.iter().all(|it| it.0 != *column)
+            };
+            if let Some((_, header)) = table.header().iter().enumerate().find(is_of_unknown_unit) {
+                let message = format!("the unit of the column {header} is not known");
+                return table.header_fault(message).with_help(UNITS);
+            }
             let found = table.header().join(", ");
             let message = format!("there is no column of {what}; found are {found}");
             table.header_fault(message).with_help(COLUMNS)
         };
-        let abscissa = columns
-            .find(|role| matches!(role, Role::Frequency | Role::AngularFrequency | Role::Time))?;
+        let abscissa = columns.find(Role::is_abscissa)?;
         let abscissa = abscissa.ok_or_else(|| missing("a frequency or a time"))?;
         let temperature = columns.find(|role| matches!(role, Role::Temperature(_)))?;
         let storage = columns.find(|role| matches!(role, Role::Storage(_)))?;

@@ -76,15 +76,19 @@ impl Table {
         let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
         if !header.is_empty() && header.iter().all(is_number) {
             let error = DataError::new(&name, "the first row is of numbers: there is no header");
-            return Err(error.in_line(header_line).with_help(
-                "write a line above it that names the columns, such as speed_m_s,restitution",
-            ));
+            return Err(error
+                .in_line(header_line)
+                .with_help("write a line above it that names the columns"));
         }
         let mut header = with_signs_named(header.iter().map(column_name).collect());
         let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+        let below: Vec<&str> = text.lines().skip(n_above).collect();
         for record in reader.records() {
+            // The reader counts comments above a row to the row.
             let place = |position: Option<&csv::Position>| {
-                n_above as u64 + position.map_or(0, csv::Position::line)
+                let first = position.map_or(0, csv::Position::line) as usize;
+                let above = below.iter().skip(first.saturating_sub(1));
+                (n_above + first + above.take_while(|line| !is_header(line)).count()) as u64
             };
             let record = record.map_err(|error| {
                 let line = place(error.position());

@@ -40,10 +40,12 @@ const MAX_DAMPING: f64 = 1e6;
 /// Standard uncertainty of a shift that the data do not determine, ln: a decade and a half.
 const WIDEST: f64 = 1.5 * std::f64::consts::LN_10;
 
-/// Returns the terms whose times, within a reach of ln τ about those given, and moduli meet the points best.
+/// Returns the terms whose times, within a reach of ln τ about those given, and moduli meet the points best. Residuals of losses count
+/// over `loss_scale`.
 pub(super) fn vary_times(
     kind: TestKind,
     points: &[ModulusPoint],
+    loss_scale: f64,
     times: &[f64],
     reach: f64,
 ) -> impl Iterator<Item = (f64, f64)> {
@@ -51,7 +53,7 @@ pub(super) fn vary_times(
     let shift_of = vec![None; points.len()];
     let joint =
         Joint { kind, points, shift_of, moving: vec![], blocks: &mut [], has_vertical: false };
-    let whitening = Matrix2::identity();
+    let whitening = Matrix2::from_diagonal(&nalgebra::Vector2::new(1.0, loss_scale.recip()));
     let problem = Problem { joint: &joint, times, reach, whitening, is_first: false };
     let (found, solved) = problem.minimise(times.iter().map(|time| time.ln()).collect());
     let moduli = solved.moduli.iter().copied().collect::<Vec<f64>>();

@@ -8,7 +8,8 @@
 //! \frac{M''(\omega_i)-\hat M''_i}{\sqrt{\hat M_i''^2+(0.01\,\hat M'_i)^2}},
 //! ```
 //!
-//! since an instrument measures a force amplitude to a share and a phase to an angle. The grid is the one of several spacings
+//! since an instrument measures a force amplitude to a share and a phase to an angle. If both scatter differently about the series, it is
+//! found once more with each over its own scatter. The grid is the one of several spacings
 //! and positions with the least Bayesian information criterion (Schwarz, *Ann. Stat.* 6 (1978) 461), n ln(S/n) + p ln n with
 //! the sum of squares S of n residuals and p < n parameters. Terms are then removed, and their times varied, as long as it falls.
 //!
@@ -40,6 +41,10 @@ const POSITIONS: [f64; 2] = [0.0, 0.5];
 pub(super) const ROUNDING: f64 = 1e-8;
 /// Terms whose times differ by a smaller factor are one.
 const MIN_RATIO: f64 = 1.3;
+/// Ratio of the scatter of both moduli below which they count alike: that of forty points is known to a sixth.
+const LEAST_CONTRAST: f64 = 1.25;
+/// Residuals per parameter that show the scatter of either modulus.
+const MIN_ROWS: usize = 3;
 /// Most products of residuals and terms for which the times are varied.
 const MAX_VARIED: usize = 40_000;
 
@@ -67,6 +72,8 @@ pub struct FittedSeries {
     pub instantaneous_uncertainty: f64,
     /// Standard uncertainty of the loss modulus at each point over its value, without that of shifts.
     pub loss_uncertainties: Vec<f64>,
+    /// Standard uncertainty of the storage modulus at the highest measured frequency over its value.
+    pub fastest_uncertainty: f64,
     /// Root mean square of the relative residuals.
     pub rms: f64,
 }
@@ -118,6 +125,7 @@ fn slope(kind: TestKind, at: f64, relaxation_time: f64) -> [f64; 2] {
 }
 
 /// A modulus that is to be met.
+#[derive(Clone, Copy)]
 struct Row {
     at: f64,
     part: usize,
@@ -143,6 +151,8 @@ impl Candidate {
 
 pub(super) struct Observations {
     kind: TestKind,
+    /// The factor of the scales of losses.
+    loss_scale: f64,
     rows: Vec<Row>,
 }
 
@@ -217,7 +227,7 @@ impl Observations {
             let is_oscillation = kind == TestKind::Oscillation;
             [Some(storage_row), is_oscillation.then_some(loss_row)]
         });
-        Self { kind, rows: rows.flatten().collect() }
+        Self { kind, loss_scale: 1.0, rows: rows.flatten().collect() }
     }
 
     /// Returns the measured modulus of a row over its scale.
@@ -333,7 +343,8 @@ impl Observations {
         if self.rows.len() * n > MAX_VARIED || 2 * n + 1 >= self.rows.len() {
             return best;
         }
-        let times = joined(vary_times(self.kind, points, &best.times, MARGIN.ln()));
+        let times =
+            joined(vary_times(self.kind, points, self.loss_scale, &best.times, MARGIN.ln()));
         let varied = self.pruned(self.solve(&times, 2));
         let varied = if varied.times.len() < n { self.varied(points, varied) } else { varied };
         // A grid of the best position has times that were chosen too.
@@ -385,44 +396,86 @@ pub(super) fn grid(
 
 /// Returns the series that the points determine. `density` is the number of terms per decade; by default the data choose it.
 pub fn fit_series(kind: TestKind, points: &[ModulusPoint], density: Option<f64>) -> FittedSeries {
-    let observations = Observations::of(kind, points);
-    let densities = density.map_or(DENSITIES.to_vec(), |density| vec![density]);
-    let grids =
-        densities.iter().flat_map(|d| POSITIONS.map(|position| grid(kind, points, *d, position)));
-    let candidates = grids.map(|times| observations.solve(&times, 1));
-    let mut best: Option<Candidate> = None;
-    for candidate in candidates {
-        if best.as_ref().is_none_or(|best| candidate.criterion < best.criterion) {
-            best = Some(candidate);
-        }
-    }
-    let best = best.unwrap_or_else(|| observations.solve(&[], 1));
-    let best = match density {
-        None => observations.varied(points, observations.pruned(best)),
-        Some(_) => best,
+    let plain = Observations::of(kind, points);
+    let first = plain.best(points, density);
+    let weighted = plain.weighted(&first);
+    let found = match &weighted {
+        Some(weighted) => weighted.series(&weighted.best(points, density)),
+        None => plain.series(&first),
     };
-    observations.series(&best)
+    let misfit: f64 = plain.residuals(&found).map(|it| it * it).sum();
+    FittedSeries { rms: (misfit / plain.rows.len() as f64).sqrt(), ..found }
 }
 
 impl Observations {
-    /// Returns the relative standard uncertainties of the loss modulus at all points, by the covariance of the moduli, and of the times if
-    /// it has these.
-    fn loss_uncertainties(&self, best: &Candidate, covariance: &DMatrix<f64>) -> Vec<f64> {
+    /// Returns the moduli with the least criterion.
+    fn best(&self, points: &[ModulusPoint], density: Option<f64>) -> Candidate {
+        let densities = density.map_or(DENSITIES.to_vec(), |density| vec![density]);
+        let grids = densities
+            .iter()
+            .flat_map(|d| POSITIONS.map(|position| grid(self.kind, points, *d, position)));
+        let candidates = grids.map(|times| self.solve(&times, 1));
+        let mut best: Option<Candidate> = None;
+        for candidate in candidates {
+            if best.as_ref().is_none_or(|best| candidate.criterion < best.criterion) {
+                best = Some(candidate);
+            }
+        }
+        let best = best.unwrap_or_else(|| self.solve(&[], 1));
+        match density {
+            None => self.varied(points, self.pruned(best)),
+            Some(_) => best,
+        }
+    }
+
+    /// Returns the residuals of a series over their scales.
+    fn residuals(&self, series: &FittedSeries) -> impl Iterator<Item = f64> {
+        self.rows
+            .iter()
+            .map(|row| (series.moduli(self.kind, row.at)[row.part] - row.value) / row.scale)
+    }
+
+    /// Returns the moduli with scales of the losses that make their scatter about a series that of the storage moduli; `None` for a
+    /// relaxation test, for few moduli, and if both scatter alike.
+    fn weighted(&self, found: &Candidate) -> Option<Self> {
+        if self.kind == TestKind::Relaxation || self.rows.len() < MIN_ROWS * found.n_parameters() {
+            return None;
+        }
+        let mut squares = [ROUNDING * ROUNDING; 2];
+        for (row, residual) in self.rows.iter().zip(self.residuals(&self.series(found))) {
+            squares[row.part] += residual * residual;
+        }
+        let ratio = (squares[1] / squares[0]).sqrt();
+        if ratio.max(ratio.recip()) < LEAST_CONTRAST {
+            return None;
+        }
+        let rows = self.rows.iter().map(|row| {
+            let factor = if row.part == 1 { ratio } else { 1.0 };
+            Row { scale: factor * row.scale, ..*row }
+        });
+        Some(Self { kind: self.kind, loss_scale: ratio * self.loss_scale, rows: rows.collect() })
+    }
+
+    /// Returns the relative standard uncertainties of a part of the complex modulus at all points, by the covariance of the moduli, and of the
+    /// times if it has these.
+    fn uncertainties(&self, best: &Candidate, covariance: &DMatrix<f64>, part: usize) -> Vec<f64> {
         let n = best.times.len();
         let of_row = |row: &Row| {
             let at = if self.kind == TestKind::Oscillation { row.at } else { row.at.recip() };
             let mut slopes = DVector::zeros(covariance.nrows());
-            let mut loss = 0.0;
+            slopes[n] = [1.0, 0.0][part];
+            let mut modulus = best.moduli[n] * slopes[n];
             for k in 0..n {
                 let time = best.times[k];
-                slopes[k] = element(TestKind::Oscillation, at, time)[1];
-                loss += best.moduli[k] * slopes[k];
+                slopes[k] = element(TestKind::Oscillation, at, time)[part];
+                modulus += best.moduli[k] * slopes[k];
                 if slopes.len() > n + 1 {
-                    slopes[n + 1 + k] = best.moduli[k] * slope(TestKind::Oscillation, at, time)[1];
+                    slopes[n + 1 + k] =
+                        best.moduli[k] * slope(TestKind::Oscillation, at, time)[part];
                 }
             }
             let variance = (slopes.transpose() * covariance * slopes)[0];
-            variance.max(0.0).sqrt() / loss
+            variance.max(0.0).sqrt() / modulus
         };
         self.rows.iter().filter(|row| row.part == 0).map(of_row).collect()
     }
@@ -445,10 +498,17 @@ impl Observations {
             uncertainty: uncertainty(k),
         });
         let loss_uncertainties =
-            covariance.as_ref().map_or_else(Vec::new, |it| self.loss_uncertainties(best, it));
+            covariance.as_ref().map_or_else(Vec::new, |it| self.uncertainties(best, it, 1));
+        let of_storage =
+            covariance.as_ref().map_or_else(Vec::new, |it| self.uncertainties(best, it, 0));
+        let rate =
+            |row: &Row| if self.kind == TestKind::Oscillation { row.at } else { row.at.recip() };
+        let rates = self.rows.iter().filter(|row| row.part == 0).map(rate);
+        let fastest = rates.zip(of_storage).max_by(|a, b| a.0.total_cmp(&b.0));
         let misfit = self.linear(&best.times).misfit(&best.moduli);
         FittedSeries {
             loss_uncertainties,
+            fastest_uncertainty: fastest.map_or(f64::NAN, |it| it.1),
             equilibrium_modulus: best.moduli[n],
             equilibrium_uncertainty: uncertainty(n),
             terms: terms.collect(),

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use fem_material::engineering::{Unit, show};
+use fem_material::engineering::{Unit, number, show};
 use fem_material::{ShiftLaw, ZERO_CELSIUS};
 use fem_simulation::results::PROGRAM;
 
@@ -11,6 +11,8 @@ use super::superposition::{FittedShift, Superposition};
 use crate::calibrate::stored_calibration::{shift_toml, toml_key};
 use crate::measured::{ModulusPoint, TestKind};
 
+/// Smaller shares of a modulus are rounding.
+const LEAST_UNCERTAINTY: f64 = 1e-5;
 /// The gas constant, J/(mol K), exact by the SI of 2019.
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
@@ -107,6 +109,7 @@ impl FoundRelaxation {
             "band_hz": self.band(),
             "instantaneous_modulus_pa": whole,
             "instantaneous_modulus_uncertainty_pa": series.instantaneous_uncertainty,
+            "fastest_modulus_relative_uncertainty": series.fastest_uncertainty,
             "equilibrium_modulus_pa": series.equilibrium_modulus,
             "equilibrium_modulus_uncertainty_pa": series.equilibrium_uncertainty,
             "terms": terms.collect::<Value>(),
@@ -160,7 +163,8 @@ impl FoundRelaxation {
     }
 
     /// Returns the table of the material as text to paste into a case file, without `relaxation`; density (kg/m³) and
-    /// Poisson's ratio are comments if they are not given.
+    /// Poisson's ratio are comments if they are not given. The uncertainty of the modulus is that of the scale of all moduli, by the storage
+    /// modulus at the highest measured frequency: the weights have that of faster terms.
     pub fn material_toml(
         &self,
         name: &str,
@@ -168,7 +172,13 @@ impl FoundRelaxation {
         poissons_ratio: Option<f64>,
     ) -> String {
         let whole = self.series.instantaneous_modulus();
-        let modulus = Unit::fitting(whole, "Pa").with_digits(6).show(whole);
+        let unit = Unit::fitting(whole, "Pa");
+        let own = whole * self.series.fastest_uncertainty;
+        let uncertainty = match (LEAST_UNCERTAINTY * whole..whole).contains(&own) {
+            true => format!(" ± {}", number(unit.scaled(own), 2)),
+            false => String::new(),
+        };
+        let modulus = format!("{}{uncertainty} {}", number(unit.scaled(whole), 6), unit.symbol());
         let given = |key: &str, value: Option<String>, example: &str| match value {
             Some(value) => format!("{key} = {value}\n"),
             None => format!("# {key} = {example}\n"),

@@ -247,6 +247,9 @@ fn a_range_may_be_of_temperatures() {
     let table = place.text("runs/sweep/sweep.csv");
     let texts: Vec<_> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
     assert_eq!(texts, ["-20 degC", "0 degC", "20 degC"]);
+    // The picture has the scale of the user.
+    let svg = place.text("runs/sweep/sweep.svg");
+    assert!(svg.contains(">temperature [°C]<") && svg.contains(">−20<"), "{svg}");
 }
 
 /// Ends of a range in two units of one quantity: the ends are as written, the others in the unit of the
