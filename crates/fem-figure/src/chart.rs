@@ -8,10 +8,13 @@ use kuva::prelude::{BandPlot, Layout, LinePlot, Plot, ScatterPlot, TickFormat};
 
 use crate::clip::runs;
 use crate::curve::{Curve, LineStyle, Mark};
+use crate::scale::narrow_step;
 use crate::style::{COLOURS, decade, tick};
 
 /// Factor of free space beside the data on a logarithmic axis.
 const MARGIN: f64 = 1.2;
+/// Most ticks of a logarithmic axis that has hardly any round value.
+const N_TICKS: usize = 6;
 const LINE_WIDTH: f64 = 1.5;
 const POINT_SIZE: f64 = 3.5;
 const ERROR_BAR_WIDTH: f64 = 1.0;
@@ -197,9 +200,15 @@ impl Chart {
         }
         if let Some((from, to)) = self.x.limits(all.iter().map(|point| point.0)) {
             layout = layout.with_x_axis_min(from).with_x_axis_max(to);
+            if let Some(step) = narrow_step((from, to), N_TICKS).filter(|_| self.x.is_logarithmic) {
+                layout = layout.with_x_tick_step(step);
+            }
         }
         if let Some((from, to)) = self.y.limits(all.iter().map(|point| point.1)) {
             layout = layout.with_y_axis_min(from).with_y_axis_max(to);
+            if let Some(step) = narrow_step((from, to), N_TICKS).filter(|_| self.y.is_logarithmic) {
+                layout = layout.with_y_tick_step(step);
+            }
             // Places the axis label beside the numbers of this range.
             layout.y_range = (from, to);
         }

@@ -65,16 +65,29 @@ impl Scale {
         if !self.is_logarithmic {
             return ticks((self.from, self.to), n);
         }
-        let decades = (self.to / self.from).log10();
-        let digits: &[f64] = if decades < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let (first, last) = (self.from.log10().floor() as i32, self.to.log10().ceil() as i32);
-        let stride = ((decades / n as f64).ceil() as usize).max(1);
-        let powers = (first..=last).step_by(stride);
-        let all = powers.flat_map(|power| digits.iter().map(move |d| d * 10f64.powi(power)));
-        let round: Vec<f64> = all.filter(|value| (self.from..=self.to).contains(value)).collect();
-        // A narrow range has few of them, or none.
-        if round.len() < FEWEST { ticks((self.from, self.to), n) } else { round }
+        let range = (self.from, self.to);
+        match narrow_step(range, n) {
+            Some(_) => ticks(range, n),
+            None => round_values(range, n),
+        }
     }
+}
+
+/// Returns powers of ten within a positive range, and 2 and 5 times these if there are few.
+fn round_values((from, to): (f64, f64), n: usize) -> Vec<f64> {
+    let decades = (to / from).log10();
+    let digits: &[f64] = if decades < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let (first, last) = (from.log10().floor() as i32, to.log10().ceil() as i32);
+    let stride = ((decades / n as f64).ceil() as usize).max(1);
+    let powers = (first..=last).step_by(stride);
+    let all = powers.flat_map(|power| digits.iter().map(move |d| d * 10f64.powi(power)));
+    all.filter(|value| (from..=to).contains(value)).collect()
+}
+
+/// Returns the step of at most about `n` equidistant ticks for a logarithmic axis whose range has hardly any round value.
+pub(crate) fn narrow_step((from, to): (f64, f64), n: usize) -> Option<f64> {
+    let is_narrow = from > 0.0 && from < to && round_values((from, to), n).len() < FEWEST;
+    is_narrow.then(|| Levels::about_zero(0.0, to - from, n).step())
 }
 
 /// Returns multiples of 1, 2 or 5 times a power of ten within a range, with at most `n` intervals; none for
@@ -93,6 +106,8 @@ pub(crate) fn ticks((from, to): (f64, f64), n: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chart::Chart;
+    use crate::curve::Curve;
 
     #[test]
     fn ticks_are_round_and_within() {
@@ -130,5 +145,9 @@ mod tests {
             assert_eq!(found.len(), expected.len(), "{found:?}");
             assert!(found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-12));
         }
+        let curve = Curve::points("E", vec![(1.0, 4.2), (2.0, 4.8)]);
+        let chart = Chart::new(Axis::new("f"), Axis::new("E").logarithmic()).with(curve);
+        let svg = crate::svg(&[chart]).unwrap();
+        assert!([">3.5<", ">4<", ">4.5<", ">5<"].iter().all(|tick| svg.contains(tick)), "{svg}");
     }
 }

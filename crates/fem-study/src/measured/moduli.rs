@@ -369,7 +369,9 @@ impl ModulusTable {
             let is_of_unknown_unit = |(column, header): &(usize, &String)| {
                 let name = header.split(['[', '(']).next().map(|name| name.trim_end_matches('_'));
                 let is_role = name.is_some_and(|name| Role::of(name, has_frequency).is_some());
-                is_role && name != Some(header) && columns.roles.iter().all(|it| it.0 != *column)
+                is_role
+                    && header.ends_with([')', ']'])
+                    && columns.roles.iter().all(|it| it.0 != *column)
             };
             if let Some((_, header)) = table.header().iter().enumerate().find(is_of_unknown_unit) {
                 let message = format!("the unit of the column {header} is not known");
