@@ -86,7 +86,9 @@ pub fn nearest_to(name: &str) -> Option<&'static str> {
         let part = nearest(name, &parts, 0.9)?;
         names.iter().find(|known| known.split('-').any(|own| own == part)).copied()
     };
-    near.or(within.copied())
+    // PDMS is in a title, and nearly EPDM.
+    near.filter(|_| within.is_some() || titled().is_none())
+        .or(within.copied())
         .or_else(titled)
         .or_else(of_part)
         .and_then(|near| materials().get_key_value(near))

@@ -24,7 +24,7 @@ fn heading(line: &str) -> Option<(f64, &'static str)> {
 }
 
 /// Returns a text whose blocks of rows have temperatures above them with a column of these instead; the lines keep their numbers. Names
-/// and units of the columns may stand above all blocks or above each. `is_header` tells the line of the names. `None` if a row has no
+/// and units of the columns may stand above all blocks or above each. `is_header` is true of the line of the names. `None` if a row has no
 /// temperature above it, or the units of the temperatures differ.
 pub(super) fn with_temperature_column(
     text: &str,

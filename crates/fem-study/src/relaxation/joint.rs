@@ -204,7 +204,7 @@ impl<'a> Joint<'a> {
 struct Problem<'a> {
     joint: &'a Joint<'a>,
     times: &'a [f64],
-    /// How far ln of a relaxation time may go from that in `times`.
+    /// Largest change of ln of a relaxation time from that in `times`.
     reach: f64,
     whitening: Matrix2<f64>,
     /// Whether losses count over |E*|.

@@ -238,7 +238,7 @@ fn blocks_below_temperatures_are_a_column_of_temperatures() {
     assert_eq!(minutes.unwrap().points[0].at, 60.0);
 }
 
-/// As many parameters as moduli leave nothing to tell their uncertainty by.
+/// As many parameters as moduli would leave no residual, and no uncertainty.
 #[test]
 fn a_series_has_fewer_parameters_than_the_table_has_moduli() {
     let found = read("f [Hz],E' [MPa],E'' [MPa]\n1,10,3\n100,20,4\n").unwrap();

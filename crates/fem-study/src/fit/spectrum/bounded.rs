@@ -43,7 +43,7 @@ impl Linear {
     }
 
     /// Returns the problem as [`Linear::compressed`] does, by the products of the columns, which is much faster; half of the digits of the
-    /// columns remain. If that is not enough to tell the columns apart, the result is that of [`Linear::compressed`].
+    /// columns remain. If that is not enough to distinguish the columns, the result is that of [`Linear::compressed`].
     pub fn compressed_by_products(&self) -> Self {
         let n = self.a.ncols();
         let mut whole = self.a.clone().insert_column(n, 0.0);
