@@ -148,6 +148,6 @@ mod tests {
         let curve = Curve::points("E", vec![(1.0, 4.2), (2.0, 4.8)]);
         let chart = Chart::new(Axis::new("f"), Axis::new("E").logarithmic()).with(curve);
         let svg = crate::svg(&[chart]).unwrap();
-        assert!([">3.5<", ">4<", ">4.5<", ">5<"].iter().all(|tick| svg.contains(tick)), "{svg}");
+        assert!([">4<", ">4.5<", ">5<", ">5.5<"].iter().all(|tick| svg.contains(tick)));
     }
 }

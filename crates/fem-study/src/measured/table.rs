@@ -76,9 +76,10 @@ impl Table {
         let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
         if !header.is_empty() && header.iter().all(is_number) {
             let error = DataError::new(&name, "the first row is of numbers: there is no header");
-            return Err(error
-                .in_line(header_line)
-                .with_help("write a line above it that names the columns"));
+            return Err(error.in_line(header_line).with_help(
+                "write a line above it that names the columns, such as speed_m_s,restitution or \
+                 frequency_hz,storage_modulus_mpa,loss_modulus_mpa",
+            ));
         }
         let mut header = with_signs_named(header.iter().map(column_name).collect());
         let mut rows: Vec<(u64, Vec<String>)> = Vec::new();

@@ -20,7 +20,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Matrix2};
 use crate::fit::spectrum::bounded::{Linear, non_negative};
 use crate::measured::{ModulusPoint, TestKind};
 
-use super::series::{Observations, ROUNDING, grid, joined};
+use super::series::{Observations, ROUNDING, compressed_by_products, grid, joined};
 use super::superposition::{Block, reduced};
 
 /// Terms per decade of the series of all blocks.
@@ -306,7 +306,7 @@ impl Problem<'_> {
         rows.set_column(n, &plain.b);
         self.joint.whiten(&mut rows, &self.whitening);
         let linear = Linear { b: rows.column(n).into_owned(), a: rows.remove_column(n) };
-        let small = linear.compressed_by_products();
+        let small = compressed_by_products(&linear);
         let moduli = non_negative(&small.a, &small.b);
         let residuals = &linear.a * &moduli - &linear.b;
         Solved { observations, linear, moduli, residuals }

@@ -18,7 +18,7 @@ use crate::fit::spectrum::bounded::non_negative;
 use crate::measured::{ModulusPoint, TestKind};
 
 use super::joint::Joint;
-use super::series::{Observations, grid};
+use super::series::{Observations, compressed_by_products, grid};
 
 /// Terms per decade of the series of two blocks.
 const DENSITY: f64 = 3.0;
@@ -238,9 +238,8 @@ fn scanned_shift(
         let second = second.iter().map(|point| reduced(kind, point, ln_shift, 0.0));
         let both: Vec<ModulusPoint> = first.iter().copied().chain(second).collect();
         let times = grid(kind, &both, DENSITY, 0.0);
-        let linear = Observations::over_magnitude(kind, &both)
-            .linear_of_all(&times)
-            .compressed_by_products();
+        let linear = Observations::over_magnitude(kind, &both).linear_of_all(&times);
+        let linear = compressed_by_products(&linear);
         linear.misfit(non_negative(&linear.a, &linear.b).as_slice())
     };
     let width = 2.0 * REACH * std::f64::consts::LN_10 / N_SCANNED as f64;

@@ -286,6 +286,7 @@ fn hostile_tables_have_one_clear_answer() {
         ),
         ("f [Hz],E' [MPa],E' [GPa],E''\n1,2000,2,10\n".into(), "mean the same"),
         ("E' [MPa],E'' [MPa]\n2000,100\n".into(), "no column of a frequency or a time"),
+        ("1,2000,100\n10,2100,100\n".into(), "there is no header|such as|storage_modulus_mpa"),
         ("t [s],force\n1,2\n".into(), "there is no column of the relaxation modulus"),
         (
             "t [s],E [MPa]\n1,2000\n10,2500\n".into(),

@@ -83,7 +83,7 @@ fn temperatures_become_a_master_curve() {
     let place = Place::new();
     place.write("polymer.csv", include_str!("../../../../../validation/data/dma_polymer.csv"));
     let ran = place.succeed("relaxation polymer.csv");
-    ran.prints("WLF: C1 = 11.8|Arrhenius: activation energy|-10.0 °C   4.0|1.068 MHz");
+    ran.prints("WLF: C1 = 11.8|Arrhenius: activation energy|-10.0 °C   4.0|1.070 MHz");
     let numbers = place.json("runs/polymer_relaxation/relaxation.json");
     let wlf = &numbers["superposition"]["wlf"];
     let of = |key: &str| wlf[key].as_f64().unwrap();

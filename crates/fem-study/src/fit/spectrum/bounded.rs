@@ -5,15 +5,12 @@
 //! the data (exact to 1e-6 of a multiplier). Non-negative least squares follow Lawson & Hanson,
 //! *Solving Least Squares Problems*, ch. 23.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 
 /// Weight of the constraints, over the norm of the data's rows.
 const HEAVY: f64 = 1e3;
 /// Ridge over that norm that makes every set of columns independent.
 const MIN_RIDGE: f64 = 1e-8;
-
-/// Least share of a column that the columns before it leave if it is told from them by products.
-const MIN_PIVOT: f64 = 1e-5;
 
 /// Residuals a w − b, linear in the weights.
 #[derive(Debug, Clone)]
@@ -40,21 +37,6 @@ impl Linear {
         whole.set_column(n, &self.b);
         let r = whole.qr().r();
         Self { a: r.columns(0, n).into_owned(), b: r.column(n).into_owned() }
-    }
-
-    /// Returns the problem as [`Linear::compressed`] does, by the products of the columns, which is much faster; half of the digits of the
-    /// columns remain. If that is not enough to distinguish the columns, the result is that of [`Linear::compressed`].
-    pub fn compressed_by_products(&self) -> Self {
-        let n = self.a.ncols();
-        let mut whole = self.a.clone().insert_column(n, 0.0);
-        whole.set_column(n, &self.b);
-        let factor = Cholesky::new(whole.transpose() * &whole).map(|factor| factor.l().transpose());
-        let is_enough =
-            |r: &DMatrix<f64>| (0..n).all(|k| r[(k, k)] > MIN_PIVOT * r.column(k).norm());
-        match factor.filter(is_enough) {
-            Some(r) => Self { a: r.columns(0, n).into_owned(), b: r.column(n).into_owned() },
-            None => self.compressed(),
-        }
     }
 
     /// Returns the weights with the least misfit plus λ² Σ w²; a combination c·w may be held at a value.
