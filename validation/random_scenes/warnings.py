@@ -7,6 +7,7 @@ many warnings the run had, the kinds, and what was left after the remedies.
 """
 
 import csv
+import re
 import subprocess
 import sys
 import tempfile
@@ -74,8 +75,10 @@ def remedies(warning, summary):
         rate = "flow.rate.johnson_cook={ c = 0, reference_rate = 1 }"
         said = warning.split(" does not depend")[0]
         return [f"material.'{material}'.{rate}" for name, material in bodies.items() if said.endswith(name)]
-    if 'set mesh.contact_element_size = "' in warning:
-        return [f"mesh.contact_element_size='{warning.split('set mesh.contact_element_size = ')[1].split(chr(34))[1]}'"]
+    if given := re.search(r'set (mesh\.\w+) = "(.*?)"', warning):
+        return [f"{given[1]}='{given[2]}'"]
+    if "force finite strain on" in warning:
+        return ["effects.finite_strain='on'"]
     if "set material.NAME.hyperelastic" in warning:
         return [f"material.'{name}'.hyperelastic='neo-hooke'" for name in materials if "flow" not in materials[name]]
     return []

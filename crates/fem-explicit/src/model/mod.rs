@@ -225,17 +225,31 @@ impl ExplicitBodies {
     /// Returns the time after first touch (s) at which waves can be back at the contact from the far boundary of a
     /// half-space; `None` without a half-space.
     pub(crate) fn waves_return(&self) -> Option<f64> {
-        let returns = self.bodies.iter().filter_map(|body| {
-            let way = body.mesh()?.far_radius()? - self.candidate_radius();
+        let returns = self.far_boundaries().map(|(radius, speed)| {
+            let way = radius - self.candidate_radius();
+            2.0 * way / speed
+        });
+        returns.reduce(f64::min)
+    }
+
+    /// Returns the far radius (m) of half-spaces from whose boundary no wave returns within a time after first touch, s.
+    pub(crate) fn far_radius_without_return(&self, time: f64) -> f64 {
+        let ways = self.far_boundaries().map(|(_, speed)| 0.5 * speed * time);
+        self.candidate_radius() + ways.fold(0.0, f64::max)
+    }
+
+    /// Returns the far radius (m) of each half-space or plate, and the speed of the waves that matter there, m/s.
+    fn far_boundaries(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.bodies.iter().filter_map(|body| {
+            let radius = body.mesh()?.far_radius()?;
             let material = body.material()?;
             // Bending waves carry what matters in a plate, and none is faster than shear waves.
             let speed = match body.mesh()?.thickness() {
                 Some(_) => material.shear_wave_speed(),
                 None => material.dilatational_wave_speed(),
             };
-            Some(2.0 * way / speed)
-        });
-        returns.reduce(f64::min)
+            Some((radius, speed))
+        })
     }
 
     /// Returns how the bodies meet. Free flight before first touch is not stepped.

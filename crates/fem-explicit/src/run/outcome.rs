@@ -123,11 +123,14 @@ fn run_warnings(model: &ExplicitBodies, run: &RunState, ending: &Ending) -> Vec<
     let ends = run.log.first_contact.zip(run.log.last_contact).filter(|_| !is_together);
     let returned =
         ends.zip(model.waves_return()).filter(|((first, last), time)| last - first > *time);
-    let waves = returned.map(|(_, time)| {
+    let waves = returned.map(|((first, last), time)| {
+        // The contact lasts a little longer or shorter on another mesh.
+        let enough = model.far_radius_without_return(1.05 * (last - first));
         format!(
             "{} after first touch waves that were reflected at the end of the mesh of a half-space or plate were back at \
-             the contact; an unbounded body reflects none: set a larger far radius",
-            show(time, "s")
+             the contact; an unbounded body reflects none: set mesh.far_radius = \"{}\" or more",
+            show(time, "s"),
+            show(enough, "m")
         )
     });
     unstable.into_iter().chain(ending.together_warning()).chain(waves).collect()

@@ -238,7 +238,7 @@ fn no_waves_return() {
 fn a_far_boundary_that_is_too_near_is_reported() {
     let run = Ball { reach: 0.2, ..Ball::default() }.run();
     assert!(
-        run.warnings.len() == 1 && run.warnings[0].contains("far radius"),
+        run.warnings.len() == 1 && run.warnings[0].contains("set mesh.far_radius = \""),
         "{:?}",
         run.warnings
     );

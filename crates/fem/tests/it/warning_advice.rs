@@ -15,13 +15,14 @@ const RUBBER: &str =
 const EARLY: &str =
     "material.glass.relaxation={acts_on='all', terms=[{weight=0.99, relaxation_time='0.1 us'}]}";
 const FALLING: &str = "gravity={acceleration=9.81}";
+const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
 const HELD: &str =
     "body.0={name='floor', sphere={diameter='22.2 mm'}, material='glass', held=true}";
 
 /// A case, its overrides, words of the warning, and the number of changes that the warning advises.
 type Row = (&'static str, &'static [&'static str], &'static str, usize);
 
-const ROWS: [Row; 31] = [
+const ROWS: [Row; 32] = [
     (
         GLASS,
         &[
@@ -78,6 +79,12 @@ const ROWS: [Row; 31] = [
         1,
     ),
     (GLASS, &[EARLY, CONDENSED], "largest early", 1),
+    (
+        GLASS,
+        &[BLOCK, "body.1.approach_speed='0.5 m/s'", "mesh.far_radius='2 cm'"],
+        "waves that were reflected",
+        1,
+    ),
     (GLASS, &[CONDENSED, "body.0.approach_speed=5"], "without plastic flow", 1),
     (SOFT, &["limits.element_updates=4e6"], "because of the mesh", 2),
     (
