@@ -11,6 +11,8 @@ use crate::simulation::Simulation;
 const GROWTH_OF_UPDATES: [f64; 2] = [1.35, 9.0];
 /// Smallest and largest growth of the number of elements, which is of second order.
 const GROWTH_OF_ELEMENTS: [f64; 2] = [1.2, 4.5];
+/// Largest work of a mesh that is advised over that of a mesh to which the program refines by itself.
+const ADVISED_OVER_AUTOMATIC: f64 = 10.0;
 /// Power of the number of elements with which the time of condensed bodies grows: 0.85 to 1.2 was measured for four pairs
 /// with 700 to 150,000 elements.
 const TIME_POWER_OF_ELEMENTS: f64 = 1.2;
@@ -53,10 +55,10 @@ fn most_over_present(simulation: &Simulation) -> Option<f64> {
     Some(most as f64 / present as f64)
 }
 
-/// Returns the ratio by which elements may become smaller without the cost of a finer mesh being too large: element
-/// updates grow with its third power, elements with its second.
+/// Returns the ratio by which elements may become smaller on a mesh that is advised: element updates grow with its third
+/// power, elements with its second.
 pub(super) fn affordable_ratio(simulation: &Simulation) -> f64 {
-    let most = most_over_present(simulation).unwrap_or(0.0);
+    let most = ADVISED_OVER_AUTOMATIC * most_over_present(simulation).unwrap_or(0.0);
     match simulation.setup().cost {
         Cost::Factors { .. } => most.sqrt(),
         _ => most.cbrt(),

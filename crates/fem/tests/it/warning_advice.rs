@@ -13,7 +13,7 @@ const RUBBER: &str =
     "material.rubber={density=1100, youngs_modulus='1.5 MPa', poissons_ratio=0.49}";
 
 const EARLY: &str =
-    "material.glass.relaxation={acts_on='all', terms=[{weight=0.99, relaxation_time='0.1 us'}]}";
+    "material.glass.relaxation={acts_on='all', terms=[{weight=0.99, relaxation_time='0.3 us'}]}";
 const FALLING: &str = "gravity={acceleration=9.81}";
 const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
 const HELD: &str =
