@@ -6,6 +6,7 @@
 
 use fem_case::engineering::number;
 use fem_case::{Body, ModelChoice, Scene, Switch};
+use fem_collision::QuantityOfInterest;
 use fem_laws::{HertzImpact, Ting, radiated_share};
 use fem_material::Material;
 
@@ -220,7 +221,9 @@ impl Effect for PartnerWaves {
         (share > 0.0).then(|| NeglectError::restitution(lost(share)))
     }
 
-    /// The radiation term has a relative error; a mesh resolves the waves.
+    /// The radiation term has a relative error; a mesh resolves the waves. The term and what is neglected without it leave
+    /// out the motion of the whole body, which has no time to come about where waves cross it about once: elements lose
+    /// between the term's loss and that of a half-space, at ν = 0.44 and T c_s/D = 0.98 1.6 times the term's.
     fn model_form_error(
         &self,
         scene: &Scene,
@@ -241,7 +244,11 @@ impl Effect for PartnerWaves {
             peak_force_n: neglect_error.peak_force_n.or(shares.peak_force_n),
             ..neglect_error
         };
-        complete.of_all_quantities(estimate).times(part)
+        let own_motion =
+            neglect_error.restitution.map(|loss| Self::loss(scene, estimate) - loss.abs());
+        let of_restitution = QuantityErrors::ZERO
+            .with(QuantityOfInterest::Restitution, own_motion.unwrap_or(0.0).max(0.0));
+        complete.of_all_quantities(estimate).times(part).plus(of_restitution)
     }
 }
 
