@@ -4,9 +4,9 @@
 Draws scenes until the time is over: diameters from 1 mm to 10 cm with ratios up to thirty, moduli over four decades,
 densities with ratios up to thirty, Poisson's ratios from -0.3 to 0.48, speeds of 1e-6 to 5e-4 of that of waves, up to
 three relaxation times. A tenth is on a wall, a tenth on a half-space, a tenth of like bodies. Explicit elements,
-condensed bodies and Ting's impact are run by default and compared with explicit elements at a tolerance of 0.3 %,
+condensed bodies and Ting's impact are run by default and compared with explicit elements at a tolerance of 0.2 %,
 within the sum of both error bars, those for neglected effects included; condensed bodies are also compared with
-their own run at 0.3 %, within the bars of discretisation. A row has the scene, the model, how it ended, and for each quantity its
+their own run at 0.2 %, within the bars of discretisation. A row has the scene, the model, how it ended, and for each quantity its
 value, the reference, and the bars of both.
 """
 
@@ -14,7 +14,7 @@ import random
 
 from scenes import QUANTITIES, bars, bodies, run, study
 
-FINE = ["accuracy.tolerance='0.3 %'", "limits.element_updates=1e10"]
+FINE = ["accuracy.tolerance='0.2 %'", "limits.element_updates=1e10"]
 COMPARED = [("fem", "fem"), ("condensed", "condensed"), ("condensed", "fem"), ("ting", "fem")]
 
 
@@ -56,7 +56,7 @@ def compare(program, folder):
     for name in ("fem", "condensed", "ting"):
         runs[name] = run(program, folder, [f"model='{name}'"])
     for name in ("fem", "condensed"):
-        runs[name + " fine"] = run(program, folder, [f"model='{name}'", *FINE], 30)
+        runs[name + " fine"] = run(program, folder, [f"model='{name}'", *FINE], 60)
     for model, reference in COMPARED:
         (ours, why), (fine, why_fine) = runs[model], runs[reference + " fine"]
         pair = [model, reference]
