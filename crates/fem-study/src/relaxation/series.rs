@@ -150,6 +150,25 @@ impl Candidate {
     fn n_parameters(&self) -> usize {
         self.per_term * self.times.len() + 1
     }
+
+    /// Returns the relative standard uncertainty of a part of the complex modulus at an angular frequency, 1/s, by the covariance of the
+    /// moduli, and of the times if it has these.
+    fn relative_uncertainty(&self, covariance: &DMatrix<f64>, rate: f64, part: usize) -> f64 {
+        let n = self.times.len();
+        let mut slopes = DVector::zeros(covariance.nrows());
+        slopes[n] = [1.0, 0.0][part];
+        let mut modulus = self.moduli[n] * slopes[n];
+        for k in 0..n {
+            let time = self.times[k];
+            slopes[k] = element(TestKind::Oscillation, rate, time)[part];
+            modulus += self.moduli[k] * slopes[k];
+            if slopes.len() > n + 1 {
+                slopes[n + 1 + k] = self.moduli[k] * slope(TestKind::Oscillation, rate, time)[part];
+            }
+        }
+        let variance = (slopes.transpose() * covariance * slopes)[0];
+        variance.max(0.0).sqrt() / modulus
+    }
 }
 
 pub(super) struct Observations {
@@ -473,28 +492,13 @@ impl Observations {
         Some(Self { kind: self.kind, loss_scale: ratio * self.loss_scale, rows: rows.collect() })
     }
 
-    /// Returns the relative standard uncertainties of a part of the complex modulus at all points, by the covariance of the moduli, and of the
-    /// times if it has these.
-    fn uncertainties(&self, best: &Candidate, covariance: &DMatrix<f64>, part: usize) -> Vec<f64> {
-        let n = best.times.len();
-        let of_row = |row: &Row| {
-            let at = if self.kind == TestKind::Oscillation { row.at } else { row.at.recip() };
-            let mut slopes = DVector::zeros(covariance.nrows());
-            slopes[n] = [1.0, 0.0][part];
-            let mut modulus = best.moduli[n] * slopes[n];
-            for k in 0..n {
-                let time = best.times[k];
-                slopes[k] = element(TestKind::Oscillation, at, time)[part];
-                modulus += best.moduli[k] * slopes[k];
-                if slopes.len() > n + 1 {
-                    slopes[n + 1 + k] =
-                        best.moduli[k] * slope(TestKind::Oscillation, at, time)[part];
-                }
-            }
-            let variance = (slopes.transpose() * covariance * slopes)[0];
-            variance.max(0.0).sqrt() / modulus
+    /// Returns the angular frequencies of the points, in a relaxation test the inverse times, 1/s.
+    fn rates(&self) -> impl Iterator<Item = f64> {
+        let rate = |row: &Row| match self.kind {
+            TestKind::Oscillation => row.at,
+            TestKind::Relaxation => row.at.recip(),
         };
-        self.rows.iter().filter(|row| row.part == 0).map(of_row).collect()
+        self.rows.iter().filter(|row| row.part == 0).map(rate)
     }
 
     fn series(&self, best: &Candidate) -> FittedSeries {
@@ -514,18 +518,16 @@ impl Observations {
             modulus: best.moduli[k],
             uncertainty: uncertainty(k),
         });
-        let loss_uncertainties =
-            covariance.as_ref().map_or_else(Vec::new, |it| self.uncertainties(best, it, 1));
-        let of_storage =
-            covariance.as_ref().map_or_else(Vec::new, |it| self.uncertainties(best, it, 0));
-        let rate =
-            |row: &Row| if self.kind == TestKind::Oscillation { row.at } else { row.at.recip() };
-        let rates = self.rows.iter().filter(|row| row.part == 0).map(rate);
-        let fastest = rates.zip(of_storage).max_by(|a, b| a.0.total_cmp(&b.0));
+        let loss_uncertainties = covariance.as_ref().map_or_else(Vec::new, |covariance| {
+            self.rates().map(|rate| best.relative_uncertainty(covariance, rate, 1)).collect()
+        });
+        let fastest = covariance.as_ref().zip(self.rates().max_by(f64::total_cmp));
         let misfit = self.linear(&best.times).misfit(&best.moduli);
         FittedSeries {
             loss_uncertainties,
-            fastest_uncertainty: fastest.map_or(f64::NAN, |it| it.1),
+            fastest_uncertainty: fastest.map_or(f64::NAN, |(covariance, rate)| {
+                best.relative_uncertainty(covariance, rate, 0)
+            }),
             equilibrium_modulus: best.moduli[n],
             equilibrium_uncertainty: uncertainty(n),
             terms: terms.collect(),

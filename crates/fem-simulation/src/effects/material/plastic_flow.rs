@@ -190,13 +190,13 @@ fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estima
                 "for plastic flow give {}, which is softer, its material.NAME.yield_strength first",
                 other.name()
             ),
-            (None, Some(_)) => format!(
-                "{}model fem computes plastic flow",
-                also_yields(scene, body, estimate).map_or(String::new(), |other| format!(
-                    "{} yields too: with its own [material.NAME.flow] ",
-                    other.name()
-                ))
-            ),
+            (None, Some(_)) => {
+                let elastic = scene.bodies().iter().find(|other| yields_elastic(other, estimate));
+                let too = elastic.map_or(String::new(), |other| {
+                    format!("{} yields too: with its own [material.NAME.flow] ", other.name())
+                });
+                format!("{too}model fem computes plastic flow")
+            }
             (None, None) => format!(
                 "[material.NAME.flow]{} with model fem computes plastic flow",
                 body.material().map_or(String::new(), in_place_of)
@@ -215,14 +215,6 @@ fn of_strength(scene: &Scene, body: &Body, first: &FirstYield, estimate: &Estima
         open_error: by_law,
         warning,
     }
-}
-
-/// Returns the partner of a body, if it yields too and has no flow rule.
-fn also_yields<'a>(scene: &'a Scene, body: &Body, estimate: &Estimate) -> Option<&'a Body> {
-    scene
-        .bodies()
-        .iter()
-        .find(|other| other.name() != body.name() && yields_elastic(other, estimate))
 }
 
 /// Returns what a flow rule excludes and a material has, as words.
