@@ -20,6 +20,7 @@ mod rejection;
 pub mod results;
 mod simulation;
 
+pub use effects::{bounds_of_closed_forms, restitution_with_adhesion};
 pub use error::{
     ComputedCollision, ErrorEstimate, ErrorEstimator, RefinedBeforeRun, RefinementBound, collide,
 };

@@ -13,7 +13,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use crate::schema::{CaseFile, MaterialTable};
+use crate::schema::{CaseFile, FlowPoints, FlowTable, MaterialTable};
 use crate::source::similar_words::nearest;
 use crate::source::toml_syntax::shift;
 
@@ -93,6 +93,70 @@ pub fn nearest_to(name: &str) -> Option<&'static str> {
         .or_else(of_part)
         .and_then(|near| materials().get_key_value(near))
         .map(|(near, _)| near.as_str())
+}
+
+/// A material of the library beside one of a case that has nearly its stiffness and density.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LikeMaterial {
+    /// Name in the library, without `lib:`.
+    pub name: &'static str,
+    /// Yield strength, Pa; `None` if the library knows none, as of glass and rubber.
+    pub yield_strength: Option<f64>,
+    /// Whether Young's modulus and density are the same within a few per cent.
+    pub is_alike: bool,
+}
+
+impl LikeMaterial {
+    /// Returns the material of the library that is nearest to one in Young's modulus and density, by their ratios; of several
+    /// that are equally near within a per cent, the weakest.
+    pub fn of(material: &fem_material::Material) -> Option<Self> {
+        const ALIKE: f64 = 0.05;
+        const EQUALLY_NEAR: f64 = 0.01;
+        static NUMBERS: LazyLock<Vec<(&str, [f64; 2], Option<f64>)>> = LazyLock::new(|| {
+            let numbers = |(name, entry): (&'static String, &'static Material)| {
+                Some((name.as_str(), entry.stiffness_and_density()?, entry.yield_strength()))
+            };
+            materials().iter().filter_map(numbers).collect()
+        });
+        let own = [material.instantaneous().youngs_modulus(), material.density()];
+        let known = |(name, numbers, yield_strength): &(&'static str, [f64; 2], Option<f64>)| {
+            let ratios = numbers.iter().zip(own).map(|(a, b)| (a / b).ln().abs());
+            let distance: f64 = ratios.sum();
+            let (name, yield_strength) = (*name, *yield_strength);
+            let like = Self { name, yield_strength, is_alike: distance < ALIKE };
+            ((distance / EQUALLY_NEAR).floor(), yield_strength.unwrap_or(f64::INFINITY), like)
+        };
+        let nearest = NUMBERS.iter().map(known);
+        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        nearest.map(|(.., like)| like)
+    }
+}
+
+impl Material {
+    /// Returns Young's modulus, Pa, and density, kg/m³.
+    fn stiffness_and_density(&self) -> Option<[f64; 2]> {
+        let MaterialTable { youngs_modulus, shear_modulus, poissons_ratio, .. } = &self.material;
+        let of_shear = || {
+            let shear = shear_modulus.as_ref()?.si().ok()?;
+            Some(2.0 * shear * (1.0 + poissons_ratio.as_ref()?.si().ok()?))
+        };
+        let modulus = youngs_modulus.as_ref().and_then(|it| it.si().ok()).or_else(of_shear)?;
+        Some([modulus, self.material.density.si().ok()?])
+    }
+
+    /// Returns the yield strength, Pa: that beside the density, or that of the flow rule.
+    pub fn yield_strength(&self) -> Option<f64> {
+        let of_table = |points: &FlowPoints| match points {
+            FlowPoints::Rows(rows) => rows.first()?.1.si().ok(),
+            FlowPoints::File(_) => None,
+        };
+        let of_flow = |flow: &FlowTable| match &flow.yield_strength {
+            Some(strength) => strength.si().ok(),
+            None => of_table(flow.hardening.as_ref()?.table.as_ref()?),
+        };
+        let plain = self.material.yield_strength.as_ref().and_then(|it| it.si().ok());
+        plain.or_else(|| self.material.flow.as_ref().and_then(of_flow))
+    }
 }
 
 /// Returns whether a name begins with `lib:`.

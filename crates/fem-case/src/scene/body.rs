@@ -6,6 +6,7 @@ use fem_laws::{Partner, YieldingBody};
 use fem_material::{Material, ShiftLaw};
 
 use crate::schema::PlateSupport;
+use crate::source::toml_syntax::{join, quote_key};
 
 /// One of the two bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +16,9 @@ pub struct Body {
     pub(crate) velocity: f64,
     pub(crate) held: bool,
     pub(crate) yield_strength: Option<f64>,
+    pub(crate) is_elastic: bool,
     pub(crate) surface_energy: Option<f64>,
+    pub(crate) material_name: Option<String>,
     pub(crate) library_material: Option<&'static str>,
     pub(crate) measured: Option<MeasuredBand>,
 }
@@ -76,6 +79,11 @@ impl Body {
         self.yield_strength
     }
 
+    /// Returns whether the case says that the material is meant to be elastic but for the relaxation and the strength that it gives.
+    pub fn is_meant_elastic(&self) -> bool {
+        self.is_elastic
+    }
+
     /// Returns the surface energy of the material, J/m², > 0, if the case gives one.
     pub fn surface_energy(&self) -> Option<f64> {
         self.surface_energy
@@ -86,9 +94,20 @@ impl Body {
         self.measured.as_ref()
     }
 
+    /// Returns the name of the material in the case; a wall has none.
+    pub fn material_name(&self) -> Option<&str> {
+        self.material_name.as_deref()
+    }
+
     /// Returns the name of the material, without `lib:`, if it is one of the library.
     pub fn library_material(&self) -> Option<&'static str> {
         self.library_material
+    }
+
+    /// Returns the dotted key of a number of the material in the case: `material.steel.yield_strength`.
+    pub fn material_key(&self, key: &str) -> String {
+        let name = self.material_name.as_deref().unwrap_or("NAME");
+        join(&join("material", &quote_key(name)), key)
     }
 
     /// Returns the material; a rigid body has none.
@@ -177,9 +196,14 @@ impl Body {
 
     /// Returns what decides when the body yields; `None` without a material or its yield strength.
     pub fn yielding(&self) -> Option<YieldingBody> {
+        self.yielding_at(self.yield_strength?)
+    }
+
+    /// Returns what decides when the body yields with a yield strength (Pa); `None` without a material.
+    pub fn yielding_at(&self, yield_strength: f64) -> Option<YieldingBody> {
         let moduli = self.material()?.instantaneous();
         Some(YieldingBody {
-            yield_strength: self.yield_strength?,
+            yield_strength,
             poissons_ratio: moduli.poissons_ratio(),
             plane_strain_modulus: moduli.plane_strain_modulus(),
             radius: self.radius(),

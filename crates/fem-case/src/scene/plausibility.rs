@@ -31,33 +31,26 @@ pub(crate) const YIELD_STRENGTHS: std::ops::RangeInclusive<f64> = 1e4..=2e11;
 /// Share of the contact compliance above which the losses of a body matter.
 const MIN_SHARE: f64 = 1e-3;
 
-fn is_elastic(material: &Material) -> bool {
-    material.relaxation().is_none() && material.flow().is_none()
-}
+/// Young's modulus (Pa) below which a solid is a polymer, whose own loss in an impact is not small beside that by plastic flow
+/// (Ashby 2011, chart of loss coefficient and modulus: above it the loss coefficient is mostly below 0.01).
+const MAX_MODULUS_OF_POLYMERS: f64 = 1e10;
 
 impl Scene {
-    /// Returns the library's materials, without `lib:`, that neither relax nor flow there or in the case, so that the
-    /// restitution lacks their loss. The list is empty for contact laws, whose loss the user gives, and beside a body that
-    /// flows, which loses far more; it leaves out bodies that hardly deform.
-    pub fn materials_without_loss(&self) -> Vec<&'static str> {
-        if matches!(self.model, ModelChoice::Law { .. }) || self.flows() {
-            return Vec::new();
-        }
-        let elastic = |body: &Body| {
-            let name = body.library_material()?;
-            library::materials()[name].material.relaxation.is_none().then_some(name)
-        };
-        let mut names: Vec<&str> = self.elastic_bodies().filter_map(elastic).collect();
-        names.dedup();
-        names
-    }
-
-    /// Returns the bodies that are computed as elastic because the case gives their material neither relaxation nor flow,
-    /// except those that hardly deform.
-    pub fn elastic_bodies(&self) -> impl Iterator<Item = &Body> {
+    /// Returns the bodies whose own loss is not known: they deform, the case gives their material no relaxation, and does not
+    /// say that it is meant to be elastic. There are none for contact laws, whose loss the user gives. Where a body flows, the
+    /// loss of metals is small beside that.
+    pub fn bodies_of_unknown_loss(&self, flows: bool) -> impl Iterator<Item = &Body> {
+        let is_law = matches!(self.model, ModelChoice::Law { .. });
         let deforms = self.bodies.iter().zip(self.compliance_shares());
         let deforms = deforms.filter(|(_, share)| *share > MIN_SHARE).map(|(body, _)| body);
-        deforms.filter(|body| body.material().is_some_and(is_elastic))
+        deforms.filter(move |body| {
+            let is_open = |material: &Material| {
+                let modulus = material.instantaneous().youngs_modulus();
+                let is_small = flows && modulus > MAX_MODULUS_OF_POLYMERS;
+                material.relaxation().is_none() && !is_small
+            };
+            !is_law && !body.is_meant_elastic() && body.material().is_some_and(is_open)
+        })
     }
 
     /// Returns the measured restitutions of the library between bodies of one material, if both bodies are of it or one is
@@ -71,37 +64,10 @@ impl Scene {
         }
     }
 
-    /// Returns that the restitution lacks the loss of the [materials without a loss](Self::materials_without_loss), and what
-    /// is measured of it.
-    pub fn unknown_loss(&self) -> Option<String> {
-        let names = self.materials_without_loss();
-        (!names.is_empty()).then(|| {
-            format!(
-                "the library has no relaxation for {}: {} loss is not computed, and {}",
-                names.join(" and "),
-                if names.len() > 1 { "their" } else { "its" },
-                self.too_high_a_restitution()
-            )
-        })
-    }
-
-    /// Returns that the restitution is too high, with what the library knows from measurements.
-    pub fn too_high_a_restitution(&self) -> String {
+    /// Returns the measured restitution of the library at the approach speed.
+    pub fn measured_restitution(&self) -> Option<(&'static MeasuredRestitution, f64)> {
         let speed = self.approach_speed();
-        let measured = self.measured_restitutions();
-        let within = measured.iter().find_map(|it| Some((it, it.at(speed)?)));
-        let known = match (within, measured.first()) {
-            (Some((it, restitution)), _) => {
-                format!("measured: {} ({})", number(restitution, 2), it.name)
-            }
-            (None, Some(it)) => {
-                let (slowest, fastest) = it.speeds();
-                let [from, to] = [slowest, fastest].map(|speed| show(speed, "m/s"));
-                format!("restitutions are measured at {from} to {to} ({})", it.name)
-            }
-            (None, None) => "`fem-run calibrate` finds one from measured restitutions".to_string(),
-        };
-        format!("the restitution is too high by an unknown amount; {known}")
+        self.measured_restitutions().iter().find_map(|it| Some((it, it.at(speed)?)))
     }
 
     /// Returns a note that relaxations hold at their reference temperatures, since the case gives no temperature.

@@ -25,7 +25,8 @@ pub struct MaterialTable {
     /// Poisson's ratio ν, between −1 and 1/2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<Quantity<Number>>,
-    /// Yield strength in uniaxial tension, > 0. It serves the estimate of plastic flow, which the table `flow` computes.
+    /// Yield strength in uniaxial tension, > 0. A body flows with perfect plasticity where the impact exceeds it, unless the
+    /// table `flow` gives another rule.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_strength: Option<Quantity<Stress>>,
     /// Surface energy of one surface, > 0. It serves the estimate of adhesion and the decision whether bodies stick.
@@ -34,10 +35,13 @@ pub struct MaterialTable {
     /// Hyperelastic law at finite strain; `"neo-hooke"` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hyperelastic: Option<HyperelasticLaw>,
-    /// A Prony series; the material is elastic without one.
+    /// Whether the material is meant to be elastic but for what this table gives: no other loss and no other strength are unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elastic: Option<bool>,
+    /// A Prony series; without one the loss of the material is unknown, unless it flows or is meant to be elastic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation: Option<RelaxationTable>,
-    /// Plastic flow; the material does not flow without it.
+    /// Plastic flow with hardening or a dependence on the strain rate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flow: Option<FlowTable>,
 }
@@ -69,6 +73,11 @@ impl MaterialTable {
         }
     }
 
+    /// Returns this material, meant to be elastic.
+    pub fn elastic(self) -> Self {
+        Self { elastic: Some(true), ..self }
+    }
+
     /// Returns this material with this Prony series; the moduli are instantaneous.
     pub fn relaxing(self, acts_on: ActsOn, terms: impl IntoIterator<Item = TermTable>) -> Self {
         Self { relaxation: Some(RelaxationTable::new(acts_on, terms)), ..self }
@@ -84,6 +93,7 @@ impl MaterialTable {
             yield_strength: None,
             surface_energy: None,
             hyperelastic: None,
+            elastic: None,
             relaxation: None,
             flow: None,
         }

@@ -88,7 +88,9 @@ impl Check<'_> {
                 velocity,
                 held: table.held.unwrap_or_default(),
                 yield_strength: material.and_then(|material| material.yield_strength),
+                is_elastic: material.is_some_and(|material| material.is_elastic),
                 surface_energy: material.and_then(|material| material.surface_energy),
+                material_name: table.material.clone(),
                 library_material: library_material(file, table),
                 measured: material.and_then(|material| material.measured.clone()),
             }

@@ -15,6 +15,8 @@ pub(super) struct CheckedMaterial {
     pub material: Material,
     /// Yield strength, Pa.
     pub yield_strength: Option<f64>,
+    /// Whether the material is meant to be elastic.
+    pub is_elastic: bool,
     /// Surface energy, J/m².
     pub surface_energy: Option<f64>,
     /// What is known of the data of the relaxation.
@@ -70,17 +72,23 @@ impl Check<'_> {
         };
         let (strength, energy) = (table.yield_strength.as_ref(), table.surface_energy.as_ref());
         let reported = self.optional(&at("yield_strength"), strength, Range::POSITIVE)?;
-        let material = match &table.flow {
-            Some(flow) => {
+        let material = match (&table.flow, reported) {
+            (Some(flow), _) => {
                 let rule = self.flow(&at("flow"), flow, reported, place)?;
                 material.with_flow(rule).map_err(place)?
             }
-            None => material,
+            // A material that relaxes or has another law than Hencky's does not flow.
+            (None, Some(strength)) => {
+                let rule = FlowRule::perfect(strength).map_err(place)?;
+                material.clone().with_flow(rule).unwrap_or(material)
+            }
+            (None, None) => material,
         };
         let yield_strength = material.flow().map(FlowRule::yield_strength).or(reported);
         Ok(CheckedMaterial {
             material,
             yield_strength,
+            is_elastic: table.elastic.unwrap_or_default(),
             surface_energy: self.optional(&at("surface_energy"), energy, Range::POSITIVE)?,
             measured,
         })

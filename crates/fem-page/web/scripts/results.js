@@ -33,66 +33,39 @@ export function draw(place, svg, label) {
 
 const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
-// Shows a range of closed forms with two digits.
-function showRange(low, high, unit) {
-  const ends = [low, high].map((end) => show(end, unit, 2, high));
-  if (ends[0] === ends[1]) return ends[1];
-  const [one, other] = ends.map((end) => end.split(' ')[1]);
-  return `${one === other ? ends[0].split(' ')[0] : ends[0]} to ${ends[1]}`;
-}
-
-// Shows the estimate that leads, of one quantity.
-function showEstimate({ low, high }, key, unit) {
-  if (key === 'restitution' && high[key] === 0) return '0, they stick';
-  if (key === 'contact_time_s' && high.restitution === 0) return 'without end';
-  return low[key] === null || high[key] === null ? '?' : showRange(low[key], high[key], unit);
+// Shows a number with the sign of a bound.
+function showOwn(summary, key, unit) {
+  const { bound } = summary.uncertainty[key];
+  const sign = { 'at most': '≤ ', 'at least': '≥ ' }[bound] ?? '';
+  return sign + show(summary[key], unit);
 }
 
 export function headline(summary) {
-  if (summary.complete && summary.estimate) {
-    const { by, high } = summary.estimate;
-    const restitution = showEstimate(summary.estimate, 'restitution', '');
-    const answer = high.restitution === 0 ? 'The bodies stick' : `Restitution about ${restitution}`;
-    return `${answer}: an estimate by ${plain(by)}.`;
-  }
-  const force = `peak force ${show(summary.peak_force_n, 'N')}`;
+  const force = `peak force ${showOwn(summary, 'peak_force_n', 'N')}`;
   if (!summary.complete) return `Not complete: ${force} so far.`;
   if (summary.contact_time_s === null && summary.restitution === 0) return `The bodies stay together: restitution 0, ${force}.`;
-  return `Restitution ${show(summary.restitution, '')}, contact time ${show(summary.contact_time_s, 's')}, ${force}.`;
+  return `Restitution ${showOwn(summary, 'restitution', '')}, contact time ${showOwn(summary, 'contact_time_s', 's')}, ${force}.`;
 }
 
 export function showNumbers(summary) {
   const rows = QUANTITIES.map(([key, name, unit]) => {
     const [own, hertz] = [summary[key], summary.hertz[key]];
-    const { discretisation, model, model_at_least: least, input } = summary.uncertainty[key];
-    const part = (size, atLeast = null) => {
-      if (size !== null) return element('td', showBeside(size, own, unit));
-      return element('td', atLeast ? `> ${showBeside(atLeast, own, unit)}` : '–');
-    };
+    const { discretisation, model, input } = summary.uncertainty[key];
+    const part = (size) => element('td', size === null ? '–' : showBeside(size, own, unit));
     const row = element('tr');
     const ratio = own === null || hertz === null ? '–' : (own / hertz).toFixed(4);
-    const number = element('td', show(own, unit), { 'data-key': key });
-    const known = (discretisation ?? 0) + (model ?? least ?? 0) + (input ?? 0);
-    if (known > 0 && known >= (unit === '' ? 1 : own)) number.textContent = '?';
-    if (summary.estimate) {
-      number.textContent = show(own, unit);
-      const stuck = key === 'restitution' && own === 0;
-      if (stuck) number.textContent = '–';
-      row.append(element('th', name, { scope: 'row' }), element('td', showEstimate(summary.estimate, key, unit), { 'data-estimate': key }), number, stuck ? element('td', '–') : part(discretisation));
-      return row;
-    }
+    const number = element('td', showOwn(summary, key, unit), { 'data-key': key });
     if (own !== null) number.dataset.value = own;
-    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), part(discretisation), part(model, least), part(input));
+    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), part(discretisation), part(model), part(input));
     return row;
   });
   at('numbers').tBodies[0].replaceChildren(...rows);
   const hasElements = summary.bodies.some((body) => body.elements > 0);
   const ownError = hasElements ? '± mesh' : '± numerics';
-  const heads = summary.estimate ? ['estimate', summary.estimate.run_is, ownError] : ['this run', 'Hertz', 'ratio', ownError, '± neglected', '± inputs'];
+  const heads = ['this run', 'Hertz', 'ratio', ownError, '± neglected', '± inputs'];
   at('numbers').tHead.rows[0].replaceChildren(...['Quantity', ...heads].map((head) => element('th', head, { scope: 'col' })));
   const hasInputs = QUANTITIES.some(([key]) => summary.uncertainty[key].input);
   at('numbers').classList.toggle('without-inputs', !hasInputs);
-  at('numbers').classList.toggle('with-estimate', summary.estimate !== null);
   showAdhesion(summary.adhesion);
   const warnings = summary.stopped_because === null ? summary.warnings : [`Not complete: ${summary.stopped_because}`, ...summary.warnings];
   at('warnings').replaceChildren(...warnings.map((text) => element('li', sentence(plain(text)))));

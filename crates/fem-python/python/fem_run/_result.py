@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._errors import bad_input
-from ._shown import axes_or_new, quantity, scale_of, value_range
+from ._shown import axes_or_new, quantity, scale_of
 
 if TYPE_CHECKING:
     import pyvista
@@ -45,7 +45,7 @@ class Result:
     max_approach_m: float | None
     max_contact_radius_m: float | None
     peak_pressure_pa: float | None
-    estimate: dict[str, Any] | None
+    status: dict[str, str]
     peak_force_raw_n: float | None
     radius_and_pressure: str
     elastic_null: dict[str, Any] | None
@@ -128,7 +128,7 @@ class Result:
     def uncertainty(self, key: str) -> float | None:
         """Returns the error bar of a quantity, such as ``restitution``: discretisation error plus neglected effects, SI.
 
-        ``None`` if one part is not known; ``summary["uncertainty"]`` has the other one.
+        ``None`` for a bound (:attr:`status`), and if one part is not known; ``summary["uncertainty"]`` has the others.
 
         Raises:
             KeyError: the quantity has no error bar.
@@ -136,14 +136,10 @@ class Result:
         if key not in self.summary["uncertainty"]:
             there = ", ".join(self.summary["uncertainty"])
             raise KeyError(f"{key!r} has no error bar; there are: {there}")
-        known, is_whole = self._error_bar(key)
-        return known if is_whole else None
-
-    def _error_bar(self, key: str) -> tuple[float, bool]:
-        """Returns the sum of the known parts, and whether all are known."""
         parts = self.summary["uncertainty"][key]
-        known = sum(part for part in parts.values() if part is not None)
-        return known, None not in (parts["discretisation"], parts["model"])
+        if None in (parts["discretisation"], parts["model"]):
+            return None
+        return parts["discretisation"] + parts["model"] + (parts["input"] or 0.0)
 
     if not TYPE_CHECKING:
 
@@ -202,19 +198,7 @@ class Result:
         return axes
 
     def _shown(self, key: str, unit: str) -> str:
-        if self.summary["estimate"]:
-            return self._estimated(key, unit)
-        value, (bar, is_whole) = self.summary[key], self._error_bar(key)
-        if value is not None and bar > 0 and bar >= (abs(value) if unit else 1):
-            return "not known"
-        return quantity(value, bar, is_whole, unit)
-
-    def _estimated(self, key: str, unit: str) -> str:
-        """Returns the estimate that leads, before the number of the run."""
-        estimate = self.summary["estimate"]
-        low, high, own = estimate["low"][key], estimate["high"][key], self.summary[key]
-        answer = "not estimated" if low is None or high is None else f"about {value_range(low, high, unit)}"
-        return answer if own is None else f"{answer} ({quantity(own, 0.0, True, unit)} {estimate['run_is']})"
+        return quantity(self.summary[key], self.uncertainty(key), self.summary["uncertainty"][key].get("bound"), unit)
 
     def __repr__(self) -> str:
         shown = [f"{name} {self._shown(key, unit)}" for key, (name, unit) in _SHOWN.items()]

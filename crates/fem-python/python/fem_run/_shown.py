@@ -19,31 +19,20 @@ def scale_of(value: float, unit: str) -> tuple[float, str]:
     return 10.0**-power, _PREFIXES[power] + unit
 
 
-def quantity(value: float | None, bar: float, is_whole: bool, unit: str) -> str:
-    """Returns ``62.36 ± 0.47 µs``: digits as the error bar allows, which has two; ``bar`` is a lower bound unless
-    ``is_whole``."""
+def quantity(value: float | None, bar: float | None, bound: str | None, unit: str) -> str:
+    """Returns ``62.36 ± 0.47 µs``: digits as the error bar allows, which has two; of a bound ``at most 0.9999``, and
+    ``0.993 ± ?`` if a part of the error is not known."""
     if value is None or not math.isfinite(value):
         return "none"
     factor, unit = scale_of(value, unit)
-    value, bar = factor * value, factor * bar
+    value = factor * value
     if not bar:
-        return f"{value:.6g} {unit}".strip()
+        number = f"{value:.4f}" if bound and not unit else f"{value:.6g}"
+        before, after = (f"{bound} ", "") if bound else ("", " ± ?" if bar is None else "")
+        return f"{before}{number}{after} {unit}".strip()
+    bar *= factor
     digits = min(max(1 - math.floor(math.log10(bar)), 0), 9)
-    number, error = f"{value:.{digits}f}", f"{bar:.{digits}f}"
-    if is_whole:
-        return f"{number} ± {error} {unit}".strip()
-    return f"{number} {unit}".strip() + f" (error at least {error})"
-
-
-def value_range(low: float, high: float, unit: str) -> str:
-    """Returns ``29 to 49 µs``: both ends with two digits, in one unit; one number if they are alike."""
-    factor, unit = scale_of(high, unit)
-    ends = [_two_digits(factor * end) for end in (low, high)]
-    return (ends[1] if ends[0] == ends[1] else " to ".join(ends)) + f" {unit}".rstrip()
-
-
-def _two_digits(value: float) -> str:
-    return f"{float(f'{value:.1e}'):g}"
+    return f"{value:.{digits}f} ± {bar:.{digits}f} {unit}".strip()
 
 
 def axes_or_new(axes: Axes | None) -> Axes:

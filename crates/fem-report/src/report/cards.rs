@@ -1,12 +1,12 @@
 //! The quantities of interest of a collision with their error bars, as cards on the report page.
 
 use fem::results::Parts;
-use fem_case::engineering::{Unit, range, show};
+use fem_case::engineering::{Unit, show};
 use fem_collision::QuantityOfInterest;
 
 use super::stored_result::StoredResult;
-use crate::answer::{VISIBLE, error_scale};
-use crate::number_text::{power_of_ten, rounded, with_error};
+use crate::answer::{answer_text, error_scale};
+use crate::number_text::{power_of_ten, rounded};
 
 /// Relative errors below this are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-9;
 /// One quantity of interest.
 pub struct Card {
     pub name: String,
-    /// The number, with its error if both parts of it are known.
+    /// The number with its error, or the bound with its sign.
     pub value: String,
     pub unit: String,
     /// The parts of the error, and Hertz' value.
@@ -27,9 +27,6 @@ pub fn cards(result: &StoredResult) -> Vec<Card> {
 }
 
 fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
-    if let Some(run_is) = result.run_is() {
-        return estimated_card(result, quantity, run_is);
-    }
     let key = quantity.key();
     let value = result.number(&[key])?;
     let hertz = result.number(&["hertz", key]);
@@ -46,46 +43,13 @@ fn card(result: &StoredResult, quantity: QuantityOfInterest) -> Option<Card> {
     if quantity == QuantityOfInterest::Restitution && (1.0 - value).abs() < 0.1 && value != 1.0 {
         notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
     }
-    let error = parts.sum().filter(|error| *error > VISIBLE * scale);
-    let is_covered = parts.cover(scale);
+    let text = answer_text(value, &parts, quantity);
+    let symbol = unit.as_ref().map_or("", Unit::symbol);
     Some(Card {
         name: name(result, quantity),
-        value: match is_covered {
-            true => "not known".to_string(),
-            false => with_error(scaled(value), error.map(scaled)),
-        },
-        unit: unit
-            .as_ref()
-            .filter(|_| !is_covered)
-            .map_or(String::new(), |unit| unit.symbol().to_string()),
+        value: text.strip_suffix(symbol).unwrap_or(&text).trim_end().to_string(),
+        unit: symbol.to_string(),
         notes,
-    })
-}
-
-/// Returns the card of a quantity whose estimate leads, with the number of the run as a note.
-fn estimated_card(
-    result: &StoredResult,
-    quantity: QuantityOfInterest,
-    run_is: &str,
-) -> Option<Card> {
-    let estimate = result.estimate(quantity);
-    let value = result.number(&[quantity.key()]);
-    let shown = value.map(|value| match quantity.unit() {
-        "" => format!("{value:.4}"),
-        unit => show(value, unit),
-    });
-    let text = estimate.map(|ends| range(ends, quantity.unit()));
-    let (value, unit) = match &text {
-        Some(text) if !quantity.unit().is_empty() => text.rsplit_once(' ')?,
-        Some(text) => (text.as_str(), ""),
-        None => ("not estimated", ""),
-    };
-    let note = shown.map(|shown| format!("{shown} {run_is}"));
-    (estimate.is_some() || note.is_some()).then(|| Card {
-        name: name(result, quantity),
-        value: value.to_string(),
-        unit: unit.to_string(),
-        notes: estimate.map(|_| "estimate".to_string()).into_iter().chain(note).collect(),
     })
 }
 
@@ -96,17 +60,19 @@ fn error_text(
     least: f64,
     shown: &dyn Fn(f64) -> String,
 ) -> Option<String> {
-    let part = |name: &str, size: Option<f64>, known: Option<f64>| match (size, known) {
-        (Some(size), _) => (size > least).then(|| format!("{name} {}", shown(size))),
-        (None, Some(known)) if known > least => {
-            Some(format!("{name} not known, at least {}", shown(known)))
-        }
-        (None, _) => Some(format!("{name} not known")),
+    let part = |name: &str, size: Option<f64>| match size {
+        Some(size) => (size > least).then(|| format!("{name} {}", shown(size))),
+        None => Some(format!("{name} not known")),
+    };
+    // The sign of a bound says what is not known.
+    let model = match parts.bound {
+        Some(_) => None,
+        None => part("neglected effects", parts.model),
     };
     let parts = [
-        part(numerics, parts.discretisation, None),
-        part("neglected effects", parts.model, parts.model_at_least),
-        parts.input.and_then(|size| part("inputs", Some(size), None)),
+        part(numerics, parts.discretisation),
+        model,
+        parts.input.and_then(|size| part("inputs", Some(size))),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| format!("± {}", parts.join(" + ")))
@@ -130,28 +96,22 @@ pub fn name(result: &StoredResult, quantity: QuantityOfInterest) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fem::results::Side;
 
     #[test]
     fn unknown_parts_of_an_error_are_named() {
-        let of = |discretisation, model, model_at_least| {
-            let parts = Parts { discretisation, model, model_at_least, input: None };
+        let of = |discretisation, model, bound| {
+            let parts = Parts { discretisation, model, input: None, bound };
             error_text(&parts, "mesh", 1e-9, &rounded)
         };
         let text = |text: &str| Some(text.to_string());
         assert_eq!(of(Some(0.16), Some(0.5), None), text("± mesh 0.16 + neglected effects 0.5"));
         assert_eq!(of(Some(1e-12), Some(0.0), None), None);
         assert_eq!(of(Some(1e-12), None, None), text("± neglected effects not known"));
-        assert_eq!(
-            of(Some(0.16), None, Some(1.7)),
-            text("± mesh 0.16 + neglected effects not known, at least 1.7")
-        );
+        assert_eq!(of(Some(0.16), None, Some(Side::AtMost)), text("± mesh 0.16"));
         assert_eq!(of(None, Some(0.0), None), text("± mesh not known"));
-        let parts = Parts {
-            discretisation: Some(0.16),
-            model: Some(0.5),
-            model_at_least: None,
-            input: Some(0.3),
-        };
+        let parts =
+            Parts { discretisation: Some(0.16), model: Some(0.5), input: Some(0.3), bound: None };
         let with_inputs = text("± mesh 0.16 + neglected effects 0.5 + inputs 0.3");
         assert_eq!(error_text(&parts, "mesh", 1e-9, &rounded), with_inputs);
     }

@@ -2,7 +2,6 @@
 
 use askama::Template;
 use fem::results::Parts;
-use fem_case::engineering::{Unit, show};
 use fem_collision::QuantityOfInterest;
 use fem_figure::contour::Contour;
 use serde_json::Value;
@@ -14,8 +13,7 @@ use super::pressure_chart::pressure_chart;
 use super::shared_error::SharedErrors;
 use super::stored_result::{ReportError, StoredResult};
 use super::{FilmFrame, cards, citation, drawn, film};
-use crate::answer::{VISIBLE, error_scale};
-use crate::number_text::{rounded, with_error};
+use crate::answer::{answer_text, error_scale};
 
 /// Tables of the case that describe the scene; all others say how it is computed and what is kept.
 const SCENE_TABLES: [&str; 6] = ["material", "body", "start", "model", "gravity", "stop"];
@@ -117,7 +115,7 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
             Some(own) => {
                 let from = first.filter(|_| k > 0);
                 (
-                    shown(own, quantity),
+                    answer_text(own.0, &own.1, quantity),
                     from.map_or(String::new(), |from| {
                         let shared = SharedErrors::of(result, &results[0]);
                         difference_text(own, from, quantity, shared)
@@ -137,40 +135,9 @@ fn numbers(results: &[StoredResult], quantity: QuantityOfInterest) -> (String, V
     (name, results.iter().enumerate().map(cell).collect())
 }
 
-/// Returns `62.46 ± 0.21 µs`, or `62.46 µs, error at least 0.21 µs` if part of the error is unknown.
-fn shown((value, parts): (f64, Parts), quantity: QuantityOfInterest) -> String {
-    let is_seen = |error: &f64| *error > VISIBLE * error_scale(value, quantity);
-    let error = parts.sum().filter(is_seen);
-    let number = match quantity.unit() {
-        "" => match error {
-            None => format!("{value:.5}"),
-            error => with_error(value, error),
-        },
-        si => match error {
-            None => show(value, si),
-            error => {
-                let unit = Unit::fitting(value, si);
-                let error = error.map(|error| unit.scaled(error));
-                format!("{} {}", with_error(unit.scaled(value), error), unit.symbol())
-            }
-        },
-    };
-    match (parts.sum(), parts.known().filter(is_seen)) {
-        (Some(_), _) => number,
-        (None, None) => format!("{number}, error not known"),
-        (None, Some(known)) if quantity.unit().is_empty() => {
-            format!("{number}, error at least {}", rounded(known))
-        }
-        (None, Some(known)) => {
-            let unit = Unit::fitting(value, quantity.unit());
-            let known = rounded(unit.scaled(known));
-            format!("{number}, error at least {known} {}", unit.symbol())
-        }
-    }
-}
-
 /// Returns the difference from the first result, absolute for the restitution and relative for all others,
-/// and whether it is within the error bars, as far as the results do not share them.
+/// and whether it is within the error bars, as far as the results do not share them. Bars above half of a value judge no
+/// difference.
 fn difference_text(
     own: (f64, Parts),
     from: (f64, Parts),
@@ -187,10 +154,11 @@ fn difference_text(
         _ => format!("{:+.2} %", 100.0 * difference / from.0),
     };
     let bars = shared.of_difference(own, from, quantity);
-    let within = if bars.is_some_and(|bars| difference.abs() < bars) {
-        ", within the error bars"
-    } else {
-        ""
+    let judges = |bars: &f64| *bars < 0.5 * error_scale(from.0, quantity);
+    let within = match bars {
+        Some(bars) if !judges(&bars) => ", error bars too wide to judge",
+        Some(bars) if difference.abs() < bars => ", within the error bars",
+        _ => "",
     };
     format!("{size}{within}").replace('-', "\u{2212}")
 }
@@ -224,28 +192,21 @@ fn shared_text(results: &[StoredResult]) -> String {
 mod tests {
     use super::*;
 
-    /// An error that is partly unknown is neither written as ± nor compared with a difference.
+    /// A bound is not compared with a difference, and neither is a value that is hardly known.
     #[test]
-    fn partly_known_error_is_not_printed_as_an_error_bar() {
-        let parts = |discretisation, model, model_at_least| Parts {
+    fn bounds_and_wide_bars_judge_no_difference() {
+        let parts = |discretisation, model| Parts {
             discretisation: Some(discretisation),
             model,
-            model_at_least,
-            input: None,
+            ..Parts::default()
         };
-        let time = |parts| shown((45.607e-6, parts), QuantityOfInterest::ContactTime);
-        assert_eq!(time(parts(1e-6, Some(0.9e-6), None)), "45.6 ± 1.9 µs");
-        assert_eq!(time(parts(1.6e-7, None, Some(1.74e-6))), "45.61 µs, error at least 1.9 µs");
-        assert_eq!(time(parts(4.6e-13, None, None)), "45.61 µs, error not known");
-        let restitution =
-            shown((0.99279, parts(5e-4, None, None)), QuantityOfInterest::Restitution);
-        assert_eq!(restitution, "0.99279, error at least 0.0005");
         let apart = |parts| {
             let (own, from) = ((45e-6, parts), (46e-6, parts));
             let shared = SharedErrors::default();
             difference_text(own, from, QuantityOfInterest::ContactTime, shared)
         };
-        assert!(apart(parts(1e-6, Some(0.0), None)).contains("within the error bars"));
-        assert!(!apart(parts(1e-6, None, None)).contains("within the error bars"));
+        assert!(apart(parts(1e-6, Some(0.0))).contains("within the error bars"));
+        assert!(!apart(parts(1e-6, None)).contains("error bars"));
+        assert!(apart(parts(30e-6, Some(0.0))).contains("too wide"));
     }
 }

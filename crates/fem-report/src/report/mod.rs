@@ -50,7 +50,6 @@ struct Page<'a> {
     sketch: String,
     stopped: &'a str,
     cards: Vec<Card>,
-    estimate: String,
     cost: String,
     warnings: Vec<String>,
     charts: Vec<String>,
@@ -111,7 +110,6 @@ pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
         sketch: sketch::sketch(result),
         stopped: result.text("stopped_because"),
         cards: cards::cards(result),
-        estimate: estimate_text(result),
         cost: cost_text(result),
         warnings: warnings(result),
         charts: drawn(charts),
@@ -173,19 +171,6 @@ fn subtitle(result: &StoredResult) -> String {
         other => other,
     };
     format!("{}, computed with {model}", result.body_names().join(" and "))
-}
-
-/// Returns what gives the estimate that leads; empty if there is none.
-fn estimate_text(result: &StoredResult) -> String {
-    let text = |key: &str| result.summary.get("estimate")?.get(key)?.as_str();
-    let run_is = text("run_is").unwrap_or_default();
-    let sentence = |by: &str| {
-        format!(
-            "The estimate is by closed forms, {by}. The run, its curves and pictures show the collision as it would be \
-             {run_is}."
-        )
-    };
-    text("by").map(sentence).unwrap_or_default()
 }
 
 /// Returns the cost of the run in one line.

@@ -99,8 +99,7 @@ mod tests {
         let parts = |discretisation, model| Parts {
             discretisation: Some(discretisation),
             model: Some(model),
-            model_at_least: None,
-            input: None,
+            ..Parts::default()
         };
         let of = |discretisation, model| {
             let shared = SharedErrors { discretisation, model };

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use thiserror::Error;
 
-use crate::answer::{error_parts, estimate_of};
+use crate::answer::error_parts;
 use crate::number_text::one_line;
 
 /// Errors of making a page.
@@ -168,16 +168,6 @@ impl StoredResult {
     /// Returns the parts of a quantity's error; results of older versions lack some.
     pub fn error_parts(&self, quantity: QuantityOfInterest) -> Parts {
         error_parts(&self.summary, quantity)
-    }
-
-    /// Returns what the estimate that leads says the run's quantities are; `None` if the run has the answer.
-    pub fn run_is(&self) -> Option<&str> {
-        self.summary.get("estimate")?.get("run_is")?.as_str()
-    }
-
-    /// Returns the ends of a quantity's estimate, SI.
-    pub fn estimate(&self, quantity: QuantityOfInterest) -> Option<[f64; 2]> {
-        estimate_of(&self.summary, quantity)
     }
 
     /// Returns a text of the summary by its key, or an empty one.

@@ -183,7 +183,7 @@ mod tests {
             place: Vec::new(),
             number: None,
             points,
-            marked: Vec::new(),
+            bounds: Vec::new(),
             reference: Vec::new(),
         }
     }

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use fem::results::Status;
 use fem::sweep::Row;
 use fem_case::Sweep;
 use fem_collision::QuantityOfInterest;
@@ -9,7 +10,7 @@ use serde_json::Value;
 
 use super::choice::FigureChoice;
 use super::labels::{key_symbol, plain};
-use crate::answer::{error_parts, estimate_of};
+use crate::answer::{error_parts, status};
 
 /// Most members that are drawn.
 const MAX_MEMBERS: usize = 4_000;
@@ -28,55 +29,21 @@ pub struct FigurePoint {
 pub struct PanelValues {
     /// The computed value.
     pub own: Option<f64>,
-    /// Its error bar, with the parts that are known.
+    /// Its error bar; `None` if a part of it is unknown.
     pub error: Option<f64>,
-    /// Whether a part of the error is unknown.
-    pub is_open: bool,
-    /// The middle and half the range of the estimate that leads; not finite if it has no such value.
-    pub estimate: Option<[f64; 2]>,
+    /// Whether a known effect is missing that moves it by an unknown amount.
+    pub is_bound: bool,
     /// The value of Hertz' closed form.
     pub hertz: Option<f64>,
-}
-
-/// Why a point of a curve is marked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PointMark {
-    /// A part of the error of the computed value is unknown.
-    Open,
-    /// The point is the middle of an estimate by closed forms, with its range as error bar.
-    Estimated,
 }
 
 impl PanelValues {
     /// Returns the values of a quantity of interest.
     fn of_quantity(summary: &Value, quantity: QuantityOfInterest) -> Self {
-        let parts = error_parts(summary, quantity);
-        let leads = summary.get("estimate").is_some_and(|estimate| !estimate.is_null());
-        let estimate = leads.then(|| {
-            let [low, high] = estimate_of(summary, quantity).unwrap_or([f64::NAN; 2]);
-            [0.5 * (low + high), 0.5 * (high - low)]
-        });
-        Self {
-            own: summary[quantity.key()].as_f64(),
-            error: parts.known(),
-            is_open: parts.sum().is_none(),
-            estimate,
-            hertz: None,
-        }
-    }
-
-    /// Returns value, error and mark of the point to draw. The estimate that leads takes the place of the computed value
-    /// unless the curve is one over a resolution.
-    fn drawn(&self, is_resolution: bool) -> Option<(f64, f64, Option<PointMark>)> {
-        match self.estimate.filter(|_| !is_resolution) {
-            Some([middle, half]) => {
-                middle.is_finite().then_some((middle, half, Some(PointMark::Estimated)))
-            }
-            None => {
-                let mark = self.is_open.then_some(PointMark::Open);
-                Some((self.own?, self.error.unwrap_or(0.0), mark))
-            }
-        }
+        let own = summary[quantity.key()].as_f64();
+        let error = error_parts(summary, quantity).sum();
+        let is_bound = status(summary, quantity) == Status::Bound;
+        Self { own, error, is_bound, hertz: None }
     }
 }
 
@@ -117,20 +84,18 @@ pub struct SweepCurve {
     pub number: Option<f64>,
     /// (x, y, error of y) in SI, by increasing x.
     pub points: Vec<(f64, f64, f64)>,
-    /// The points among them whose error is not known, or that are estimates.
-    pub marked: Vec<(PointMark, (f64, f64))>,
+    /// The points among them that are bounds.
+    pub bounds: Vec<(f64, f64)>,
     /// Reference points: Hertz' results of the same members, or the limit; may be empty.
     pub reference: Vec<(f64, f64)>,
 }
 
-/// Returns the curves of the k-th panel, in the order of the sweep; `is_resolution` says that they are over a key of the
-/// resolution.
+/// Returns the curves of the k-th panel, in the order of the sweep.
 pub fn curves(
     sweep: &Sweep,
     points: &[FigurePoint],
     choice: &FigureChoice,
     panel: usize,
-    is_resolution: bool,
 ) -> Vec<SweepCurve> {
     let mut places: HashMap<Vec<usize>, usize> = HashMap::new();
     let mut curves: Vec<SweepCurve> = Vec::new();
@@ -140,15 +105,15 @@ pub fn curves(
         let number = choice.series_values.as_ref().map(|values| values[own[0]]);
         let place = *places.entry(own.clone()).or_insert_with(|| {
             let label = label(sweep, &elements, &choice.series);
-            let (points, reference, marked) = (Vec::new(), Vec::new(), Vec::new());
-            curves.push(SweepCurve { label, place: own, number, points, marked, reference });
+            let (points, reference, bounds) = (Vec::new(), Vec::new(), Vec::new());
+            curves.push(SweepCurve { label, place: own, number, points, bounds, reference });
             curves.len() - 1
         });
         let x = choice.x.values[elements[choice.x.axis]];
         let values = point.values[panel];
-        if let Some((y, error, mark)) = values.drawn(is_resolution) {
-            curves[place].points.push((x, y, error));
-            curves[place].marked.extend(mark.map(|mark| (mark, (x, y))));
+        if let Some(y) = values.own {
+            curves[place].points.push((x, y, values.error.unwrap_or(0.0)));
+            curves[place].bounds.extend(values.is_bound.then_some((x, y)));
         }
         curves[place].reference.extend(values.hertz.map(|y| (x, y)));
     }

@@ -18,19 +18,17 @@ use curves::{SweepCurve, curves, label};
 use labels::{plain, role, role_of_all};
 
 pub use choice::{FigureChoice, HorizontalKey};
-pub use curves::{FigurePoint, PanelValues, PointMark};
+pub use curves::{FigurePoint, PanelValues};
 
 /// Legend entries of the dashed reference curves.
 const HERTZ: &str = "Hertz";
 const LIMIT: &str = "extrapolated limit";
-/// Points that are marked, their legend entries, and the turns of the colours whose markers they have: squares and
-/// diamonds.
-const MARKS: [(PointMark, &str, usize); 2] = [
-    (PointMark::Estimated, "estimate by closed forms", 1),
-    (PointMark::Open, "error unknown beyond the bar", 3),
-];
-/// Lines of the legend that are not curves: the reference, failed members, curves without a name, marked points.
-const NOTES: usize = 3 + MARKS.len();
+/// Legend entry of points that are bounds.
+const BOUND: &str = "bound";
+/// Turn of the colours whose marker, the diamond, bounds have.
+const TURN_OF_BOUNDS: usize = 3;
+/// Lines of the legend that are not curves: the reference, failed members, curves without a name, bounds.
+const NOTES: usize = 4;
 /// Curves between two legend entries of a colour map.
 const MAP_ENTRIES: usize = 8;
 /// Most characters of an axis label.
@@ -55,7 +53,7 @@ pub fn sweep_figure(
     let n_panels = choice.y.len() * if resolution.is_some() { 2 } else { 1 };
     let room = legend_room(n_panels).saturating_sub(NOTES);
     let panels = choice.y.iter().enumerate().flat_map(|(k, column)| {
-        let mut curves = curves(sweep, points, choice, k, resolution.is_some());
+        let mut curves = curves(sweep, points, choice, k);
         let converging = resolution.and_then(|resolution| {
             let of_curve = |curve: &SweepCurve| ConvergingCurve::of(resolution, column, curve);
             let converging: Vec<_> = curves.iter().map(of_curve).collect();
@@ -162,13 +160,10 @@ fn value_chart(
             _ => chart,
         };
     }
-    for (mark, name, turn) in MARKS {
-        let marked = curves.iter().flat_map(|curve| &curve.marked);
-        let points: Vec<_> = marked.filter(|(of, _)| *of == mark).map(|(_, at)| *at).collect();
-        if !points.is_empty() {
-            let line = Line::points(name, x.points(&y, &points)).like_curve(turn * COLOURS.len());
-            chart = chart.with(line.in_colour(GREY));
-        }
+    let bounds: Vec<_> = curves.iter().flat_map(|curve| curve.bounds.iter().copied()).collect();
+    if !bounds.is_empty() {
+        let line = Line::points(BOUND, x.points(&y, &bounds));
+        chart = chart.with(line.like_curve(TURN_OF_BOUNDS * COLOURS.len()).in_colour(GREY));
     }
     if let Some(rest) = legend.rest.as_ref().filter(|_| colours.pair.is_none()) {
         chart = chart.with(note(rest));

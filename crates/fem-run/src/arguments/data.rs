@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use fem::measured::{DataError, Table, decode, is_of_library, library_table};
+use fem::measured::{DataError, Restitutions, Table, decode, is_of_library, library_table};
 use fem::{case_identity, digest_of};
 use fem_case::Case;
 
@@ -20,6 +20,43 @@ pub struct ColumnArguments {
     /// Without a unit in NAME the header gives it, as in v_cm_s or v [cm/s]; speed_cm_s=v sets it.
     #[arg(long, value_name = "NAME=COLUMN,…", value_delimiter = ',')]
     pub columns: Vec<String>,
+}
+
+/// Options for reading restitutions over speeds.
+#[derive(clap::Args, Debug)]
+pub struct RestitutionArguments {
+    #[command(flatten)]
+    pub columns: ColumnArguments,
+    /// Take restitutions that are upper bounds, of bodies whose loss or strength is unknown, as they are
+    #[arg(long)]
+    pub as_elastic: bool,
+}
+
+impl RestitutionArguments {
+    /// Reads a table as [`ColumnArguments::read`] does.
+    pub fn read(&self, path: &Path) -> Result<Table, Failure> {
+        Ok(self.with_bounds(self.columns.read(path)?))
+    }
+
+    /// Names the columns of a table in memory.
+    pub fn name_columns(&self, table: Table) -> Result<Table, Failure> {
+        Ok(self.with_bounds(self.columns.name_columns(table)?))
+    }
+
+    fn with_bounds(&self, table: Table) -> Table {
+        if self.as_elastic { Restitutions::as_elastic(table) } else { table }
+    }
+
+    /// Returns the origin of a result as [`ColumnArguments::origin`] does.
+    pub fn origin(
+        &self,
+        command: &str,
+        case: Option<(&CaseArguments, &Case)>,
+        data: Option<&Path>,
+    ) -> Origin {
+        let option = self.as_elastic.then(|| "--as-elastic".to_string());
+        self.columns.origin(command, case, data).with_options(option.as_slice())
+    }
 }
 
 impl ColumnArguments {

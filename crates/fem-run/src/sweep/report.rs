@@ -114,9 +114,9 @@ fn result_cells(row: &Row) -> [String; SHOWN.len()] {
 /// Returns the lines below the table that explain its signs.
 fn legend(cells: &str) -> String {
     let signs = [
-        ("± >", "at least, a part of the error is unknown"),
         ("± ?", "unknown error"),
-        ("≈", "estimate by closed forms of what the run lacks"),
+        ("≤", "upper bound, since a loss is unknown"),
+        ("≥", "lower bound, since a loss is unknown"),
     ];
     let bar = ("±", "discretisation error, neglected effects and uncertain inputs");
     let there = [bar].into_iter().chain(signs).filter(|(sign, _)| cells.contains(sign));

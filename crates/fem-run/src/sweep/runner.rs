@@ -7,9 +7,9 @@ use fem::ComputedCollision;
 use fem::results::Summary;
 use fem::sweep::{Member, Observer, Runner};
 use fem::{CaseError, SharedModels};
-use fem_case::engineering::{range, show};
 use fem_case::{Keep, Sweep};
 use fem_collision::QuantityOfInterest;
+use fem_report::answer::answer_text;
 use fem_report::number_text::elapsed;
 use rayon::ThreadPool;
 
@@ -150,17 +150,9 @@ fn in_a_few_words(summary: &Summary) -> String {
         return format!("FAILED: {reason}");
     }
     let answer = |quantity: QuantityOfInterest| {
-        let shown = |value: f64| match quantity.unit() {
-            "" => format!("{value:.5}"),
-            unit => show(value, unit),
-        };
-        let own = || summary.collision.number(quantity).map(shown);
-        let estimated = |ends| format!("≈ {}", range(ends, quantity.unit()));
-        let text = match &summary.estimate {
-            Some(estimate) => estimate.range(quantity).map(estimated),
-            None => own(),
-        };
-        text.unwrap_or("-".to_string())
+        let number = summary.collision.number(quantity);
+        let parts = summary.uncertainty.parts(quantity);
+        number.map_or("-".to_string(), |number| answer_text(number, &parts, quantity))
     };
     format!(
         "restitution {}, contact time {}, {}",

@@ -4,12 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use comfy_table::CellAlignment::Left;
-use fem::effects::{EffectDecision, MaterialLoss, NeglectError};
-use fem::results::{
-    BodySummary, BounceSummary, DentSummary, EstimateSummary, Parts, RestSummary, Summary,
-};
+use fem::effects::{EffectDecision, NeglectError};
+use fem::results::{BodySummary, BounceSummary, DentSummary, Parts, RestSummary, Summary};
 use fem::{ExpectedError, ModelCandidate};
-use fem_case::engineering::{Unit, number, range, show};
+use fem_case::engineering::{Unit, number, show};
 use fem_case::schema::ToleranceValue;
 use fem_case::{Spot, defaults};
 use fem_collision::{Account, BalanceSide, QuantityOfInterest, ShownIn};
@@ -50,10 +48,7 @@ pub fn report(summary: &Summary, place: Option<&Path>, detail: Detail) -> String
     if let Some(reason) = &summary.stopped_because {
         let _ = writeln!(text, "INCOMPLETE: {reason}\n");
     }
-    text += &match &summary.estimate {
-        Some(estimate) => estimated_quantities(summary, estimate, detail),
-        None => quantities(summary, detail),
-    };
+    text += &quantities(summary, detail);
     text += &match detail {
         Detail::Short => short(summary),
         Detail::All => details(summary),
@@ -101,11 +96,6 @@ fn short(summary: &Summary) -> String {
         row("on", if reasons.len() > MAX_REASONS { names.join(", ") } else { reasons });
     }
     let off: Vec<&EffectDecision> = decisions().filter(|it| !it.active).collect();
-    let loss = off.iter().find(|it| it.name == MaterialLoss::NAME);
-    // Beside an estimate of plastic flow or adhesion it says little.
-    if let Some(loss) = loss.filter(|_| summary.estimate.is_none()) {
-        row("elastic", loss.reason.clone());
-    }
     let mattering: Vec<&str> = off.iter().filter(|it| it.matters).map(|it| it.name).collect();
     let above = match mattering.is_empty() {
         true => format!(", none above {}", tolerance_words(summary)),
@@ -200,8 +190,12 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
     let is_uncertain = |it: QuantityOfInterest| {
         summary.uncertainty.parts(it).input.is_some_and(|input| input > 0.0)
     };
+    let measured = summary.measured_restitution.iter().flatten();
+    let measured = measured.filter_map(|it| Some((it.name, it.restitution?))).next();
     // Seven columns are too wide for 80 characters.
     let has_input = QuantityOfInterest::ALL.into_iter().any(is_uncertain);
+    let has_measured = measured.is_some()
+        && summary.uncertainty.parts(QuantityOfInterest::Restitution).bound.is_some();
     let row = |quantity: QuantityOfInterest| {
         let (value, theirs) = (ours.number(quantity), hertz.number(quantity));
         let has_unit = quantity != QuantityOfInterest::Restitution;
@@ -215,54 +209,37 @@ fn quantities(summary: &Summary, detail: Detail) -> String {
         let parts = summary.uncertainty.parts(quantity);
         let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
         let [mesh, neglected, input] = errors.unwrap_or([NONE; 3].map(String::from));
-        let is_covered = value.is_some_and(|value| parts.cover(quantity.scale(value)));
-        let own = if is_covered { UNKNOWN.to_string() } else { shown(value) };
-        let value = value.filter(|_| !is_covered);
+        let own = match parts.bound {
+            Some(side) => format!("{} {}", side.sign(), shown(value)),
+            None => shown(value),
+        };
+        let own = match measured.filter(|_| !has_unit && has_measured) {
+            Some((_, measured)) => format!("{} ({own})", number(measured, 2)),
+            None => own,
+        };
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         let name = quantity.name().to_string();
-        match has_input {
-            true => [name, own, mesh, neglected, input, shown(theirs)],
-            false => [name, own, mesh, neglected, shown(theirs), ratio],
+        let mut cells = vec![name, own, mesh, neglected];
+        match (has_input, has_measured) {
+            (true, _) => cells.extend([input, shown(theirs)]),
+            (false, true) => cells.push(shown(theirs)),
+            (false, false) => cells.extend([shown(theirs), ratio]),
         }
+        cells
     };
-    let last = if has_input { ">± input|>Hertz" } else { ">Hertz|>ratio" };
+    let last = match (has_input, has_measured) {
+        (true, _) => ">± input|>Hertz",
+        (false, true) => ">Hertz",
+        (false, false) => ">Hertz|>ratio",
+    };
     let header = format!("|>this run|>{own}|>± neglected|{last}");
     let table = headed(&header, QuantityOfInterest::ALL.map(row));
-    let legend = error_legend(own, &table);
+    let mut legend = error_legend(own, &table);
+    if let (Some((name, _)), true) = (measured, has_measured) {
+        legend += &format!("; restitution: measured ({name})");
+    }
     let between = if detail == Detail::All { "\n" } else { "" };
     format!("{table}{between}{legend}\n")
-}
-
-/// Returns each quantity as closed forms estimate it with an effect that decides it, and as the run has it without. The
-/// error by that effect is as large as the quantities, and is left out.
-fn estimated_quantities(summary: &Summary, estimate: &EstimateSummary, detail: Detail) -> String {
-    let sticks = estimate.high.restitution == Some(0.0);
-    let row = |quantity: QuantityOfInterest| {
-        let (unit, is_e) = (quantity.unit(), quantity == QuantityOfInterest::Restitution);
-        // Bodies that stick in the run have no restitution without adhesion.
-        let value = summary.collision.number(quantity).filter(|value| !is_e || *value > 0.0);
-        let in_unit = (!is_e).then(|| Unit::fitting(value.unwrap_or_default(), unit));
-        let shown =
-            |value: f64| in_unit.as_ref().map_or(format!("{value:.4}"), |it| it.show(value));
-        let answer = match estimate.range(quantity) {
-            Some(_) if is_e && sticks => "0 (they stick)".to_string(),
-            Some(ends) => range(ends, unit),
-            None if sticks && quantity == QuantityOfInterest::ContactTime => "without end".into(),
-            None => UNKNOWN.to_string(),
-        };
-        let parts = summary.uncertainty.parts(quantity);
-        let error = value.map(|value| error_columns(value, &parts, in_unit.as_ref())[0].clone());
-        let error = error.unwrap_or(NONE.into());
-        [quantity.name().to_string(), answer, value.map_or(NONE.into(), shown), error]
-    };
-    let own = own_error(summary);
-    let rows = QuantityOfInterest::ALL.map(row);
-    let table = headed(&format!("|>estimate|>{}|>{own}", estimate.run_is), rows);
-    let between = if detail == Detail::All { "\n" } else { "" };
-    let what = own_error_words(own);
-    let unknown = if table.contains(UNKNOWN) { "; ?: not known" } else { "" };
-    let by = &estimate.by;
-    format!("{table}{between}estimate: by {by}\n{own}: {what} of the run{unknown}\n")
 }
 
 /// Returns the head of the column with the discretisation error.
@@ -277,11 +254,15 @@ fn own_error_words(head: &str) -> &'static str {
 
 /// Returns the line below the table that explains the error columns; `own` is the head of the first one.
 fn error_legend(own: &str, cells: &str) -> String {
-    let unknown = if cells.contains(UNKNOWN) { "; ?: not known" } else { "" };
-    let partly = if cells.contains("> ") { "; >: at least" } else { "" };
-    let what = own_error_words(own);
-    let input = if cells.contains("± input") { "; ± input: by uncertain inputs" } else { "" };
-    format!("{own}: {what}; ± neglected: by neglected effects{input}{unknown}{partly}")
+    let signs = [
+        ("± input", "; ± input: by uncertain inputs"),
+        (UNKNOWN, "; ?: not known"),
+        ("≤", "; ≤: upper bound"),
+        ("≥", "; ≥: lower bound"),
+    ];
+    let signs = signs.into_iter().filter(|(sign, _)| cells.contains(sign));
+    let signs: String = signs.map(|(_, words)| words).collect();
+    format!("{own}: {}; ± neglected: by neglected effects{signs}", own_error_words(own))
 }
 
 /// Returns the errors by discretisation, neglected effects and uncertain inputs with two digits, in `unit` if the
@@ -292,9 +273,9 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
         Some(unit) => format!("{} {}", number(unit.scaled(size), 2), unit.symbol()),
         None => number(size, 2),
     };
-    let neglected = match (parts.model, parts.model_at_least) {
+    let neglected = match (parts.model, parts.bound) {
         (Some(size), _) => sized(size),
-        (None, Some(known)) => format!("> {}", sized(known)),
+        (None, Some(_)) => NONE.to_string(),
         (None, None) => UNKNOWN.to_string(),
     };
     let input = parts.input.map_or("0".to_string(), sized);
@@ -303,17 +284,13 @@ fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 3] 
 
 /// Returns 1 − e of a nearly elastic collision, with the digits that its discretisation error allows, and what it holds: the
 /// loss by vibrations that the bodies keep, or numerical dissipation where it is below the error. There is none where
-/// neglected effects may change it by more than this or by an unknown amount, or an estimate leads.
+/// neglected effects may change it by more than this or by an unknown amount.
 fn elastic_deficit(summary: &Summary) -> Option<String> {
     let deficit = 1.0 - summary.collision.restitution?;
     let parts = summary.uncertainty.parts(QuantityOfInterest::Restitution);
     let bar = parts.discretisation;
     let known = deficit.abs().max(bar.unwrap_or(0.0));
-    let is_led = summary.estimate.is_some();
-    if is_led
-        || deficit.abs() >= NEARLY_ELASTIC
-        || parts.model.is_none_or(|neglected| neglected > known)
-    {
+    if deficit.abs() >= NEARLY_ELASTIC || parts.model.is_none_or(|neglected| neglected > known) {
         return None;
     }
     let shown = with_known_digits(deficit, bar);
@@ -530,6 +507,7 @@ pub fn warnings(warnings: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fem::results::Side;
 
     /// A loss of 3.69e-5 is not known if the restitution is known to 4e-4.
     #[test]
@@ -548,20 +526,20 @@ mod tests {
 
     #[test]
     fn unknown_errors_are_marked() {
-        let of = |discretisation, model, model_at_least| {
-            let parts = Parts { discretisation, model, model_at_least, input: None };
+        let of = |discretisation, model, bound| {
+            let parts = Parts { discretisation, model, input: None, bound };
             error_columns(62e-6, &parts, Some(&Unit::fitting(62e-6, "s")))
         };
         assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs", "0"]);
-        assert_eq!(of(Some(1e-17), None, Some(2e-7)), ["0", "> 0.2 µs", "0"]);
+        assert_eq!(of(Some(1e-17), None, Some(Side::AtLeast)), ["0", "-", "0"]);
         assert_eq!(of(None, None, None), ["?", "?", "0"]);
         let plain = Parts {
             discretisation: Some(1.94e-4),
             model: Some(0.0),
             input: Some(3e-3),
-            model_at_least: None,
+            bound: None,
         };
         assert_eq!(error_columns(1.0, &plain, None), ["1.9e-4", "0", "0.003"]);
-        assert!(error_legend("± mesh", "0.12 µs  > 0.2 µs").ends_with("effects; >: at least"));
+        assert!(error_legend("± mesh", "0.12 µs  ≤ 0.2 µs").ends_with("effects; ≤: upper bound"));
     }
 }

@@ -8,6 +8,7 @@ mod cost_estimate;
 mod folders;
 mod laws;
 mod models;
+mod one_number;
 mod sweeps;
 mod texts;
 mod validate;

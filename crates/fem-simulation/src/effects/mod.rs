@@ -24,7 +24,6 @@ use serde::Serialize;
 use crate::estimate::Estimate;
 use crate::rejection::Rejection;
 
-pub use decision::leading_estimate::LeadingEstimate;
 pub use decision::neglect_error::{EffectStatus, NeglectError};
 pub use decision::relevance::{QUASI_STATIC_LIMIT, Relevance, percent};
 pub(crate) use decision::simplified_scene::SimplifiedScene;
@@ -60,7 +59,7 @@ pub struct EffectDecision {
 pub struct EffectDecisions {
     /// Decisions on the effects that the model supports or lacks, in the order of [`EFFECTS`].
     pub all: Vec<EffectDecision>,
-    /// Warnings in the same order, after those of an effect that decides the results.
+    /// Warnings in the same order.
     pub warnings: Vec<String>,
     /// Warnings of the finished collision.
     pub(crate) warnings_of_result: Vec<String>,
@@ -163,11 +162,35 @@ pub fn decide(
             warnings_of.push((name, warning));
         }
     }
-    // The effect that decides the results is the one to read of first.
-    let leading = LeadingEstimate::of(scene, estimate, &decisions.all, 1.0);
-    warnings_of.sort_by_key(|(name, _)| leading.as_ref().is_none_or(|it| it.effect != *name));
     decisions.warnings = warnings_of.into_iter().map(|(_, text)| text).collect();
     Ok(decisions)
+}
+
+/// Returns why the restitution of a scene at a speed (m/s) is a bound where closed forms compute it: its contact law, or Ting's
+/// model and, for bodies that flow, the mean-pressure law in place of another model. It is a computed number if the list is
+/// empty.
+pub fn bounds_of_closed_forms(scene: &Scene, speed: f64) -> Vec<String> {
+    let Ok(estimate) = Estimate::at(scene, speed) else { return Vec::new() };
+    if matches!(scene.model(), ModelChoice::Law { .. }) {
+        return Vec::new();
+    }
+    let flows = PlasticFlow::is_on(scene, &estimate)
+        && PlasticFlow::of_elements(scene, &estimate) != Support::Lacks;
+    let is_missing = |effect: &&&dyn Effect| match effect.name() {
+        PlasticFlow::NAME => !flows,
+        AdhesionEffect::NAME => AdhesionEffect::given(scene).is_none(),
+        _ => effect.is_dissipative(),
+    };
+    let warning = |effect: &&dyn Effect| {
+        let relevance = effect.relevance(scene, &estimate).filter(|it| it.is_needed)?;
+        effect.forced(scene, &estimate).or(relevance.warning)
+    };
+    EFFECTS.iter().filter(is_missing).filter_map(warning).collect()
+}
+
+/// Returns the restitution at a speed (m/s) beside adhesion, if the case gives it, from that without; 0 if the bodies stick.
+pub fn restitution_with_adhesion(scene: &Scene, speed: f64, without: f64) -> f64 {
+    AdhesionEffect::given(scene).map_or(without, |it| it.restitution(speed, without))
 }
 
 /// An effect that is forced on must be one that the model computes.

@@ -55,7 +55,7 @@ pub fn dents(
     let contact_radius = collision.max_contact_radius.unwrap_or(0.0);
     let meshes = simulation.model().meshes();
     let bodies = unloaded.bodies.iter().zip(meshes).enumerate();
-    let flowed = bodies.filter(|(_, (fields, _))| !fields.plastic.is_empty());
+    let flowed = bodies.filter(|(_, (fields, _))| fields.plastic.iter().any(|at| at[0] > 0.0));
     let dent = |(side, (fields, mesh)): (usize, (&BodyFields, Option<&SphereMesh>))| {
         let mesh = mesh?;
         let inward = if side == 0 { -1.0 } else { 1.0 };

@@ -7,13 +7,11 @@ use super::dent::{DentSummary, dents};
 use super::energy::{Accounts, Energy, energy_key};
 use super::measured::MeasuredSummary;
 use super::summary::{
-    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, EstimateSummary,
-    PlateSummary, Quantities, RestSummary, Summary,
+    AdhesionSummary, BodySummary, BounceSummary, CostSummary, EffectSummary, PlateSummary,
+    Quantities, RestSummary, StatusSummary, Summary,
 };
 use super::uncertainty::uncertainty;
-use crate::effects::{
-    AdhesionEffect, EffectDecision, EffectDecisions, FiniteStrain, LeadingEstimate,
-};
+use crate::effects::{AdhesionEffect, EffectDecision, EffectDecisions, FiniteStrain};
 use crate::error::{ComputedCollision, ErrorEstimate};
 use crate::estimate::Estimate;
 use crate::estimate::plate_impact::PlateImpact;
@@ -60,9 +58,10 @@ impl Summary {
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision, &errors.decisions);
+        let uncertainty = uncertainty(simulation, collision, errors, &quantities, &effects);
         Self {
-            estimate: leading_estimate(simulation, collision, &errors.decisions),
-            uncertainty: uncertainty(simulation, collision, errors, &quantities, &effects),
+            status: StatusSummary::of(&quantities, &uncertainty),
+            uncertainty,
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             radius_and_pressure: radius_and_pressure(&effects),
@@ -143,25 +142,6 @@ fn effects(
         EffectSummary { decision: decision.clone(), error_if_left_out: neglect_error }
     };
     decisions.all.iter().map(summary).collect()
-}
-
-/// Returns the estimate that leads, if there is one.
-fn leading_estimate(
-    simulation: &Simulation,
-    collision: &Collision,
-    decisions: &EffectDecisions,
-) -> Option<EstimateSummary> {
-    let (scene, estimate) = (simulation.scene_of_model(), simulation.estimate(collision)?);
-    let leading = LeadingEstimate::of(&scene, &estimate, &decisions.all, collision.restitution?)?;
-    let end = |k: usize| Quantities::by(|quantity| Some(leading.range(quantity)?[k]));
-    let (low, high) = (end(0), end(1));
-    Some(EstimateSummary {
-        effect: leading.effect,
-        by: leading.by,
-        run_is: leading.run_is,
-        low,
-        high,
-    })
 }
 
 /// Returns whether radius and pressure are those of the deformed bodies.

@@ -2,7 +2,7 @@
 
 use fem_case::CaseFile;
 use fem_collision::QuantityOfInterest;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::dent::DentSummary;
 use super::energy::Energy;
@@ -21,9 +21,8 @@ pub struct Summary {
     /// Quantities of the collision.
     #[serde(flatten)]
     pub collision: Quantities,
-    /// Estimate that leads, because the run lacks an effect that decides the results; `None` if the quantities of the run
-    /// are the answer.
-    pub estimate: Option<EstimateSummary>,
+    /// What each of these numbers is.
+    pub status: StatusSummary,
     /// Largest contact force of a single step; `None` for closed forms.
     pub peak_force_raw_n: Option<f64>,
     /// `"true"` (of the deformed bodies) at finite strain, else `"nominal"` (of the undeformed area).
@@ -150,28 +149,6 @@ impl Quantities {
     }
 }
 
-/// The results by closed forms of an effect that decides them and that the run lacks: plastic flow or adhesion.
-#[derive(Clone, Debug, Serialize)]
-pub struct EstimateSummary {
-    /// Name of the effect.
-    pub effect: &'static str,
-    /// What gives the estimate, and why the effect is there.
-    pub by: String,
-    /// What the quantities of the run are beside it: `if it stayed elastic`.
-    pub run_is: &'static str,
-    /// Smallest values of the quantities; `None` where they are unknown or have no meaning.
-    pub low: Quantities,
-    /// Largest values of the quantities.
-    pub high: Quantities,
-}
-
-impl EstimateSummary {
-    /// Returns the smallest and the largest value of a quantity, SI.
-    pub fn range(&self, quantity: QuantityOfInterest) -> Option<[f64; 2]> {
-        Some([self.low.number(quantity)?, self.high.number(quantity)?])
-    }
-}
-
 /// Error bars of the quantities, written under their keys in their units.
 #[derive(Clone, Copy, Debug)]
 pub struct UncertaintySummary([Parts; 6]);
@@ -197,17 +174,18 @@ impl Serialize for UncertaintySummary {
 }
 
 /// The parts of an error bar.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Parts {
     /// Discretisation error: the exact solution of the model's continuum problem is expected within it.
     pub discretisation: Option<f64>,
-    /// Model-form error: the change by neglected effects, of this scene with these inputs.
+    /// Model-form error: the change by neglected effects, of this scene with these inputs; `None` if a neglected effect
+    /// matters and its size is not known.
     pub model: Option<f64>,
-    /// Lower bound of the model-form error, if it is not known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub model_at_least: Option<f64>,
     /// Uncertainty by uncertain inputs; `None` if the case has none.
     pub input: Option<f64>,
+    /// The side on which the true value lies, if the number is a bound of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Side>,
 }
 
 impl Parts {
@@ -215,17 +193,97 @@ impl Parts {
     pub fn sum(&self) -> Option<f64> {
         Some(self.discretisation? + self.model? + self.input.unwrap_or(0.0))
     }
+}
 
-    /// Returns the sum of the known parts; `None` if none is known.
-    pub fn known(&self) -> Option<f64> {
-        let parts = [self.discretisation, self.model.or(self.model_at_least), self.input];
-        parts.into_iter().flatten().reduce(|one, more| one + more)
+/// The side of a bound on which the true value lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Side {
+    /// The true value is at most the bound.
+    #[serde(rename = "at most")]
+    AtMost,
+    /// The true value is at least the bound.
+    #[serde(rename = "at least")]
+    AtLeast,
+}
+
+impl Side {
+    /// Returns the side of a quantity's bound where an effect is missing that takes energy and makes the contact softer. The
+    /// contact time has none: plastic flow first shortens and then lengthens it.
+    pub(super) fn without_dissipation(quantity: QuantityOfInterest) -> Option<Self> {
+        match quantity {
+            QuantityOfInterest::Restitution
+            | QuantityOfInterest::PeakForce
+            | QuantityOfInterest::PeakPressure => Some(Self::AtMost),
+            QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => {
+                Some(Self::AtLeast)
+            }
+            QuantityOfInterest::ContactTime => None,
+        }
     }
 
-    /// Returns whether the known error is as large as the scale of a number, 1 for the restitution and else the number
-    /// itself, which is not known then.
-    pub fn cover(&self, scale: f64) -> bool {
-        self.known().is_some_and(|error| error > 0.0 && error >= scale)
+    /// Returns the sign before a bound.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Self::AtMost => "≤",
+            Self::AtLeast => "≥",
+        }
+    }
+}
+
+/// What a number of a result is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// The number is the answer, within its error bar.
+    Computed,
+    /// A known effect is missing that moves the number by an unknown amount.
+    Bound,
+    /// There is no number.
+    Unknown,
+}
+
+impl Status {
+    /// Returns the status of a number with its error bar.
+    pub fn of(number: Option<f64>, parts: &Parts) -> Self {
+        match (number, parts.model) {
+            (None, _) => Self::Unknown,
+            (Some(_), None) => Self::Bound,
+            (Some(_), Some(_)) => Self::Computed,
+        }
+    }
+
+    /// Returns the word of the status in a summary.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Computed => "computed",
+            Self::Bound => "bound",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// The status of each quantity, written under its key.
+#[derive(Clone, Copy, Debug)]
+pub struct StatusSummary([Status; 6]);
+
+impl StatusSummary {
+    /// Returns the status of numbers with error bars.
+    pub fn of(numbers: &Quantities, bars: &UncertaintySummary) -> Self {
+        let status = |quantity| Status::of(numbers.number(quantity), &bars.parts(quantity));
+        Self(QuantityOfInterest::ALL.map(status))
+    }
+
+    /// Returns the status of one quantity.
+    pub fn status(&self, quantity: QuantityOfInterest) -> Status {
+        self.0[quantity as usize]
+    }
+}
+
+impl Serialize for StatusSummary {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(
+            QuantityOfInterest::ALL.map(|quantity| (quantity.key(), self.status(quantity))),
+        )
     }
 }
 

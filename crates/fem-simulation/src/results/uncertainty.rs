@@ -8,11 +8,14 @@
 use fem_collision::Collision;
 
 use super::input_uncertainty::input_uncertainty;
-use super::summary::{EffectSummary, Parts, Quantities, UncertaintySummary};
-use crate::effects::{EffectStatus, effect_named};
+use super::summary::{EffectSummary, Parts, Quantities, Side, UncertaintySummary};
+use crate::effects::{Effect, EffectStatus, effect_named};
 use crate::error::ErrorEstimate;
 use crate::quantity_errors::QuantityErrors;
 use crate::simulation::Simulation;
+
+/// Relative errors up to this are those of floating-point numbers.
+const ROUNDING: f64 = 1e-13;
 
 /// Returns discretisation and model-form errors of the quantities that have a number, SI.
 pub(super) fn uncertainty(
@@ -24,17 +27,20 @@ pub(super) fn uncertainty(
 ) -> UncertaintySummary {
     let inputs = input_uncertainty(simulation, collision, numbers);
     let all = model_form_errors(simulation, collision, effects);
-    let sum = |errors: &mut dyn Iterator<Item = QuantityErrors>| {
-        errors.fold(QuantityErrors::ZERO, QuantityErrors::plus)
-    };
-    let model = sum(&mut all.iter().copied());
-    let known = sum(&mut all.iter().copied().map(QuantityErrors::unknown_as_zero));
+    let model = all.iter().fold(QuantityErrors::ZERO, |sum, (_, error)| sum.plus(*error));
     UncertaintySummary::by(|quantity| {
-        let of = |error: &QuantityErrors| numbers.number(quantity).and(error.size(quantity));
-        let model = of(&model);
-        let known = of(&known).filter(|known| model.is_none() && *known > 0.0);
-        let input = inputs.as_ref().and_then(of);
-        Parts { discretisation: of(&errors.bars), model, model_at_least: known, input }
+        let of = |error: &QuantityErrors| {
+            let (number, size) = (numbers.number(quantity)?, error.size(quantity)?);
+            // Less is rounding.
+            Some(if size > ROUNDING * quantity.scale(number) { size } else { 0.0 })
+        };
+        let mut unknown = all.iter().filter(|(_, error)| error.size(quantity).is_none());
+        let has_side = model.size(quantity).is_none()
+            && numbers.number(quantity).is_some()
+            && unknown.all(|(effect, _)| effect.is_dissipative());
+        let bound = has_side.then(|| Side::without_dissipation(quantity)).flatten();
+        let (discretisation, input) = (of(&errors.bars), inputs.as_ref().and_then(of));
+        Parts { discretisation, model: of(&model), input, bound }
     })
 }
 
@@ -43,16 +49,18 @@ fn model_form_errors(
     simulation: &Simulation,
     collision: &Collision,
     effects: &[EffectSummary],
-) -> Vec<QuantityErrors> {
+) -> Vec<(&'static dyn Effect, QuantityErrors)> {
+    let all = || effects.iter().filter_map(|it| Some((effect_named(it.decision.name)?, it)));
     let Some(estimate) = simulation.estimate(collision) else {
-        return vec![QuantityErrors::default()];
+        return all().map(|(effect, _)| (effect, QuantityErrors::default())).collect();
     };
     let estimate = estimate.with_computed(collision);
     let scene = simulation.scene_of_model();
-    let error = |EffectSummary { decision, error_if_left_out }: &EffectSummary| {
+    let error = |(effect, summary): (&'static dyn Effect, &EffectSummary)| {
+        let EffectSummary { decision, error_if_left_out } = summary;
         let status =
             EffectStatus { is_lacking: decision.is_lacking, neglect_error: *error_if_left_out };
-        Some(effect_named(decision.name)?.model_form_error(&scene, &estimate, &status))
+        (effect, effect.model_form_error(&scene, &estimate, &status))
     };
-    effects.iter().filter_map(error).collect()
+    all().map(error).collect()
 }

@@ -2,14 +2,14 @@
 
 use crate::fit::{FitError, Point};
 use fem_case::schema::{ModelTable, TingTable};
-use fem_case::{Case, ModelChoice, Scene};
+use fem_case::{Body, Case, ModelChoice, Scene};
 use fem_laws::{EndRule, HertzImpact, ImpactQuantities, LawFamily, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;
 use super::stored_fit::{RestitutionBand, StoredFit};
 use crate::measured::{DataError, Restitutions};
-use fem_simulation::{Reduced, flowing_impact};
+use fem_simulation::{Reduced, bounds_of_closed_forms, flowing_impact, restitution_with_adhesion};
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
@@ -23,7 +23,7 @@ pub struct ImpactCurve {
     pub points: Vec<Point>,
     /// Whether Hertz' contact times replace missing ones.
     pub has_hertz_times: bool,
-    /// Materials whose loss is taken as 0 because the library has none; empty for measured data.
+    /// Materials whose loss is taken as 0 because the caller asks for elastic bodies; empty for measured data.
     pub unknown_loss: Vec<String>,
     /// The law that the curve is that of, if it was fitted to data or stands in for elements that flow.
     pub law: Option<LawFamily>,
@@ -69,34 +69,57 @@ impl ImpactCurve {
         Ok(Self { law: Some(fit.family()), scatter: fit.scatter, band, ..curve })
     }
 
-    /// Computes the curve with the case's reduced model, or Ting's model for a case with elements and the mean-pressure law for
-    /// one whose bodies flow, from one speed to another, m/s, or over a decade around that of the case.
+    /// Computes the curve with the case's contact law, or Ting's model in place of any other and the mean-pressure law for bodies
+    /// that flow, from one speed to another, m/s, or over a decade around that of the case. Speeds at which the restitution is
+    /// a bound are left out, unless bodies count as elastic.
     ///
     /// # Errors
-    /// The case has no such model, or a collision cannot be computed.
-    pub fn computed(case: &Case, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
-        let (middle, decade) = (case.scene().approach_speed(), 10f64.sqrt());
-        let (low, high) = speeds.unwrap_or((middle / decade, middle * decade));
-        if case.scene().flows() && !matches!(case.scene().model(), ModelChoice::Law { .. }) {
-            return Self::flowing(case.scene(), (low, high));
+    /// The restitution is a bound at the case's speed or at most speeds; the case has no such model; the bodies stick; or a
+    /// collision cannot be computed.
+    pub fn computed(
+        case: &Case,
+        speeds: Option<(f64, f64)>,
+        as_elastic: bool,
+    ) -> Result<Self, LawFault> {
+        let scene = case.scene();
+        let (middle, decade) = (scene.approach_speed(), 10f64.sqrt());
+        let range = speeds.unwrap_or((middle / decade, middle * decade));
+        let is_known = |speed: &f64| as_elastic || bounds_of_closed_forms(scene, *speed).is_empty();
+        let known: Vec<f64> = speeds_between(range).filter(is_known).collect();
+        if known.len() < 2 {
+            return Err(LawFault::Bound(bounds_of_closed_forms(scene, middle)));
+        }
+        let is_law = matches!(scene.model(), ModelChoice::Law { .. });
+        if scene.flows() && !is_law && !as_elastic {
+            return Self::flowing(case, &known);
         }
         let reduced = reduced(case)?;
         let point = |speed: f64| {
             let impact = reduced.impact(speed)?;
-            let point = Point::new(speed, impact.restitution);
+            let restitution = restitution_with_adhesion(scene, speed, impact.restitution);
+            let point = Point::new(speed, restitution);
             Ok(Point { contact_time: impact.contact_time, ..point })
         };
-        let points = speeds_between((low, high)).map(point).collect::<Result<_, FitError>>()?;
-        let unpublished = case.scene().materials_without_loss();
-        let unknown_loss = unpublished.into_iter().map(String::from).collect();
+        let points = known.into_iter().map(point).collect::<Result<_, FitError>>()?;
+        let of_elastic = scene.bodies_of_unknown_loss(false).filter(|_| as_elastic);
+        let mut unknown_loss: Vec<String> =
+            of_elastic.filter_map(|body| body.material_name().map(String::from)).collect();
+        unknown_loss.dedup();
         Ok(Self { unknown_loss, ..Self::of(&reduced.scene().pair()?, points)? })
     }
 
-    /// Computes the curve of bodies that flow by the mean-pressure law, whose error is the scatter.
-    fn flowing(scene: &Scene, speeds: (f64, f64)) -> Result<Self, LawFault> {
+    /// Computes the curve of bodies that flow by the mean-pressure law, whose error is the scatter. Beside a body that relaxes
+    /// it takes the restitution of both losses as the product of both, of which half of the second one is uncertain.
+    fn flowing(case: &Case, speeds: &[f64]) -> Result<Self, LawFault> {
+        let scene = case.scene();
         let pair = scene.pair()?;
+        let relaxes = |body: &Body| body.material().is_some_and(|it| it.relaxation().is_some());
+        let relaxing = match scene.bodies().iter().any(relaxes) {
+            true => Some(reduced(case)?),
+            false => None,
+        };
         let mut scatter = 0.0f64;
-        let points = speeds_between(speeds).map(|speed| {
+        let points = speeds.iter().map(|&speed| {
             let hertz = HertzImpact::new(&pair, speed)?;
             let flowing = flowing_impact(scene, &hertz, None);
             let impact = match flowing {
@@ -105,8 +128,13 @@ impl ImpactCurve {
             };
             let error =
                 flowing.map_or(0.0, |impact| impact.errors[0] * impact.quantities.restitution);
-            scatter = scatter.max(error);
-            let point = Point::new(speed, impact.restitution);
+            let relaxed = match &relaxing {
+                Some(reduced) => reduced.impact(speed)?.restitution,
+                None => 1.0,
+            };
+            scatter = scatter.max(error + 0.5 * (1.0 - relaxed) * impact.restitution);
+            let restitution = restitution_with_adhesion(scene, speed, relaxed * impact.restitution);
+            let point = Point::new(speed, restitution);
             Ok(Point { contact_time: Some(impact.contact_time), ..point })
         });
         let points = points.collect::<Result<_, FitError>>()?;

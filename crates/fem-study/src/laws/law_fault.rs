@@ -51,6 +51,9 @@ pub enum LawFault {
     /// Materials or sizes are no spheres: the message and the allowed values.
     #[error("{0}")]
     Grains(String, String),
+    /// The restitution is a bound: the reasons.
+    #[error("the restitution is a bound, and no number for a law: {}", .0.join("; "))]
+    Bound(Vec<String>),
     /// No reduced model can replace the finite elements of the case.
     #[error(transparent)]
     NoStandIn(FitError),

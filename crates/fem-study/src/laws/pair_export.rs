@@ -79,6 +79,7 @@ impl PairExport {
         diameters: &[f64],
         speeds: Option<(f64, f64)>,
         tolerance: f64,
+        as_elastic: bool,
     ) -> Result<Self, LawFault> {
         let kinds = kinds(case, materials, diameters)?;
         let mut grains: Vec<Option<Grain>> = vec![None; kinds.len()];
@@ -93,14 +94,9 @@ impl PairExport {
                 grains[place] = Some(Grain { material: kinds[place].0.clone(), sphere });
             }
             let pair = collision.scene().pair().map_err(FitError::from)?;
-            let export = fitted(&collision, speeds, tolerance)?;
-            let unpublished = collision.scene().materials_without_loss();
-            let mut unknown_loss: Vec<String> = unpublished.into_iter().map(String::from).collect();
-            // Without a loss the loss of both materials counts as unknown.
-            if export.is_none() && unknown_loss.is_empty() {
-                unknown_loss = [first, second].map(|place| kinds[place].0.clone()).into();
-                unknown_loss.dedup();
-            }
+            let curve = ImpactCurve::computed(&collision, speeds, as_elastic);
+            let unknown_loss = curve.as_ref().map_or(Vec::new(), |it| it.unknown_loss.clone());
+            let export = fitted(&collision, curve, tolerance)?;
             let restitution = export.as_ref().map_or(1.0, |of| of.export.restitution);
             let grains = [first, second];
             let pair = PairOfGrains { grains, pair, restitution, unknown_loss };
@@ -264,13 +260,13 @@ fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFaul
     Ok(edited?)
 }
 
-/// Returns the laws of a pair; `None` if it loses no energy.
+/// Returns the laws of a pair with this curve; `None` if it loses no energy.
 fn fitted(
     case: &Case,
-    speeds: Option<(f64, f64)>,
+    curve: Result<ImpactCurve, LawFault>,
     tolerance: f64,
 ) -> Result<Option<DemExport>, LawFault> {
-    let curve = match ImpactCurve::computed(case, speeds) {
+    let curve = match curve {
         Err(LawFault::NoStandIn(FitError::NoRelaxation)) => return Ok(None),
         curve => curve?,
     };

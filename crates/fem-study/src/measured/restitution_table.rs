@@ -9,6 +9,7 @@ use super::table::Table;
 use crate::fit::Point;
 use crate::sweep::COLUMNS;
 use fem_case::Scene;
+use fem_simulation::results::Status;
 
 /// Optional columns; a name that nearly equals one of them is an error.
 const OPTIONAL: [&str; 5] =
@@ -55,6 +56,11 @@ impl Restitutions {
     /// ```
     pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
         Ok(read_rows(table, scene, Wanted::default())?.0)
+    }
+
+    /// Returns the table without what it says of bounds, so that they are read as they are.
+    pub fn as_elastic(table: Table) -> Table {
+        table.without(STATUS)
     }
 
     /// Reads restitutions, and contact times if the table has them.
@@ -130,6 +136,9 @@ fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUnce
     Some(UnevenUncertainties::RowsLeftOut { n_without })
 }
 
+/// Column of a sweep that says what the restitution is.
+const STATUS: &str = "restitution_status";
+
 const SPEED: [i32; 3] = [1, 0, -1];
 const TIME: [i32; 3] = [0, 0, 1];
 const LENGTH: [i32; 3] = [1, 0, 0];
@@ -159,6 +168,8 @@ struct Columns {
     contact_time: Option<usize>,
     /// Whether the collision of a sweep's member is complete.
     complete: Option<usize>,
+    /// Whether the restitution of a sweep's member is a bound.
+    status: Option<usize>,
 }
 
 impl Columns {
@@ -185,11 +196,12 @@ impl Columns {
                 false => None,
             },
             complete: table.find(&["complete"])?,
+            status: table.find(&[STATUS])?,
         })
     }
 
     pub fn read(&self) -> Vec<usize> {
-        let optional = [self.uncertainty, self.contact_time, self.complete];
+        let optional = [self.uncertainty, self.contact_time, self.complete, self.status];
         let required = self.speeds.iter().copied().chain([self.restitution]);
         required.chain(optional.into_iter().flatten()).collect()
     }
@@ -225,6 +237,14 @@ impl Columns {
                     "it must be from 0 to 1, or to 1.2 with scatter; name the column \
                      restitution_percent for per cents",
                 ));
+        }
+        if self.status.is_some_and(|status| table.text(row, status) == Status::Bound.word()) {
+            let message =
+                format!("the restitution {restitution} is an upper bound, and no number for a law");
+            return Err(table.fault(row, message).in_column(STATUS).with_help(
+                "give the materials a relaxation or a strength and run the sweep again, name a measured value, or write \
+                 --as-elastic",
+            ));
         }
         let restitution_uncertainty = match self.uncertainty {
             Some(column) => uncertainty(table, row, column)?,

@@ -48,6 +48,17 @@ const PACKED: [&str; 2] = ["PK\u{3}\u{4}", "\u{d0}\u{cf}\u{11}\u{e0}"];
 const MISSPELT: f64 = 0.9;
 
 impl Table {
+    /// Returns the table without the column of this name.
+    pub(super) fn without(mut self, column: &str) -> Self {
+        if let Some(place) = self.header.iter().position(|header| header == column) {
+            self.header.remove(place);
+            self.rows.iter_mut().for_each(|(_, cells)| drop(cells.remove(place)));
+            self.named.retain(|named| *named != place);
+            self.named.iter_mut().filter(|named| **named > place).for_each(|named| *named -= 1);
+        }
+        self
+    }
+
     /// Parses a text; messages refer to it by `name`.
     ///
     /// # Errors

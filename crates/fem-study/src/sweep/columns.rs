@@ -51,17 +51,16 @@ const UNCERTAINTIES: [(&str, &str); 3] = [
     ("uncertainty_model_", "model"),
     ("uncertainty_input_", "input"),
 ];
-/// Prefix of a column of the summary's `estimate`, and its end of the range.
-const ESTIMATES: [(&str, &str); 2] = [("estimate_low_", "low"), ("estimate_high_", "high")];
+/// Ending of a column of the summary's `status`, after the quantity.
+const STATUS: &str = "_status";
 /// Beginnings of columns that a table has only if a member has a value there.
-const OPTIONAL: [&str; 6] =
-    ["uncertainty_input_", "adhesion_", "plate_", "estimate_", "energy_locked_in_j", "dent_"];
+const OPTIONAL: [&str; 5] =
+    ["uncertainty_input_", "adhesion_", "plate_", "energy_locked_in_j", "dent_"];
 
-/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_`, `plate_`, `estimate_` and `uncertainty_`
-/// are
-/// the summary's objects of that name, the last two with end or part before the quantity, and `dent_` is the first of its
-/// dents. The cost of the run (`cost`)
-/// differs from run to run and stays in the member's summary.
+/// Names and order of all columns that a table can have; `hertz_`, `energy_`, `adhesion_`, `plate_` and `uncertainty_` are the
+/// summary's objects of that name, the last one with the part before the quantity, `_status` ends the columns of its status,
+/// and `dent_` is the first of its dents. The cost of the run (`cost`) differs from run to run and stays in the member's
+/// summary.
 pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
     let accounts = Account::all().map(|account| column_of(&energy_key(account)));
@@ -70,13 +69,9 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let parts = |quantity: QuantityOfInterest| {
         UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()))
     };
-    let ends = |quantity: QuantityOfInterest| {
-        ESTIMATES.map(|(start, _)| format!("{start}{}", quantity.key()))
-    };
-    let estimates = QuantityOfInterest::ALL.into_iter().flat_map(ends);
-    let estimates = ["estimate_effect".to_string()].into_iter().chain(estimates);
+    let status = QuantityOfInterest::ALL.into_iter().map(|it| format!("{}{STATUS}", it.key()));
     let uncertainties = QuantityOfInterest::ALL.into_iter().flat_map(parts);
-    own(&FIRST).chain(estimates).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
+    own(&FIRST).chain(status).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
 });
 
 /// The columns of a table of summaries: all except the optional ones that no summary has.
@@ -144,9 +139,7 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
     let uncertainty = UNCERTAINTIES.into_iter().find_map(|(start, part)| {
         column.strip_prefix(start).map(|quantity| &summary["uncertainty"][quantity][part])
     });
-    let estimate = ESTIMATES.into_iter().find_map(|(start, end)| {
-        column.strip_prefix(start).map(|quantity| &summary["estimate"][end][quantity])
-    });
+    let status = column.strip_suffix(STATUS).map(|quantity| &summary["status"][quantity]);
     match column {
         "elements" => {
             let bodies = summary["bodies"].as_array().into_iter().flatten();
@@ -155,11 +148,9 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
         }
         "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
         _ => {
-            let tables = ["hertz_", "energy_", "adhesion_", "plate_", "estimate_"]
-                .into_iter()
-                .find_map(table);
+            let tables = ["hertz_", "energy_", "adhesion_", "plate_"].into_iter().find_map(table);
             let dent = column.strip_prefix("dent_").map(|key| &summary["dent"][0][key]);
-            let own = uncertainty.or(estimate).or(tables).or(dent);
+            let own = uncertainty.or(status).or(tables).or(dent);
             own.unwrap_or(&summary[column]).clone()
         }
     }

@@ -13,6 +13,7 @@ const POLYSTYRENE: &str = r#"
 density = "1050 kg/m^3"
 youngs_modulus = "3.25 GPa"
 poissons_ratio = 0.34
+elastic = true
 
 [[body]]
 name = "wall"

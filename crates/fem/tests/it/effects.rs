@@ -82,7 +82,7 @@ fn every_effects_key_is_the_switch_of_one_effect() {
 fn every_model_supports_or_excludes_every_effect() {
     let reduced = "viscoelasticity, dashpot, finite size, finite strain, surface slip, plastic flow, adhesion, partner waves, \
                    rigid partner, vibration, gravity";
-    let law = reduced.replace("adhesion, ", "");
+    let law = reduced.replace("plastic flow, adhesion, ", "");
     let no_elements = "material loss, plate bending, rate dependence, mirror symmetry, hourglass control, bulk viscosity, penalty springs, contact search, mass scaling";
     // Elements always include inertia, and modes of vibration resolve no fronts.
     for (model, answered, foreign) in [
@@ -101,7 +101,7 @@ fn every_model_supports_or_excludes_every_effect() {
         ("hertz={}", reduced, no_elements),
         ("ting={}", reduced, no_elements),
         // Without a surface energy all losses of a law are the user's.
-        ("law.falcon.c=300", &law, &format!("{no_elements}, adhesion")),
+        ("law.falcon.c=300", &law, &format!("{no_elements}, plastic flow, adhesion")),
     ] {
         let simulation = simulation_of(GLASS, &[format!("model.{model}")]);
         let decisions = simulation.setup().decisions.all.iter();

@@ -120,7 +120,7 @@ fn every_law_with_one_free_parameter_is_inverted() {
 #[test]
 fn an_export_has_its_range_of_validity() {
     let case = ball(Some(tsuji(0.9)));
-    let curve = ImpactCurve::computed(&case, Some((0.05, 0.5))).unwrap();
+    let curve = ImpactCurve::computed(&case, Some((0.05, 0.5)), false).unwrap();
     assert!(!curve.has_hertz_times && curve.points.len() == 13);
     let export = DemExport::of(&case, curve, 0.01).unwrap();
     let [constant, viscoelastic, _] = &export.laws[..] else { panic!("{:?}", export.laws) };
@@ -143,14 +143,16 @@ fn an_export_has_its_range_of_validity() {
 
 #[test]
 fn ting_replaces_elements_if_a_body_relaxes() {
-    let elastic = ImpactCurve::computed(&ball(None), None).unwrap_err();
+    let elastic = ImpactCurve::computed(&ball(None), None, true).unwrap_err();
     assert_eq!(elastic, LawFault::NoStandIn(FitError::NoRelaxation));
+    let bound = ImpactCurve::computed(&ball(None), None, false).unwrap_err();
+    assert!(matches!(bound, LawFault::Bound(_)), "{bound}");
     let case = ball(None).edited(|file| {
         let ice = file.material.remove("ice").unwrap();
         let ice = ice.relaxing(ActsOn::All, [TermTable::with_relaxation_time(0.5, "1 ms")]);
         file.material.insert("ice".to_string(), ice);
     });
-    let curve = ImpactCurve::computed(&case.unwrap(), None).unwrap();
+    let curve = ImpactCurve::computed(&case.unwrap(), None, false).unwrap();
     let (low, high) = curve.speeds();
     // A decade around the case's speed; powers round.
     assert!((high / low - 10.0).abs() < 1e-9 && (low * high - 0.01).abs() < 1e-12);

@@ -11,6 +11,7 @@ const BALL: &str = r#"
 density = "2390 kg/m^3"
 youngs_modulus = "63 GPa"
 poissons_ratio = 0.25
+elastic = true
 
 [[body]]
 name = "block"
@@ -177,8 +178,8 @@ fn waves_that_return_in_part_are_reported() {
 /// radiation term, and are within the bars of models with the term and without.
 #[test]
 fn bars_include_the_own_motion_of_a_body_that_waves_cross_once() {
-    let soft = "material.soft={ density=2700, youngs_modulus='15 GPa', poissons_ratio=0.44 }";
-    let hard = "material.glass={ density=1900, youngs_modulus='32 GPa', poissons_ratio=0.2 }";
+    let soft = "material.soft={ density=2700, youngs_modulus='15 GPa', poissons_ratio=0.44, elastic=true }";
+    let hard = "material.glass={ density=1900, youngs_modulus='32 GPa', poissons_ratio=0.2, elastic=true }";
     let sizes = ["body.0.sphere.diameter='40 mm'", "body.1.sphere.diameter='6 mm'"];
     let scene = [soft, hard, "body.0.material='soft'", sizes[0], sizes[1]];
     let restitution = |model: &str| {

@@ -2,9 +2,7 @@
 
 use fem::{Account, QuantityOfInterest};
 
-use crate::scene::{
-    DENTED_BALL, case_of, collision_of, decision_on, refused_of, resolved, simulation_of,
-};
+use crate::scene::{DENTED_BALL, collision_of, decision_on, refused_of, resolved, simulation_of};
 
 /// A ball on a wall that yields from 35 mm/s on, on a coarse mesh.
 const BALL: &str = r#"
@@ -38,7 +36,8 @@ fn bits(overrides: &[&str], text: &str) -> [u64; 6] {
 /// Below first yield the run is the elastic one to the last bit, and so is one with the effect switched off.
 #[test]
 fn flow_is_computed_above_first_yield_only() {
-    let elastic = BALL.replace("[material.steel.flow]\n", "").replace("'1 GPa'", "'0.1 GPa'");
+    let elastic =
+        BALL.replace("[material.steel.flow]\nyield_strength = \"1 GPa\"", "elastic = true");
     assert_eq!(bits(&[SLOW], BALL), bits(&[SLOW], &elastic));
     let off = "effects.plastic_flow='off'";
     assert_eq!(bits(&[off], BALL), bits(&[], &elastic));
@@ -58,7 +57,13 @@ fn flow_is_computed_above_first_yield_only() {
         assert_eq!(decision_on(&again, "plastic flow").active, active, "{set:?}");
     }
     let warnings = simulation_of(BALL, &[off]).setup().warnings().join("\n");
-    assert!(warnings.contains("plastic flow is needed, but switched off"), "{warnings}");
+    assert!(
+        warnings.contains("effects.plastic_flow is \"off\": the results are bounds"),
+        "{warnings}"
+    );
+    // A strength alone is that of perfect plasticity.
+    let strength = BALL.replace("[material.steel.flow]\n", "");
+    assert_eq!(bits(&[], BALL), bits(&[], &strength));
 }
 
 /// The lost energy is plastic work and residual strain; the books close.
@@ -96,7 +101,7 @@ fn a_missing_rate_is_in_the_error_bar() {
     assert!(!decision.active && decision.reason.contains("not computed"), "{}", decision.reason);
     assert!(own.active && own.reason.contains("% higher"), "{}", own.reason);
     let warnings = tight.setup().warnings().join("\n");
-    assert!(warnings.contains("set material.NAME.flow.rate"), "{warnings}");
+    assert!(warnings.contains("set material.steel.flow.rate"), "{warnings}");
     let [without, with] = [without, with].map(|simulation| {
         let collision = simulation.run(&mut ());
         let uncertainty = simulation.summary(&collision).uncertainty;
@@ -273,22 +278,12 @@ fn impossible_switches_are_refused() {
         ),
         (
             &[
-                "material.plain={density=1e3,youngs_modulus=1e9,poissons_ratio=0.3}",
+                "material.plain={density=1e3,youngs_modulus=1e9,poissons_ratio=0.3,elastic=true}",
                 "body.0.material='plain'",
                 "effects.plastic_flow='on'",
             ],
             "effects.plastic_flow",
-            "no material has a table flow",
-        ),
-        (
-            &[
-                "gravity.acceleration=9.81",
-                "stop.bounces=2",
-                "body.0={name='floor',wall={}}",
-                "body.1={name='ball',sphere.diameter=0.01,material='steel',approach_speed=1}",
-            ],
-            "gravity",
-            "the case does not say where it falls next",
+            "no material has a strength",
         ),
     ] {
         let error = refused_of(BALL, set).to_string();
@@ -304,7 +299,7 @@ fn other_models_point_at_elements() {
         let decision = decision_on(&simulation, "plastic flow");
         assert!(!decision.active && decision.matters, "{model}");
         let warnings = simulation.setup().warnings().join("\n");
-        assert!(warnings.contains("model fem computes plastic flow"), "{warnings}");
+        assert!(warnings.contains("use model fem, or law mean_pressure"), "{warnings}");
     }
     let chosen = |set: &[&str]| {
         let set: Vec<&str> = set.iter().copied().chain(["model.auto={}"]).collect();
@@ -314,12 +309,4 @@ fn other_models_point_at_elements() {
     };
     assert_eq!(chosen(&[]), "fem = {}");
     assert_ne!(chosen(&[SLOW]), "fem = {}");
-    // Without a flow rule no model has it.
-    let case = case_of(BALL, &["material.steel.flow.yield_strength='1 GPa'"]);
-    let plain = case.edited(|file| {
-        let steel = file.material.get_mut("steel").unwrap();
-        steel.yield_strength = steel.flow.take().unwrap().yield_strength;
-    });
-    let warnings = fem::Simulation::new(plain.unwrap()).unwrap().setup().warnings().join("\n");
-    assert!(warnings.contains("[material.NAME.flow] with model fem"), "{warnings}");
 }

@@ -10,6 +10,7 @@ const BALL: &str = r#"
 density = "7800 kg/m^3"
 youngs_modulus = "210 GPa"
 poissons_ratio = 0.3
+elastic = true
 
 [[body]]
 name = "bench"

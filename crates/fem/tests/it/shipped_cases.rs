@@ -117,7 +117,10 @@ fn every_case_has_the_plan_of_its_row() {
             let reason = &decision_on(&simulation, effect).reason;
             assert!(reason.contains(words), "{name}: {effect}: {reason}");
         }
-        assert_eq!(simulation.warnings_before(), [""; 0], "{name}");
+        // The ice of a fit has a loss that the case does not give.
+        let warnings = simulation.warnings_before();
+        let is_told = name == "ice_2cm" && warnings.len() == 1;
+        assert!(is_told || warnings.is_empty(), "{name}: {warnings:?}");
     }
 }
 

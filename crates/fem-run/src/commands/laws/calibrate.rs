@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use super::calibration_text::calibration_text;
 use crate::arguments::case::{CaseArguments, stem_of};
-use crate::arguments::data::ColumnArguments;
+use crate::arguments::data::RestitutionArguments;
 use crate::arguments::law::{parse_confidence, parse_share};
 use crate::jobs::value_of;
 use crate::result_folder::command_output::OutputArguments;
@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
     #[command(flatten)]
-    columns: ColumnArguments,
+    restitutions: RestitutionArguments,
     /// Number of terms of the series
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=12))]
     terms: u8,
@@ -94,11 +94,11 @@ const OPTIONS: SettingNames = SettingNames {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
-    let table = arguments.columns.read(&arguments.data)?;
+    let table = arguments.restitutions.read(&arguments.data)?;
     let (found, warnings) = found(arguments, &case, &table)?;
     let picture = calibration_figure(&found).map_err(CalibrationFault::Fit)?;
     let from_case = Some((&arguments.input, &case));
-    let origin = arguments.columns.origin("calibrate", from_case, Some(&arguments.data));
+    let origin = arguments.restitutions.origin("calibrate", from_case, Some(&arguments.data));
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", origin)?;
     output.write("relaxation.toml", found.relaxation_toml())?;
     output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals())?;
@@ -109,7 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Calibrates to a table in memory and returns the numbers, with the table to paste into the case.
 pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
-    let table = arguments.columns.name_columns(table.clone())?;
+    let table = arguments.restitutions.name_columns(table.clone())?;
     let (found, warnings) = found(arguments, case, &table)?;
     let mut numbers = value_of(&found.numbers(&arguments.input.name(), warnings))?;
     numbers["relaxation_toml"] = found.relaxation_toml().into();

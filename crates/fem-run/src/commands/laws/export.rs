@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use super::export_text::{export_text, law_note, pairs_csv, pairs_json, pairs_text};
 use crate::arguments::case::CaseArguments;
-use crate::arguments::data::ColumnArguments;
+use crate::arguments::data::RestitutionArguments;
 use crate::arguments::law::{parse_length, parse_share, parse_speed};
 use crate::jobs::value_of;
 use crate::result_folder::Origin;
@@ -37,7 +37,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", conflicts_with = "speeds")]
     data: Option<PathBuf>,
     #[command(flatten)]
-    columns: ColumnArguments,
+    restitutions: RestitutionArguments,
     /// The result of fem-run fit, its folder or its fit.json: the fitted law gives the restitutions, over the
     /// speeds of its data
     #[arg(long, value_name = "DIR", conflicts_with_all = ["data", "materials", "diameters"])]
@@ -68,10 +68,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.wants_pairs() {
         return write_pairs(arguments, &case);
     }
-    let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
-    if table.is_none() && arguments.fit.is_none() {
-        standard_output::warn(case.scene().unknown_loss());
-    }
+    let table =
+        arguments.data.as_deref().map(|path| arguments.restitutions.read(path)).transpose()?;
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", arguments.origin(&case))?;
@@ -109,7 +107,8 @@ pub fn numbers(
         numbers["texts"] = texts.into_iter().collect();
         return Ok(numbers);
     }
-    let table = table.cloned().map(|table| arguments.columns.name_columns(table)).transpose()?;
+    let table =
+        table.cloned().map(|table| arguments.restitutions.name_columns(table)).transpose()?;
     let (fitted, snippets) = fitted(arguments, case, table.as_ref())?;
     let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
     numbers["texts"] =
@@ -127,7 +126,7 @@ impl Arguments {
 
     fn origin(&self, case: &Case) -> Origin {
         let data = self.data.as_deref();
-        let origin = self.columns.origin("export", Some((&self.input, case)), data);
+        let origin = self.restitutions.origin("export", Some((&self.input, case)), data);
         let grains: Vec<String> = self
             .materials
             .iter()
@@ -170,7 +169,14 @@ impl Arguments {
 fn pairs(arguments: &Arguments, case: &Case) -> Result<(PairExport, Vec<PairNumbers>), Failure> {
     let tolerance = arguments.checked_tolerance()?.unwrap_or(PAIRS_TOLERANCE);
     let Arguments { materials, diameters, speeds, .. } = arguments;
-    let export = PairExport::of(case, materials, diameters, *speeds, tolerance)?;
+    let export = PairExport::of(
+        case,
+        materials,
+        diameters,
+        *speeds,
+        tolerance,
+        arguments.restitutions.as_elastic,
+    )?;
     let rows = export.numbers();
     Ok((export, rows))
 }
@@ -199,7 +205,9 @@ fn fitted(
             standard_output::warn(fit.warnings.iter().map(|text| format!("the fit: {text}")));
             ImpactCurve::fitted(&fit, arguments.speeds)?
         }
-        (None, None) => ImpactCurve::computed(case, arguments.speeds)?,
+        (None, None) => {
+            ImpactCurve::computed(case, arguments.speeds, arguments.restitutions.as_elastic)?
+        }
         (Some(table), _) => {
             let data = Restitutions::read_with_contact_times(table, case.scene())?;
             ImpactCurve::measured(case.scene(), &data)?

@@ -29,6 +29,9 @@ impl From<LawFault> for Failure {
             LawFault::Grains(_, help) => Failure::bad_input(message).with_help(help),
             LawFault::Compared { .. } => Failure::bad_input(format!("--compare {message}"))
                 .with_help("leave it out, or fit it alone with --law"),
+            LawFault::Bound(_) => Failure::bad_input(message).with_help(
+                "name measured values (--data lib:NAME or a file), or write --as-elastic to take it as it is",
+            ),
             LawFault::NoStandIn(error) => Failure::from(error).with_help(
                 "give a material a [material.NAME.relaxation] table, a law in [model], or \
                  restitutions with --data",

@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use super::fit_text::{answer, fit_text, next_steps, ranking_csv, ranking_text};
 use crate::arguments::case::{CaseArguments, stem_of};
-use crate::arguments::data::ColumnArguments;
+use crate::arguments::data::RestitutionArguments;
 use crate::arguments::law::{
     End, LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
 };
@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
     #[command(flatten)]
-    columns: ColumnArguments,
+    restitutions: RestitutionArguments,
     /// The law, such as bordbar_hyppanen or ting; `all` finds the law that explains the data best [default:
     /// that of the case's model, or all]
     #[arg(long, value_name = "LAW", value_parser = parse_wanted)]
@@ -87,13 +87,13 @@ fn parse_wanted(name: &str) -> Result<Wanted, String> {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
-    let table = arguments.columns.read(&arguments.data)?;
+    let table = arguments.restitutions.read(&arguments.data)?;
     fitted(arguments, &case, &table, |found| write(arguments, &case, found))
 }
 
 /// Fits to a table in memory and returns the numbers.
 pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
-    let table = arguments.columns.name_columns(table.clone())?;
+    let table = arguments.restitutions.name_columns(table.clone())?;
     let name = arguments.input.name();
     fitted(arguments, case, &table, |found| value_of(&found.fitted.numbers(&name)))
 }
@@ -151,7 +151,7 @@ fn fitted<T>(
 fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Failure> {
     let Found { fitted, law, ranking } = found;
     let from_case = Some((&arguments.input, case));
-    let origin = arguments.columns.origin("fit", from_case, Some(&arguments.data));
+    let origin = arguments.restitutions.origin("fit", from_case, Some(&arguments.data));
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", origin)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
     if let Some(ranking) = ranking {

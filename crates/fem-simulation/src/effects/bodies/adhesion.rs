@@ -10,7 +10,6 @@ use fem_case::{ModelChoice, Scene, WorkOfAdhesion};
 use fem_collision::QuantityOfInterest;
 use fem_laws::Adhesion;
 
-use crate::effects::decision::leading_estimate::LeadingEstimate;
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
 use crate::effects::decision::simplified_scene::SimplifiedScene;
@@ -23,8 +22,6 @@ use crate::quantity_errors::QuantityErrors;
 
 /// Factor on the separation energy, and its inverse, between which it is open whether bodies stick.
 const UNCERTAINTY_OF_ENERGY: f64 = 3.0;
-/// Smallest separation energy over the kinetic one that changes the restitution visibly.
-const LEAST_SHARE: f64 = 0.05;
 
 impl Effect for AdhesionEffect {
     fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
@@ -85,49 +82,6 @@ impl Effect for AdhesionEffect {
         })
     }
 
-    /// The impacts of Johnson, Kendall and Roberts, over the range of the separation energy where it is open whether the
-    /// bodies stick, or where the work of adhesion is a typical one. Of hard spheres the restitution alone is known. A typical
-    /// work of adhesion leads only where the bodies would stick.
-    fn leading_estimate(
-        &self,
-        scene: &Scene,
-        estimate: &Estimate,
-        restitution: f64,
-    ) -> Option<LeadingEstimate> {
-        let adhesion = adhesion_of(scene)?;
-        let (speed, sticking) = (estimate.hertz.approach_speed(), adhesion.sticking_speed());
-        let share = (sticking / speed).powi(2);
-        let is_typical = Self::given(scene).is_none();
-        if UNCERTAINTY_OF_ENERGY * share < LEAST_SHARE || is_typical && share < 1.0 {
-            return None;
-        }
-        let is_range = is_typical || is_open(share);
-        let factors = if is_range {
-            [UNCERTAINTY_OF_ENERGY, UNCERTAINTY_OF_ENERGY.recip()]
-        } else {
-            [1.0; 2]
-        };
-        // Bodies that stick in the run have lost the restitution that they would have.
-        let without =
-            if restitution > 0.0 { restitution } else { restitution_without(scene, speed) };
-        let [low, high] = factors.map(|factor| (without.powi(2) - factor * share).max(0.0).sqrt());
-        // W ∝ Γ^(5/3).
-        let of_work = |factor: f64| {
-            let work = factor.powf(0.6) * adhesion.work_of_adhesion();
-            Adhesion::new(adhesion.pair(), work).impact(speed)
-        };
-        let by = format!(
-            "{}work of adhesion of {} (slower than {} they stick)",
-            if is_typical { "a typical " } else { "the " },
-            show(adhesion.work_of_adhesion(), "J/m^2"),
-            show(sticking, "m/s")
-        );
-        let all =
-            LeadingEstimate::of_impacts(Self::NAME, by, "without adhesion", factors.map(of_work));
-        let known = if adhesion.is_jkr() { all } else { all.of_restitution_alone() };
-        known.with_restitution(low, high).if_it_leads(without)
-    }
-
     /// Bodies that stick have no other losses.
     fn silences(&self, scene: &Scene, estimate: &Estimate) -> &'static [&'static str] {
         let speed = estimate.hertz.approach_speed();
@@ -166,6 +120,10 @@ impl Effect for AdhesionEffect {
             false => return errors,
         };
         errors.with(QuantityOfInterest::Restitution, open)
+    }
+
+    fn is_dissipative(&self) -> bool {
+        true
     }
 }
 

@@ -1,7 +1,6 @@
 //! The effects, and the trait that each implements: its relevance to a scene, its transformation of the scene,
 //! and the error of neglecting it.
 
-pub(super) mod leading_estimate;
 pub(super) mod neglect_error;
 pub(super) mod relevance;
 pub(super) mod simplified_scene;
@@ -10,7 +9,6 @@ pub(super) mod support;
 use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
-use self::leading_estimate::LeadingEstimate;
 use self::neglect_error::{EffectStatus, NeglectError};
 use self::relevance::Relevance;
 use self::simplified_scene::TransformedScene;
@@ -202,10 +200,10 @@ pub trait Effect: NamedEffect {
         }
     }
 
-    /// Returns the results with the effect by closed forms, if they and not those of a run without it are the answer.
-    /// `restitution` is that of the run.
-    fn leading_estimate(&self, _: &Scene, _: &Estimate, _: f64) -> Option<LeadingEstimate> {
-        None
+    /// Returns whether the effect takes energy and makes the contact softer, so that results without it are bounds from a
+    /// known side.
+    fn is_dissipative(&self) -> bool {
+        false
     }
 
     /// Returns the names of effects whose warnings are pointless where this one is needed and the model lacks it.

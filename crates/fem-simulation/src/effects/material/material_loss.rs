@@ -1,40 +1,46 @@
-//! Loss of the material itself, for materials without a relaxation. A case that gives its own elastic material asks for a
-//! collision without it. A material of the library has a loss that is not known: the restitution is too large, by an unknown
-//! amount, which the effect says, with the measured restitutions of the material where there are some. It does not warn: the
-//! user has no relaxation to give.
+//! Loss of the material itself, for bodies whose relaxation is not known. The restitution of a collision without it is an upper
+//! bound, unless the case says that the material is meant to be elastic. The other quantities depend on the moduli.
 
-use fem_case::{Body, ModelChoice, Scene};
+use fem_case::engineering::{number, show};
+use fem_case::{Body, Scene};
 use fem_collision::QuantityOfInterest;
 
 use crate::effects::decision::neglect_error::EffectStatus;
 use crate::effects::decision::relevance::Relevance;
-use crate::effects::decision::{AdhesionEffect, Effect, MaterialLoss};
+use crate::effects::decision::{AdhesionEffect, Effect, MaterialLoss, PlasticFlow};
 use crate::estimate::Estimate;
 use crate::quantity_errors::QuantityErrors;
 
 impl Effect for MaterialLoss {
-    fn relevance(&self, scene: &Scene, _: &Estimate) -> Option<Relevance> {
-        let bodies: Vec<&str> = scene.elastic_bodies().map(Body::name).collect();
-        if bodies.is_empty() {
-            let number = "a material flows, but not in this collision".to_string();
-            let if_not_needed = "computed as elastic".to_string();
-            return Some(Relevance { number, if_not_needed, ..Relevance::default() });
-        }
-        let names = scene.materials_without_loss();
-        let number = match names.is_empty() {
-            true => format!("the case gives no relaxation for {}", bodies.join(" and ")),
-            false => format!("the library has no relaxation for {}", names.join(" and ")),
-        };
+    fn relevance(&self, scene: &Scene, estimate: &Estimate) -> Option<Relevance> {
+        let bodies = Self::unknown(scene, estimate);
+        let first = bodies.first()?;
+        let names: Vec<&str> = bodies.iter().map(|body| body.name()).collect();
+        let names = names.join(" and ");
+        let measured = scene.measured_restitutions().first().map(|it| {
+            let (slowest, fastest) = it.speeds();
+            let at = match scene.measured_restitution() {
+                Some((_, restitution)) => number(restitution, 2),
+                None if slowest == fastest => format!("at {}", show(slowest, "m/s")),
+                None => format!("at {} to {}", show(slowest, "m/s"), show(fastest, "m/s")),
+            };
+            format!(" (measured: {at}, {})", it.name)
+        });
+        let measured = measured.unwrap_or_default();
         Some(Relevance {
-            is_needed: !names.is_empty(),
-            number,
-            if_not_needed: "computed as elastic, without a loss of the material".to_string(),
-            open_error: scene.too_high_a_restitution(),
-            warning: None,
+            is_needed: true,
+            number: format!("no relaxation is given for {names}"),
+            if_not_needed: String::new(),
+            open_error: format!("the restitution is an upper bound{measured}"),
+            warning: Some(format!(
+                "the damping of {names} is unknown and not included{measured}: give {}, or {} = true",
+                first.material_key("relaxation"),
+                first.material_key("elastic")
+            )),
         })
     }
 
-    /// The restitution is unknown, unless the bodies stick. The other quantities depend on the moduli.
+    /// The restitution is a bound, unless the bodies stick.
     fn model_form_error(
         &self,
         scene: &Scene,
@@ -42,25 +48,28 @@ impl Effect for MaterialLoss {
         status: &EffectStatus,
     ) -> QuantityErrors {
         let sticks = AdhesionEffect::surely_sticks(scene, estimate.hertz.approach_speed());
+        let is_bound = status.is_lacking && !sticks && Self::is_lacking(scene, estimate);
         QuantityErrors::from_fn(|quantity| {
-            let is_unknown = Self::is_unknown(scene)
-                && status.is_lacking
-                && !sticks
-                && quantity == QuantityOfInterest::Restitution;
-            (!is_unknown).then_some(0.0)
+            (!is_bound || quantity != QuantityOfInterest::Restitution).then_some(0.0)
         })
+    }
+
+    fn is_dissipative(&self) -> bool {
+        true
     }
 }
 
 impl MaterialLoss {
-    /// Returns whether a scene has such a material.
-    fn is_unknown(scene: &Scene) -> bool {
-        !scene.materials_without_loss().is_empty()
+    /// Returns the bodies whose loss is not known, each material once.
+    fn unknown<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<&'a Body> {
+        let flows = PlasticFlow::is_on(scene, estimate);
+        let mut bodies: Vec<&Body> = scene.bodies_of_unknown_loss(flows).collect();
+        bodies.dedup_by_key(|body| body.material_key(""));
+        bodies
     }
 
-    /// Returns whether a model has no loss of a material. The loss of a contact law is the user's.
-    pub(crate) fn is_lacking(scene: &Scene) -> bool {
-        let is_law = matches!(scene.model(), ModelChoice::Law { .. });
-        !is_law && scene.elastic_bodies().next().is_some()
+    /// Returns whether a collision of a scene lacks the loss of a material.
+    pub(crate) fn is_lacking(scene: &Scene, estimate: &Estimate) -> bool {
+        !Self::unknown(scene, estimate).is_empty()
     }
 }

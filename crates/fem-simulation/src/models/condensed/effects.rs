@@ -36,7 +36,7 @@ pub(super) fn support(
         },
         ContactSearch::NAME => ContactSearch::within(&pair?.candidate_region()),
         MirrorSymmetry::NAME if pair.is_none() => MirrorSymmetry::support_by_elements(scene),
-        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
+        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene, estimate) => return None,
         MaterialLoss::NAME
         | FiniteStrain::NAME
         | PlasticFlow::NAME

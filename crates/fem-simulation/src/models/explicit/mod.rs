@@ -116,7 +116,6 @@ impl Explicit {
             return Err(Rejection::chose_another(scene, "fem"));
         }
         FiniteStrain::check(scene, &plan.estimate)?;
-        PlasticFlow::check(scene)?;
         let approach = approach_of(scene)?;
         let made = RebuildData {
             scene: scene.clone(),
@@ -469,7 +468,7 @@ fn support(
         // Contact between deformed surfaces has it.
         SurfaceSlip::NAME if FiniteStrain::is_on(scene, estimate) => Support::Inherent { idle: "" },
         SurfaceSlip::NAME => Support::Computes { idle: "" },
-        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
+        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene, estimate) => return None,
         MaterialLoss::NAME | AdhesionEffect::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
             Support::Lacks
         }

@@ -37,10 +37,12 @@ pub(super) fn support(
         Gravity::NAME => Support::Inherent { idle: "" },
         AdhesionEffect::NAME if !AdhesionEffect::is_lacking(scene) => return None,
         PlasticFlow::NAME if dents => Support::Inherent { idle: "" },
+        // The loss of a contact law is the user's.
+        PlasticFlow::NAME if law.is_some() => return None,
         // The strain of a dent is that of its law.
         FiniteStrain::NAME if dents => return None,
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene) => return None,
+        MaterialLoss::NAME if !MaterialLoss::is_lacking(scene, estimate) => return None,
         MaterialLoss::NAME
         | FiniteStrain::NAME
         | SurfaceSlip::NAME
