@@ -77,17 +77,19 @@ impl FreePlate {
     /// # Errors
     /// Surface waves come back from the edge within the contact.
     pub fn mobility_in(&self, hertz: &HertzImpact) -> Result<Option<f64>, LawError> {
-        let Self { material, thickness, diameter } = self;
+        let Self { material, diameter, .. } = self;
         let contact_time = hertz.contact_time();
         let value = crate::rayleigh_wave_speed(material) * contact_time / diameter;
         if value > 1.0 {
             let quantity = "way of surface waves within the contact / diameter of the plate";
             return Err(LawError::OutsideValidity { quantity, value, limit: 1.0 });
         }
-        if material.dilatational_wave_speed() * contact_time < 2.0 * thickness {
-            return Ok(None);
-        }
-        Ok(Some(self.mobility(hertz)))
+        Ok((!self.is_half_space(hertz)).then(|| self.mobility(hertz)))
+    }
+
+    /// Returns whether no wave returns from the lower face within Hertz' contact.
+    pub fn is_half_space(&self, hertz: &HertzImpact) -> bool {
+        self.material.dilatational_wave_speed() * hertz.contact_time() < 2.0 * self.thickness
     }
 }
 

@@ -9,7 +9,7 @@ use super::chosen_law::model_of;
 use super::law_fault::LawFault;
 use super::stored_fit::{RestitutionBand, StoredFit};
 use crate::measured::{DataError, Restitutions};
-use fem_simulation::{Reduced, flowing_impact};
+use fem_simulation::{Reduced, mean_pressure_impact};
 
 /// Number of speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
@@ -98,16 +98,15 @@ impl ImpactCurve {
         let mut scatter = 0.0f64;
         let points = speeds_between(speeds).map(|speed| {
             let hertz = HertzImpact::new(&pair, speed)?;
-            let flowing = flowing_impact(scene, &hertz, None);
-            let impact = match flowing {
-                Some(impact) => impact.quantities,
-                None => ImpactQuantities::from(&hertz),
-            };
-            let error =
-                flowing.map_or(0.0, |impact| impact.errors[0] * impact.quantities.restitution);
+            let flowing = mean_pressure_impact(scene, &hertz);
+            let impact = flowing.map_or(ImpactQuantities::from(&hertz), |it| it.quantities);
+            let error = flowing.map_or(0.0, |it| it.errors[0] * it.quantities.restitution);
             scatter = scatter.max(error);
             let point = Point::new(speed, impact.restitution);
-            Ok(Point { contact_time: Some(impact.contact_time), ..point })
+            Ok(Point {
+                contact_time: Some(impact.contact_time).filter(|time| time.is_finite()),
+                ..point
+            })
         });
         let points = points.collect::<Result<_, FitError>>()?;
         let curve = Self::of(&pair, points)?;

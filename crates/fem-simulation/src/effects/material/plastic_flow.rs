@@ -6,7 +6,7 @@
 
 use fem_case::engineering::{range, show};
 use fem_case::{Body, ModelChoice, Scene, Switch};
-use fem_laws::{FirstYield, LawFamily, largest_von_mises};
+use fem_laws::{FirstYield, largest_von_mises};
 use fem_material::Material;
 
 use crate::effects::decision::leading_estimate::LeadingEstimate;
@@ -16,6 +16,7 @@ use crate::effects::decision::simplified_scene::TransformedScene;
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, NamedEffect, PlasticFlow};
 use crate::estimate::Estimate;
+use crate::estimate::plastic_flow::{first_yield, law_error};
 use crate::quantity_errors::QuantityErrors;
 use crate::rejection::Rejection;
 
@@ -99,7 +100,9 @@ impl Effect for PlasticFlow {
         let impacts = first.range(scene.strength_uncertainty(body));
         let [low, high] = impacts.map(|impact| impact.restitution);
         let size = impacts[1].max_contact_radius / estimate.hertz.pair().effective_radius();
-        let low = (low.powi(2) - (1.0 - restitution.powi(2)).max(0.0)).max(0.0).sqrt();
+        // The law has the loss by a plate.
+        let others = (first.elastic().restitution.powi(2) - restitution.powi(2)).max(0.0);
+        let low = (low.powi(2) - others).max(0.0).sqrt();
         let all = LeadingEstimate::of_impacts(Self::NAME, by, "if it stayed elastic", impacts);
         // Wider contacts are beyond the law.
         let known = if size > MAX_SIZE { all.of_restitution_alone() } else { all };
@@ -112,7 +115,7 @@ impl Effect for PlasticFlow {
         Some(NeglectError::of_changes(estimate, first.change()))
     }
 
-    /// The change of all quantities by the mean-pressure law, or the error of that law where it is the model. A flowing
+    /// The change of all quantities by the mean-pressure law, or the error of the law that is the model. A flowing
     /// contact is wider and its pressure lower, so Hertz' powers do not give them.
     fn model_form_error(
         &self,
@@ -120,18 +123,11 @@ impl Effect for PlasticFlow {
         estimate: &Estimate,
         status: &EffectStatus,
     ) -> QuantityErrors {
-        let is_the_law = matches!(scene.model(), ModelChoice::Law { law, .. } if law.family == LawFamily::MeanPressure);
         match earliest(scene, estimate) {
             Some((_, first)) if status.is_lacking => {
                 NeglectError::errors_of(estimate, first.change())
             }
-            Some((_, first)) if is_the_law => {
-                let impact = first.impact(0.0);
-                let (errors, impact) = (first.errors(&impact), impact.in_order());
-                let own = |quantity| Some(errors[quantity as usize] * impact[quantity as usize]);
-                QuantityErrors::from_fn(own).checked()
-            }
-            _ => QuantityErrors::ZERO,
+            _ => law_error(scene, estimate).unwrap_or(QuantityErrors::ZERO),
         }
     }
 }
@@ -163,18 +159,13 @@ impl PlasticFlow {
 
 /// Returns the body that yields first, of those with a yield strength.
 fn earliest<'a>(scene: &'a Scene, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
-    let bodies = scene.bodies().each_ref().map(Body::yielding);
-    let (index, first) = FirstYield::earliest(&estimate.hertz, bodies)?;
-    Some((&scene.bodies()[index], first))
-}
-
-fn first_yield(body: &Body, estimate: &Estimate) -> Option<FirstYield> {
-    Some(FirstYield::new(&estimate.hertz, body.yielding()?))
+    first_yield(scene, &estimate.hertz)
 }
 
 /// Returns whether a body yields that has no flow rule.
 fn yields_elastic(body: &Body, estimate: &Estimate) -> bool {
-    let yields = first_yield(body, estimate).is_some_and(|first| first.ratio() > 1.0);
+    let first = body.yielding().map(|body| FirstYield::new(&estimate.hertz, body));
+    let yields = first.is_some_and(|first| first.ratio() > 1.0);
     yields && body.material().is_none_or(|material| material.flow().is_none())
 }
 
