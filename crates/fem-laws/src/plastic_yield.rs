@@ -33,7 +33,7 @@ const ERRORS: [f64; 6] = [0.02, 0.02, 0.03, 0.03, 0.025, 0.15];
 const ERROR_BESIDE_ELASTIC: f64 = 2.0;
 /// Growth of these errors with the cube of the contact radius over R\*.
 const ERROR_OF_WIDE_CONTACTS: f64 = 0.3;
-/// The same by hardening, from this exponent of the flow stress over strain on.
+/// The same by hardening at 1000 times the speed of first yield, from this exponent of the flow stress over strain on.
 const ERRORS_OF_HARDENING: [f64; 6] = [0.04, 0.02, 0.055, 0.02, 0.02, 0.15];
 const FULL_HARDENING: f64 = 0.1;
 /// Speed over that of first yield from which the errors grow, and by how much each ten times.
@@ -44,8 +44,8 @@ const BOTH_FLOW: f64 = 1.25;
 /// Passes that find the flow stress at the strain and the rate of the contact, and the speed of first yield on a plate.
 const N_PASSES: usize = 4;
 /// Rate that counts for restitution and force over the mean rate of the loading: both are decided shortly before the turn. Elements with
-/// Y = 1 GPa and C = 0.02 at 1 m/s rebound and press as those with 1.067 Y, which a fortieth of the mean rate gives.
-const RATE_BEFORE_THE_TURN: f64 = 0.03;
+/// Y = 1 GPa and C = 0.02 at 1 m/s rebound and press as those with 1.067 Y and no rate, which a fortieth of the mean rate gives; at 10 m/s with 1.085 Y.
+const RATE_BEFORE_THE_TURN: f64 = 0.025;
 /// Tolerance of elastic impacts on a plate.
 const TOLERANCE_ON_PLATE: f64 = 1e-6;
 
@@ -223,7 +223,10 @@ impl FirstYield {
         let beyond = (over - 1.0).clamp(0.0, 1.0);
         let size = impact.max_contact_radius / self.hertz.pair().effective_radius();
         let beside = if self.elastic_share > 0.0 { ERROR_BESIDE_ELASTIC } else { 1.0 };
-        let hardening = self.flow.exponent_at(REPRESENTATIVE_STRAIN * size) / FULL_HARDENING;
+        let exponent = self.flow.exponent_at(REPRESENTATIVE_STRAIN * size);
+        // That of hardening grows up to the fastest impacts of the map.
+        let share = over.max(1.0).log10() / FASTEST_OF_MAP.log10();
+        let hardening = (exponent / FULL_HARDENING).min(1.0) * share.min(1.0);
         let faster = (over / FASTEST_OF_MAP).log10().max(0.0);
         let thick = (self.plate_mobility > 0.0)
             .then(|| self.impact_on_plate(self.thick_plate_mobility))
@@ -232,7 +235,7 @@ impl FirstYield {
             .in_order();
         let thin = impact.in_order();
         std::array::from_fn(|k| {
-            let small = ERRORS[k] + ERRORS_OF_HARDENING[k] * hardening.min(1.0);
+            let small = ERRORS[k] + ERRORS_OF_HARDENING[k] * hardening;
             let wide = ERROR_OF_WIDE_CONTACTS * size.powi(3) + ERROR_PER_DECADE * faster;
             let by_thickness =
                 if thick[k] == thin[k] { 0.0 } else { (thick[k] / thin[k] - 1.0).abs() };
