@@ -117,9 +117,7 @@ fn on_plate(scene: &Scene, first: FirstYield) -> Option<FirstYield> {
 pub(crate) fn law_error(scene: &Scene, estimate: &Estimate) -> Option<QuantityErrors> {
     let ModelChoice::Law { law, .. } = scene.model() else { return None };
     let is_it = law.family == LawFamily::MeanPressure;
-    if law.family.strength_parameter().is_none() {
-        return None;
-    }
+    law.family.strength_parameter()?;
     let first = on_plate(scene, Reduced::flow_of(scene, estimate, law)?)?;
     let elements = first.impact();
     let (errors, values) = (first.errors(&elements), elements.in_order());
