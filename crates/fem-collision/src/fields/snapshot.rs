@@ -13,7 +13,7 @@ pub enum SnapshotInstant {
     MidSeparation,
     /// The last step with a contact force.
     LastContact,
-    /// Bodies that flowed plastically, unloaded: the mean over the time after the contact, in which vibrations cancel.
+    /// Bodies that flowed plastically, unloaded: in equilibrium with their residual stress, without vibration and bending.
     AfterSeparation,
     /// The last valid state of a run that failed, with a small energy residual.
     #[serde(rename = "LastSound")]

@@ -72,8 +72,8 @@ fn short(summary: &Summary) -> String {
     let mut rows: Vec<[String; 2]> = Vec::new();
     let mut row = |name: &str, text: String| rows.push([format!("{name}:"), text]);
     if let Some(contacts) = &summary.bounces {
-        let shown = contacts.iter().take(MAX_BOUNCES_IN_SHORT).filter_map(|it| it.restitution);
-        let mut values: Vec<String> = shown.map(|value| format!("{value:.4}")).collect();
+        let shown = contacts.iter().take(MAX_BOUNCES_IN_SHORT);
+        let mut values: Vec<String> = shown.map(restitution_of_bounce).collect();
         if contacts.len() > MAX_BOUNCES_IN_SHORT {
             values.push("…".to_string());
         }
@@ -344,6 +344,17 @@ fn with_known_digits(value: f64, error: Option<f64>) -> String {
     number(value, digits.clamp(1.0, 3.0) as usize)
 }
 
+/// Returns the restitution of a contact of a bouncing ball with its error bar, a lower bound where a part is not known.
+fn restitution_of_bounce(bounce: &BounceSummary) -> String {
+    let value = bounce.restitution.map_or(NONE.into(), |value| format!("{value:.4}"));
+    let parts = &bounce.restitution_uncertainty;
+    match (parts.sum(), parts.known()) {
+        (Some(bar), _) => format!("{value} ± {}", number(bar, 2)),
+        (None, Some(bar)) => format!("{value} ± > {}", number(bar, 2)),
+        (None, None) => value,
+    }
+}
+
 /// Returns one line per contact of a bouncing ball, and the contact at rest.
 fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
     let quantity = |value: Option<f64>, unit: &str| value.map_or(NONE.into(), |v| show(v, unit));
@@ -352,7 +363,7 @@ fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
             (k + 1).to_string(),
             quantity(bounce.time_s, "s"),
             quantity(bounce.speed_before_m_s, "m/s"),
-            bounce.restitution.map_or(NONE.into(), |restitution| format!("{restitution:.4}")),
+            restitution_of_bounce(bounce),
             quantity(bounce.contact_time_s, "s"),
             quantity(bounce.peak_force_n, "N"),
         ]

@@ -236,6 +236,8 @@ pub struct BounceSummary {
     pub speed_before_m_s: Option<f64>,
     /// Relative velocity after the collision over that before.
     pub restitution: Option<f64>,
+    /// Parts of its error bar.
+    pub restitution_uncertainty: Parts,
     /// Time from the first to the last contact.
     pub contact_time_s: Option<f64>,
     /// Largest contact force.

@@ -2,7 +2,7 @@
 //! conservation of momentum.
 
 mod collision;
-mod effects;
+pub(super) mod effects;
 mod hertz;
 mod law;
 mod ting;
