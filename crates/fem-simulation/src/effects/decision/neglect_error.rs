@@ -65,6 +65,16 @@ impl NeglectError {
         Self::of([Some(0.0), Some(time), Some(force)])
     }
 
+    /// Returns the sum of two changes; `None` where either is.
+    pub(in crate::effects) fn plus(&self, other: &Self) -> Self {
+        let sum = |one: Option<f64>, other: Option<f64>| Some(one? + other?);
+        Self {
+            restitution: sum(self.restitution, other.restitution),
+            contact_time_s: sum(self.contact_time_s, other.contact_time_s),
+            peak_force_n: sum(self.peak_force_n, other.peak_force_n),
+        }
+    }
+
     /// Returns the model-form errors that follow from neglecting the effect.
     pub(crate) fn of_all_quantities(&self, estimate: &Estimate) -> QuantityErrors {
         let Self { restitution, contact_time_s, peak_force_n } = *self;
