@@ -3,7 +3,7 @@
 use fem_collision::{Collision, QuantityOfInterest};
 
 use super::calibration::{
-    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, MOVED_MASS, SAMPLED_PER_TOLERANCE,
+    CLOSED_FORM, COARSER_RUN, CONDENSED, Calibration, EXPLICIT, PLATE, SAMPLED_PER_TOLERANCE,
 };
 use super::estimate::{BarParts, ErrorEstimate};
 use super::noise_floor::{contact_element_size, floor_of_run, is_unresolved, moved_share};
@@ -105,7 +105,8 @@ impl ErrorEstimator {
                 let condensed = self.runs.condensed(subject).map(|(errors, _)| errors);
                 let condensed = |k: usize| condensed.and_then(|condensed| condensed[k]);
                 let both = |k: usize| Some(own[k]? + condensed(k).unwrap_or(0.0));
-                Some((std::array::from_fn(both), &COARSER_RUN))
+                let constants = if plan.estimate.bends { &PLATE } else { &COARSER_RUN };
+                Some((std::array::from_fn(both), constants))
             }
             (false, false, _) => {
                 Some((self.runs.mesh_file(subject, Some(values), across)?, &CONDENSED))
@@ -177,7 +178,7 @@ fn bar_parts(
             across,
             edge: calibration.edge[k] / across.max(1.0).powi(calibration.edge_power),
             scatter: calibration.scatter[k],
-            moved_mass: MOVED_MASS[k] * moved_share,
+            moved_mass: calibration.moved_mass[k] * moved_share,
         })
     })
 }
@@ -224,11 +225,12 @@ mod tests {
             edge: [0.16; 6],
             edge_power: 2,
             scatter: [5e-4; 6],
+            moved_mass: [0.3; 6],
         };
         let parts = bar_parts([Some(1e-3); 6], &calibration, [4.0, 2.0], 0.01);
         for (k, parts) in parts.into_iter().enumerate() {
             let edge = if k == QuantityOfInterest::PeakPressure as usize { 0.04 } else { 0.01 };
-            let expected = 2e-3 + edge + 5e-4 + 0.01 * MOVED_MASS[k];
+            let expected = 2e-3 + edge + 5e-4 + 0.01 * 0.3;
             assert!((parts.unwrap().sum() - expected).abs() < 1e-12, "{k}");
         }
         let mut errors = [Some(0.0); 6];

@@ -132,6 +132,21 @@ fn bars_of_reduced_models_hold_elements() {
     }
 }
 
+/// The error bar of elements with default settings holds the impact on an exact elastic layer (`validation/plate_layer/layer.py`,
+/// 1e-4). With five times the moved mass and the bar of other bodies 0.1842 was 2.8 bars away on 2 mm.
+#[test]
+fn bars_of_elements_hold_the_exact_layer() {
+    for (metres, exact) in [(2e-3, 0.1857), (5e-3, 0.7552)] {
+        let summary =
+            summary_of(BALL, &["model.fem={}", "output.snapshots=[]", &thickness(metres)]);
+        let found = summary.collision.number(QuantityOfInterest::Restitution).unwrap();
+        let bar =
+            summary.uncertainty.parts(QuantityOfInterest::Restitution).discretisation.unwrap();
+        assert!((found - exact).abs() < bar + 1e-4, "{metres}: {found} {bar:e}");
+        assert!(bar < 1e-3, "{metres}: {bar:e}");
+    }
+}
+
 /// Condensed bodies on a plate are Ting's model with the ball's finite size, up to the higher orders of that size, 3e-4 of the
 /// loss on a half-space and in no relation to the plate. Their energy adds up with the plate's share.
 #[test]
