@@ -47,9 +47,9 @@ pub use results::Summary;
 pub use results::diagnostics::diagnose;
 pub use results::grouped_warnings::{WarningKind, WarningKinds};
 pub use results::stop_advice::{StopAdvice, stop_advice};
-pub use results::stress::BodyStress;
 pub use simulation::Simulation;
 pub use simulation::checkpoint::{
     CheckpointError, CheckpointHead, checkpoint, checkpoint_head, restart_state_of,
 };
 pub use simulation::identity::{Identity, NUMERICS, case_identity, digest_of, identified, name_of};
+pub use simulation::stress::BodyStress;

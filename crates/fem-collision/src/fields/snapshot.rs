@@ -121,6 +121,21 @@ pub struct ContactProfile {
     pub places: Vec<ContactProfilePoint>,
 }
 
+impl ContactProfile {
+    /// Returns the contact pressure at a distance from the axis (m), linear between the points, Pa.
+    pub fn pressure_at(&self, radius: f64) -> f64 {
+        let outer = self.places.partition_point(|place| place.radius < radius);
+        let Some(end) = self.places.get(outer) else { return 0.0 };
+        match outer.checked_sub(1).map(|inner| &self.places[inner]) {
+            Some(start) => {
+                let share = (radius - start.radius) / (end.radius - start.radius);
+                start.pressure + share * (end.pressure - start.pressure)
+            }
+            None => end.pressure,
+        }
+    }
+}
+
 /// Both bodies at an instant.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Snapshot {

@@ -14,7 +14,7 @@ mod unscaled_body;
 
 use std::sync::Arc;
 
-use fem_collision::{Account, BodyFields, StressField};
+use fem_collision::{Account, BodyFields, ContactProfile, StressField};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
@@ -208,10 +208,10 @@ impl Body {
         self.material.as_ref()
     }
 
-    /// Returns the stress for given fields; empty for a rigid body.
-    pub fn stress(&self, fields: &BodyFields) -> StressField {
+    /// Returns the stress for given fields and the contact that its surface carries, if it is known; empty for a rigid body.
+    pub fn stress(&self, fields: &BodyFields, contact: Option<&ContactProfile>) -> StressField {
         match (&self.mesh, &self.material) {
-            (Some(mesh), Some(material)) => StressField::of(mesh, material, fields),
+            (Some(mesh), Some(material)) => StressField::of(mesh, material, fields, contact),
             _ => StressField::default(),
         }
     }

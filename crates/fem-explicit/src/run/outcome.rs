@@ -31,7 +31,12 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> 
         last_valid.put_among(&mut snapshots);
     }
     warnings.extend(warnings_of_run);
-    let peaks = sampled.pulse.peaks(log.peak_force, resolving_size(model));
+    let mut peaks = sampled.pulse.peaks(log.peak_force, resolving_size(model));
+    if model.bodies().iter().any(Body::flows)
+        && let Some((pressure, radius)) = sampled.pulse.steady_pressure(log.peak_force)
+    {
+        (peaks.pressure, peaks.pressure_radius) = (pressure, radius);
+    }
     let ends = log.first_contact.zip(log.last_contact);
     let frame = model.frame();
     let scale = frame.initial() / frame.energy_scale(log.max_approach);

@@ -89,6 +89,11 @@ fn contour_of(
         rigid_section(result, side, chosen[k], window)
     };
     let mut contour = contour_of_frames(field, sections?, titles, near, rigid);
+    if let Some(error) =
+        stress_error(result).filter(|_| field.array == DrawnField::AXIAL_STRESS.array)
+    {
+        contour.x_label = format!("{}; {error}", contour.x_label);
+    }
     if let [lower, upper] = short_names(result).as_slice() {
         contour.y_label = format!("{lower} \u{2190} {} \u{2192} {upper}", contour.y_label);
     }
@@ -124,6 +129,16 @@ pub fn contours_at_peak(results: &[StoredResult]) -> Option<Contour> {
         rigid_section(result, side, frame, window)
     };
     Some(contour_of_frames(DrawnField::AXIAL_STRESS, stresses, titles, widest, rigid))
+}
+
+/// Returns the error of the stress near the contact, for a picture.
+fn stress_error(result: &StoredResult) -> Option<String> {
+    let [mean, most] =
+        ["l2", "max"].map(|key| Some(100.0 * result.number(&["stress_error", key])?));
+    Some(format!(
+        "stress \u{b1} {:.0} % (rms), \u{b1} {:.0} % of its largest anywhere",
+        mean?, most?
+    ))
 }
 
 /// Returns the names of the bodies, shortened to the room beside an axis.

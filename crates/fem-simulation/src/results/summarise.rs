@@ -67,6 +67,7 @@ impl Summary {
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             radius_and_pressure: radius_and_pressure(&effects),
             elastic_null: errors.elastic_null,
+            stress_error: errors.stress_error,
             measured_restitution: measured_restitution(simulation, collision),
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),

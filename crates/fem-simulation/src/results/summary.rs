@@ -8,7 +8,7 @@ use super::dent::DentSummary;
 use super::energy::Energy;
 use super::measured::MeasuredSummary;
 use crate::effects::{EffectDecision, NeglectError};
-use crate::error::ElasticNull;
+use crate::error::{ElasticNull, StressError};
 use crate::models::ModelCandidate;
 use crate::models::stepper::RefinementLevel;
 
@@ -30,6 +30,8 @@ pub struct Summary {
     pub radius_and_pressure: &'static str,
     /// Loss of a relaxing run by mesh and settings, with relaxation off.
     pub elastic_null: Option<ElasticNull>,
+    /// Error of the recovered stress near the contact at the largest approach, relative to that of a reference run.
+    pub stress_error: Option<StressError>,
     /// Measured restitutions of the library between bodies of this material; `None` if it has none.
     pub measured_restitution: Option<Vec<MeasuredSummary>>,
     /// Number of contact episodes, separated by openings.
