@@ -153,13 +153,13 @@ impl ForcePulse {
         }
     }
 
-    /// Returns the largest pressure (Pa) of bodies that flow plastically, and the contact radius (m) there, for this largest
-    /// force of a step (N); `None` if no window fits into the contact.
+    /// Returns the largest pressure (Pa) of bodies that flow plastically, for this largest force of a step (N); `None` if no
+    /// window fits into the contact.
     ///
     /// The pressure of a contact that flows hardly changes in time, while its reading on the axis swings by a fifth as nodes
     /// join one by one. The window is therefore an eighth of the contact, which lowers an elastic peak by 0.3 %, while the
     /// radius is at least half of its largest.
-    pub fn steady_pressure(&self, largest_force: f64) -> Option<(f64, f64)> {
+    pub fn steady_pressure(&self, largest_force: f64) -> Option<f64> {
         let largest_radius = self.samples.iter().map(|sample| sample.radius).fold(0.0, f64::max);
         let impulse = self.samples.last()?.impulse;
         let window = STEADY_WINDOW * HERTZ_FULLNESS * impulse / largest_force;
@@ -169,9 +169,9 @@ impl ForcePulse {
             let n = later.partition_point(|sample| sample.time - first.time < window);
             let last = later.get(n)?;
             let mean = later[..n].iter().map(|sample| sample.pressure).sum::<f64>() / n as f64;
-            (n > 0 && is_wide(first) && is_wide(last)).then_some((mean, first.radius))
+            (n > 0 && is_wide(first) && is_wide(last)).then_some(mean)
         });
-        means.max_by(|one, other| one.0.total_cmp(&other.0))
+        means.max_by(f64::total_cmp)
     }
 
     /// Returns the mean pressure (Pa) from an early instant on, if its window is shorter than this one (s).
@@ -290,7 +290,7 @@ mod tests {
             smooth.observe(time, impulse, force.sqrt(), force.sqrt());
             impulse += force / 2000.0;
         }
-        let [swinging, smooth] = [swinging, smooth].map(|it| it.steady_pressure(1.0).unwrap().0);
+        let [swinging, smooth] = [swinging, smooth].map(|it| it.steady_pressure(1.0).unwrap());
         // A window of 2.8 swings leaves a fifth of 0.2 / 2.8π.
         assert!((swinging - 1.0).abs() < 0.03, "{swinging}");
         assert!((0.995..1.0).contains(&smooth), "{smooth}");

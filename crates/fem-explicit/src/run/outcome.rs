@@ -33,9 +33,9 @@ pub(super) fn outcome(model: &ExplicitBodies, run: RunState, ending: Ending) -> 
     warnings.extend(warnings_of_run);
     let mut peaks = sampled.pulse.peaks(log.peak_force, resolving_size(model));
     if model.bodies().iter().any(Body::flows)
-        && let Some((pressure, radius)) = sampled.pulse.steady_pressure(log.peak_force)
+        && let Some(pressure) = sampled.pulse.steady_pressure(log.peak_force)
     {
-        (peaks.pressure, peaks.pressure_radius) = (pressure, radius);
+        (peaks.pressure, peaks.pressure_radius) = (pressure, peaks.radius);
     }
     let ends = log.first_contact.zip(log.last_contact);
     let frame = model.frame();

@@ -9,20 +9,21 @@
 //! ```
 //!
 //! The reference run has elements of another size, and f makes its difference the error of the run for a convergence of
-//! order 1.5, between that of springs and that of elements (the claim `hertz_field`). Nodes of the surface within half
+//! first order: 2 for elements half as large, 1 for elements twice as large. Stresses of elastic, relaxing and soft bodies
+//! converge with an order of 1.3 to 1.5, so the error is told 1.3 times as large as it is; of bodies that flow 2.6 times. Nodes of the surface within half
 //! an element of the contact's edge are left out: the cusp of the stress there lies between two nodes on any mesh.
 
-use fem_collision::{Collision, SnapshotInstant};
+use fem_collision::{Collision, Snapshot};
 use fem_mesh::SphereMesh;
 use serde::Serialize;
 
 use crate::simulation::Simulation;
 use crate::simulation::stress::BodyStress;
 
-/// Order of convergence of the stress.
-const ORDER: f64 = 1.5;
 /// Distance from the pole up to which stresses are compared, over the contact radius.
 const ZONE: f64 = 3.0;
+/// Share of the largest approach from which a snapshot shows it: the stress grows with the root of the approach.
+const NEAR_LARGEST: f64 = 0.99;
 
 /// Error of the recovered stress near the contact, relative to that of the reference run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -42,9 +43,13 @@ pub(super) struct ContactStress {
 }
 
 impl ContactStress {
-    /// Takes the stress of a run; `None` without a snapshot of its largest approach.
+    /// Takes the stress of a run; `None` without a snapshot close to its largest approach.
     pub fn of(simulation: &Simulation, collision: &Collision) -> Option<Self> {
-        let snapshot = collision.snapshot(SnapshotInstant::Maximum)?;
+        let by_approach = |a: &&Snapshot, b: &&Snapshot| a.approach.total_cmp(&b.approach);
+        let snapshot = collision.snapshots.iter().max_by(by_approach)?;
+        if snapshot.approach < NEAR_LARGEST * collision.max_approach? {
+            return None;
+        }
         let radius = snapshot.contact.radius;
         let of_side = |side: usize| {
             let BodyStress { mesh, field } = simulation.stress(snapshot, side)?;
@@ -55,7 +60,7 @@ impl ContactStress {
 
     /// Returns the error against the stress of a reference run, whose elements have this size over those of the run.
     pub fn error(&self, reference: &Self, ratio: f64) -> Option<StressError> {
-        let factor = (ratio.powf(ORDER) - 1.0).abs().recip();
+        let factor = (ratio - 1.0).abs().recip();
         let mut sums = Sums::default();
         for (own, other) in self.sides.iter().zip(&reference.sides) {
             if let (Some((mesh, points)), Some((coarse, values))) = (own, other) {
@@ -151,7 +156,7 @@ mod tests {
         };
         for (size, ratio) in [(0.01, 0.5), (0.04, 2.0f64)] {
             let error = uniform(0.02, 1.1).error(&uniform(size, 1.0), ratio).unwrap();
-            let expected = 0.1 / (ratio.powf(1.5) - 1.0).abs();
+            let expected = 0.1 / (ratio - 1.0).abs();
             // Rounding of interpolations.
             assert!((error.max - expected).abs() < 1e-12, "{error:?}");
             assert!((error.l2 - expected).abs() < 1e-12, "{error:?}");
