@@ -11,7 +11,7 @@ use fem_laws::{plate_slow_contact_error, plate_thickness_error};
 
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::Relevance;
-use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, NamedEffect, PlateBending};
 use crate::effects::ting_prediction::TingPrediction;
@@ -137,7 +137,7 @@ impl Effect for PlateBending {
         let relevance = self.relevance(scene, estimate).unwrap_or_default();
         let support = Support::decided(false, format!("{}: a half-space", relevance.number));
         let scene = PlateBending.switched(&scene.with_half_space(side), None);
-        Ok(Some(TransformedScene { scene, support }))
+        Ok(Some(TransformedScene { scene, outcome: Transformation::Decides(support) }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {

@@ -12,7 +12,7 @@ use fem_material::Material;
 use crate::effects::decision::leading_estimate::LeadingEstimate;
 use crate::effects::decision::neglect_error::{EffectStatus, NeglectError};
 use crate::effects::decision::relevance::{Relevance, percent};
-use crate::effects::decision::simplified_scene::TransformedScene;
+use crate::effects::decision::simplified_scene::{Transformation, TransformedScene};
 use crate::effects::decision::support::Support;
 use crate::effects::decision::{Effect, FiniteStrain, MaterialLoss, NamedEffect, PlasticFlow};
 use crate::estimate::Estimate;
@@ -65,7 +65,8 @@ impl Effect for PlasticFlow {
         let elastic = scene.bodies().each_ref().map(|body| Some(body.material()?.without_flow()));
         let support = Support::decided(false, format!("{number}; {why}"));
         let scene = self.switched(scene, None).with_materials(elastic);
-        Ok(is_possible.then_some(TransformedScene { scene, support }))
+        Ok(is_possible
+            .then_some(TransformedScene { scene, outcome: Transformation::Decides(support) }))
     }
 
     fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
