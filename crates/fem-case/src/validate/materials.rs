@@ -81,7 +81,7 @@ impl Check<'_> {
         Ok(CheckedMaterial {
             material,
             yield_strength,
-            surface_energy: self.optional(&at("surface_energy"), energy, Range::POSITIVE)?,
+            surface_energy: self.optional(&at("surface_energy"), energy, Range::SURFACE_ENERGY)?,
             measured,
         })
     }
