@@ -14,7 +14,8 @@
 //! \lambda = \beta m\,(K/m)^{2/5}v^{1/5},
 //! ```
 //!
-//! and e ≈ exp(−1.719 λ) at small λ. At large λ the plate stops the ball slowly, under a force of v/λ, until the contact is so
+//! and e ≈ exp(−1.730 λ) at small λ: a soft dashpot takes λ∫u³dt of Hertz' motion, 1 − e = ⅘ (5/4)^(8/5) B(8/5, ½) λ with Euler's beta
+//! function B. At large λ the plate stops the ball slowly, under a force of v/λ, until the contact is so
 //! soft that it parts: e = 0.679 λ⁻⁵. From [`SINKING_LAMBDA`] on the models take that as 0.
 //!
 //! Limits: the plate is thin against the distance that waves travel in the contact time T, and no wave returns from its edge

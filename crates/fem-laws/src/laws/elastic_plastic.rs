@@ -23,7 +23,7 @@
 //! | [`luding`] | F = k₁δ, rebound stiffer with δ_m, up to δ\*; beyond all of it elastic with k_p | YADE's LudingPM, which cites Luding (2008), eqs. 6 to 8 |
 //! | [`mdr`] | Hertz' mean pressure up to p_Y(δ), then F = πa²p_Y | the module `mdr` |
 //!
-//! Jackson and Green's fit, with ω = δ, C = 1.295 exp(0.736 ν) and the yield strength S of the weaker body:
+//! Jackson and Green's fit with the later hardness of Ghaednia et al. (2019, eq. 28), with ω = δ, C = 1.295 exp(0.736 ν) and the yield strength S of the weaker body:
 //!
 //! ```math
 //! \omega_c = R^*\Bigl(\frac{\pi CS}{2E^*}\Bigr)^2, \quad
@@ -272,7 +272,8 @@ pub fn johnson(pair: &Pair, hardness: f64) -> Result<ContactLaw, LawError> {
 
 /// Returns Jackson and Green's law of a pair, and yield strength (Pa) and Poisson's ratio of the body that flows.
 ///
-/// Jackson & Green (2005), *J. Tribol.* 127, 343, with the rebound of Etsion et al. (2005).
+/// Force and radius of Jackson & Green (2005), *J. Tribol.* 127, 343; the hardness, a cosine of the contact radius, of Ghaednia, Brake,
+/// Berryhill & Jackson (2019), *J. Tribol.*, eq. 28; the rebound of Etsion et al. (2005).
 ///
 /// # Errors
 /// A strength that is not positive and finite, a ratio outside (−1, 0.5].
