@@ -16,7 +16,7 @@ pub struct TransformedScene {
     pub outcome: Transformation,
 }
 
-/// What a transformation of the scene means for the model's support of its effect.
+/// The consequence of a transformation of the scene for the model's support of its effect.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transformation {
     /// The transformation decides alone, [`Support::Is`]: the scene is without the effect, or has it whatever the model.
